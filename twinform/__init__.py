@@ -9,10 +9,9 @@
 Names are imported when they are first used, so that `import twinform` costs nothing.
 """
 
-from typing import TYPE_CHECKING
-
 from twinform.lazy import lazy_attributes
 
+TYPE_CHECKING = False  # `typing` takes longer than all that is here
 if TYPE_CHECKING:
     from twinform.compiler import CompileError, Conversion, check, convert, dump, dumps, load, loads, write_atomically
     from twinform.compiler.compare import Comparison, Difference, diff

@@ -1,9 +1,26 @@
-"""`python -m twinform`: the same as the command, but Python looks for modules in the current folder first.
+"""The program `twinform`. As `python -m twinform` it is the same, but Python looks in the current folder first.
 
 In a folder of somebody else use the command, or `python -P -m twinform`.
 """
 
-from twinform.cli import program
+from twinform.signals import end_on_signals
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from typing import NoReturn
+
+end_on_signals()  # before the command line is imported, which takes longer than many commands
+
+
+def program() -> "NoReturn":
+    """Run the command line and leave the process, as the installed script does; `main` is for other programs."""
+    from twinform.cli import main  # noqa: PLC0415 - see above
+    from twinform.cli.current_folder import distrust_current_folder  # noqa: PLC0415 - see above
+    from twinform.cli.leaving import run  # noqa: PLC0415 - see above
+
+    distrust_current_folder()
+    run(main)
+
 
 if __name__ == "__main__":
     program()

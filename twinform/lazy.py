@@ -1,11 +1,14 @@
 """Lazy attributes of packages (PEP 562): a name is imported from its module when it is first asked for."""
 
 import sys
-from collections.abc import Callable, Mapping
 from importlib import import_module
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
 
-def lazy_attributes(package: str, modules: Mapping[str, str]) -> Callable[[str], object]:
+
+def lazy_attributes(package: str, modules: "Mapping[str, str]") -> "Callable[[str], object]":
     """The `__getattr__` of a package; `modules` has the names, with blanks between them, that come from each module.
 
     A type checker does not see it: the package imports the same names under `TYPE_CHECKING`. A test compares the two.

@@ -10,6 +10,7 @@ import click
 from twinform import __version__
 from twinform.cli.lazy_group import LazyGroup
 from twinform.cli.streams import end_unread, end_unwritable, hold_standard_streams
+from twinform.signals import raise_exit
 
 COMMANDS: Mapping[str, str] = {
     "convert": "Compile robot models from one format into the other.",
@@ -37,8 +38,8 @@ The command is the name `command` in the module of the same name.
 """
 
 
-def _end(number: int, _frame: object) -> NoReturn:
-    raise SystemExit(128 + number)
+_INTERRUPTED = 130
+"""The exit code of a program that is ended by Ctrl-C, as shells give it."""
 
 
 class _Commands(LazyGroup):
@@ -46,8 +47,8 @@ class _Commands(LazyGroup):
 
     def main(self, *args: Any, **extra: Any) -> Any:
         """Run; a process that is asked to end cleans up first, as one that is interrupted does."""
-        if threading.current_thread() is threading.main_thread():
-            signal.signal(signal.SIGTERM, _end)
+        if threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL:
+            signal.signal(signal.SIGTERM, raise_exit)
         hold_standard_streams()
         try:
             return super().main(*args, **extra)
@@ -60,6 +61,8 @@ class _Commands(LazyGroup):
             return super().invoke(ctx)
         except BrokenPipeError:
             end_unread()
+        except KeyboardInterrupt:
+            raise SystemExit(_INTERRUPTED) from None
         except (click.ClickException, click.exceptions.Exit, click.Abort, OSError):
             raise
         except Exception as error:
@@ -78,9 +81,7 @@ def main() -> None:
 
 
 def program() -> NoReturn:
-    """Run the command line and leave the process, as the installed script does; `main` is for other programs."""
-    from twinform.cli.current_folder import distrust_current_folder  # noqa: PLC0415 - it is for the program alone
-    from twinform.cli.leaving import run  # noqa: PLC0415 - who imports the commands stays
+    """Run the program, for scripts that an earlier version has installed."""
+    from twinform.__main__ import program as run_program  # noqa: PLC0415 - it changes what signals do
 
-    distrust_current_folder()
-    run(main)
+    run_program()

@@ -50,23 +50,36 @@ class BaselineFile:
             return name  # what is no file
         return os.path.relpath(os.path.abspath(name), self.folder).replace(os.sep, "/")  # noqa: PTH100 - as above
 
-    def write(self) -> str:
-        """Write what was found, if that was asked for; gives the news.
+    def write(self, *, complete: bool) -> str:
+        """Write what was found, if that was asked for and is complete; gives the news.
 
         Raises:
             Unusable: the file cannot be written.
         """
         if not self.update:
             return _gone(self.run.gone)
+        if not complete:
+            return f"{self.file} stays as it is, since not every file could be read"
         from twinform.compiler import write_atomically  # noqa: PLC0415 - few runs write one
 
-        made = self.run.updated(lambda name: name.startswith("<") or os.path.lexists(Path(self.folder, name)))
+        made = self.run.updated(lambda name: name.startswith("<") or _is_there(Path(self.folder, name)))
         try:
             write_atomically(self.file, made.to_json())
         except OSError as error:
             raise Unusable(f"cannot write {self.file}: {error.strerror}") from error
         count = sum(made.counts.values())
         return f"{self.file}: {count} finding{'' if count == 1 else 's'}"
+
+
+def _is_there(path: Path) -> bool:
+    """Whether there is a file, or something that keeps us from knowing."""
+    try:
+        path.lstat()
+    except (FileNotFoundError, NotADirectoryError):
+        return False
+    except OSError:
+        return True
+    return True
 
 
 def _gone(count: int) -> str:

@@ -31,18 +31,20 @@ class CheckReport:
         self.fixes: Counter[Safety] = Counter()
         self.kept: list[Findings] = []
         self.counts: Counter[Severity] = Counter()
-        self.files = self.unreadable = self.allowed = self.known = 0
+        self.files = self.unreadable = self.unopened = self.allowed = self.known = 0
 
     def add(self, loaded: LoadResult, policy: Policy) -> None:
         """Report on one file."""
         seen = policy.apply(loaded.diagnostics)
         self.allowed += len(loaded.allowed) + len(loaded.diagnostics) - len(seen)
-        new = self.baseline.run.unknown(loaded.path, seen) if self.baseline else seen
+        # what is known of a file that cannot be read stays known
+        new = self.baseline.run.unknown(loaded.path, seen) if self.baseline and not loaded.unreadable else seen
         if self.baseline and self.baseline.update:
             new = tuple(each for each in new if each.rule.fatal or each.severity is Severity.INFO)
         self.known += len(seen) - len(new)
         self.files += 1
         self.unreadable += loaded.unreadable
+        self.unopened += loaded.unreadable and loaded.content is None
         self.counts.update(each.severity for each in new)
         least = Severity.INFO if self.notes else Severity.WARNING
         if any(each.rule.fix and each.severity >= least for each in new):
@@ -65,7 +67,7 @@ class CheckReport:
         """Print what is left, and the summary; gives the exit code."""
         if self.style not in _STREAMED:
             click.echo(REPORTERS[self.style](self.kept), nl=False)
-        news = self.baseline.write() if self.baseline else ""
+        news = self.baseline.write(complete=not self.unopened) if self.baseline else ""
         click.echo(self._summary(), err=True)
         if news:
             click.echo(news, err=True)

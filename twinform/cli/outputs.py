@@ -10,8 +10,9 @@ import click
 
 from twinform.cli.failure import Unusable
 from twinform.compiler import write_all_atomically
-from twinform.compiler.output.same_files import folded, identities, is_below, is_nothing, is_stream
+from twinform.compiler.output.same_files import folded, identities, is_below, is_nothing
 from twinform.diagnostics import HEAD, SideFile
+from twinform.storage.writing import is_stream
 
 
 class Output(NamedTuple):

@@ -78,19 +78,17 @@ def _write(built: Built, packaging: Packaging) -> None:
     places = [Output("-o", packaging.folder / path) for path in built.package.files]
     ledger = [Output("--ledger", packaging.ledger)] if packaging.ledger else []
     outputs.require_apart([*places, *ledger], packaging.order.load_options.search.seen)
+    ledgers = {name: json.loads(each.to_json()) for name, each in built.ledgers.items()}
+    beside = {each.path: json.dumps(ledgers, indent=2) + "\n" for each in ledger}
     try:
-        write_package(built.package, packaging.folder, force=packaging.force)
+        write_package(built.package, packaging.folder, force=packaging.force, beside=beside)
     except OccupiedError as error:
         raise click.UsageError(f"{error.strerror}; --force does that") from error
     except OSError as error:
         raise Unusable(f"cannot write {error.filename or packaging.folder}: {error.strerror}") from error
     for name, each in built.ledgers.items():
-        outputs.news.append(f"{name}: {summary(each)}")
-    outputs.news.append(f"{packaging.folder}: {_size(built.package)}")
-    if packaging.ledger:
-        ledgers = {name: json.loads(each.to_json()) for name, each in built.ledgers.items()}
-        outputs.add("--ledger", packaging.ledger, json.dumps(ledgers, indent=2) + "\n")
-    outputs.write()
+        click.echo(f"{name}: {summary(each)}", err=True)
+    click.echo(f"{packaging.folder}: {_size(built.package)}", err=True)
 
 
 def _size(package: Package) -> str:

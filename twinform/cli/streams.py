@@ -29,10 +29,10 @@ def hold_standard_streams() -> None:
 
 def end_unwritable(error: OSError) -> NoReturn:
     """End after an error of the system that no command expects: mostly of a stream, which has no name."""
-    where = error.filename or "standard output"
+    what = error.filename or "cannot write standard output"
     reason = "it is closed" if error.errno == errno.EBADF else error.strerror or error
     with suppress(OSError):
-        click.echo(f"Error: cannot write {where}: {reason}", err=True)
+        click.echo(f"Error: {what}: {reason}", err=True)
     _forget_what_is_left()
     raise SystemExit(_UNUSABLE)
 

@@ -1,7 +1,6 @@
 """`twinform view`."""
 
 import contextlib
-import signal
 import threading
 import webbrowser
 from collections.abc import Generator, Sequence
@@ -19,6 +18,7 @@ from twinform.cli.source import Source
 from twinform.compiler import CompileError, LoadOptions
 from twinform.diagnostics import Diagnostic
 from twinform.diagnostics.reporters import Findings
+from twinform.signals import signals_exit_with
 
 if TYPE_CHECKING:
     from twinform.compiler.compare import Comparison
@@ -77,13 +77,8 @@ def _line(found: Diagnostic) -> str:
 @contextlib.contextmanager
 def _until_stopped() -> Generator[None]:
     """Run the block until Ctrl-C, or until something asks the program to end."""
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
+    with signals_exit_with(0), contextlib.suppress(KeyboardInterrupt):
         yield
-    except KeyboardInterrupt:
-        pass
-    finally:
-        signal.signal(signal.SIGTERM, before)
 
 
 @dataclass(slots=True)

@@ -12,10 +12,10 @@ if TYPE_CHECKING:
     from twinform.compiler.includes.expanding import expand
     from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, load, loads, read
     from twinform.compiler.inspection import inspect
-    from twinform.compiler.output.files import write_all_atomically, write_atomically
     from twinform.compiler.request import DEFAULT_SDF_VERSION, URDF_VERSIONS, ConversionRequest, Language, UrdfVersion
     from twinform.compiler.search.uris import SearchPath, UriError
     from twinform.compiler.splitting import Split, split
+    from twinform.storage.writing import write_all_atomically, write_atomically
 else:
     __getattr__ = lazy_attributes(
         __name__,
@@ -27,7 +27,7 @@ else:
             "twinform.compiler.includes.expanding": "expand",
             "twinform.compiler.input.loading": "Input LoadOptions LoadResult load loads read",
             "twinform.compiler.inspection": "inspect",
-            "twinform.compiler.output.files": "write_all_atomically write_atomically",
+            "twinform.storage.writing": "write_all_atomically write_atomically",
             "twinform.compiler.request": "DEFAULT_SDF_VERSION URDF_VERSIONS ConversionRequest Language UrdfVersion",
             "twinform.compiler.search.uris": "SearchPath UriError",
             "twinform.compiler.splitting": "Split split",

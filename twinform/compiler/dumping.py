@@ -6,9 +6,9 @@ from typing import Literal
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.output.emitting import emit
-from twinform.compiler.output.files import write_atomically
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
+from twinform.storage.writing import write_atomically
 
 Written = Literal["urdf", "sdf", "json"]
 

@@ -22,6 +22,7 @@ from twinform.compiler.batch import (
     report_line,
 )
 from twinform.compiler.workers import Runner, process_runner
+from twinform.signals import raised_signals
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 _INTERRUPTED = 130
@@ -74,7 +75,8 @@ def run_and_end(ctx: click.Context, asked: Batch, options: RunOptions) -> NoRetu
     """Run a batch to its end, or to the first Ctrl-C; the summary is printed, and the report complete, either way."""
     summary, problem = Summary(), ""
     try:
-        _run(asked, options, summary)
+        with raised_signals():
+            _run(asked, options, summary)
         code = summary.exit_code
     except KeyboardInterrupt:
         problem, code = "interrupted; run it again, and it goes on from here", _INTERRUPTED

@@ -3,7 +3,6 @@
 import io
 import lzma
 import os
-import shutil
 import stat
 import struct
 import time
@@ -13,10 +12,11 @@ from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
-from tempfile import mkdtemp
+from tempfile import gettempdir
 
 from twinform.compiler.batch.entries import FolderError
 from twinform.compiler.batch.tar_reader import BrokenArchiveError, ByteStream, LargeArchiveError, members, opened
+from twinform.storage.staging import staging_folder
 
 LEAST_FILES = 5_000
 """Files and folders that any archive may have."""
@@ -66,13 +66,10 @@ def unpacked(archive: Path) -> Generator[Path]:
     Raises:
         FolderError: it is no archive, is broken, holds too much, or a name in it leads out of it.
     """
-    folder = Path(os.path.realpath(mkdtemp(prefix="twinform-batch-")))
-    try:
+    with staging_folder(Path(os.path.realpath(gettempdir()))) as folder:
         (folder / _TOP).touch()  # what is around the folder is none of the archive's business
         _unpack(archive, folder)
         yield folder
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _unpack(archive: Path, folder: Path) -> None:

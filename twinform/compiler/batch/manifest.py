@@ -15,7 +15,7 @@ from typing import Any, BinaryIO, NamedTuple
 from twinform.compiler.batch.dependencies import packed, unpacked
 from twinform.compiler.batch.lock import locked
 from twinform.compiler.batch.record import Outcome, Record
-from twinform.compiler.output.same_files import is_stream
+from twinform.storage.writing import is_stream
 
 FOLDER = ".twinform-batch"
 _BEGIN = b'{"source": '

@@ -6,7 +6,8 @@ from pathlib import Path
 from twinform.compiler.batch.dependencies import are_same
 from twinform.compiler.batch.manifest import FOLDER, Manifest, read_records
 from twinform.compiler.batch.record import Record
-from twinform.compiler.output.same_files import is_below, is_stream
+from twinform.compiler.output.same_files import is_below
+from twinform.storage.writing import is_stream
 
 
 def merge(dest: Path, others: list[Path]) -> int:

@@ -7,7 +7,8 @@ from functools import cached_property
 from pathlib import Path, PurePosixPath
 
 from twinform.compiler.batch.entries import Entry, FolderError, stem
-from twinform.compiler.output.same_files import identities, is_stream
+from twinform.compiler.output.same_files import identities
+from twinform.storage.writing import is_stream
 
 LEDGER = ".ledger.json"
 """What the name of a result has more where it is that of its ledger."""

@@ -15,8 +15,8 @@ from twinform.compiler.batch.planning import request_of
 from twinform.compiler.batch.record import Outcome, Record
 from twinform.compiler.batch.task import Done, Task
 from twinform.compiler.observing import digest
-from twinform.compiler.output.files import write_all_atomically
 from twinform.compiler.output.same_files import is_below
+from twinform.storage.writing import write_all_atomically
 
 _FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
 

@@ -35,12 +35,3 @@ def is_below(path: Path, folder: Path) -> bool:
 def is_nothing(path: Path) -> bool:
     """Whether it is the device that forgets, into which any number of things may be written."""
     return os.path.realpath(path) == os.devnull
-
-
-def is_stream(path: Path) -> bool:
-    """Whether it is a pipe or device, such as /dev/null, which a file must never take the place of."""
-    try:
-        mode = path.stat().st_mode
-    except (OSError, ValueError):
-        return False
-    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))

@@ -3,7 +3,6 @@
 import os
 import re
 import shutil
-import tempfile
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from filecmp import cmp
@@ -13,6 +12,8 @@ from lxml import etree
 
 from twinform.compiler.includes.model_config import manifest
 from twinform.compiler.search.fuel import FuelName, Kind, name_of, newest_first
+from twinform.storage.transaction import transaction
+from twinform.storage.writing import named_after, sync_files
 
 _PART = re.compile(r"[^./\\\x00-\x1f][^/\\\x00-\x1f]*")
 """A name that is one folder, and no hidden one."""
@@ -113,12 +114,12 @@ def _same(a: Path, b: Path) -> bool:
 
 def _copy(source: Path, target: Path) -> None:
     """Copy a folder, all of it or nothing."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    staged = Path(tempfile.mkdtemp(prefix=".", dir=target.parent))
-    try:
-        for name in _files(source):
-            (staged / "new" / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source / name, staged / "new" / name)
-        (staged / "new").rename(target)
-    finally:
-        shutil.rmtree(staged, ignore_errors=True)
+    with transaction() as moves, named_after(target):
+        new, names = moves.stage(target.parent), _files(source)
+        for name in names:
+            (new / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(source / name, new / name)
+        sync_files((new / name, target / name) for name in names)
+        moves.move(new, target)
+        moves.sync()
+        moves.done = True

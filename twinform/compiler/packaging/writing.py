@@ -4,13 +4,14 @@ import errno
 import hashlib
 import os
 import shutil
-import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
 from pathlib import Path
 
 from twinform.compiler.packaging.package import Content, Package, is_inner_path
+from twinform.storage.staging import remove_leftovers
+from twinform.storage.transaction import Transaction, transaction
+from twinform.storage.writing import named_after, stage_texts, sync_files
 
 MARK = ".twinform-package"
 """The file that says which files of a folder are ours."""
@@ -21,8 +22,10 @@ class OccupiedError(OSError):
     """The folder has files that `twinform package` has not put there."""
 
 
-def write_package(package: Package, folder: Path, *, force: bool = False) -> None:
-    """Put the package where `folder` is. It is written beside it, and then moved.
+def write_package(
+    package: Package, folder: Path, *, force: bool = False, beside: Mapping[Path, str] | None = None
+) -> None:
+    """Put the package where `folder` is, and the texts `beside` it where they belong; all are written, and then moved.
 
     What an earlier package has left there goes away, unless somebody has changed it since. Files of somebody else stay;
     where one has the name of a file of the package, nothing is written, unless it is told to (`force`).
@@ -40,61 +43,44 @@ def write_package(package: Package, folder: Path, *, force: bool = False) -> Non
         more = f" and {len(over) - 1} more" if len(over) > 1 else ""
         message = f"{target / over[0]}{more} would be written over, and twinform has not put it there"
         raise OccupiedError(errno.EEXIST, message, str(target))
-    target.parent.mkdir(parents=True, exist_ok=True)
-    room = Path(tempfile.mkdtemp(prefix=f".{target.name[:64]}.", dir=target.parent))
-    try:
-        new = room / "new"
-        for path, content in package.files.items():
+    with transaction() as moves:
+        texts = stage_texts(moves, beside or {})
+        _write(moves, package, target, {*ours, *over})
+        for new, place in texts:
+            with named_after(place):
+                moves.move(new, place)
+        moves.sync()
+        moves.done = True
+    for path in ours:
+        _remove_empty_folders((target / path).parent, target)
+
+
+def _write(moves: Transaction, package: Package, target: Path, old: set[str]) -> None:
+    """Move all files of a package to where they belong; `old` are the files and links of the folder that go."""
+    remove_leftovers(target.parent)
+    is_new = not target.exists()
+    new = moves.stage(target.parent if is_new else target)
+    for path, content in package.files.items():
+        with named_after(target / path):
             _put(content, new / path)
-        _put(_mark(new, package), new / MARK)
-        if target.exists():
-            _Exchange(target, room / "old").run(new, (*package.files, MARK), {*over, *ours})
-        else:
-            new.rename(target)
-    finally:
-        shutil.rmtree(room, ignore_errors=True)
-
-
-@dataclass(slots=True)
-class _Exchange:
-    """Moves files into a folder that is there; the old ones are kept in another until all have moved."""
-
-    target: Path
-    old: Path
-    moved: list[str] = field(default_factory=list[str])
-    taken: list[str] = field(default_factory=list[str])
-
-    def run(self, new: Path, paths: Iterable[str], old: Iterable[str]) -> None:
-        try:
-            for path in sorted(old):
-                self._take_away(path)
-            for path in paths:
-                self._take_away(path)
-                (self.target / path).parent.mkdir(parents=True, exist_ok=True)
-                (new / path).rename(self.target / path)
-                self.moved.append(path)
-        except BaseException:
-            self._take_back()
-            raise
-        for path in self.taken:
-            _remove_empty_folders((self.target / path).parent, self.target)
-
-    def _take_away(self, path: str) -> None:
-        """Move an old file aside, or a link in the place of a file or folder; no link is followed."""
-        at = self.target / path
-        if _through_link(at, self.target) or not (at.is_symlink() or at.is_file()):
-            return
-        (self.old / path).parent.mkdir(parents=True, exist_ok=True)
-        at.rename(self.old / path)
-        self.taken.append(path)
-
-    def _take_back(self) -> None:
-        for path in reversed(self.moved):
-            with suppress(OSError):
-                (self.target / path).unlink()
-        for path in reversed(self.taken):
-            with suppress(OSError):
-                (self.old / path).rename(self.target / path)
+    rows = {path: _digest(new / path) for path in package.files}
+    (new / MARK).write_bytes(_mark(rows.items()))
+    sync_files((new / path, target / path) for path in (*package.files, MARK))
+    if is_new:
+        with named_after(target):
+            moves.move(new, target)
+        return
+    # a run that is killed on the way leaves old and new files, and this says of both that they are ours
+    both = moves.stage(target)
+    both.write_bytes(_mark([*_listed(target / MARK), *rows.items()]))
+    moves.move(both, target / MARK)
+    for path in sorted(old):
+        if _has_to_go(target / path, target, stays=path in rows):
+            moves.take_away(target / path, target)
+    for path in (*package.files, MARK):
+        with named_after(target / path):
+            moves.make((target / path).parent)
+            moves.move(new / path, target / path)
 
 
 def _in_the_way(package: Package, target: Path, ours: frozenset[str]) -> list[str]:
@@ -107,6 +93,14 @@ def _in_the_way(package: Package, target: Path, ours: frozenset[str]) -> list[st
                 found.setdefault(place)
                 break
     return [place for place in found if place not in ours]
+
+
+def _has_to_go(path: Path, folder: Path, *, stays: bool) -> bool:
+    """Whether an old file, or a link in the place of a file or folder, is removed before new files come.
+
+    One that a new file takes the place of stays until then. What lies behind a link on the way is somebody else's.
+    """
+    return not _through_link(path, folder) and (path.is_symlink() or (path.is_file() and not stays))
 
 
 def _through_link(path: Path, folder: Path) -> bool:
@@ -122,28 +116,31 @@ def _remove_empty_folders(folder: Path, top: Path) -> None:
 
 
 def _unchanged(folder: Path) -> Iterator[str]:
-    """The files of an earlier package, as far as they are what it has put there."""
-    for path, digest in _listed(folder / MARK).items():
+    """The files of an earlier package, as far as they are what it has put there.
+
+    Raises:
+        OSError: one cannot be read.
+    """
+    for path, digest in _listed(folder / MARK):
         at = folder / path
-        with suppress(OSError):
-            if not at.is_symlink() and not _through_link(at, folder) and at.is_file() and _digest(at) == digest:
-                yield path
+        if not at.is_symlink() and not _through_link(at, folder) and at.is_file() and _digest(at) == digest:
+            yield path
 
 
-def _listed(mark: Path) -> dict[str, str]:
+def _listed(mark: Path) -> list[tuple[str, str]]:
     """What an earlier package has put there, and its digests; nothing where no list is ours, or one path leads away."""
     try:
         text = mark.read_text(encoding="utf-8") if mark.is_file() and not mark.is_symlink() else ""
-    except (OSError, UnicodeDecodeError):
-        return {}
+    except UnicodeDecodeError:
+        return []
     lines = text.removeprefix(_HEAD).splitlines() if text.startswith(_HEAD) else []
-    rows = {path: digest for digest, _, path in (line.partition("  ") for line in lines)}
-    return rows if all(map(is_inner_path, rows)) else {}
+    rows = [(path, digest) for digest, _, path in (line.partition("  ") for line in lines)]
+    return rows if all(is_inner_path(path) for path, _ in rows) else []
 
 
-def _mark(folder: Path, package: Package) -> bytes:
+def _mark(rows: Iterable[tuple[str, str]]) -> bytes:
     """The list, in the notation of `sha256sum`."""
-    return (_HEAD + "".join(f"{_digest(folder / path)}  {path}\n" for path in package.files)).encode()
+    return (_HEAD + "".join(f"{digest}  {path}\n" for path, digest in rows)).encode()
 
 
 def _digest(path: Path) -> str:

@@ -1,13 +1,16 @@
 """Reproducer files: written where a pass fails, read by `twinform reproduce`."""
 
+import os
 import re
 import tempfile
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 
 from twinform import __version__
 from twinform.compiler.reproducers.reproducer import Reproducer
 from twinform.passes import PassError
+from twinform.storage.writing import write_new_file
 
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 _LONGEST = 60
@@ -45,14 +48,12 @@ def _stem(source: str) -> str:
 
 
 def _write_new(folder: Path, stem: str, text: str) -> Path:
-    folder.mkdir(parents=True, exist_ok=True)
     for path in _names(folder, stem):
-        try:
-            with path.open("x", encoding="utf-8", newline="\n") as file:
-                file.write(text)
-        except FileExistsError:
+        if os.path.lexists(path):
             continue
-        return path
+        with suppress(FileExistsError):  # another process was faster
+            write_new_file(path, text)
+            return path
     raise FileExistsError(f"there are {_MOST} files called {stem}")
 
 

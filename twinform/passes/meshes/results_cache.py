@@ -7,7 +7,6 @@ appears all at once, under a name that says what is in it, so that several proce
 import hashlib
 import io
 import os
-import tempfile
 from contextlib import suppress
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
@@ -15,6 +14,7 @@ from pathlib import Path
 from typing import Self
 
 from twinform.passes.meshes.job import BadMessageError, Job, Result
+from twinform.storage.writing import write_atomically
 
 VARIABLE = "TWINFORM_MESH_CACHE"
 _LIBRARIES = ("twinform", "coacd", "fast-simplification", "numpy", "pycollada", "scipy", "trimesh")
@@ -65,11 +65,7 @@ class ResultsCache:
             return
         data = result.to_bytes()
         with suppress(OSError):
-            path.parent.mkdir(parents=True, exist_ok=True)
-            descriptor, name = tempfile.mkstemp(dir=path.parent)
-            with os.fdopen(descriptor, "wb") as file:
-                file.write(hashlib.sha256(data).digest() + data)
-            Path(name).replace(path)
+            write_atomically(path, hashlib.sha256(data).digest() + data, durably=False)  # half a result has no digest
             _prune(path.parent)
 
     def _path(self, job: Job) -> Path | None:

@@ -3,7 +3,7 @@
 import importlib
 from collections.abc import Iterator
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import gettempdir
 from typing import Any, Literal
 
 from twinform.compiler.packaging.collecting import Collection
@@ -17,6 +17,7 @@ from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.analyses.meshes import MeshError, Meshes
 from twinform.passes.framework.asset_access import AssetError
+from twinform.storage.staging import staging_folder
 
 _GREY = (0.72, 0.72, 0.75)
 _MOST_FACES = 4_000_000
@@ -28,8 +29,8 @@ def thumbnail(document: Document, collection: Collection, sink: DiagnosticSink) 
         return None
     model = document.models[0]
     try:
-        with TemporaryDirectory() as folder:
-            faces = list(_faces(model, Meshes(_Collected(collection, Path(folder)))))
+        with staging_folder(Path(gettempdir())) as folder:
+            faces = list(_faces(model, Meshes(_Collected(collection, folder))))
         if faces and sum(len(each.points) for each in faces) <= _MOST_FACES:
             return picture(faces)
         why = "there are too many triangles" if faces else "nothing of it can be drawn"

@@ -27,7 +27,7 @@ def test_a_bad_file_leaves_the_output_untouched(tmp_path: Path) -> None:
     assert _names(tmp_path) == ["bad.urdf", "out.sdf"]
 
 
-@pytest.mark.parametrize("call", ["fsync", "fdopen"])
+@pytest.mark.parametrize("call", ["fsync", "mkdir", "replace"])
 def test_a_failure_while_writing_leaves_the_old_file_and_no_other(
     call: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

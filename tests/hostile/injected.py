@@ -1,0 +1,254 @@
+"""The command with a fault at the n-th call to the system, for every n, as SQLite tests itself.
+
+A process imports the program and runs the command once. For each n a fork of it runs the command in a new folder, in which
+the n-th call fails, or is interrupted. What is in the folder then is compared with what was there, and with what a run
+without a fault leaves.
+"""
+
+import errno
+import io
+import json
+import os
+import shutil
+import signal
+import sys
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property, partial, wraps
+from pathlib import Path
+from typing import Any, NoReturn
+
+CALLS = (
+    "chmod", "chown", "fsync", "link", "listdir", "listxattr", "lstat", "mkdir", "open", "readlink", "remove", "rename",
+    "replace", "rmdir", "scandir", "sendfile", "stat", "unlink", "utime", "write",
+)  # fmt: skip
+"""Functions of `os` that may fail; reading and writing by file objects is counted too."""
+ERRORS = {name: getattr(errno, name) for name in ("EIO", "ENOSPC", "EACCES", "EINTR")}
+SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
+FAULTS = (*ERRORS, *(f"{name} {when}" for name in SIGNALS for when in ("before", "after")), "KeyboardInterrupt")
+_FORGOTTEN = ("Traceback", "Exception ignored", "Fatal Python error")
+Tree = Mapping[str, bytes | None]
+
+
+@dataclass
+class Counter:
+    """Counts calls, and makes one of them fail."""
+
+    fault: str
+    number: int
+    count: int = 0
+
+    def around(self, call: Callable[..., Any]) -> Callable[..., Any]:
+        """A function that is counted."""
+
+        @wraps(call)
+        def counted(*args: Any, **more: Any) -> Any:
+            self.count += 1
+            if self.count != self.number:
+                return call(*args, **more)
+            return self._fail(partial(call, *args, **more), args)
+
+        return counted
+
+    def _fail(self, call: Callable[[], Any], args: Sequence[Any]) -> Any:
+        if self.fault in ERRORS:
+            number = ERRORS[self.fault]
+            raise OSError(number, os.strerror(number), args[0] if args and isinstance(args[0], str | Path) else None)
+        if self.fault == "KeyboardInterrupt":
+            raise KeyboardInterrupt
+        name, when = self.fault.split()
+        result = call() if when == "after" else None
+        signal.raise_signal(signal.Signals[name])
+        return result if when == "after" else call()
+
+    def install(self) -> None:
+        """Count the calls of this process from now on."""
+        for name in CALLS:
+            setattr(os, name, self.around(getattr(os, name)))
+        opened = self.around(partial(_opened, self))
+        io.open = opened
+        __builtins__.open = opened  # type: ignore[attr-defined]
+
+
+class _File(io.FileIO):
+    """A file whose calls are counted."""
+
+    counter: Counter
+
+    def write(self, data: Any, /) -> int:
+        return self.counter.around(super().write)(data)
+
+    def readinto(self, buffer: Any, /) -> Any:
+        return self.counter.around(super().readinto)(buffer)
+
+    def readall(self) -> bytes:
+        return self.counter.around(super().readall)()
+
+
+def _opened(counter: Counter, file: Any, mode: str = "r", buffering: int = -1, *text: Any, **more: Any) -> Any:
+    """What `open` gives, of a file that counts."""
+    raw = _File(file, mode.replace("b", "").replace("t", ""), more.pop("closefd", True), more.pop("opener", None))
+    raw.counter = counter
+    if buffering == 0:
+        return raw
+    kind: Any = io.BufferedRandom if "+" in mode else io.BufferedReader if "r" in mode else io.BufferedWriter
+    return kind(raw) if "b" in mode else io.TextIOWrapper(kind(raw), *text, **more, line_buffering=buffering == 1)
+
+
+@dataclass
+class Injection:
+    """A command before which a folder is made from a template; `apart` means that each file is written for itself."""
+
+    arguments: Sequence[str]
+    template: Path
+    apart: bool = False
+    before: Tree = field(init=False)
+    after: Tree = field(init=False)
+
+    def run(self, faults: Sequence[str], every: int) -> Iterator[str]:
+        """Each fault that the command does not stand; on the way count the runs in `runs`."""
+        self.before = tree(self.template)
+        for _ in range(2):  # the first run imports
+            clean = self._once("", 0)
+            self.after = clean.tree
+        self.runs = 0
+        if clean.code:
+            yield f"without a fault: exit code {clean.code}: {clean.errors}"
+            return
+        for fault in faults:
+            number = 1 + len(self.arguments) % every
+            while True:
+                done = self._once(fault, number)
+                if done.count < number:
+                    break
+                self.runs += 1
+                yield from (f"{fault} at call {number}: {each}" for each in self._problems(done, fault))
+                number += every
+
+    def _problems(self, done: "_Done", fault: str) -> Iterator[str]:
+        if any(word in done.errors for word in _FORGOTTEN):
+            yield f"a traceback: {done.errors[-1500:]}"
+        if not self._is_whole(done.tree, complete=done.code == 0):
+            changed = [
+                name for name in {*done.tree, *self.before} if done.tree.get(name, 0) != self.before.get(name, 0)
+            ]
+            yield f"exit code {done.code}, and what is there is neither old nor new: {sorted(changed)}: {done.errors[-300:]}"
+        if done.left:
+            yield f"left among temporary files: {done.left}"
+        if fault in ERRORS:
+            if done.code not in {0, 1, 2}:
+                yield f"exit code {done.code}: {done.errors[-500:]}"
+            elif done.code and not any(name in done.errors for name in ("/injected-", "standard output", *self._names)):
+                yield f"the message names no file: {done.errors[-500:]}"
+        else:
+            name = fault.split()[0]
+            expected = 128 + signal.Signals[name] if name in SIGNALS else 130
+            if done.code not in {0, expected}:
+                yield f"exit code {done.code}: {done.errors[-500:]}"
+
+    def _is_whole(self, found: Tree, *, complete: bool) -> bool:
+        if complete or not self.apart:
+            return found == self.after or (not complete and found == self.before)
+        return all(
+            found.get(name, 0) in (self.before.get(name, 0), self.after.get(name, 0))
+            for name in {*found, *self.before, *self.after}
+        )
+
+    @cached_property
+    def _names(self) -> set[str]:
+        return {Path(name).name for name in (*self.before, *self.after)}
+
+    def _once(self, fault: str, number: int) -> "_Done":
+        """Run the command in a fork, in a folder of its own."""
+        top = Path(tempfile.mkdtemp(prefix="injected-"))  # not one that goes at exit, which a fork has too
+        here, temporary, errors = top / "here", top / "tmp", top / "errors"
+        shutil.copytree(self.template, here, symlinks=True)
+        temporary.mkdir()
+        reading, writing = os.pipe()
+        child = os.fork()
+        if not child:
+            try:
+                self._become(here, temporary, errors, Counter(fault, number), writing)
+            finally:
+                os._exit(99)
+        os.close(writing)
+        with os.fdopen(reading, "rb") as counted:
+            count = int.from_bytes(counted.read(), "big")
+        code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+        done = _Done(code, count, errors.read_text(errors="replace"), tree(here), sorted(tree(temporary)))
+        shutil.rmtree(top)
+        return done
+
+    def _become(self, here: Path, temporary: Path, errors: Path, counter: Counter, pipe: int) -> NoReturn:
+        os.chdir(here)
+        os.environ["TMPDIR"] = tempfile.tempdir = str(temporary)
+        nothing, messages = os.open(os.devnull, os.O_RDWR), os.open(errors, os.O_WRONLY | os.O_CREAT)
+        for stream, number in ((nothing, 0), (nothing, 1), (messages, 2)):
+            os.dup2(stream, number)
+        leave, write = os._exit, os.write
+
+        def counted_exit(code: int) -> NoReturn:
+            write(pipe, counter.count.to_bytes(8, "big"))
+            leave(code)
+
+        os._exit = counted_exit  # type: ignore[assignment]
+        sys.argv = ["twinform", *self.arguments]
+        from twinform.__main__ import program
+
+        counter.install()
+        try:
+            program()
+        except SystemExit as end:
+            counted_exit(end.code if isinstance(end.code, int) else 0)
+        except BaseException:
+            sys.excepthook(*sys.exc_info())  # type: ignore[arg-type]
+            counted_exit(1)
+        counted_exit(0)
+
+
+@dataclass
+class _Done:
+    code: int
+    count: int
+    errors: str
+    tree: Tree
+    left: list[str]
+
+
+def tree(folder: Path) -> Tree:
+    """All files of a folder with their bytes, and its folders with None."""
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else None for path in folder.rglob("*")
+    }
+
+
+def main() -> None:
+    """Print the problems of an injection, and how many runs there were."""
+    request = json.loads(sys.argv[1])
+    import twinform.__main__  # noqa: F401
+
+    os.environ["TWINFORM_MESH_CACHE"] = "off"
+    injection = Injection(request["arguments"], Path(request["template"]), request["apart"])
+    warm(injection)
+    problems = list(injection.run(request["faults"], request["every"]))
+    print(json.dumps({"runs": injection.runs, "problems": problems}))
+
+
+def warm(injection: Injection) -> None:
+    """Run the command in this process, which imports what it needs."""
+    with tempfile.TemporaryDirectory() as top:
+        here = Path(top, "here")
+        shutil.copytree(injection.template, here, symlinks=True)
+        old = Path.cwd()
+        os.chdir(here)
+        from click.testing import CliRunner
+
+        from twinform.cli import main as command
+
+        CliRunner().invoke(command, list(injection.arguments))
+        os.chdir(old)
+
+
+if __name__ == "__main__":
+    main()

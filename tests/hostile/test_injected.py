@@ -1,0 +1,114 @@
+"""An error or a signal at any call of any command that writes: all is old or all is new, and nothing else is left."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from benchmarks import robots
+from tests.hostile.injected import FAULTS
+from tests.profile import DEEP
+
+_INJECTED = Path(__file__).with_name("injected.py")
+_EXAMPLES = Path(__file__).parents[2] / "examples"
+_ROBOT = '<robot name="r">\n<link name="a"/>\n</robot>\n'
+_WORLD = """<sdf version="1.11"><world name="w">
+<model name="one"><link name="l"/></model><model name="two"><link name="l"/></model></world></sdf>"""
+
+
+class Command(NamedTuple):
+    """A command as it is typed, what is done before it, and whether it writes each of its files for itself."""
+
+    words: str
+    first: Sequence[str] = ()
+    apart: bool = False
+
+
+COMMANDS = {
+    "a conversion": Command("convert r.urdf -o r.sdf"),
+    "one over a file": Command("convert r.urdf -o old.sdf"),
+    "one to standard output": Command("convert r.urdf"),
+    "one in a new folder": Command("convert r.urdf -o new/inner/r.sdf"),
+    "several": Command("convert r.urdf two.urdf --to sdf -o out", ("convert r.urdf -o out/r.sdf",)),
+    "all files of one": Command(
+        "convert r.urdf -o old.sdf --ledger l/ledger.json --world world.sdf --bridge bridge.yaml"
+    ),
+    "a file of a pass": Command("convert r.urdf -o old.sdf --passes bridge-config{file=b.yaml}"),
+    "one in place": Command("convert r.urdf two.urdf --in-place --passes prefix-names{prefix=x_}"),
+    "one into a file": Command(
+        "convert r.sdf --into r.urdf",
+        ("convert r.urdf -o r.sdf", "fix r.sdf --passes set-surface{mu=0.5}"),
+    ),
+    "a split": Command("convert w.sdf --split -o out"),
+    "a dump": Command("convert r.urdf -o r.sdf --dump-ir-after urdf-joints"),
+    "xacro": Command("convert x.urdf.xacro -o x.sdf"),
+    "check --fix": Command("check odd.urdf worse.urdf --fix"),
+    "fix": Command("fix odd.urdf worse.urdf"),
+    "format": Command("format bad.urdf worse.urdf", apart=True),
+    "a baseline": Command("check bad.urdf odd.urdf --baseline b.json --update-baseline"),
+    "a baseline again": Command(
+        "check bad.urdf --baseline b.json --update-baseline",
+        ("check bad.urdf odd.urdf --baseline b.json --update-baseline", "fix odd.urdf"),
+    ),
+    "a model folder": Command("package r.urdf -o pack/robot --kind gazebo-model --no-thumbnail --ledger l.json"),
+    "a model folder again": Command(
+        "package two.urdf -o robot --kind gazebo-model --no-thumbnail --sdf-version 1.9",
+        ("package r.urdf -o robot --kind gazebo-model --no-thumbnail --sdf-version 1.11 --sdf-version 1.6",),
+    ),
+    "a thumbnail": Command("package r.urdf -o robot --kind gazebo-model"),
+    "a ROS 2 package": Command("package r.urdf -o robot --kind ros2"),
+    "both again": Command("package two.urdf -o robot --kind both", ("package r.urdf -o robot --kind ros2",)),
+    "fuel add": Command("fuel add crate --owner Somebody --cache cache"),
+    "a graph": Command("graph r.urdf -o r.svg"),
+    "a report": Command("report r.urdf two.urdf -o old.html --no-view"),
+    "a schema": Command("schema urdf -o s.xsd"),
+    "schemas": Command("schema urdf --xacro -o s.xsd"),
+    "a reproducer": Command("convert r.urdf -o r.sdf --passes broken --reproducers found"),
+}
+
+
+def _write_models(folder: Path) -> None:
+    (folder / ".git").mkdir()
+    (folder / "r.urdf").write_text(robots.urdf(2))
+    (folder / "two.urdf").write_text(_ROBOT)
+    (folder / "w.sdf").write_text(_WORLD)
+    (folder / "bad.urdf").write_text('<robot name="r">\n<link name="a"><visual/></link><link name="b"/></robot>')
+    (folder / "worse.urdf").write_text('<?xml version="0.0"?><robot name="r"><link name="a" >\n\n</link></robot>')
+    (folder / "odd.urdf").write_text('<?xml version="0.0"?><robot name="o"><link name="a"/></robot>')
+    (folder / "x.urdf.xacro").write_text(_ROBOT.replace("<robot", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"'))
+    for name in ("old.sdf", "old.html"):
+        (folder / name).write_text("as it was")
+    shutil.copytree(_EXAMPLES / "crate", folder / "crate")
+
+
+def injected(command: Command, template: Path, faults: Sequence[str], every: int) -> tuple[int, list[str]]:
+    """How many runs there were, and what went wrong in them."""
+    _write_models(template)
+    for each in command.first:
+        run = [sys.executable, "-m", "twinform", *each.split()]
+        subprocess.run(run, cwd=template, check=True, capture_output=True)
+    request = {"arguments": command.words.split(), "template": str(template), "faults": faults, "every": every}
+    done = subprocess.run(
+        [sys.executable, "-B", _INJECTED, json.dumps({**request, "apart": command.apart})],
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, "PYTHONPATH": str(_EXAMPLES.parent)},
+    )
+    assert done.returncode == 0, done.stderr
+    result = json.loads(done.stdout)
+    return result["runs"], result["problems"]
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_fault_at_any_call_leaves_all_old_or_all_new(name: str, tmp_path: Path) -> None:
+    faults, every = (FAULTS, 1) if DEEP else (["EIO", "SIGINT after"], 97)
+    runs, problems = injected(COMMANDS[name], tmp_path, faults, every)
+    assert problems == []
+    assert runs

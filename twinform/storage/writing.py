@@ -1,0 +1,168 @@
+"""Atomic file output: no reader sees half a file, and of several files all are written or none."""
+
+import errno
+import os
+import stat
+from collections.abc import Callable, Generator, Iterable, Mapping
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from twinform.storage.transaction import Transaction, transaction
+
+_FEW = 4
+"""As many files are given to the disk one after the other; more at once, which takes a tenth of the time."""
+_THREADS = 16
+
+
+def write_atomically(path: str | Path, text: str | bytes, *, durably: bool = True) -> None:
+    """Put the text where `path` is, all of it or nothing: it is written beside it and then moved over it.
+
+    Folders that are missing are made. The permissions of a file that is replaced stay. A symbolic link is followed. A
+    pipe or device is written into. `durably` waits until the disk has it.
+
+    Raises:
+        OSError: the text could not be written; the old file is untouched.
+    """
+    write_all_atomically({Path(path): text}, durably=durably)
+
+
+def write_all_atomically(
+    texts: Mapping[Path, str | bytes], then: Callable[[], None] | None = None, *, durably: bool = True
+) -> None:
+    """Put every text in its place once all of them are written beside it; folders that are missing are made.
+
+    `then` is called when nothing but moving them is left to do. Where that, or one of the moves, fails, those that were
+    moved already are taken back. `durably` waits until the disk has them, so that not even a power cut leaves half a
+    file in a place.
+
+    Raises:
+        OSError: one of them could not be written; the old files are as they were.
+    """
+    with transaction() as files:
+        staged = stage_texts(files, texts, durably=durably)
+        if then:
+            then()
+        for new, target in staged:
+            with named_after(target):
+                files.move(new, target, keep=len(staged) > 1)
+        if durably:
+            files.sync()
+        files.done = True
+
+
+def stage_texts(
+    files: Transaction, texts: Mapping[Path, str | bytes], *, durably: bool = True
+) -> list[tuple[Path, Path]]:
+    """Write texts into staged files, and into pipes and devices; gives each staged file and the place where it belongs.
+
+    Raises:
+        OSError: one of them cannot be written.
+    """
+    staged = [_stage(files, path, text) for path, text in texts.items() if not is_stream(path)]
+    if durably:
+        sync_files(staged)
+    for new, target in staged:
+        with named_after(target), suppress(FileNotFoundError):
+            _take_over(target, new)
+    for path, text in texts.items():
+        if is_stream(path):
+            _write_into(path, text)
+    return staged
+
+
+def write_new_file(path: Path, text: str | bytes) -> None:
+    """Put the text where nothing is, all of it or nothing.
+
+    Raises:
+        FileExistsError: something is there.
+        OSError: the text could not be written.
+    """
+    with transaction() as files:
+        new, target = _stage(files, path, text)
+        sync_files([(new, target)])
+        with named_after(path):
+            files.move_to_new(new, target)
+            files.sync()
+        files.done = True
+
+
+def is_stream(path: Path) -> bool:
+    """Whether it is a pipe or device, such as /dev/null, which a file must never take the place of."""
+    try:
+        mode = path.stat().st_mode
+    except (OSError, ValueError):
+        return False
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
+
+
+def sync_files(staged: Iterable[tuple[Path, Path]]) -> None:
+    """Wait until the disk has the content of files, each of which comes with the path that an error is to name.
+
+    Raises:
+        OSError: the disk does not take it.
+    """
+    files = [*staged]
+    if len(files) <= _FEW:
+        for file in files:
+            _sync(file)
+        return
+    from concurrent.futures import ThreadPoolExecutor  # noqa: PLC0415 - most calls write few files
+
+    with ThreadPoolExecutor(_THREADS) as threads:
+        for _ in threads.map(_sync, files):
+            pass
+
+
+def _sync(staged: tuple[Path, Path]) -> None:
+    path, shown = staged
+    with named_after(shown), path.open("r+b") as file:
+        os.fsync(file.fileno())
+
+
+def _stage(files: Transaction, path: Path, text: str | bytes) -> tuple[Path, Path]:
+    """A text in a staged file, and the place where this belongs."""
+    target = Path(os.path.realpath(path))
+    with named_after(path):
+        if target.is_symlink():
+            raise OSError(errno.ELOOP, "it is a symbolic link that leads to itself")
+        if target.is_dir():
+            raise IsADirectoryError(errno.EISDIR, "it is a directory")
+        new = files.stage(target.parent)
+        new.write_bytes(_bytes(text))
+    return new, target
+
+
+def _take_over(old: Path, new: Path) -> None:
+    """Give a file the permissions of the one that it will replace, and as far as that is allowed its owner.
+
+    Raises:
+        FileNotFoundError: there is none.
+    """
+    status, own = old.stat(), new.stat()
+    if (status.st_uid, status.st_gid) != (own.st_uid, own.st_gid):
+        with suppress(OSError):
+            os.chown(new, status.st_uid, status.st_gid)
+    new.chmod(status.st_mode & 0o777)
+    with suppress(OSError, AttributeError):  # only Linux has them, and not in all file systems
+        for name in os.listxattr(old):
+            os.setxattr(new, name, os.getxattr(old, name))
+
+
+def _write_into(path: Path, text: str | bytes) -> None:
+    with named_after(path), path.open("wb") as stream:
+        stream.write(_bytes(text))
+
+
+def _bytes(text: str | bytes) -> bytes:
+    """What is written: a text in UTF-8."""
+    return text if isinstance(text, bytes) else text.encode()
+
+
+@contextmanager
+def named_after(path: Path) -> Generator[None]:
+    """Name the file that an error is about: a failed write does not know, and that of a staged file helps nobody."""
+    try:
+        yield
+    except OSError as error:
+        error.filename, error.filename2 = str(path), None
+        raise
