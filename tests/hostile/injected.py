@@ -1,10 +1,12 @@
 """The command with a fault at the n-th call to the system, for every n, as SQLite tests itself.
 
-A process imports the program and runs the command once. For each n a fork of it runs the command in a new folder, in which
-the n-th call fails, or is interrupted. What is in the folder then is compared with what was there, and with what a run
-without a fault leaves.
+A process imports the program and runs the command once. For each n a fork of it runs the command in a new folder, in
+which the n-th call fails, or is interrupted. What is in the folder then is compared with what was there, and with what
+a run without a fault leaves.
 """
 
+import builtins
+import contextlib
 import errno
 import io
 import json
@@ -18,6 +20,8 @@ from dataclasses import dataclass, field
 from functools import cached_property, partial, wraps
 from pathlib import Path
 from typing import Any, NoReturn
+
+from click.testing import CliRunner
 
 CALLS = (
     "chmod", "chown", "fsync", "link", "listdir", "listxattr", "lstat", "mkdir", "open", "readlink", "remove", "rename",
@@ -68,7 +72,7 @@ class Counter:
             setattr(os, name, self.around(getattr(os, name)))
         opened = self.around(partial(_opened, self))
         io.open = opened
-        __builtins__.open = opened  # type: ignore[attr-defined]
+        builtins.open = opened
 
 
 class _File(io.FileIO):
@@ -103,16 +107,15 @@ class Injection:
     arguments: Sequence[str]
     template: Path
     apart: bool = False
+    runs: int = 0
     before: Tree = field(init=False)
     after: Tree = field(init=False)
 
     def run(self, faults: Sequence[str], every: int) -> Iterator[str]:
-        """Each fault that the command does not stand; on the way count the runs in `runs`."""
+        """Each problem with each fault at every n-th call; `runs` counts how often the command was run."""
         self.before = tree(self.template)
-        for _ in range(2):  # the first run imports
-            clean = self._once("", 0)
-            self.after = clean.tree
-        self.runs = 0
+        clean = self._once("", 0)
+        self.after = clean.tree
         if clean.code:
             yield f"without a fault: exit code {clean.code}: {clean.errors}"
             return
@@ -130,10 +133,9 @@ class Injection:
         if any(word in done.errors for word in _FORGOTTEN):
             yield f"a traceback: {done.errors[-1500:]}"
         if not self._is_whole(done.tree, complete=done.code == 0):
-            changed = [
-                name for name in {*done.tree, *self.before} if done.tree.get(name, 0) != self.before.get(name, 0)
-            ]
-            yield f"exit code {done.code}, and what is there is neither old nor new: {sorted(changed)}: {done.errors[-300:]}"
+            names = {*done.tree, *self.before}
+            changed = sorted(name for name in names if done.tree.get(name, 0) != self.before.get(name, 0))
+            yield f"exit code {done.code}, and what is there is neither old nor new: {changed}: {done.errors[-300:]}"
         if done.left:
             yield f"left among temporary files: {done.left}"
         if fault in ERRORS:
@@ -142,7 +144,7 @@ class Injection:
             elif done.code and not any(name in done.errors for name in ("/injected-", "standard output", *self._names)):
                 yield f"the message names no file: {done.errors[-500:]}"
         else:
-            name = fault.split()[0]
+            name = fault.partition(" ")[0]
             expected = 128 + signal.Signals[name] if name in SIGNALS else 130
             if done.code not in {0, expected}:
                 yield f"exit code {done.code}: {done.errors[-500:]}"
@@ -192,19 +194,18 @@ class Injection:
             write(pipe, counter.count.to_bytes(8, "big"))
             leave(code)
 
-        os._exit = counted_exit  # type: ignore[assignment]
+        os._exit = counted_exit
         sys.argv = ["twinform", *self.arguments]
-        from twinform.__main__ import program
+        from twinform.__main__ import program  # noqa: PLC0415 - it changes what signals do
 
         counter.install()
         try:
             program()
         except SystemExit as end:
             counted_exit(end.code if isinstance(end.code, int) else 0)
-        except BaseException:
-            sys.excepthook(*sys.exc_info())  # type: ignore[arg-type]
-            counted_exit(1)
-        counted_exit(0)
+        except BaseException as error:  # noqa: BLE001 - as Python does at its end
+            sys.excepthook(type(error), error, error.__traceback__)
+        counted_exit(1)
 
 
 @dataclass
@@ -226,28 +227,22 @@ def tree(folder: Path) -> Tree:
 def main() -> None:
     """Print the problems of an injection, and how many runs there were."""
     request = json.loads(sys.argv[1])
-    import twinform.__main__  # noqa: F401
-
     os.environ["TWINFORM_MESH_CACHE"] = "off"
     injection = Injection(request["arguments"], Path(request["template"]), request["apart"])
     warm(injection)
     problems = list(injection.run(request["faults"], request["every"]))
-    print(json.dumps({"runs": injection.runs, "problems": problems}))
+    sys.stdout.write(json.dumps({"runs": injection.runs, "problems": problems}))
 
 
 def warm(injection: Injection) -> None:
     """Run the command in this process, which imports what it needs."""
+    from twinform.cli import main as command  # noqa: PLC0415 - who only wants the names of faults does not need it
+
     with tempfile.TemporaryDirectory() as top:
         here = Path(top, "here")
         shutil.copytree(injection.template, here, symlinks=True)
-        old = Path.cwd()
-        os.chdir(here)
-        from click.testing import CliRunner
-
-        from twinform.cli import main as command
-
-        CliRunner().invoke(command, list(injection.arguments))
-        os.chdir(old)
+        with contextlib.chdir(here):
+            CliRunner().invoke(command, list(injection.arguments))
 
 
 if __name__ == "__main__":

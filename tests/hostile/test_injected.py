@@ -69,7 +69,6 @@ COMMANDS = {
     "a report": Command("report r.urdf two.urdf -o old.html --no-view"),
     "a schema": Command("schema urdf -o s.xsd"),
     "schemas": Command("schema urdf --xacro -o s.xsd"),
-    "a reproducer": Command("convert r.urdf -o r.sdf --passes broken --reproducers found"),
 }
 
 

@@ -65,7 +65,11 @@ def run_fixes(sources: Sequence[Source], fixing: Callable[[Source], Fixing]) -> 
 
 def mended_source(source: Source, fixing: Fixing) -> MendedSource:
     """A file once it is mended; nothing is written. One that cannot be is only looked at."""
-    data = _data(source, fixing.load_options)
+    sink = DiagnosticSink(source.name)
+    try:
+        data = _data(source, sink, fixing.load_options)
+    except UnreadableError:
+        return MendedSource(LoadResult(source.name, None, tuple(sink.diagnostics), unreadable=True), None, [], 0)
     if data is None:
         return MendedSource(fixing.look(source.content, source.name), None, [], 0)
     found = mend_by(lambda text: fixing.look(text, source.name), data, unsafe=fixing.unsafe, wanted=fixing.wants)
@@ -75,16 +79,17 @@ def mended_source(source: Source, fixing: Fixing) -> MendedSource:
     )
 
 
-def _data(source: Source, load_options: LoadOptions) -> bytes | None:
-    """The bytes of a file that can be mended; what xacro expands is not read from its own text."""
+def _data(source: Source, sink: DiagnosticSink, load_options: LoadOptions) -> bytes | None:
+    """The bytes of a file that can be mended; what xacro expands is not read from its own text.
+
+    Raises:
+        UnreadableError: it cannot be read.
+    """
     if isinstance(source.content, bytes):
         return source.content
     if load_options.xacro or Path(source.name).suffix.lower() == XACRO:
         return None
-    try:
-        return read_bytes(Path(source.content), DiagnosticSink(source.name), load_options.limits)
-    except UnreadableError:
-        return None
+    return read_bytes(Path(source.content), sink, load_options.limits)
 
 
 def _news(name: str, found: Mended, verb: str) -> list[str]:

@@ -10,13 +10,13 @@ from twinform.cli.command import Command
 from twinform.cli.completion import files as files_of
 from twinform.cli.config import config_options
 from twinform.cli.exclude import exclude_options, exclusion_of
-from twinform.cli.failure import FINDINGS, UNUSABLE
+from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.files.model_files import is_text
 from twinform.cli.findings import show
 from twinform.cli.inputs import model_inputs, size_option
-from twinform.cli.rewriting import is_writable
+from twinform.cli.rewriting import Rewrite, write_back
 from twinform.cli.source import Source
-from twinform.compiler import CompileError, write_atomically
+from twinform.compiler import CompileError
 from twinform.compiler.formatting import formatted
 from twinform.compiler.input.limits import Limits
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
@@ -120,7 +120,7 @@ class _Run:
             self._tell(source, before, after)
         elif isinstance(source.content, bytes):
             click.echo(after, nl=False)
-        elif before != after and not _write(Path(source.content), after):
+        elif not _write(Rewrite(source, before, after)):
             return "unusable"
         return "same" if before == after else "changed"
 
@@ -157,13 +157,11 @@ def _data(source: Source, limits: Limits) -> bytes:
         raise CompileError(tuple(sink.diagnostics), unreadable=True) from error
 
 
-def _write(path: Path, data: bytes) -> bool:
+def _write(rewrite: Rewrite) -> bool:
     """Put a file in its place; whether that could be done."""
     try:
-        if not is_writable(path):
-            raise PermissionError(0, "it is read-only")
-        write_atomically(path, data)
-    except OSError as error:
-        click.echo(f"Error: cannot write {path}: {error.strerror}", err=True)
+        write_back([rewrite])
+    except Unusable as error:
+        click.echo(f"Error: {error.message}", err=True)
         return False
     return True

@@ -110,8 +110,6 @@ class Outputs:
             from twinform.cli.outdated import report_outdated  # noqa: PLC0415 - most runs write
 
             return report_outdated(self.texts, to_stdout=self.stdout is not None)
-        for path, before in self.as_read.items():
-            require_as_read(path, before)
         try:
             write_all_atomically({output.path: text for output, text in self.texts}, self._print)
         except OSError as error:
@@ -123,6 +121,8 @@ class Outputs:
         return 0
 
     def _print(self) -> None:
+        for path, before in self.as_read.items():
+            require_as_read(path, before)
         if self.stdout is not None:
             click.echo(self.stdout.encode(), nl=False)  # the XML declaration has UTF-8, whatever the terminal's is
 

@@ -64,13 +64,16 @@ def write_back(rewrites: Sequence[Rewrite]) -> None:
         Unusable: one of the files cannot be written, is read-only, or has changed since it was read.
     """
     files = {Path(each.source.name): each for each in rewrites if each.is_change and not each.is_stream}
-    for path, each in files.items():
-        if not is_writable(path):
-            raise Unusable(f"{path} is read-only; nothing is written")
-        require_as_read(path, each.before)
     texts = {path: each.after for path, each in files.items() if each.before != each.after}
+
+    def require_unchanged() -> None:
+        for path, each in files.items():
+            require_as_read(path, each.before)
+            if not _is_writable(path):
+                raise Unusable(f"{path} is read-only; nothing is written")
+
     try:
-        write_all_atomically({**_beside(rewrites), **texts})
+        write_all_atomically({**_beside(rewrites), **texts}, require_unchanged)
     except OSError as error:
         raise Unusable(f"cannot write {error.filename}: {error.strerror}") from error
     for each in rewrites:
@@ -87,6 +90,6 @@ def _beside(rewrites: Sequence[Rewrite]) -> dict[Path, str | bytes]:
     return {place.path: content for place, content in outputs.texts}
 
 
-def is_writable(path: Path) -> bool:
+def _is_writable(path: Path) -> bool:
     """Whether a file may be written: its permissions count for the administrator too."""
     return bool(path.stat().st_mode & 0o222) and os.access(path, os.W_OK)
