@@ -134,6 +134,14 @@ def _fields() -> Iterator[str]:
     yield from (f'"{name}":' for name in _elements())
 
 
+def _addresses() -> Iterator[bytes]:
+    yield from (
+        b"model://crate/away/a.stl", b"package://arm/../arm/a.stl", b"file:///etc/passwd", b"a.stl", b"../away/a.stl",
+        b"https://fuel.gazebosim.org/1.0/o/models/crate/1/files/away/a.stl", b"https://[::1]/1.0/o/worlds/%2e%2e",
+        b"model://%63rate/%00",
+    )  # fmt: skip
+
+
 def _meshes() -> Iterator[bytes]:
     texts = {
         "dae": b"<COLLADA><image><init_from>a.png</init_from></image><!-- <image> --></COLLADA>",
@@ -176,5 +184,6 @@ TARGETS = {
     "configurations": Target(targets.configurations, _configurations, _settings, 1024),
     "archives": Target(targets.archives, _archives, _nothing, 16384),
     "json": Target(targets.json, _json, _fields),
+    "addresses": Target(targets.addresses, _addresses, _nothing, 512),
     "meshes": Target(targets.meshes, _meshes, _mesh_words),
 }

@@ -1,8 +1,12 @@
 """What must hold for any input at all; `fuzz/` runs these under atheris, and the tests on what that has found."""
 
+import atexit
+import os
+import shutil
 import tempfile
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 
 from click.testing import CliRunner
@@ -21,6 +25,7 @@ from twinform.compiler.output.emitting import emit
 from twinform.compiler.output.json import json_text
 from twinform.compiler.packaging.references import FORMATS
 from twinform.compiler.reproducers.reproducer import Reproducer
+from twinform.compiler.search.uris import SearchPath, UriError
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.baseline import Baseline, BaselineError
 from twinform.diagnostics.suppressions import parse_suppressions
@@ -132,6 +137,32 @@ def json(data: bytes) -> None:
 
 def _require_same(parse: Callable[[str], Baseline | Reproducer], found: Baseline | Reproducer) -> None:
     assert parse(found.to_json()) == found, "another one once written and read again"
+
+
+def addresses(data: bytes) -> None:
+    """Any text as a URI leads to something below the project or the cache of Fuel, or is refused."""
+    top = _project()
+    search = SearchPath.of((), {"HOME": str(top), "GZ_FUEL_CACHE_PATH": str(top / "cache")})
+    try:
+        found = search.find(data.decode("utf-8", errors="surrogateescape"), top / "project" / "arm" / "w.sdf")
+    except UriError:
+        return
+    assert any(found.resolve().is_relative_to(top / name) for name in ("project", "cache")), f"leads to {found}"
+
+
+@cache
+def _project() -> Path:
+    """A folder with a project, a cache of Fuel, and a file that is in neither, to which a link leads."""
+    top = Path(os.path.realpath(tempfile.mkdtemp(prefix="twinform-fuzz-")))
+    atexit.register(shutil.rmtree, top)
+    for name in ("project/.git/HEAD", "project/arm/a.stl", "project/crate/model.config", "secret/a.stl"):
+        (top / name).parent.mkdir(parents=True, exist_ok=True)
+        (top / name).write_bytes(b"")
+    cached = top / "cache" / "fuel.gazebosim.org" / "o" / "models" / "crate" / "1"
+    cached.mkdir(parents=True)
+    for folder in (top / "project", cached):
+        (folder / "away").symlink_to(top / "secret")
+    return top
 
 
 def meshes(data: bytes) -> None:

@@ -90,8 +90,9 @@ class SearchPath:
         return self._named(f"package://{name}", name, beside)
 
     def _named(self, uri: str, rest: str, beside: Path) -> Path:
-        name, _, inner = normpath(unquote(rest)).partition("/")
-        if name in {"", "."}:
+        path = unquote(rest)
+        name, _, inner = normpath(path).partition("/")
+        if name in {"", "."} or "\0" in path:
             raise UriError(rules.UNRESOLVED_URI, f"{uri!r} names no model or package")
         if name == "..":
             raise UriError(rules.URI_LEAVES_FOLDER, f"{uri!r} leads out of the folders of models and packages")
@@ -141,7 +142,7 @@ class SearchPath:
     def _cached(self, uri: str) -> Path:
         found = fuel.cached(uri, self.fuel)
         if found is None:
-            host = urlsplit(uri).hostname or "the network"
+            host = _host(uri)
             if fuel.FuelName.parse(uri) is None:
                 message = f"{uri!r} is no address of Fuel, and nothing is fetched from {host}"
                 raise UriError(rules.UNRESOLVED_URI, message, "put the file beside the model, and name it by its path")
@@ -161,6 +162,14 @@ def exists(path: Path) -> bool:
         return path.exists()
     except OSError:  # a name that is too long, a folder that may not be read
         return False
+
+
+def _host(uri: str) -> str:
+    """The machine that an address names, for a message."""
+    try:
+        return urlsplit(uri).hostname or "the network"
+    except ValueError:  # such as a bracket without its like
+        return "the network"
 
 
 def _folders(environment: Mapping[str, str], variable: str) -> Iterator[Path]:
