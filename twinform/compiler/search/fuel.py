@@ -50,7 +50,7 @@ class FuelName:
             return None
         path = unquote(parts.path).rstrip("/")
         match = _ADDRESS.fullmatch(path)
-        if match is None or "\0" in path or not {".", "..", ""}.isdisjoint(path.split("/")[1:]):
+        if match is None or "\0" in unquote(uri) or not {".", "..", ""}.isdisjoint(path.split("/")[1:]):
             return None
         version, _, rest = (match["rest"] or "").partition("/")
         file = "" if rest == "files" else rest.removeprefix("files/")
