@@ -31,7 +31,7 @@ _OPPOSITES = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
 _SYNONYMS = {"revolute": "continuous", "continuous": "revolute"}
 """Words that may be another one in the other format: a joint that turns without an end."""
 _TRUTHS = {"true": "1.0", "yes": "1.0", "false": "0.0", "no": "0.0"}
-_PREDICATE = re.compile(r"\[[^]]*\]|\{[^}]*\}|(?<=[/@])[\w.-]+:")
+_PREDICATE = re.compile(r"\[[^]]*+\]?|\{[^}]*+\}?|(?<=[/@])[\w.-]+:")
 _Place = tuple[int, str]
 """A line of the source, and the path of an element or attribute that begins there."""
 _PUNCTUATION = str.maketrans(dict.fromkeys("/:,;", " "))

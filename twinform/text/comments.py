@@ -8,12 +8,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from twinform.text.asides import COMMENT, IN_COMMENT, INSTRUCTION, SECTION
+from twinform.text.positions import indentation
+
 _TOKEN = re.compile(
-    r"<!--(?P<comment>.*?)-->"
-    r"|<!\[CDATA\[.*?\]\]>"
-    r"|<\?.*?\?>"
-    r"|<(?P<close>/?)[^\s<>/\"'!?](?:[^<>\"'/]++|\"[^\"]*+\"|'[^']*+'|/(?!>))*+(?P<empty>/?)>",
-    re.DOTALL,
+    rf"<!--(?P<comment>{IN_COMMENT})-->"
+    rf"|{COMMENT}|{SECTION}|{INSTRUCTION}"
+    r"|<(?P<close>/?)[^\s<>/\"'!?](?:[^<>\"'/]++|\"[^\"]*+\"|'[^']*+'|/(?!>))*+(?P<empty>/?)>"
 )
 
 
@@ -72,7 +73,7 @@ class _Reading:
         return self.line
 
     def _comment(self, text: str, start: int, line: int) -> None:
-        if self.text[self.text.rfind("\n", 0, start) + 1 : start].strip():
+        if indentation(self.text, start) is None:
             first = self.last_begin if self.last_end == line else line
             self.found.append(Comment(text, line, first, line))
             return

@@ -16,9 +16,11 @@ tags. The lines of a comment, and of a text of nothing but numbers, move with th
 import re
 from array import array
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 from twinform.text.numbers import all_numbers, shortest
+from twinform.text.positions import Lines
 from twinform.text.source_text import SourceText
 from twinform.text.start_tags import TAB, StartTag, name_of
 from twinform.text.tokens import Kind, Tokens
@@ -215,10 +217,15 @@ class _Formatting:
         is_tag = here < len(kinds) and kinds[here] in _TAGS
         return here if is_tag and self._is_row(here) else None
 
+    @cached_property
+    def lines(self) -> Lines:
+        """The lines of the text."""
+        return Lines(self.tokens.text)
+
     def _column(self, number: int) -> int:
         """The column of a token, from 0, where it stood."""
         start = self.tokens.start(number)
-        line = max(self.tokens.text.rfind("\n", 0, start), self.tokens.text.rfind("\r", 0, start)) + 1
+        line = start - self.lines.place(start).column + 1
         return len(self.tokens.text[line:start].expandtabs(TAB))
 
 

@@ -2,8 +2,12 @@
 
 import re
 
+from twinform.text.asides import COMMENT, IN_COMMENT, IN_INSTRUCTION, INSTRUCTION, SECTION
+
 _ASIDE = re.compile(
-    r"<!\[CDATA\[.*?\]\]>|<!--(?P<comment>.*?)-->|(?P<declaration><\?xml\s.*?\?>)", re.DOTALL | re.IGNORECASE
+    rf"{SECTION}|<!--(?P<comment>{IN_COMMENT})-->|{COMMENT}|(?P<declaration><\?xml\s{IN_INSTRUCTION}\?>)"
+    rf"|{INSTRUCTION}",
+    re.IGNORECASE,
 )
 _VISIBLE = re.compile(r"[^\r\n]")
 

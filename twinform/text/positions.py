@@ -95,6 +95,15 @@ class UnplacedError(ValueError):
         self.line, self.column = line, column
 
 
+def indentation(text: str, offset: int) -> str | None:
+    """The blanks before what begins its line; None for what does not."""
+    start = offset
+    # a line may be the whole file, so nothing of it is looked at but the blanks
+    while start and text[start - 1] in " \t":
+        start -= 1
+    return text[start:offset] if not start or text[start - 1] == "\n" else None
+
+
 class Lines:
     """The lines of a text."""
 

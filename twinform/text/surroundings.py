@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from twinform.diagnostics import Span
 from twinform.text.alignment import BLANKS
-from twinform.text.positions import ElementSpan
+from twinform.text.positions import ElementSpan, indentation
 from twinform.text.serializing import Layout
 from twinform.text.source_text import SourceText
 
@@ -70,22 +70,16 @@ class Surroundings:
 
     def _indent(self, offset: int) -> str | None:
         """The line end and the blanks before what begins its line; None for what does not."""
-        blanks = _column(self.text, offset)
+        blanks = indentation(self.text, offset)
         return None if blanks is None else self.line_end + blanks
 
 
 def _usual_step(text: str, root: ElementSpan) -> str:
     """By how much the first element that begins a line is indented more than the one around it."""
     for element in root.walk():
-        own = _column(text, element.whole.start)
+        own = indentation(text, element.whole.start)
         for child in element.children:
-            inner = _column(text, child.whole.start)
+            inner = indentation(text, child.whole.start)
             if own is not None and inner is not None and inner.startswith(own) and inner != own:
                 return inner[len(own) :]
     return _STEP
-
-
-def _column(text: str, offset: int) -> str | None:
-    """The blanks before what begins its line; None for what does not."""
-    blanks = text[text.rfind("\n", 0, offset) + 1 : offset]
-    return blanks if not blanks.strip(" \t") else None

@@ -8,11 +8,12 @@ import re
 from functools import cached_property
 
 from twinform.diagnostics import Span
+from twinform.text.asides import COMMENT, INSTRUCTION, SECTION
 from twinform.text.positions import ElementSpan, UnplacedError, start_tag
 
 _TOKEN = re.compile(
-    r"<(?:(?P<aside>!--.*?--|\?.*?\?)|!\[CDATA\[.*?\]\]|(?P<end>/)?[^\s<>/!?][^<>\"']*+(?:\"[^\"]*+\"[^<>\"']*+|'[^']*+'[^<>\"']*+)*+)>",
-    re.DOTALL,
+    rf"(?P<aside>{COMMENT}|{INSTRUCTION})|{SECTION}"
+    r"|<(?P<end>/)?[^\s<>/!?][^<>\"']*+(?:\"[^\"]*+\"[^<>\"']*+|'[^']*+'[^<>\"']*+)*+>"
 )
 _NAME = re.compile(r"<([^\s<>/]+)")
 _MOST = 4000

@@ -9,12 +9,10 @@ from array import array
 from enum import IntEnum
 from xml.parsers import expat
 
+from twinform.text.asides import COMMENT, INSTRUCTION, SECTION
 from twinform.text.positions import UnplacedError
 
-_TOKEN = re.compile(
-    r"""<!--.*?-->|<\?.*?\?>|<!\[CDATA\[.*?\]\]>|<(?:[^"'>]++|"[^"]*+"|'[^']*+')*+>|[^<]++""",
-    re.DOTALL,
-)
+_TOKEN = re.compile(rf"""{COMMENT}|{INSTRUCTION}|{SECTION}|<(?:[^"'<>]++|"[^"]*+"|'[^']*+')*+>|[^<]++""")
 
 
 class Kind(IntEnum):

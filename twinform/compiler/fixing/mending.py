@@ -16,7 +16,7 @@ from twinform.text import SourceText, apply
 MOST_ROUNDS = 100
 _MOST_CHECKS = 200
 """So often a file is read to find the fixes that make new findings; those that are not tried then are left."""
-_PREDICATE = re.compile(r"\[(?:@name='.*?'|\d+)\](?=[/\[]|$)")
+_PREDICATE = re.compile(r"\[(?:@name='(?:.*?'\](?=[/\[]|$)|.*)|\d+\](?=[/\[]|$))")
 
 Group = list[Diagnostic]
 """Findings that one fix mends."""

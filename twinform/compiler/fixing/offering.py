@@ -12,6 +12,8 @@ from twinform.diagnostics.rules import joints
 
 _ABOUT_WHAT_IS_NOT_THERE = frozenset({joints.UNUSED_AXIS.name})
 """Rules whose paths may lead to an element that URDF has no need of, as its `<limit>` says the same."""
+_MANY_EDITS = 100
+"""A fix of more edits is offered at the first finding that it is for."""
 _ATTRIBUTE = re.compile(r"/@[^/\]']+$")
 
 
@@ -32,10 +34,16 @@ def _fix(finding: Diagnostic, file: FixableFile) -> Fix | None:
     if finding.rule.fix is None or finding.location.file != file.loaded.path:
         return None
     fix = _made(finding, file)
-    if fix is None or touches_expressions(fix, file.text):
+    if fix is None or not fix.edits:
         return None
+    if len(fix.edits) > _MANY_EDITS:
+        # what fixes all places at once is the same for each of a thousand findings
+        offered = file.memo.setdefault("offered", set())
+        if (fix.title, fix.edits[0].span) in offered:
+            return None
+        offered.add((fix.title, fix.edits[0].span))
     changes = tuple(edit for edit in fix.edits if edit.span.of(file.text) != edit.new)
-    return replace(fix, edits=changes) if changes else None
+    return replace(fix, edits=changes) if changes and not touches_expressions(fix, file.text) else None
 
 
 def _made(finding: Diagnostic, file: FixableFile) -> Fix | None:

@@ -5,9 +5,11 @@ Findings of the schema reader need none of this: it has the elements themselves.
 """
 
 import re
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
+from functools import cached_property
+from itertools import chain
 
 from twinform.diagnostics import Diagnostic, Location
 from twinform.schemas import XmlElement
@@ -18,31 +20,69 @@ _STEP = re.compile(
 )
 _ATTRIBUTE = re.compile(r"/@[^/\]']+$")
 
-Key = tuple[str, str | None, str | None]
-"""The name of an element, and the attribute that tells it from others with its value; None where it may have any."""
 _KEYS = ("name", "reference")
+_SEVERAL = 2
 
 
-@dataclass(slots=True)
-class _Children:
-    """The children of elements by what paths call them; each element is looked through once."""
+class _Parts:
+    """The elements that one path leads to, and those by one step more: each element is looked through once."""
 
-    of: dict[XmlElement, dict[Key, list[XmlElement]]] = field(
-        default_factory=dict[XmlElement, dict[Key, list[XmlElement]]]
-    )
+    def __init__(self, elements: list[XmlElement]) -> None:
+        self.elements = elements
+        self._inside: dict[str, _Parts] = {}
 
-    def named(self, element: XmlElement, key: Key) -> list[XmlElement]:
-        found = self.of.get(element)
-        if found is None:
-            found = self.of[element] = defaultdict(list)
+    def inside(self, step: re.Match[str]) -> "_Parts":
+        """What another step leads to."""
+        if step[0] not in self._inside:
+            self._inside[step[0]] = _Parts(self._found(step["tag"], step["key"], step["value"], step["place"]))
+        return self._inside[step[0]]
+
+    def only_one_at(self, line: int) -> XmlElement | None:
+        """The only element that begins, or is in one that begins, on a line; None where there are several."""
+        found = self._by_line.get(line, [])
+        return found[0] if len(found) == 1 else None
+
+    def _found(self, tag: str, key: str | None, value: str | None, place: str | None) -> list[XmlElement]:
+        if place is None:
+            return self._children.get((tag, key, value), [])
+        if len(self.elements) == 1:
+            return self._children.get((tag, None, None), [])[int(place) - 1 : int(place)]
+        return self._numbered.get((tag, int(place)), [])
+
+    @cached_property
+    def _children(self) -> dict[tuple[str, str | None, str | None], list[XmlElement]]:
+        """By the name, and by an attribute that tells one from others with its value."""
+        found: defaultdict[tuple[str, str | None, str | None], list[XmlElement]] = defaultdict(list)
+        for child in chain.from_iterable(self.elements):
+            tag = _written_tag(child)
+            found[tag, None, None].append(child)
+            for name in _KEYS:
+                own = child.get(name)
+                if own is not None:
+                    found[tag, name, own].append(child)
+        return found
+
+    @cached_property
+    def _numbered(self) -> dict[tuple[str, int], list[XmlElement]]:
+        """By the name, and the place among those of this name in one element."""
+        found: defaultdict[tuple[str, int], list[XmlElement]] = defaultdict(list)
+        for element in self.elements:
+            count = Counter[str]()
             for child in element:
                 tag = _written_tag(child)
-                found[tag, None, None].append(child)
-                for name in _KEYS:
-                    own = child.get(name)
-                    if own is not None:
-                        found[tag, name, own].append(child)
-        return found.get(key, [])
+                count[tag] += 1
+                found[tag, count[tag]].append(child)
+        return found
+
+    @cached_property
+    def _by_line(self) -> dict[int | None, list[XmlElement]]:
+        """By the lines on which one, or one around it, begins; of several for a line the first two."""
+        found: defaultdict[int | None, list[XmlElement]] = defaultdict(list)
+        for element in self.elements:
+            for line in {element.sourceline, *(each.sourceline for each in element.iterancestors())}:
+                if len(found[line]) < _SEVERAL:
+                    found[line].append(element)
+        return found
 
 
 class PartFinder:
@@ -50,15 +90,24 @@ class PartFinder:
 
     def __init__(self, root: XmlElement) -> None:
         self.root = root
-        self.children = _Children()
+        self._parts = _Parts([root])
 
     def find(self, where: Location) -> XmlElement | None:
-        """The part at a location; None where the path is not ours, or leads to several parts or beside the line."""
-        return _found(self.root, where, self.children)
+        """The part at a location; None where the path is not ours, or leads to several parts or beside the line.
+
+        The line is that of the part, or of one around it.
+        """
+        steps = _steps(_ATTRIBUTE.sub("", where.path))
+        if not steps or steps[0]["tag"] != self.root.tag:
+            return None
+        parts = self._parts
+        for step in steps[1:]:
+            parts = parts.inside(step)
+        return parts.only_one_at(where.line)
 
     def find_path(self, where: Location) -> XmlElement | None:
         """The part that a path leads to, whatever the line is; None where it leads to several."""
-        return _found(self.root, where._replace(line=self.root.sourceline or 0), self.children)
+        return self.find(where._replace(line=self.root.sourceline or 0))
 
 
 def with_exact_lines(diagnostics: Iterable[Diagnostic], root: XmlElement, file: str) -> Iterator[Diagnostic]:
@@ -71,24 +120,14 @@ def with_exact_lines(diagnostics: Iterable[Diagnostic], root: XmlElement, file: 
         yield replace(each, location=where._replace(line=line)) if line and line != where.line else each
 
 
-def _found(root: XmlElement, where: Location, children: _Children) -> XmlElement | None:
-    """The part at a location; None where the path is not ours, or leads to several parts or beside the line.
-
-    The line is that of the part, or of one around it.
-    """
-    steps = list(_STEP.finditer(_ATTRIBUTE.sub("", where.path)))
-    path = "".join(step[0] for step in steps)
-    if not steps or not where.path.startswith(path) or steps[0]["tag"] != root.tag:
-        return None
-    parts = [(root, root.sourceline == where.line)]
-    for step in steps[1:]:
-        parts = [
-            (child, was or child.sourceline == where.line)
-            for element, was in parts
-            for child in _chosen(children.named(element, (step["tag"], step["key"], step["value"])), step["place"])
-        ]
-    found = [part for part, was in parts if was]
-    return found[0] if len(found) == 1 else None
+def _steps(path: str) -> list[re.Match[str]]:
+    """The steps of a path; none where something in it is no step."""
+    steps: list[re.Match[str]] = []
+    end = 0
+    while found := _STEP.match(path, end):
+        steps.append(found)
+        end = found.end()
+    return steps if end == len(path) else []
 
 
 def _written_tag(element: XmlElement) -> str:
@@ -98,13 +137,9 @@ def _written_tag(element: XmlElement) -> str:
     return f"{prefix}:{tag.partition('}')[2]}" if prefix else tag
 
 
-def _chosen(found: list[XmlElement], place: str | None) -> list[XmlElement]:
-    return found if place is None else found[int(place) - 1 : int(place)]
-
-
-def line_of_text(root: XmlElement, where: Location, text: str) -> int:
+def line_of_text(parts: PartFinder, where: Location, text: str) -> int:
     """The line of the first part in what a location leads to that has this text; 0 where there is none."""
-    start = _found(root, where, _Children())
+    start = parts.find(where)
     if start is None:
         return 0
     lines = (

@@ -20,6 +20,7 @@ from twinform.diagnostics.rules import (
     to_sdf,
 )
 from twinform.text import AttributeSpan, ElementSpan
+from twinform.text.asides import COMMENT, INSTRUCTION
 
 _NAMES: frozenset[Rule] = frozenset(
     {
@@ -64,7 +65,7 @@ _ALIKE = 0.75
 _SHORTEST = 4
 """Names with fewer letters are no slips of others."""
 _TOKEN = re.compile(r"[^\s,]+")
-_ASIDE = re.compile(r"<!--.*?-->|<\?.*?\?>", re.DOTALL)
+_ASIDE = re.compile(f"{COMMENT}|{INSTRUCTION}")
 
 
 def piece(finding: Diagnostic, element: ElementSpan, text: str) -> Span:

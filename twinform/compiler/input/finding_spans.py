@@ -6,6 +6,7 @@ meant, a finding stays as it is: with a line and without a column.
 
 import re
 from bisect import bisect_left
+from collections import defaultdict
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -164,14 +165,24 @@ class FindingSpans:
         around = self.parts.find_path(where)
         if around is None or not found:
             return None
+        here = self._elements_by_line.get(where.line, [])
+        if len(here) > _MOST_ON_LINE:
+            return None
         pieces = [
             span
-            for element in around.iter("*")
-            if element.sourceline == where.line
+            for element in here
+            if element is around or around in element.iterancestors()
             for span in values(self._element(element), self.text)
             if span.of(self.text) == found
         ]
         return pieces[0] if len(pieces) == 1 else None
+
+    @cached_property
+    def _elements_by_line(self) -> dict[int | None, list[XmlElement]]:
+        found: defaultdict[int | None, list[XmlElement]] = defaultdict(list)
+        for element in self.places:
+            found[element.sourceline].append(element)
+        return found
 
     def _named(self, finding: Diagnostic) -> Span | None:
         """What the message of a finding without a path names, in the only element that begins on its line."""

@@ -11,12 +11,13 @@ from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import structure
 from twinform.schemas import XmlElement, path_of
 from twinform.schemas.xml import Places
+from twinform.text.asides import COMMENT, INSTRUCTION, SECTION
 
 _KINDS = bytes.maketrans(b"\t\r123456789", b"\n\n000000000")
 """One digit and one break stand for all."""
-_ASIDE = re.compile(rb"<!--.*?-->|<\?.*?\?>|<!\[CDATA\[.*?\]\]>", re.DOTALL)
-_ATTRIBUTE = re.compile(rb"""([\w:.-]+)\s*=\s*(?:"([^"<]*)"|'([^'<]*)')""")
-_TABBED = re.compile(rb"""["'][-+.\deE ]*(?:[\t\r\n]|&#)[-+.\deE \t\r\n&#xaAdD;]*["']""")
+_ASIDE = re.compile(f"{COMMENT}|{INSTRUCTION}|{SECTION}".encode())
+_ATTRIBUTE = re.compile(rb"""(?<![\w:.-])([\w:.-]++)\s*+=\s*+(?:"([^"<]*+)"|'([^'<]*+)')""")
+_TABBED = re.compile(rb"""["'][-+.\deE ]*+(?:[\t\r\n]|&#)[-+.\deE \t\r\n&#xaAdD;]*+["']""")
 """Numbers with a break between them, or a reference, in quotes: hardly any file has such, and it is quick to see."""
 _REFERENCE = re.compile(rb"&#(?:0*(?:9|10|13)|x0*[9aAdD]);")
 _NUMBERS = re.compile(rb"[-+.\deE \t\r\n]+")

@@ -144,9 +144,10 @@ def _recover(text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError, *, 
         raise UnreadableError from error
     refuse_excess(excess_of_tree(root, text), sink)
     places = SyntaxPlaces(source)
-    for flaw in (*flaws, *repaired(log)):
+    is_unchanged = text == source
+    for number, flaw in enumerate((*flaws, *repaired(log))):
         words = f"not well-formed XML, repaired: {flaw.message}"
-        is_placed = text == source or (flaw in flaws and whole is None)
+        is_placed = is_unchanged or (number < len(flaws) and whole is None)
         where = places.location(flaw) if is_placed else Location(line=flaw.line, path="/")
         sink.report(reading.REPAIRED_XML, words, where, help=flaw.help)
     _declare_prefixes(root)

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from twinform.compiler.input.xml_recovery import XmlError
 from twinform.diagnostics import Location, Span
 from twinform.text import Lines, SourceText
+from twinform.text.asides import COMMENT, INSTRUCTION
 
 _WORDS: Mapping[str, str] = {
     "ERR_TAG_NAME_MISMATCH": r"and (?P<word>\S+)$",
@@ -31,9 +32,10 @@ _BEFORE: Mapping[str, str] = {
     "ERR_ATTRIBUTE_NOT_FINISHED": r"\s(?P<piece>[^\s=<>\"']+\s*=\s*[\"'])",
 }
 """The piece is the last of this form before the place that libxml2 gives."""
+_NEAR = 300
 _HERE = re.compile(r"</?[\w:.-]+|--|[\w:.-]+|\S")
 """What stands at that place, where that is the piece."""
-_DOCTYPE = re.compile(r"(?:\s|<!--.*?-->|<\?.*?\?>)*(?P<piece><!DOCTYPE)", re.DOTALL)
+_DOCTYPE = re.compile(rf"(?:\s++|{COMMENT}|{INSTRUCTION})*+(?P<piece><!DOCTYPE)")
 _OPEN_TAG = re.compile(r"</?(?P<piece>[\w:.-]+)")
 _OPEN_VALUE = re.compile(r"\s(?P<piece>[^\s=<>\"']+\s*=\s*[\"'])")
 
@@ -122,8 +124,8 @@ def _pattern(error: XmlError) -> str | None:
 
 
 def _last(pattern: re.Pattern[str], text: str, end: int) -> Span | None:
-    """The last piece before an offset; where there are many lines before it, not from the very beginning."""
-    for start in (text.rfind("\n", 0, end) + 1, max(0, end - 10_000), 0):
+    """The last piece before an offset, which is near it unless something was never closed."""
+    for start in (max(0, end - _NEAR), max(0, end - 10_000), 0):
         found = list(pattern.finditer(text, start, end + 1))
         if found:
             return Span(*found[-1].span("piece"))

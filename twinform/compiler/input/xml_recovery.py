@@ -80,14 +80,16 @@ def with_single_colons(text: bytes) -> tuple[bytes, list[XmlError]]:
     """The text with one colon where tags have two between a prefix and a name, and where that was."""
     flaws: list[XmlError] = []
     pieces: list[bytes] = []
-    line, counted, copied = 1, 0, 0
+    line, column, copied = 1, 0, 0
     for found in (each for each in _COLONS.finditer(text) if each["start"]):
-        line, counted = line + text.count(b"\n", counted, found.start()), found.start()
+        before = text[copied : found.end()]
+        line += before.count(b"\n")
+        on_line = len(before.rpartition(b"\n")[2].decode(errors="replace"))
+        column = on_line if b"\n" in before else column + on_line
         pieces += (text[copied : found.start()], found["start"], b":")
         copied = found.end()
         if not found["start"].startswith(b"</"):
             name = found["start"][1:].decode(errors="replace")
-            column = len(text[text.rfind(b"\n", 0, found.start()) + 1 : found.end()].decode(errors="replace"))
             words = f"two colons behind the prefix {name}"
             flaws.append(XmlError(line, column, words, _HELP["NS_ERR_QNAME"], "NS_ERR_QNAME"))
     return b"".join((*pieces, text[copied:])), flaws

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
-from twinform.compiler.input.finding_lines import line_of_text
+from twinform.compiler.input.finding_lines import PartFinder, line_of_text
 from twinform.compiler.inspection.near_files import is_elsewhere, near_file
 from twinform.compiler.search.uris import SearchPath, UriError, exists
 from twinform.diagnostics import DiagnosticSink, Location
@@ -45,11 +45,12 @@ def report_named_files(
     Where nothing of a package, or of what is beside the file, is there, that is one finding.
     """
     uses = _uses(document)
+    parts = None if tree is None else PartFinder(tree)
     wrong = [use for use in uses if "\\" in use.uri]
     for use in wrong:
         message = f"backslashes in the path of a file, '{use.uri}', are no separators"
         hint = f"write '{use.uri.replace(chr(92), '/')}'"
-        sink.report(rules.BACKSLASH_IN_PATH, message, _place(use, tree), found=use.uri, help=hint)
+        sink.report(rules.BACKSLASH_IN_PATH, message, _place(use, parts), found=use.uri, help=hint)
     if not exists(path):
         return
     found: set[str] = set()
@@ -61,12 +62,12 @@ def report_named_files(
         if gone is None:
             found.add(_holder(use.uri))
         elif gone.near is not None:
-            _report((gone,), tree, sink)
+            _report((gone,), parts, sink)
         elif not is_elsewhere(use.uri, search, path):
             missing[_holder(use.uri)].append(gone)
     for holder, gone in missing.items():
         for group in ((each,) for each in gone) if holder in found else (gone,):
-            _report(group, tree, sink)
+            _report(group, parts, sink)
 
 
 def _uses(document: Document) -> list[_Use]:
@@ -98,7 +99,7 @@ def _look_for(use: _Use, path: Path, search: SearchPath, *, asks: bool) -> _Miss
     return None
 
 
-def _report(missing: Iterable[_Missing], tree: XmlElement | None, sink: DiagnosticSink) -> None:
+def _report(missing: Iterable[_Missing], parts: PartFinder | None, sink: DiagnosticSink) -> None:
     first, *others = missing
     use = first.use
     message = f"the {_WORDS[use.kind]} {use.uri!r} is not there"
@@ -106,9 +107,9 @@ def _report(missing: Iterable[_Missing], tree: XmlElement | None, sink: Diagnost
         message += f", nor is anything else of {_holder(use.uri) or 'what is named by a path'}: {len(others)} more"
     hint = f"did you mean {first.near!r}?" if first.near else first.looked
     related = tuple(each.use.where for each in others)
-    sink.report(rules.MISSING_FILE, message, _place(use, tree), found=use.uri, help=hint, related=related)
+    sink.report(rules.MISSING_FILE, message, _place(use, parts), found=use.uri, help=hint, related=related)
 
 
-def _place(use: _Use, tree: XmlElement | None) -> Location:
-    line = line_of_text(tree, use.where, use.uri) if tree is not None else 0
+def _place(use: _Use, parts: PartFinder | None) -> Location:
+    line = line_of_text(parts, use.where, use.uri) if parts else 0
     return use.where._replace(line=line or use.where.line)

@@ -13,7 +13,7 @@ from twinform.diagnostics.diagnostic import Diagnostic
 
 _FEWEST = 3
 """Fewer findings of one cause are shown one by one."""
-_NAME = re.compile(r"\[@\w+='(.*?)'\](?=/|$)")
+_NAME = re.compile(r"\[@\w+='(?:(.*?)'\](?=/|$)|.*)")
 
 
 class Group(NamedTuple):

@@ -194,7 +194,7 @@ def shared_moves(table: str) -> Moves:
 
 def names_in(pattern: str) -> Iterator[str]:
     """The parameters that a pattern of a topic names."""
-    for choice in re.findall(r"\{(.*?)\}", pattern):
+    for choice in re.findall(r"\{([^{}]*+)\}", pattern):
         yield from (word for word in choice.split("|") if word[0] not in "=$")
 
 

@@ -13,7 +13,8 @@ from twinform.ir import Element, Plugin
 
 _NAMESPACES = ("robotNamespace", "robot_namespace")
 _REMAPPINGS = frozenset({"remapping", "argument"})
-_BETWEEN = re.compile(r"/(?![^{}]*\})")
+_BETWEEN = re.compile(r"/(?![^{}]{0,100}+\})")
+"""A choice has fewer characters than that."""
 
 
 @dataclass(slots=True)

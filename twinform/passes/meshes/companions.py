@@ -15,9 +15,12 @@ _IMAGES = frozenset({".png", ".jpg", ".jpeg", ".tga", ".bmp", ".tif", ".tiff", "
 _OTHERS = frozenset({".mtl", ".bin"})
 _MOST_BYTES = 2**27
 _MOST = 256
-_LIBRARY = re.compile(rb"(?m)^\s*mtllib\s+(.+?)\s*$")
-_MAP = re.compile(rb"(?m)^\s*(?:map_\w+|bump|norm|disp|decal)\s+(?:-\S+\s+(?:[-\d.]+\s+)*)*(.+?)\s*$")
-_IMAGE = re.compile(rb"<init_from>\s*([^<]+?)\s*</init_from>")
+_LIBRARY = re.compile(rb"(?m)^[ \t]*+mtllib[ \t]++([^\r\n]++)")
+_MAP = re.compile(
+    rb"(?m)^[ \t]*+(?:map_\w++|bump|norm|disp|decal)[ \t]++(?:-\S++[ \t]++(?:[-\d.]++[ \t]++)*+)*+([^\r\n]++)"
+)
+"""A texture behind its options, such as `-s 1 1 1`. That numbers can be negative is why it never goes back."""
+_IMAGE = re.compile(rb"<init_from>([^<]++)</init_from>")
 _GLTF = re.compile(rb"^glTF")
 
 
@@ -55,7 +58,7 @@ def _named(kind: str, content: bytes) -> Iterator[str]:
 
 
 def _texts(pattern: re.Pattern[bytes], content: bytes) -> Iterator[str]:
-    return (found.decode(errors="replace") for found in pattern.findall(content))
+    return (found.strip().decode(errors="replace") for found in pattern.findall(content) if found.strip())
 
 
 def _of_gltf(content: bytes) -> Iterator[str]:

@@ -21,7 +21,7 @@ from twinform.passes.plugins.values import problem_of
 from twinform.schemas import format_value
 
 _HUMP = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
-_CHOICE = re.compile(r"\[([^\]]+)\]")
+_CHOICE = re.compile(r"\[([^\[\]]++)\]")
 
 _TYPES: dict[ParameterType, Any] = {
     "number": float,

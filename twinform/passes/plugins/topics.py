@@ -12,7 +12,7 @@ from twinform.passes.plugins.parts import Channel, PluginKind, Published, Sensor
 from twinform.passes.plugins.sites import Site, plugins_of, sensors_of
 from twinform.passes.plugins.worlds import kind_of_sensor
 
-_PLACE = re.compile(r"\{([^}]+)\}")
+_PLACE = re.compile(r"\{([^{}]++)\}")
 _UNDER_MODEL = "/model/"
 _CLOUD = re.compile(r"points|cloud", re.IGNORECASE)
 """What is in names of topics with point clouds: `velodyne_points`, `lidar/points`, `cloud_in`."""

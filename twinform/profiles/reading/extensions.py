@@ -22,7 +22,7 @@ _NUMBER = re.compile(
     re.ASCII | re.IGNORECASE,
 )
 _INTEGER = re.compile(r"\s*[-+]?\d{1,9}", re.ASCII)
-_LARGE = re.compile(r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
+_LARGE = re.compile(r"\s*[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
 
 
 def fixed_joints(root: Node) -> frozenset[str]:

@@ -8,8 +8,8 @@ import math
 import re
 from collections.abc import Callable, Mapping
 
-_STREAM = re.compile(r"[ \t\n\v\f\r]*[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
-_LEADING = re.compile(r"[ \t\n\v\f\r]*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)", re.ASCII)
+_STREAM = re.compile(r"[ \t\n\v\f\r]*[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
+_LEADING = re.compile(r"[ \t\n\v\f\r]*([-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?)", re.ASCII)
 _HEXADECIMAL = re.compile(r"[-+]?0[xX](?:[0-9a-fA-F]+\.?[0-9a-fA-F]*|\.[0-9a-fA-F]+)(?:[pP][-+]?\d+)?", re.ASCII)
 _WORDS = re.compile(r"[-+]?(?:inf|infinity|nan(?:\(\w*\))?)", re.ASCII | re.IGNORECASE)
 _ASCII_BLANKS = re.compile(r"[ \t\n\v\f\r]+")

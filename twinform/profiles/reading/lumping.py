@@ -18,7 +18,9 @@ from twinform.profiles.reading.nodes import Node
 Fact = Iterator[tuple[Node, str]]
 """Elements that it is about, and what is so."""
 
-_NUMBER = re.compile(r"[-+]?(?:0[xX][0-9a-fA-F]+|(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|inf)", re.IGNORECASE | re.ASCII)
+_NUMBER = re.compile(
+    r"[-+]?(?:0[xX][0-9a-fA-F]+|(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?|inf)", re.IGNORECASE | re.ASCII
+)
 _ELEMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 _NOTHING: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 _STREAM, _STREAMS = FORMS["stream"][1], FORMS["stream3"][1]

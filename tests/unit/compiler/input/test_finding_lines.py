@@ -3,7 +3,7 @@
 import pytest
 from lxml import etree
 
-from twinform.compiler.input.finding_lines import line_of_text, with_exact_lines
+from twinform.compiler.input.finding_lines import PartFinder, line_of_text, with_exact_lines
 from twinform.diagnostics import Diagnostic, Location
 from twinform.diagnostics.rules.model import DANGLING_LINK
 
@@ -48,6 +48,6 @@ def test_a_path_leads_to_a_line_or_leaves_it(line: int, path: str, exact: int) -
 
 def test_the_line_of_a_text_in_a_part() -> None:
     where = Location("f", 2, "/robot[@name='r']/joint[@name='j']")
-    assert line_of_text(TREE, where, "a") == 3
-    assert line_of_text(TREE, where, "nowhere") == 0
-    assert line_of_text(TREE, Location("f", 2, "/sdf"), "a") == 0
+    assert line_of_text(PartFinder(TREE), where, "a") == 3
+    assert line_of_text(PartFinder(TREE), where, "nowhere") == 0
+    assert line_of_text(PartFinder(TREE), Location("f", 2, "/sdf"), "a") == 0

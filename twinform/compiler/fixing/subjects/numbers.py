@@ -11,7 +11,10 @@ from twinform.diagnostics import Fix, Safety, TextEdit, meant_name
 from twinform.diagnostics.rules import frames, inertia, structure
 from twinform.schemas import VALUE_TYPES
 
-_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_NUMBER = r"[-+]?(?<![\d.])(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?"
+"""A number that does not begin in the middle of another one: else each digit of a long one would be a beginning."""
+_LONGEST = 1000
+"""The longest text, in characters, that somebody may have meant something by."""
 _CHARACTERS = str.maketrans(
     {"\u2212": "-", "\u2013": "-", "\ufe63": "-", "\uff0d": "-", "\uff0c": ",", "\uff0e": ".", "\u00a0": " "}
 )
@@ -36,7 +39,7 @@ _SCALES = {
     "deg/s": math.pi / 180,
     "rpm": math.pi / 30,
 }
-_WITH_UNIT = re.compile(rf"(?P<number>{_NUMBER})\s*(?P<unit>[A-Za-z\u00b0][A-Za-z/*.^\d]*)")
+_WITH_UNIT = re.compile(rf"(?P<number>{_NUMBER})\s*+(?P<unit>[A-Za-z\u00b0][A-Za-z/*.^\d]*+)")
 _WORDS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
 _NEVER_NEGATIVE = frozenset({"capsule", "cylinder", "dynamics", "length", "mass", "radius", "size", "sphere"})
 """What a negative number says nothing of, neither that there is no limit nor a direction."""
@@ -57,7 +60,7 @@ def _invalid_value(site: Site) -> Fix | None:
         certain = word.lower() == text.strip().lower()
         return (safe if certain else unsafe)(f"Write {word!r}", *site.set_value(word))
     parses = _parser(site)
-    if parses is None or not text.strip() or len(site.element):
+    if parses is None or not text.strip() or len(text) > _LONGEST or len(site.element):
         return None
     for guess in guesses(text, site.finding.expected or ""):
         if guess.text != text and parses(guess.text):

@@ -1,7 +1,8 @@
 """Fixes of structure: attributes that are missing or stand as text, elements that are there twice, versions, texts."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
 
 from twinform.compiler.fixing.numbers_text import numbers_of, text_of_number
 from twinform.compiler.fixing.site import Fixers, Site, display, safe, unsafe
@@ -115,15 +116,31 @@ def _blank(site: Site) -> Fix | None:
 
 def _stray_text(site: Site) -> Fix | None:
     """Text that every reader passes over; not what an attribute that is missing there may be meant to be."""
-    if site.finding.location.path in _without_attributes(site):
-        return None
-    place = site.edit.places[site.element]
-    runs = [run for run in place.texts() if " ".join(run.of(site.edit.text).split())[:_SHOWN] == site.finding.found]
+    fixes = site.file.memo.setdefault("stray texts", {})
+    key = site.element, site.finding.found
+    if key not in fixes:
+        fixes[key] = None if site.finding.location.path in _without_attributes(site) else _without_stray_text(site)
+    return fixes[key]
+
+
+def _without_stray_text(site: Site) -> Fix | None:
+    """Every text in the element that begins so as a comment, or away where it says nothing."""
+    runs = _runs_of_text(site).get(site.finding.found, [])
     if not runs or any("--" in run.of(site.edit.text) and _says_something(run.of(site.edit.text)) for run in runs):
         return None
     if any(_says_something(run.of(site.edit.text)) for run in runs):
         return safe("Make the text a comment", *(site.edit.comment_out(run) for run in runs))
     return safe("Delete the characters that belong to nothing", *(_without_text(site.edit.text, run) for run in runs))
+
+
+def _runs_of_text(site: Site) -> Mapping[str | None, list[Span]]:
+    """The runs of text in an element by the beginning of what they say."""
+    memo = site.file.memo.setdefault("runs of text", {})
+    if site.element not in memo:
+        found = memo[site.element] = defaultdict[str, list[Span]](list)
+        for run in site.edit.places[site.element].texts():
+            found[" ".join(run.of(site.edit.text).split())[:_SHOWN]].append(run)
+    return memo[site.element]
 
 
 def _without_attributes(site: Site) -> frozenset[str]:

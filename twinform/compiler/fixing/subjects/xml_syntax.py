@@ -14,10 +14,11 @@ from twinform.compiler.input.xml_recovery import REPAIRS
 from twinform.diagnostics import Diagnostic, Fix, Span, TextEdit, nearest_name
 from twinform.diagnostics.rules import reading, structure
 from twinform.schemas import usual_namespace
+from twinform.text.asides import COMMENT, IN_COMMENT, INSTRUCTION, SECTION
 
-_COMMENT = re.compile(r"<!--(?P<inside>.*?)-->", re.DOTALL)
-_ASIDE = re.compile(r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>", re.DOTALL)
-_DECLARATION = re.compile(r"<\?xml\s[^>]*?\?>", re.IGNORECASE)
+_COMMENT = re.compile(rf"<!--(?P<inside>{IN_COMMENT})(?:-->)?")
+_ASIDE = re.compile(f"{COMMENT}|{SECTION}|{INSTRUCTION}")
+_DECLARATION = re.compile(r"<\?xml\s[^<>]*+(?<=\?)>", re.IGNORECASE)
 _VERSION = re.compile(r"""(?<=\s)version\s*=\s*(?:"[^"]*"|'[^']*')""")
 _VERSION_SLIP = re.compile(r"(?<=\s)ver[a-z]*(?=\s*=)")
 _ENCODING = re.compile(r"""encoding\s*=\s*["']([^"']*)["']""")
@@ -36,15 +37,23 @@ _MISMATCH = re.compile(r"Opening and ending tag mismatch: (?P<open>\S+) line \d+
 _NO_BLANK = re.compile(r"""(?<==)\s*(?P<value>"[^"<]*"|'[^'<]*')(?=[A-Za-z_])""")
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 _DOCTYPE = re.compile(r"<!DOCTYPE\s+\w+\s*>\s*", re.IGNORECASE)
-_THREE_HYPHENS = re.compile(r"<!--(?:(?!-->).)*-(?=-->)", re.DOTALL)
+_THREE_HYPHENS = re.compile(rf"<!--{IN_COMMENT}(?<=-)(?<!<!--)(?=-->)")
 _SURE = 0.7
 
 
 def _in_markup(pattern: re.Pattern[str], text: str) -> Iterator[re.Match[str]]:
     """Where a pattern is found outside of comments, sections and instructions."""
-    asides = [found.span() for found in _ASIDE.finditer(text)]
+    return _outside(_ASIDE, pattern, text)
+
+
+def _outside(around: re.Pattern[str], pattern: re.Pattern[str], text: str) -> Iterator[re.Match[str]]:
+    """Where a pattern is found that does not begin in what another one finds; both go through the text once."""
+    asides = (found.span() for found in around.finditer(text))
+    start, end = next(asides, (len(text), len(text)))
     for found in pattern.finditer(text):
-        if not any(start <= found.start() < end for start, end in asides):
+        while end <= found.start() and start < len(text):
+            start, end = next(asides, (len(text), len(text)))
+        if found.start() < start:
             yield found
 
 
@@ -58,7 +67,7 @@ def _repaired(finding: Diagnostic, file: FixableFile) -> Fix | None:
     if lost and "'<'" in finding.message:
         return safe("Write the '<' of <?xml", TextEdit(Span(lost.end(), lost.end()), "<"))
     if "two colons" in finding.message:
-        return _single_colons(text)
+        return _single_colons(file)
     return None
 
 
@@ -82,7 +91,7 @@ def _version(_: Diagnostic, file: FixableFile) -> Fix | None:
 def _late_declaration(_: Diagnostic, file: FixableFile) -> Fix | None:
     """Move it to the beginning, or delete it where one stands there already."""
     text = file.text
-    found = [*_in_markup_of_instructions(text)]
+    found = [*_outside(_COMMENT, _DECLARATION, text)]
     late = [each for each in found if each.start()]
     if not late:
         return None
@@ -101,25 +110,17 @@ def _late_declaration(_: Diagnostic, file: FixableFile) -> Fix | None:
     return safe("Move <?xml ...?> to the beginning", begin, TextEdit(whole, ""))
 
 
-def _in_markup_of_instructions(text: str) -> Iterator[re.Match[str]]:
-    comments = [found.span() for found in _COMMENT.finditer(text)]
-    for found in _DECLARATION.finditer(text):
-        if not any(start <= found.start() < end for start, end in comments):
-            yield found
-
-
 def _hyphens(finding: Diagnostic, file: FixableFile) -> Fix | None:
     """Blanks between the hyphens of the comment that ends on the line of the finding, or is around it."""
     if "comments" not in file.memo:
-        file.memo["comments"] = [*_comments_by_line(file)]
-    for first, last, edits in file.memo["comments"]:
-        if first <= finding.location.line <= last:
-            return safe("Put blanks between the hyphens of the comment", *edits)
-    return None
+        file.memo["comments"] = _comments_by_line(file)
+    edits = file.memo["comments"].get(finding.location.line)
+    return safe("Put blanks between the hyphens of the comment", *edits) if edits else None
 
 
-def _comments_by_line(file: FixableFile) -> Iterator[tuple[int, int, list[TextEdit]]]:
-    """Comments with hyphens in them: their first and last line, and what mends them."""
+def _comments_by_line(file: FixableFile) -> dict[int, list[TextEdit]]:
+    """What separates the hyphens in the first comment that has some on a line, for each of its lines."""
+    found: dict[int, list[TextEdit]] = {}
     for comment in _COMMENT.finditer(file.text):
         inside, start = comment["inside"], comment.start("inside")
         edits = [
@@ -130,7 +131,8 @@ def _comments_by_line(file: FixableFile) -> Iterator[tuple[int, int, list[TextEd
             edits.append(TextEdit(Span(start + len(inside), start + len(inside)), " "))
         if edits:
             first, last = (file.lines.place(offset).line for offset in (comment.start(), comment.end() - 1))
-            yield first, last, edits
+            found.update((line, edits) for line in range(first, last + 1) if line not in found)
+    return found
 
 
 def _prefix(finding: Diagnostic, file: FixableFile) -> Fix | None:
@@ -147,8 +149,11 @@ def _prefix(finding: Diagnostic, file: FixableFile) -> Fix | None:
     return safe(title, TextEdit(Span(root.end(), root.end()), f' {name}="{uri}"')) if root else None
 
 
-def _single_colons(text: str) -> Fix | None:
-    edits = [TextEdit(Span(found.end() - 2, found.end() - 1), "") for found in _in_markup(_TAG, text)]
+def _single_colons(file: FixableFile) -> Fix | None:
+    if "colons" not in file.memo:
+        tags = _in_markup(_TAG, file.text)
+        file.memo["colons"] = [TextEdit(Span(found.end() - 2, found.end() - 1), "") for found in tags]
+    edits = file.memo["colons"]
     return safe("Write one colon behind the prefix", *edits) if edits else None
 
 
@@ -241,7 +246,7 @@ def _attribute_twice(broken: _Broken) -> Fix | None:
     """An attribute that stands twice in a tag; the second is deleted, which is safe where it says the same."""
     for tag in _on_line(re.compile(r"<[A-Za-z_][^<>]*>", re.DOTALL), broken._replace(line=_tag_line(broken))):
         seen: dict[str, str] = {}
-        for found in re.finditer(r"""\s+([\w:.-]+)\s*=\s*("[^"]*"|'[^']*')""", tag[0]):
+        for found in re.finditer(r"""(?<!\s)\s++([\w:.-]++)\s*+=\s*+("[^"]*+"|'[^']*+')""", tag[0]):
             name, value = found[1], found[2][1:-1]
             edit = TextEdit(Span(tag.start() + found.start(), tag.start() + found.end()), "")
             if name in seen:

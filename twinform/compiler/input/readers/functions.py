@@ -68,7 +68,7 @@ class ModuleWriter:
         self.part(Part(root, root.name, Document if self.facts.format == "sdf" else Model))
         functions = [FunctionWriter(self, part).text() for part in self.parts]  # grows while it is walked
         text = "\n\n".join(functions)
-        names, called = set(re.findall(r"\w+", text)), set(re.findall(r"(\w+)(?:\.get)?\(", text))
+        names, called = set(re.findall(r"\w+", text)), set(re.findall(r"\b(\w++)(?:\.get)?\(", text))
         nodes = {maker_name(each): each.__name__ for each in _classes(self.parts)}
         makers = sorted(name for name in nodes if f"make_{name}" in names or nodes[name] == self.parts[0].node.__name__)
         return templates.MODULE.format(

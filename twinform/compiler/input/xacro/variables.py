@@ -10,7 +10,7 @@ _WORDS = frozenset({"auth", "cert", "cookie", "dsn", "jwt", "key", "keys", "logi
 _PARTS = ("apikey", "authorization", "credential", "passphrase", "passwd", "password", "secret", "session", "token")
 """Letters that make a secret of it anywhere in its name."""
 _FOLDERS = frozenset({"PWD", "OLDPWD"})
-_PASSWORD = re.compile(r"://[^/\s]*:[^/\s]*@")
+_PASSWORD = re.compile(r"://[^/\s:]*+:[^/\s@]*+@")
 """A user's password in a URL."""
 
 

@@ -1,0 +1,55 @@
+"""What costs more than its size: documents that repeat something, long values, and patterns of paths."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.hostile.child import twinform
+from tests.hostile.costly_documents import DOCUMENTS
+from tests.profile import DEEP
+
+_SECONDS = 3 if DEEP else 4
+_ONCE_DEAR = (
+    "URDF: links of one name",
+    "URDF: stray texts of one name",
+    "URDF: transmissions without anything of their own names",
+    "broken XML: two colons of one name",
+    "broken XML: open comments of their own names",
+    "broken XML: broken numbers of their own names",
+)
+_NAMES = tuple(DOCUMENTS) if DEEP else (*_ONCE_DEAR, *list(DOCUMENTS)[::100])
+
+
+@pytest.mark.parametrize("name", _NAMES)
+def test_a_document_costs_no_more_than_its_size(name: str, tmp_path: Path) -> None:
+    document = DOCUMENTS[name]
+    (tmp_path / f"robot.{document.suffix}").write_text(document.make())
+    outcome = twinform("check", f"robot.{document.suffix}", folder=tmp_path, seconds=_SECONDS)
+    assert outcome.code in {0, 1, 2}, outcome.output[-2000:]
+    assert "Traceback" not in outcome.output
+
+
+@pytest.mark.parametrize("digits", [1_500, 30_000])
+@pytest.mark.parametrize("end", ["", "x", " ", "e", ".."])
+def test_a_number_of_many_digits_is_not_guessed_at_for_long(digits: int, end: str, tmp_path: Path) -> None:
+    """The first took 35 seconds, and a file with more of them minutes."""
+    number = "9" * digits + end
+    (tmp_path / "r.urdf").write_text(
+        f'<robot name="r"><link name="a"><inertial><mass value="{number}"/>'
+        f'<inertia ixx="{number}" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>'
+    )
+    assert twinform("check", "r.urdf", folder=tmp_path).code in {0, 1, 2}
+
+
+@pytest.mark.parametrize("pattern", ["*a" * 40 + "*b", "**/a*" * 40 + "b", "*[a]" * 40 + "b"])
+@pytest.mark.parametrize("where", [".gitignore", "twinform.toml", "the command line"])
+def test_a_pattern_of_paths_is_done_with_a_long_name_at_once(pattern: str, where: str, tmp_path: Path) -> None:
+    (tmp_path / ".git").mkdir()
+    name = "a" * 240 + ".urdf"
+    (tmp_path / name).write_text('<robot name="r"><link name="a"/></robot>')
+    texts = {".gitignore": pattern, "twinform.toml": f'exclude = ["{pattern}"]'}
+    if where in texts:
+        (tmp_path / where).write_text(texts[where])
+    outcome = twinform("check", "." if where in texts else f"{pattern}.urdf", folder=tmp_path)
+    assert (name in str(outcome.opened)) is (where in texts)
+    assert outcome.code == (0 if where in texts else 2), outcome.output

@@ -1,0 +1,142 @@
+"""Every regular expression of the package, with the ways in which it is used: from its source, and from its data."""
+
+import ast
+import builtins
+import json
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+from typing import Any, NamedTuple, cast
+
+import twinform
+
+PACKAGE = Path(twinform.__file__).parent
+_WAYS = frozenset({"findall", "finditer", "fullmatch", "match", "search", "split", "sub", "subn"})
+_AT_THE_BEGINNING = frozenset({"fullmatch", "match"})
+_NOT_INSTALLED = frozenset({"gazebo", "__main__"})
+
+
+class Used(NamedTuple):
+    """A regular expression, where it is written, and whether a text is searched for it at every place."""
+
+    place: str
+    pattern: re.Pattern[Any]
+    searched: bool
+
+
+class _Holes(dict[str, Any]):
+    """What stands for a name that has a value only when the program runs."""
+
+    def __init__(self, module: ModuleType) -> None:
+        super().__init__()
+        self.known = {*vars(module), *vars(builtins)}
+
+    def __missing__(self, name: str) -> str:
+        if name in self.known:
+            raise KeyError(name)
+        return _Hole("a")
+
+
+class _Hole(str):
+    """A word that is also a mapping of words."""
+
+    __slots__ = ()
+
+    def __getitem__(self, key: object) -> "_Hole":
+        return self
+
+    def __getattr__(self, name: str) -> "_Hole":
+        return self
+
+
+@cache
+def patterns() -> tuple[Used, ...]:
+    """All of them, in the order of files and lines."""
+    trees = {path: ast.parse(path.read_text(encoding="utf-8")) for path in sorted(PACKAGE.rglob("*.py"))}
+    everywhere = _ways(trees.values())
+    found = [each for path, tree in trees.items() if _mentions_re(tree) for each in _of_module(path, tree, everywhere)]
+    return (*found, *_of_data())
+
+
+def _mentions_re(tree: ast.Module) -> bool:
+    return any(isinstance(each, ast.Name) and each.id == "re" for each in ast.walk(tree))
+
+
+def _ways(trees: Iterable[ast.Module]) -> Mapping[str, set[str]]:
+    """How the names of patterns are used: by their methods, and as `search` where they are handed on."""
+    found: defaultdict[str, set[str]] = defaultdict(set)
+    for tree in trees:
+        methods: set[ast.AST] = set()
+        for each in ast.walk(tree):
+            match each:
+                case ast.Attribute(value=ast.Name(id=name) as owner, attr=way):
+                    methods.add(owner)
+                    if way in _WAYS:
+                        found[name].add(way)
+                case ast.Name(id=name, ctx=ast.Load()) if each not in methods:
+                    found[name].add("search")
+                case _:
+                    pass
+    return found
+
+
+def _of_module(path: Path, tree: ast.Module, everywhere: Mapping[str, set[str]]) -> Iterator[Used]:
+    ways = {**everywhere, **{name: way for name, way in _ways([tree]).items() if name.startswith("_")}}
+    names = {id(each.value): _name(each) for each in ast.walk(tree) if isinstance(each, (ast.Assign, ast.AnnAssign))}
+    module = import_module(
+        ".".join((PACKAGE.name, *path.relative_to(PACKAGE).with_suffix("").parts)).removesuffix(".__init__")
+    )
+    for call in ast.walk(tree):
+        match call:
+            case ast.Call(func=ast.Attribute(value=ast.Name(id="re"), attr=way), args=[pattern, *_]) if way in {
+                *_WAYS,
+                "compile",
+            }:
+                used = ways.get(names.get(id(call), ""), {"search"}) if way == "compile" else {way}
+                made = _evaluated(call, pattern, way, module)
+                if made is not None:
+                    place = f"{path.relative_to(PACKAGE)}:{call.lineno}"
+                    yield Used(place, made, searched=not used <= _AT_THE_BEGINNING)
+            case _:
+                pass
+
+
+def _name(assignment: ast.Assign | ast.AnnAssign) -> str:
+    target = assignment.targets[0] if isinstance(assignment, ast.Assign) else assignment.target
+    return target.id if isinstance(target, ast.Name) else ""
+
+
+def _evaluated(call: ast.Call, pattern: ast.expr, way: str, module: ModuleType) -> re.Pattern[Any] | None:
+    """The pattern of a call, with a word for each value that is not known; None where all of it is such a value."""
+    given = [each for each in call.keywords if each.arg == "flags"]
+    flags = given[0].value if given else call.args[1] if way == "compile" and len(call.args) > 1 else ast.Constant(0)
+    try:
+        values = [
+            eval(compile(ast.fix_missing_locations(ast.Expression(each)), "", "eval"), vars(module), _Holes(module))
+            for each in (pattern, flags)
+        ]
+    except LookupError:  # one of a table, all of which are looked at elsewhere
+        return None
+    return None if isinstance(values[0], (_Hole, re.Pattern)) else re.compile(values[0], int(values[1]))
+
+
+def _of_data() -> Iterator[Used]:
+    """Those that are data: of the JSON schema, and of profiles."""
+    schema: object = json.loads((PACKAGE / "schemas/json/document.schema.json").read_text(encoding="utf-8"))
+    for pattern in sorted(_json_patterns(schema)):
+        yield Used("schemas/json/document.schema.json", re.compile(pattern), searched=True)
+
+
+def _json_patterns(value: object) -> Iterator[str]:
+    if isinstance(value, dict):
+        for key, each in cast("dict[str, object]", value).items():
+            if key == "pattern" and isinstance(each, str):
+                yield each
+            yield from _json_patterns(each)
+    elif isinstance(value, list):
+        for each in cast("list[object]", value):
+            yield from _json_patterns(each)
