@@ -1,10 +1,12 @@
 """Runs on the workers of a scheduler of Dask: the same results, whatever goes away."""
 
 import os
+import platform
 import signal
 import socket
 import subprocess
 import sys
+import time
 from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
@@ -13,7 +15,7 @@ from typing import Any
 import pytest
 from distributed import LocalCluster
 
-from twinform.compiler.workers import Failure, Runner, run_on
+from twinform.compiler.workers import Failure, Runner, UnavailableError, run_on
 from twinform.compiler.workers.dask import dask_runner
 
 from .conftest import SUMMARY, converting, finish, records, results, wait_for
@@ -53,12 +55,74 @@ def test_a_job_that_ends_every_worker_is_given_up_and_harms_no_other() -> None:
     assert found == {**{number: number for number in range(8)}, 3: Failure("every worker that it was given to died")}
 
 
+def test_a_scheduler_without_workers_is_waited_for_and_no_longer_than_it_may() -> None:
+    told: list[str] = []
+    with _cluster(n_workers=0, processes=False, protocol="tcp") as cluster:
+        runner = dask_runner(cluster.scheduler_address, patience=1, tell=told.append)
+        with pytest.raises(UnavailableError, match=r"a worker of the scheduler .* was waited for in vain, 1 seconds"):
+            list(run_on(runner, _double, range(2)))
+    assert [line.partition(" of the scheduler")[0] for line in told] == ["waiting for a worker"]
+
+
+def test_a_scheduler_that_is_not_there_is_waited_for_and_no_longer_than_it_may() -> None:
+    address = f"tcp://127.0.0.1:{_port()}"
+    with pytest.raises(UnavailableError, match=f"the scheduler {address} was waited for in vain"):
+        list(run_on(dask_runner(address, patience=1), _double, range(2)))
+
+
+@pytest.mark.deep
+def test_workers_that_all_go_away_in_the_middle_are_waited_for_and_no_longer_than_they_may(here: Path) -> None:
+    address = f"tcp://127.0.0.1:{_port()}"
+    with _started(*_scheduler(address.rpartition(":")[2])), _started(*_worker(address)) as worker:
+        done = run_on(dask_runner(address, patience=8), time.sleep, [0.1] * 1000)
+        next(done)
+        _kill(worker)
+        with pytest.raises(UnavailableError, match="a worker of the scheduler"):
+            list(done)
+    assert here.is_dir()
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("fault", ["version", "files"])
+def test_a_worker_that_does_not_fit_ends_a_run_and_no_result_goes(fault: str, here: Path) -> None:
+    assert finish(converting()) == SUMMARY
+    before = results()
+    port = _port()
+    address = f"tcp://127.0.0.1:{port}"
+    (here / "site").mkdir()
+    (here / "site/sitecustomize.py").write_text(_OTHER_VERSION)
+    other = {**os.environ, "PYTHONPATH": str(here / "site")} if fault == "version" else dict(os.environ)
+    hidden = _HIDDEN if fault == "files" else ()
+    if hidden and os.geteuid():
+        pytest.skip("only root may hide a folder from a process")
+    with _started(*_scheduler(port)), _started(*_worker(address), env=other, before=hidden):
+        done = subprocess.run(
+            converting("--scheduler", address, "--fresh"), capture_output=True, text=True, check=False
+        )
+    assert done.returncode == 2, done.stderr
+    problem = next(line for line in done.stderr.splitlines() if line.startswith("Error: a worker does not fit"))
+    assert f"{platform.node()} (tcp://" in problem
+    assert ("has twinform 0.0.1, and here it is" if fault == "version" else "does not see src/") in problem
+    assert results() == before
+
+
+_OTHER_VERSION = """
+import importlib.metadata
+real = importlib.metadata.version
+importlib.metadata.version = lambda name: "0.0.1" if name == "twinform" else real(name)
+"""
+_HIDDEN = ("unshare", "--mount", "sh", "-c", 'mount -t tmpfs tmpfs src && exec "$@"', "sh")
+"""Runs a command that finds nothing in the folder of the models, as where a disk is not mounted."""
+
+
 @contextmanager
-def _started(*words: str) -> Generator[subprocess.Popen[bytes]]:
+def _started(
+    *words: str, env: dict[str, str] | None = None, before: tuple[str, ...] = ()
+) -> Generator[subprocess.Popen[bytes]]:
     """A program of Dask in a session of its own, so that it can be killed with all that it starts."""
-    command = [sys.executable, "-m", "dask", *words]
+    command = [*before, sys.executable, "-m", "dask", *words]
     nothing = subprocess.DEVNULL
-    with subprocess.Popen(command, stdout=nothing, stderr=nothing, start_new_session=True) as process:
+    with subprocess.Popen(command, stdout=nothing, stderr=nothing, start_new_session=True, env=env) as process:
         try:
             yield process
         finally:

@@ -40,7 +40,8 @@ class Observation:
     """What was asked for, by absolute path: files that were read, folders that were listed, whatever was looked at.
 
     Each has its status before it was read, None where nothing is there. Files that are so `young` that their time
-    proves nothing have the digest of their content before they were read. Variables have their values.
+    proves nothing have the digest of their content before they were read. Variables have their values. The work
+    `failed` where it did for a reason that lies in no file: it would perhaps end in another way the next time.
     """
 
     read: dict[str, os.stat_result | None] = field(default_factory=dict[str, os.stat_result | None])
@@ -48,6 +49,7 @@ class Observation:
     looked_at: dict[str, os.stat_result | None] = field(default_factory=dict[str, os.stat_result | None])
     young: dict[str, str] = field(default_factory=dict[str, str])
     variables: dict[str, str | None] = field(default_factory=dict[str, str | None])
+    failed: bool = False
 
 
 _CURRENT: ContextVar[Observation | None] = ContextVar("observation", default=None)
@@ -72,14 +74,34 @@ def note_variable(name: str, value: str | None) -> None:
         observation.variables.setdefault(name, value)
 
 
+def note_failure() -> None:
+    """Record that a process died or was late, or that a file could not be read that is there."""
+    observation = _CURRENT.get()
+    if observation is not None:
+        observation.failed = True
+
+
 def note_look(path: str) -> None:
     """Record that something was looked for in another way than by `os.stat`."""
     _note("looked_at", path, _status(path))
 
 
 _STAT = os.stat
-TICK = 2_000_000_000
-"""Nanoseconds: FAT counts in steps of two seconds, NFS and HFS in steps of one, ext4 in steps of four milliseconds."""
+_SECOND = 1_000_000_000
+_TICK = 2 * _SECOND
+"""Nanoseconds: FAT counts in steps of two seconds, NFS and HFS in steps of one."""
+_FINE_TICK = 20_000_000
+"""The longest step of clocks that count parts of seconds; ext4 has steps of four milliseconds."""
+
+
+def is_coarse(time: int) -> bool:
+    """Whether a time comes from a clock of whole seconds, as far as can be seen."""
+    return time % _SECOND == 0
+
+
+def is_young(modified: int, changed: int, now: int) -> bool:
+    """Whether a file was written so shortly before that it may be written again without a trace in its times."""
+    return modified >= now - _TICK or changed >= now - (_TICK if is_coarse(changed) else _FINE_TICK)
 
 
 def digest(content: bytes) -> str:
@@ -140,7 +162,7 @@ def _note_young(path: Any) -> None:
     status = observation.read.get(name) if observation and name is not None else None
     if observation is None or name is None or status is None or name in observation.young:
         return
-    if stat.S_ISREG(status.st_mode) and status.st_mtime_ns > time.time_ns() - TICK:
+    if stat.S_ISREG(status.st_mode) and is_young(status.st_mtime_ns, status.st_ctime_ns, time.time_ns()):
         token = _CURRENT.set(None)  # this is not the work that is observed
         try:
             observation.young[name] = digest(Path(name).read_bytes())

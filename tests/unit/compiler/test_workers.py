@@ -3,13 +3,13 @@
 import os
 import signal
 import time
-from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from typing import Any
 
 import pytest
 
-from twinform.compiler.workers import Failure, Runner, run, run_on
+from twinform.compiler.workers import Failure, Runner, UnavailableError, process_runner, run, run_on
 from twinform.compiler.workers.processes import ProcessExecutor
 
 
@@ -125,3 +125,68 @@ def test_a_pool_that_loses_an_idle_process_is_replaced() -> None:
 def test_processes_give_way_to_new_ones_before_their_memory_grows() -> None:
     runner = Runner(open=lambda: ProcessExecutor(1, 60, most_jobs=2), window=2)
     assert len({number for _, number in run_on(runner, _own_number, range(6))}) == 3
+
+
+class _Deadly:
+    """A task that ends every process which it comes along with."""
+
+    def __call__(self, number: int) -> int:
+        return number
+
+    def __reduce__(self) -> tuple[Any, tuple[int]]:
+        return os._exit, (3,)
+
+
+def test_no_job_is_blamed_for_processes_that_die_while_they_start() -> None:
+    with pytest.raises(BrokenExecutor, match="die while they start"):
+        list(run_on(process_runner(2), _Deadly(), [1, 2, 3]))
+
+
+def test_no_more_processes_start_than_there_are_jobs(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[int] = []
+
+    def note(count: int, *_: object) -> None:
+        asked.append(count)
+        raise RuntimeError
+
+    monkeypatch.setattr("twinform.compiler.workers.processes.ProcessPool", note)
+    for jobs in (1, 3, 200):
+        with pytest.raises(RuntimeError):
+            list(run_on(process_runner(100).for_jobs(jobs), _divide, range(jobs)))
+    assert asked == [1, 3, 100]
+
+
+def test_an_executor_that_cannot_be_waited_for_any_longer_ends_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Silent(ThreadPoolExecutor):
+        def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+            return Future()
+
+    looks: list[Executor] = []
+
+    def look(executor: Executor) -> None:
+        looks.append(executor)
+        if len(looks) == 3:
+            raise UnavailableError("nobody is there")
+
+    monkeypatch.setattr("twinform.compiler.workers.running._PAUSE", 0.01)
+    with pytest.raises(UnavailableError, match="nobody is there"):
+        list(run_on(Runner(open=Silent, window=4, check=look), _divide, [1, 2]))
+    assert len(looks) == 3
+
+
+def test_an_executor_that_cannot_be_opened_is_tried_again() -> None:
+    opened: list[int] = []
+
+    def open_() -> ThreadPoolExecutor:
+        opened.append(1)
+        if len(opened) < 3:
+            raise OSError("nobody answers")
+        return ThreadPoolExecutor(1)
+
+    assert dict(run_on(Runner(open=open_, window=1, lost=(OSError,)), _divide, [1])) == {1: 1.0}
+    with pytest.raises(UnavailableError, match="6 times in a row"):
+        list(run_on(Runner(open=_unavailable, window=1, lost=(OSError,)), _divide, [1]))
+
+
+def _unavailable() -> ThreadPoolExecutor:
+    raise OSError("nobody answers")

@@ -85,5 +85,6 @@ def command(
             fresh=fresh,
             report=options["report"],
             shown=found.shown,
+            contents=found.contents,
         )
         run_and_end(ctx, whole, options)

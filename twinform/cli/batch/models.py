@@ -1,9 +1,9 @@
 """Which models a batch has: the argument SRC, and the options that choose among them."""
 
 import sys
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypedDict, TypeVar
 
@@ -27,11 +27,15 @@ class ModelOptions(TypedDict):
 
 @dataclass(frozen=True, slots=True)
 class Models:
-    """The models of a run, the folder that they are in, and what that is called in messages if not by its name."""
+    """The models of a run, the folder that they are in, and what that is called in messages if not by its name.
+
+    Where the folder was just made, `contents` are the digests of its files.
+    """
 
     folder: Path
     entries: Sequence[Entry]
     shown: str = ""
+    contents: Mapping[str, str] = field(default_factory=dict[str, str])
 
 
 def _shard(_ctx: click.Context, _option: click.Parameter, value: str | None) -> Shard | None:
@@ -96,8 +100,8 @@ def models(source: Path, options: ModelOptions, results: Path | None = None) -> 
         source, names = Path(), Path("-")
     try:
         if is_archive(source):
-            with unpacked(source) as folder:
-                yield Models(folder, _entries(folder, names, options, None), str(source))
+            with unpacked(source) as made:
+                yield Models(made.folder, _entries(made.folder, names, options, None), str(source), made.contents)
             return
         yield Models(source, _entries(source, names, options, results))
     except FolderError as error:

@@ -4,6 +4,7 @@ import sys
 from collections.abc import Callable, Generator
 from concurrent.futures import BrokenExecutor
 from contextlib import ExitStack, contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn, TextIO, TypedDict, TypeVar
 
@@ -17,6 +18,7 @@ from twinform.compiler.batch import (
     FolderError,
     Record,
     Summary,
+    UnfitWorkerError,
     batch,
     open_report,
     report_line,
@@ -86,6 +88,8 @@ def run_and_end(ctx: click.Context, asked: Batch, options: RunOptions) -> NoRetu
         raise  # who reads the report has read enough
     except OSError as error:
         problem, code = f"cannot write {error.filename or asked.dest}: {error.strerror or error}", UNUSABLE
+    except UnfitWorkerError as error:
+        problem, code = f"a worker does not fit, and the run ends here: {error}", UNUSABLE
     except (BrokenExecutor, RuntimeError) as error:
         problem, code = f"the work cannot be done there: {str(error).strip().rpartition(chr(10))[2]}", UNUSABLE
     except SystemExit:
@@ -114,7 +118,8 @@ def _run(asked: Batch, options: RunOptions, summary: Summary) -> None:
 def _tell(record: Record) -> None:
     """Name a model that has no result on stderr, with its reason, as soon as it is known."""
     name = click.format_filename(record.source)
-    click.echo(f"{name}: {record.outcome}: {click.format_filename(record.message)}", err=True)
+    kept = "; the result of an earlier run stays" if record.kept else ""
+    click.echo(f"{name}: {record.outcome}: {click.format_filename(record.message)}{kept}", err=True)
 
 
 @contextmanager
@@ -134,6 +139,6 @@ def _runner(options: RunOptions) -> Runner:
     from twinform.compiler.workers.dask import dask_runner  # noqa: PLC0415 - few have more than one machine
 
     try:
-        return dask_runner(options["scheduler"])
+        return dask_runner(options["scheduler"], tell=partial(click.echo, err=True))
     except ImportError as error:
         raise click.UsageError(f"--scheduler needs Dask: pip install 'twinform[dask]' ({error})") from error

@@ -21,6 +21,7 @@ from twinform.compiler.batch.merging import merge
 from twinform.compiler.batch.record import Outcome, Record, Summary
 from twinform.compiler.batch.recording import Result
 from twinform.compiler.batch.report import open_report, report_line
+from twinform.compiler.batch.worksite import UnfitWorkerError
 
 __all__ = [
     "PATTERNS",
@@ -37,6 +38,7 @@ __all__ = [
     "Shard",
     "Stats",
     "Summary",
+    "UnfitWorkerError",
     "batch",
     "merge",
     "of_folder",

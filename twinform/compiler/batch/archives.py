@@ -1,5 +1,6 @@
 """Unpacks models from a tar or zip archive, which may be anybody's: within limits, and nothing leaves its folder."""
 
+import hashlib
 import io
 import lzma
 import os
@@ -8,9 +9,9 @@ import struct
 import time
 import zipfile
 import zlib
-from collections.abc import Generator, Iterator
+from collections.abc import Generator, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from tempfile import gettempdir
 
@@ -57,10 +58,19 @@ def is_archive(path: Path) -> bool:
     return path.name.lower().endswith(_ENDINGS) and not path.is_dir()
 
 
+@dataclass(frozen=True, slots=True)
+class Unpacked:
+    """The folder that an archive was unpacked to, and the digest of each file by its path in it."""
+
+    folder: Path
+    contents: Mapping[str, str]
+
+
 @contextmanager
-def unpacked(archive: Path) -> Generator[Path]:
+def unpacked(archive: Path) -> Generator[Unpacked]:
     """A folder with the regular files of an archive, each with its time, for as long as it is needed.
 
+    The times in an archive say nothing about its files, and all else is new each time: so digests are made on the way.
     Links, devices and the like are left out. Of two files of one name the last one counts, as tar has it.
 
     Raises:
@@ -68,11 +78,11 @@ def unpacked(archive: Path) -> Generator[Path]:
     """
     with staging_folder(Path(os.path.realpath(gettempdir()))) as folder:
         (folder / _TOP).touch()  # what is around the folder is none of the archive's business
-        _unpack(archive, folder)
-        yield folder
+        yield Unpacked(folder, _unpack(archive, folder))
 
 
-def _unpack(archive: Path, folder: Path) -> None:
+def _unpack(archive: Path, folder: Path) -> dict[str, str]:
+    """Write all files; gives their digests."""
     try:
         room = _Room.of(archive, folder)
         for member in _zip(archive, room) if archive.name.lower().endswith(".zip") else _tar(archive, room):
@@ -83,6 +93,7 @@ def _unpack(archive: Path, folder: Path) -> None:
         raise FolderError(f"{archive} is not unpacked: {error}; {_ADVICE}") from error
     except _FAULTS as error:
         raise FolderError(f"{archive} cannot be unpacked: {error}") from error
+    return room.contents
 
 
 _FAULTS = (ValueError, zipfile.BadZipFile, zlib.error, lzma.LZMAError, struct.error, EOFError, RuntimeError)
@@ -96,6 +107,7 @@ class _Room:
     folder: Path
     most_bytes: int
     most_files: int
+    contents: dict[str, str] = field(default_factory=dict[str, str])
     _bytes: int = 0
     _files: int = 0
 
@@ -106,7 +118,8 @@ class _Room:
 
     def write(self, member: _Member) -> None:
         """Write a file. The size in its header is not believed."""
-        path = self.folder / _place(member.name)
+        place, digest = _place(member.name), hashlib.sha256()
+        path = self.folder / place
         try:
             self._make_folder(path.parent)
             self._count_file()
@@ -118,9 +131,11 @@ class _Room:
                         raise LargeArchiveError(
                             f"with {member.name!r} in it, it unpacks to more than {self.most_bytes:,} bytes"
                         )
+                    digest.update(piece)
                     file.write(piece)
         except (FileExistsError, IsADirectoryError, NotADirectoryError) as error:
             raise BrokenArchiveError(f"{member.name!r} is a file in it, and a folder as well") from error
+        self.contents[str(place)] = digest.hexdigest()
         written = member.time if 0 <= member.time < _LATEST else 0.0
         os.utime(path, (written, written))
 

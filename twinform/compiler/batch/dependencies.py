@@ -1,21 +1,28 @@
 """What a result depends on: files that were read, listed or looked for, as they were, and whether they still are so.
 
-As build systems do, size and time of a file are compared first, and digests where these differ. A file that was
-written less than `TICK` before it was read may have changed again within one step of a clock, of ours or of a
-file server: its time proves nothing, and its digest is compared each time.
+As git does, size, times and inode of a file are compared first, and digests where any of these differs. The time at
+which the status of a file changed is the one that nobody can set: archives that are reproducible, `rsync -t`, Nix and
+Bazel give files of different contents one modification time, often with one size.
+
+A file that was written shortly before it was read may have changed again within one step of a clock, of ours or of a
+file server: its status proves nothing, and its digest is compared each time.
 """
 
 import os
 import stat
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
+from posixpath import normpath
+from types import MappingProxyType
 from typing import Any
 
 from twinform.compiler.input.regular_files import read_regular
-from twinform.compiler.observing import TICK, Observation, digest
+from twinform.compiler.observing import Observation, digest, is_coarse, is_young
 
+_NOTHING = (0, 0, "", 0, 0)
+"""What a dependency has where a row ends early."""
 _MOST_NAMES = 100_000
 """Entries of a folder; one with more is always listed again."""
 Status = Callable[[str], os.stat_result | None]
@@ -37,13 +44,18 @@ class Kind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Dependency:
-    """A path, below the folder of the models where it can be, and what was there."""
+    """A path, below the folder of the models where it can be, and what was there.
+
+    `time` is that of its last modification, `changed` that of the last change of its status, in nanoseconds.
+    """
 
     path: str
     kind: Kind
     size: int = 0
     time: int = 0
     digest: str = ""
+    changed: int = 0
+    inode: int = 0
 
 
 def status(path: str) -> os.stat_result | None:
@@ -55,10 +67,12 @@ def status(path: str) -> os.stat_result | None:
 
 
 def dependencies_of(seen: Observation, root: str, *, outside: str | None) -> tuple[Dependency, ...] | None:
-    """What was seen, with the digests of what was read; None where something has changed on the way.
+    """What was seen, with the digests of what was read; None where something has changed or failed on the way.
 
     What lies in the folder `outside` is left out: results are no inputs.
     """
+    if seen.failed:
+        return None
     found: list[Dependency] = []
     for kind, table in ((Kind.READ, seen.read), (Kind.LISTED, seen.listed)):
         for path, before in table.items():
@@ -75,24 +89,54 @@ def dependencies_of(seen: Observation, root: str, *, outside: str | None) -> tup
 
 def stamp(path: Path, name: str, made: str) -> Dependency:
     """A result as it was written."""
-    now = path.stat()
-    return Dependency(name, Kind.READ, now.st_size, now.st_mtime_ns, made)
+    return _stamped(Dependency(name, Kind.READ, digest=made), path.stat())
 
 
 def are_current(
-    dependencies: Iterable[Dependency], root: str, *, noted: int | None = None, status: Status = status
+    dependencies: Iterable[Dependency],
+    root: str,
+    *,
+    noted: int | None = None,
+    status: Status = status,
+    contents: Mapping[str, str] = MappingProxyType({}),
 ) -> bool:
     """Whether all is as it was by status, without opening anything; False where that is not enough.
 
-    `noted` is the time of the record; results, which nobody else writes, do without.
+    `noted` is the time of the record; results, which nobody else writes, do without. `contents` are digests of files
+    by their path below the root, where the caller has just written these: they are compared, and no status is.
     """
-    paths = ((each, os.path.join(root, each.path)) for each in dependencies)  # noqa: PTH118 - as above
-    return all(_is_current(each, status(path), noted) for each, path in paths)
+    for each in dependencies:
+        path = os.path.join(root, each.path)  # noqa: PTH118 - as above
+        if contents and each.kind is Kind.READ and path != each.path:
+            same = contents.get(normpath(each.path)) == each.digest
+        elif contents and each.kind is Kind.LISTED and path != each.path:
+            same = _content(path, Kind.LISTED) == each.digest
+        else:
+            same = _is_current(each, status(path), noted)
+        if not same:
+            return False
+    return True
 
 
 def are_same(dependencies: Iterable[Dependency], root: str) -> bool:
     """Whether all is as it was by its content."""
-    return all(_is_same(dependency, os.path.join(root, dependency.path)) for dependency in dependencies)  # noqa: PTH118 - as above
+    return renewed(dependencies, root) is not None
+
+
+def renewed(dependencies: Iterable[Dependency], root: str) -> tuple[Dependency, ...] | None:
+    """All with the status that they have now; None where a content is another one."""
+    found: list[Dependency] = []
+    for each in dependencies:
+        now = _renewed(each, os.path.join(root, each.path))  # noqa: PTH118 - as above
+        if now is None:
+            return None
+        found.append(now)
+    return tuple(found)
+
+
+def is_there(dependency: Dependency, root: str) -> bool:
+    """Whether anything is at the path of a dependency."""
+    return status(os.path.join(root, dependency.path)) is not None  # noqa: PTH118 - as above
 
 
 def packed(dependencies: Iterable[Dependency]) -> list[list[object]]:
@@ -100,6 +144,7 @@ def packed(dependencies: Iterable[Dependency]) -> list[list[object]]:
     rows: list[list[object]] = []
     for dependency in dependencies:
         row: list[object] = [dependency.path, str(dependency.kind), dependency.size, dependency.time, dependency.digest]
+        row += [dependency.changed, dependency.inode]
         while not row[-1]:
             row.pop()
         rows.append(row)
@@ -113,10 +158,13 @@ def unpacked(rows: Iterable[Iterable[Any]]) -> Iterator[Dependency]:
         ValueError, TypeError: one is no dependency.
     """
     for path, kind, *rest in rows:
-        size, time, made = (*rest, *(0, 0, "")[len(rest) :])
-        if not (isinstance(path, str) and isinstance(size, int) and isinstance(time, int) and isinstance(made, str)):
+        values: list[Any] = [*rest, *_NOTHING[len(rest) :]]
+        size, time, made, changed, inode = values
+        if not (isinstance(path, str) and isinstance(made, str)):
             raise TypeError(path)
-        yield Dependency(path, Kind(kind), size, time, made)
+        if not all(isinstance(number, int) for number in (size, time, changed, inode)):
+            raise TypeError(path)
+        yield Dependency(path, Kind(kind), size, time, made, changed, inode)
 
 
 def _noted(path: str, kind: Kind, before: os.stat_result | None) -> Dependency | None:
@@ -124,14 +172,22 @@ def _noted(path: str, kind: Kind, before: os.stat_result | None) -> Dependency |
     now = status(path)
     if before is None or now is None:
         return Dependency(path, Kind.ABSENT) if before is now else None
-    if (before.st_mtime_ns, before.st_size, before.st_ino) != (now.st_mtime_ns, now.st_size, now.st_ino):
+    if _marks(before) != _marks(now):
         return None
     usual = stat.S_ISREG if kind is Kind.READ else stat.S_ISDIR
     if not usual(now.st_mode):
         return _look(path, now)
     made = _content(path, kind)
-    size = now.st_size if kind is Kind.READ else 0
-    return None if made is None else Dependency(path, kind, size, now.st_mtime_ns, made)
+    return None if made is None else _stamped(Dependency(path, kind, digest=made), now)
+
+
+def _stamped(dependency: Dependency, now: os.stat_result) -> Dependency:
+    size = now.st_size if dependency.kind is Kind.READ else 0
+    return replace(dependency, size=size, time=now.st_mtime_ns, changed=now.st_ctime_ns, inode=now.st_ino)
+
+
+def _marks(status: os.stat_result) -> tuple[int, ...]:
+    return status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino
 
 
 def _content(path: str, kind: Kind) -> str | None:
@@ -157,13 +213,7 @@ def _look(path: str, now: os.stat_result | None) -> Dependency:
 def _placed(dependency: Dependency, root: str) -> Dependency:
     if dependency.path != root and not _is_below(dependency.path, root):
         return dependency
-    return Dependency(
-        dependency.path[len(root) :].lstrip(os.sep),
-        dependency.kind,
-        dependency.size,
-        dependency.time,
-        dependency.digest,
-    )
+    return replace(dependency, path=dependency.path[len(root) :].lstrip(os.sep))
 
 
 def _is_below(path: str, folder: str | None) -> bool:
@@ -173,16 +223,21 @@ def _is_below(path: str, folder: str | None) -> bool:
 def _is_current(dependency: Dependency, now: os.stat_result | None, noted: int | None) -> bool:
     if dependency.kind not in {Kind.READ, Kind.LISTED}:
         return _look(dependency.path, now) == dependency
-    if (
-        now is None
-        or now.st_mtime_ns != dependency.time
-        or (dependency.kind is Kind.READ and now.st_size != dependency.size)
-    ):
+    if now is None or (dependency.kind is Kind.READ and now.st_size != dependency.size):
         return False
-    return noted is None or dependency.time < noted - TICK
+    if (now.st_mtime_ns, now.st_ctime_ns, now.st_ino) != (dependency.time, dependency.changed, dependency.inode):
+        return False
+    # images of squashfs and mounts by FUSE have no time of a change but the one that came along, in whole seconds
+    if is_coarse(dependency.changed):
+        return False
+    return noted is None or not is_young(dependency.time, dependency.changed, noted)
 
 
-def _is_same(dependency: Dependency, path: str) -> bool:
+def _renewed(dependency: Dependency, path: str) -> Dependency | None:
+    """A dependency with its status from before its content was compared; None where that is another one."""
+    now = status(path)
     if dependency.kind not in {Kind.READ, Kind.LISTED}:
-        return _look(dependency.path, status(path)) == dependency
-    return bool(dependency.digest) and _content(path, dependency.kind) == dependency.digest
+        return dependency if _look(dependency.path, now) == dependency else None
+    if now is None or not dependency.digest or _content(path, dependency.kind) != dependency.digest:
+        return None
+    return _stamped(dependency, now)

@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Generator, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -19,14 +19,12 @@ from twinform.compiler.batch.places import Places, outputs, require_apart
 from twinform.compiler.batch.planning import Plan
 from twinform.compiler.batch.record import Outcome, Record
 from twinform.compiler.batch.recording import Recorder, Result
-from twinform.compiler.batch.task import Done, Job, Task, own_version, work
+from twinform.compiler.batch.task import Done, Job, Task, work
+from twinform.compiler.batch.worksite import READERS, UnfitWorkerError, checked, fingerprint, own_version
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.observing import digest
 from twinform.compiler.workers import Failure, Runner, process_runner, run_on
 from twinform.passes import SideFilePass
-
-_READERS = ("collada", "pycollada", "scipy", "trimesh", "xacro")
-"""Packages that need not be there, and that what comes of a model depends on."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,7 +33,8 @@ class Batch:
 
     Results go to `dest`, where it is also written down what they depend on; without it nothing is known from before. A
     model may take so many `seconds`; `fresh` works on all of them again. `report` is where somebody will write a
-    report. `shown` stands for the folder in what is reported.
+    report. `shown` stands for the folder in what is reported. `contents` are the digests of its files, where somebody
+    has just put them there.
     """
 
     source: Path
@@ -48,6 +47,7 @@ class Batch:
     fresh: bool = False
     report: Path | None = None
     shown: str = ""
+    contents: Mapping[str, str] = field(default_factory=dict[str, str])
 
     @property
     def chosen(self) -> list[Entry]:
@@ -64,7 +64,7 @@ class Batch:
         folders = (search.own, search.models, search.packages, search.workspaces, search.fuel)
         asked += [list(map(str, each)) for each in folders]
         asked += [[each.label, each.name] for each in load_options.profiles]
-        asked += [sorted(load_options.arguments.items()), [_version(name) for name in _READERS], self.job.request]
+        asked += [sorted(load_options.arguments.items()), [_named_version(name) for name in READERS], self.job.request]
         return digest(json.dumps(asked).encode())
 
 
@@ -78,16 +78,16 @@ def batch(asked: Batch, executor: Executor | Runner | None = None) -> Generator[
     Raises:
         FolderError: the results would be among the sources, or a pass makes further files.
         BusyError: another run writes to the same folder.
-        OSError: a result or the manifest cannot be written, as when the disk is full.
-        RuntimeError: the executor cannot be given the work.
+        OSError: a result or the manifest cannot be written, as when the disk is full or gone.
+        UnfitWorkerError: a worker has another compiler, or does not see the same files.
+        RuntimeError: the executor cannot be given the work, or nobody is there to do it.
         BrokenExecutor: it broke.
     """
-    entries = asked.chosen
+    entries, request = asked.chosen, asked.request
     names = _outputs(asked, entries)
+    runner = executor if isinstance(executor, Runner) else _runner(executor, asked.seconds)
     if asked.dest is None:
-        with closing(
-            _results(asked, entries, names, Recorder(asked.request, None, None, asked.shown), executor)
-        ) as found:
+        with closing(_results(asked, entries, names, Recorder(request, None, None, asked.shown), runner)) as found:
             yield found
         return
     require_apart(asked.source, asked.dest)
@@ -95,8 +95,8 @@ def batch(asked: Batch, executor: Executor | Runner | None = None) -> Generator[
     if asked.report:
         places.require_free(asked.report)
     with Manifest(asked.dest, asked.shard.label if asked.shard else "").open() as manifest:
-        recorder = Recorder(asked.request, manifest, places, asked.shown)
-        with closing(_results(asked, entries, names, recorder, executor)) as found:
+        recorder = Recorder(request, manifest, places, asked.shown)
+        with closing(_results(asked, entries, names, recorder, runner)) as found:
             yield found
 
 
@@ -105,20 +105,33 @@ def _results(
     entries: Sequence[Entry],
     names: Mapping[str, str],
     recorder: Recorder,
-    executor: Executor | Runner | None,
+    runner: Runner,
 ) -> Generator[Result]:
-    runner = executor if isinstance(executor, Runner) else _runner(executor, asked.seconds)
-    plan = Plan(recorder.request, str(asked.source), asked.dest, recorder.manifest, fresh=asked.fresh)
+    plan = Plan(
+        recorder.request,
+        str(asked.source),
+        asked.dest,
+        recorder.manifest,
+        fresh=asked.fresh,
+        contents=asked.contents,
+    )
     todo: list[Entry] = []
     for entry in entries:
-        record = _missing(entry, asked, recorder.request) or plan.known(entry, names[entry.name])
-        if record is None:
-            todo.append(entry)
+        if missing := _missing(entry, asked, recorder.request):
+            yield Result(missing, known=False)
+        elif known := plan.known(entry, names[entry.name]):
+            yield recorder.note(known)
         else:
-            yield Result(record, known=record.outcome is not Outcome.MISSING)
+            todo.append(entry)
     tasks = (_task(entry, asked, names[entry.name], plan, recorder, runner) for entry in todo)
-    for task, done in run_on(runner, work, tasks):
-        yield recorder.record(task, _done(done))
+    search = asked.load_options.search
+    folders = (*search.own, *search.models, *search.packages, *search.workspaces)
+    asking = checked(runner.for_jobs(len(todo)), asked.source, todo, folders)
+    for task, result in run_on(asking, work, tasks):
+        done = _done(result)
+        if done.is_unfit:
+            raise UnfitWorkerError(done.message)
+        yield recorder.record(task, done)
 
 
 def _runner(executor: Executor | None, seconds: float) -> Runner:
@@ -160,6 +173,7 @@ def _task(entry: Entry, asked: Batch, output: str, plan: Plan, recorder: Recorde
         faults=(manifest.folder if manifest else Path(tempfile.gettempdir(), "twinform")) / "faults",
         seconds=None if runner.timed else asked.seconds,
         version=own_version(),
+        site="" if runner.everywhere is None else fingerprint(),
     )
 
 
@@ -169,7 +183,7 @@ def _done(result: Done | Failure) -> Done:
     return result
 
 
-def _version(name: str) -> str:
+def _named_version(name: str) -> str:
     try:
         return f"{name} {version(name)}"
     except PackageNotFoundError:

@@ -15,6 +15,7 @@ from typing import Any, BinaryIO, NamedTuple
 from twinform.compiler.batch.dependencies import packed, unpacked
 from twinform.compiler.batch.lock import locked
 from twinform.compiler.batch.record import Outcome, Record
+from twinform.compiler.output.same_files import is_open_at
 from twinform.storage.writing import is_stream
 
 FOLDER = ".twinform-batch"
@@ -86,6 +87,15 @@ class Manifest:
         file.seek(line.offset)
         return parse_record(file.readline())
 
+    def require_in_place(self) -> None:
+        """Raise where the folder of the results is no longer the one that the manifest was opened in.
+
+        Raises:
+            FileNotFoundError: it was removed, renamed or unmounted, and what is written would be somewhere else.
+        """
+        if self._log is None or not is_open_at(self._log.fileno(), self._own):
+            raise FileNotFoundError(errno.ENOENT, "it was removed, renamed or unmounted", str(self.folder.parent))
+
     def add(self, record: Record) -> None:
         """Keep a record, at once and for later runs.
 
@@ -128,23 +138,31 @@ class Manifest:
 
 def record_line(record: Record) -> bytes:
     """A record as a line of JSON."""
+    return json.dumps(_packed(record)).encode("ascii") + b"\n"
+
+
+def _packed(record: Record) -> dict[str, Any]:
     whole: dict[str, Any] = {each.name: getattr(record, each.name) for each in fields(Record)}
     whole |= {name: packed(whole[name]) for name in _DEPENDENCIES}
-    whole = {name: value for name, value in whole.items() if value or name in {"source", "request", "outcome"}}
-    return json.dumps(whole).encode("ascii") + b"\n"
+    whole["kept"] = record.kept and _packed(record.kept)
+    return {name: value for name, value in whole.items() if value or name in {"source", "request", "outcome"}}
 
 
 def parse_record(line: bytes) -> Record | None:
     """The record in a line; None where there is none, as in one that was cut off."""
     try:
-        whole: dict[str, Any] = json.loads(line)
-        for name in _DEPENDENCIES:
-            whole[name] = tuple(unpacked(whole.get(name, ())))
-        whole["outcome"] = Outcome(whole["outcome"])
-        record = Record(**whole)
+        record = _unpacked(json.loads(line))
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
         return None
-    return record if _is_sound(record) else None
+    return record if _is_sound(record) and (record.kept is None or _is_sound(record.kept)) else None
+
+
+def _unpacked(whole: dict[str, Any]) -> Record:
+    for name in _DEPENDENCIES:
+        whole[name] = tuple(unpacked(whole.get(name, ())))
+    whole["outcome"] = Outcome(whole["outcome"])
+    whole["kept"] = _unpacked(whole["kept"]) if "kept" in whole else None
+    return Record(**whole)
 
 
 def read_records(path: Path) -> Iterator[Record]:

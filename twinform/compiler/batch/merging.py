@@ -1,13 +1,15 @@
 """Puts the results and records of several runs together: of shards in one folder, or of other folders."""
 
-import shutil
+from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from twinform.compiler.batch.dependencies import are_same
+from twinform.compiler.batch.dependencies import Dependency, are_same, stamp
 from twinform.compiler.batch.manifest import FOLDER, Manifest, read_records
 from twinform.compiler.batch.record import Record
+from twinform.compiler.batch.superseding import supersede
 from twinform.compiler.output.same_files import is_below
-from twinform.storage.writing import is_stream
+from twinform.storage.writing import is_stream, write_all_atomically
 
 
 def merge(dest: Path, others: list[Path]) -> int:
@@ -24,8 +26,8 @@ def merge(dest: Path, others: list[Path]) -> int:
             for path in _manifests(other):
                 for record in read_records(path):
                     known = manifest.get(record.source)
-                    if (known is None or known.time < record.time) and _copied(record, other, dest):
-                        manifest.add(record)
+                    if known is None or known.time < record.time:
+                        _take_over(record, known, other, manifest)
     with Manifest(dest).open() as manifest:
         manifest.merge()
         return len(manifest)
@@ -38,18 +40,24 @@ def _manifests(folder: Path) -> list[Path]:
     return found
 
 
-def _copied(record: Record, other: Path, dest: Path) -> bool:
-    """Copy the results of a record, all or none; False where they do not match it, or have no place."""
-    if not are_same(record.results, str(other)):
-        return False
-    for each in record.results:
+def _take_over(record: Record, known: Record | None, other: Path, manifest: Manifest) -> None:
+    """Copy the results of a record, and take away what it makes obsolete; nothing where they do not match it."""
+    dest = manifest.folder.parent
+    results = _copied(record.results, other, dest)
+    if results is None:
+        return
+    kept = record.kept and _copied(record.kept.results, other, dest)
+    record = replace(record, results=results, kept=replace(record.kept, results=kept) if record.kept and kept else None)
+    manifest.add(supersede(dest, known, record) if known else record)
+
+
+def _copied(results: Sequence[Dependency], other: Path, dest: Path) -> tuple[Dependency, ...] | None:
+    """Copy results, all or none; gives them with their new status, None where they are others or have no place."""
+    if not are_same(results, str(other)):
+        return None
+    for each in results:
         source, target = other / each.path, dest / each.path
         if not is_below(source, other) or not is_below(target, dest) or is_stream(target):
-            return False
-    for each in record.results:
-        target = dest / each.path
-        target.parent.mkdir(parents=True, exist_ok=True)
-        new = target.with_name(f".{target.name}.new")
-        shutil.copy2(other / each.path, new, follow_symlinks=False)
-        new.replace(target)
-    return True
+            return None
+    write_all_atomically({dest / each.path: (other / each.path).read_bytes() for each in results}, durably=False)
+    return tuple(stamp(dest / each.path, each.path, each.digest) for each in results)

@@ -1,10 +1,14 @@
 """Plans a batch: which models are as they were, by the status of their files."""
 
 import os
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
+from types import MappingProxyType
+from typing import NamedTuple
 
-from twinform.compiler.batch.dependencies import are_current, status
+from twinform.compiler.batch.dependencies import Dependency, are_current, renewed, status
 from twinform.compiler.batch.entries import Entry
 from twinform.compiler.batch.manifest import Manifest
 from twinform.compiler.batch.record import Outcome, Record
@@ -14,34 +18,62 @@ _MOST_REMEMBERED = 2**16
 """Paths that several models share: libraries of macros, meshes, folders."""
 
 
+class Known(NamedTuple):
+    """The record of an earlier run, and whether the manifest has it as the last one of the model."""
+
+    record: Record
+    is_last: bool
+
+
 class Plan:
     """What is known of the models of a run."""
 
     def __init__(
-        self, request: str, root: str, dest: Path | None, manifest: Manifest | None, *, fresh: bool = False
+        self,
+        request: str,
+        root: str,
+        dest: Path | None,
+        manifest: Manifest | None,
+        *,
+        fresh: bool = False,
+        contents: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         self._request, self._root, self._dest = request, root, str(dest or "")
-        self._manifest, self._fresh = manifest, fresh
+        self._manifest, self._fresh, self._contents = manifest, fresh, contents
         self._status = lru_cache(_MOST_REMEMBERED)(status)
 
-    def known(self, entry: Entry, output: str) -> Record | None:
-        """What came of a model in an earlier run, if nothing has changed that can be seen without opening a file."""
-        record = self.candidate(entry, output)
-        if record is None or any(os.environ.get(name) != value for name, value in record.variables.items()):
-            return None
-        # the status of a result is asked once, and not kept
-        if not are_current(record.results, self._dest):
-            return None
-        same = are_current(record.dependencies, self._root, noted=record.time, status=self._status)
-        return record if same else None
+    def known(self, entry: Entry, output: str) -> Known | None:
+        """What came of a model in an earlier run, if nothing has changed that can be seen without opening a model."""
+        return next((each for each in self._candidates(entry, output) if self._is_current(each.record)), None)
 
     def candidate(self, entry: Entry, output: str) -> Record | None:
         """What came of a model in an earlier run, if what is asked for is the same and might end the same way."""
-        record = self._manifest.get(entry.name) if self._manifest and not self._fresh else None
-        if record is None or (record.request, record.output) != (request_of(self._request, entry), output):
-            return None
-        is_whole = bool(record.dependencies) and (record.outcome is not Outcome.CONVERTED or bool(record.results))
-        return record if is_whole and record.outcome.is_final else None
+        return next((each.record for each in self._candidates(entry, output)), None)
+
+    def _candidates(self, entry: Entry, output: str) -> Iterator[Known]:
+        """The record of a model, and that of the results which it left in their places, as far as they may hold."""
+        last = self._manifest.get(entry.name) if self._manifest and not self._fresh else None
+        for record in (last, last and last.kept):
+            if record is None or (record.request, record.output) != (request_of(self._request, entry), output):
+                continue
+            is_whole = bool(record.dependencies) and (record.outcome is not Outcome.CONVERTED or bool(record.results))
+            results = self._results(record) if is_whole and record.outcome.is_final else None
+            if results is not None:
+                yield Known(replace(record, results=results), record is last and results is record.results)
+
+    def _results(self, record: Record) -> tuple[Dependency, ...] | None:
+        """The results of a record, with their status now; None where one is not what was written."""
+        # the status of a result is asked once, and not kept
+        if are_current(record.results, self._dest):
+            return record.results
+        return renewed(record.results, self._dest)
+
+    def _is_current(self, record: Record) -> bool:
+        if any(os.environ.get(name) != value for name, value in record.variables.items()):
+            return False
+        return are_current(
+            record.dependencies, self._root, noted=record.time, status=self._status, contents=self._contents
+        )
 
 
 def request_of(request: str, entry: Entry) -> str:

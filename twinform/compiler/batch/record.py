@@ -62,6 +62,8 @@ class Record:
 
     `request` is the digest of what was asked for. `results` are the files that were written, `dependencies` and
     `variables` what the work depended on, noted at a `time` in nanoseconds; without dependencies it is done again.
+    `kept` is the record of the results of an earlier run, which stay where they are until there is a verdict on the
+    model: it counts again as soon as everything is as it was then.
     `message` is the reason why there is no result. `diagnostics` are those of `check --format json`; `ledger` counts
     what became of the parts of the model. `details` are what else there is to report: statistics, differences.
     """
@@ -71,6 +73,7 @@ class Record:
     outcome: Outcome
     output: str = ""
     results: tuple[Dependency, ...] = ()
+    kept: "Record | None" = None
     dependencies: tuple[Dependency, ...] = ()
     variables: Mapping[str, str | None] = field(default_factory=dict[str, "str | None"])
     time: int = 0
@@ -78,6 +81,11 @@ class Record:
     diagnostics: list[Row] = field(default_factory=list[Row])
     ledger: dict[str, int] = field(default_factory=dict[str, int])
     details: Row = field(default_factory=Row)
+
+    @property
+    def standing(self) -> "Record | None":
+        """The record of the results that are in their places: this one, or that of an earlier run."""
+        return self if self.outcome is Outcome.CONVERTED else self.kept
 
 
 @dataclass(slots=True)

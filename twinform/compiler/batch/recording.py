@@ -2,20 +2,19 @@
 
 import errno
 import json
-from collections.abc import Iterable, Mapping
-from contextlib import suppress
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from twinform.compiler.batch.dependencies import Dependency, are_same, stamp
+from twinform.compiler.batch.dependencies import stamp
 from twinform.compiler.batch.manifest import Manifest
 from twinform.compiler.batch.places import Places
-from twinform.compiler.batch.planning import request_of
+from twinform.compiler.batch.planning import Known, request_of
 from twinform.compiler.batch.record import Outcome, Record
+from twinform.compiler.batch.superseding import supersede
 from twinform.compiler.batch.task import Done, Task
 from twinform.compiler.observing import digest
-from twinform.compiler.output.same_files import is_below
 from twinform.storage.writing import write_all_atomically
 
 _FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
@@ -39,17 +38,27 @@ class Recorder:
         """Put results in their places and keep the record.
 
         Raises:
-            OSError: the disk is full, or the manifest cannot be written.
+            OSError: the disk is full or gone, or the manifest cannot be written.
         """
+        if self.manifest is not None:
+            self.manifest.require_in_place()
         if done.known and task.known:
-            results = tuple(_again(task.dest, each) for each in task.known.results)
-            record = replace(task.known, dependencies=done.dependencies or (), results=results, time=done.time)
+            record = replace(task.known, dependencies=done.dependencies or (), time=done.time)
         else:
-            record = self._put(task, done, self._fresh(task, done))
-            self._clear(task, record)
+            record = self._superseding(self._put(task, done, self._fresh(task, done)))
         if self.manifest is not None:
             self.manifest.add(record)
         return Result(record, known=done.known)
+
+    def note(self, known: Known) -> Result:
+        """Keep the record of an earlier run, where another one came after it or the results were touched.
+
+        Raises:
+            OSError: the manifest cannot be written.
+        """
+        if self.manifest is not None and not known.is_last:
+            self.manifest.add(known.record)
+        return Result(known.record, known=True)
 
     def _fresh(self, task: Task, done: Done) -> Record:
         record = Record(
@@ -82,21 +91,11 @@ class Recorder:
         results = tuple(stamp(places.dest / name, name, _digest(text)) for name, text in done.texts.items())
         return replace(record, results=results)
 
-    def _clear(self, task: Task, record: Record) -> None:
-        """Take away results of an earlier run that nothing stands for any more, unless somebody has changed them."""
-        before = self.manifest.get(task.entry.name) if self.manifest else None
-        if before is None or self._places is None or record.outcome is Outcome.UNWRITTEN:
-            return
-        kept = {each.path for each in record.results}
-        _remove(self._places.dest, (each for each in before.results if each.path not in kept))
-
-
-def _remove(dest: Path, results: Iterable[Dependency]) -> None:
-    for each in results:
-        path = dest / each.path
-        if is_below(path.parent, dest) and are_same([each], str(dest)):
-            with suppress(OSError):
-                path.unlink()
+    def _superseding(self, record: Record) -> Record:
+        before = self.manifest.get(record.source) if self.manifest else None
+        if before is None or self._places is None:
+            return record
+        return supersede(self._places.dest, before, record)
 
 
 def _written(dest: Path, texts: Mapping[str, str | bytes]) -> str | None:
@@ -117,14 +116,6 @@ def _written(dest: Path, texts: Mapping[str, str | bytes]) -> str | None:
 
 def _digest(text: str | bytes) -> str:
     return digest(text if isinstance(text, bytes) else text.encode())
-
-
-def _again(dest: str, result: Dependency) -> Dependency:
-    """A result with the time that it has now."""
-    try:
-        return stamp(Path(dest, result.path), result.path, result.digest)
-    except OSError:
-        return result
 
 
 def _renamed(texts: Any, root: str, shown: str) -> Any:

@@ -17,6 +17,7 @@ def report_line(result: Result) -> str:
         "outcome": str(record.outcome),
         "known": result.known,
         "results": [each.path for each in record.results],
+        "kept": [each.path for each in record.kept.results] if record.kept else [],
         "message": record.message,
         "diagnostics": record.diagnostics,
         "ledger": record.ledger,

@@ -1,18 +1,18 @@
 """The work on one model of a batch, on whatever executor it lands."""
 
 import os
+import platform
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cache
-from importlib.metadata import version
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
-from twinform.compiler.batch.dependencies import Dependency, are_same, dependencies_of
+from twinform.compiler.batch.dependencies import Dependency, dependencies_of, renewed
 from twinform.compiler.batch.entries import Entry
 from twinform.compiler.batch.record import Outcome, Record, Row
 from twinform.compiler.batch.time_limit import LateError, time_limit
+from twinform.compiler.batch.worksite import fingerprint, own_version
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.input.regular_files import read_regular
 from twinform.compiler.observing import observed
@@ -28,7 +28,8 @@ class Task:
     `root` is the folder of the models, `dest` that of the results if there are any, `output` the place of the result
     in it. `known` is what came of it in an earlier run, if that counts as long as nothing has changed. `faults` is a
     folder for what makes the faults of passes come again. `seconds` are those that it may take where the executor does
-    not see to that itself.
+    not see to that itself. `version` is that of the compiler that asks, and `site` the fingerprint of all that another
+    machine must have in common with it.
     """
 
     entry: Entry
@@ -41,6 +42,7 @@ class Task:
     faults: Path | None = None
     seconds: float | None = None
     version: str = ""
+    site: str = ""
 
     @property
     def path(self) -> Path:
@@ -54,6 +56,7 @@ class Done:
 
     `texts` are the files to write by their places below the folder of the results. `dependencies` is None where the
     work has to be done again, because something has changed in the meantime, or the model could not even be opened.
+    It `is_unfit` where the worker is, so that it says nothing about the model.
     """
 
     outcome: Outcome
@@ -66,6 +69,7 @@ class Done:
     variables: Mapping[str, str | None] = field(default_factory=dict[str, "str | None"])
     time: int = 0
     known: bool = False
+    is_unfit: bool = False
 
 
 @runtime_checkable
@@ -86,20 +90,13 @@ class Job(Protocol):
         ...
 
 
-@cache
-def own_version() -> str:
-    """The version of the compiler that works here."""
-    return version("twinform")
-
-
 def work(task: Task) -> Done:
     """Do what is asked for with a model; no fault of it, of a pass or of ours gets out."""
-    own = own_version()
-    if task.version and task.version != own:
-        return Done(outcome=Outcome.FAILED, message=f"this is twinform {own}, and {task.version} asks for the work")
-    if task.known and _holds(task.known, task):
-        return _noted_again(task.known, task)
+    if problem := _unfit(task):
+        return Done(outcome=Outcome.FAILED, message=problem, dependencies=None, is_unfit=True)
     begin = time.time_ns()
+    if task.known and (same := _renewed(task.known, task.root)) is not None:
+        return Done(outcome=task.known.outcome, known=True, dependencies=same, time=begin)
     with observed() as seen:
         done = _within_time(task)
     if done.dependencies is None:
@@ -112,30 +109,27 @@ def _absolute(path: str) -> str:
     return os.path.join(os.getcwd(), path)  # noqa: PTH109, PTH118 - as paths are observed
 
 
-def _holds(known: Record, task: Task) -> bool:
-    """Whether what is known of a model is still so, and its results are still there."""
+def _unfit(task: Task) -> str:
+    """Why the work must not be done here; nothing where it may."""
+    own = own_version()
+    if task.version and task.version != own:
+        return f"this is twinform {own}, and {task.version} asks for the work{_machine(task)}"
+    if task.site and task.site != fingerprint():
+        return f"the code of twinform, or a package that it reads with, is another one{_machine(task)}"
+    if task.site and not Path(task.root).is_dir():
+        return f"there is no folder {task.root}{_machine(task)}"
+    return ""
+
+
+def _machine(task: Task) -> str:
+    """Where this is, if it may be elsewhere."""
+    return f", on {platform.node()}" if task.site else ""
+
+
+def _renewed(known: Record, root: str) -> tuple[Dependency, ...] | None:
+    """What a record depends on with its status now; None where something has changed."""
     same = all(os.environ.get(name) == value for name, value in known.variables.items())
-    return same and are_same(known.dependencies, task.root) and are_same(known.results, task.dest)
-
-
-def _noted_again(known: Record, task: Task) -> Done:
-    """What is known, with the times that files have now."""
-    now = time.time_ns()
-    return Done(
-        outcome=known.outcome,
-        known=True,
-        dependencies=tuple(_with_time(each, task.root) for each in known.dependencies),
-        time=now,
-    )
-
-
-def _with_time(dependency: Dependency, root: str) -> Dependency:
-    if not dependency.digest:
-        return dependency
-    try:
-        return replace(dependency, time=Path(root, dependency.path).stat().st_mtime_ns)
-    except OSError:
-        return dependency
+    return renewed(known.dependencies, root) if same else None
 
 
 def _within_time(task: Task) -> Done:
@@ -158,7 +152,11 @@ def _worked(task: Task) -> Done:
     try:
         content = read_regular(task.path, task.load_options.limits.size)
     except OSError as error:
-        return Done(outcome=Outcome.UNREADABLE, message=f"it cannot be read: {error.strerror}", dependencies=None)
+        return Done(
+            outcome=Outcome.UNREADABLE,
+            message=f"it cannot be read{_machine(task)}: {error.strerror}",
+            dependencies=None,
+        )
     try:
         return task.job.work(task, content)
     except PassError as error:
@@ -174,4 +172,4 @@ def _reproducer(error: PassError, task: Task) -> str:
         path = write_reproducer(error, str(task.path), task.faults)
     except (OSError, TypeError, ValueError) as problem:
         return f"nothing could be written that makes it come again: {problem}"
-    return f"to see it again: twinform reproduce {path}"
+    return f"to see it again{_machine(task)}: twinform reproduce {path}"

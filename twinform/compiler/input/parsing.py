@@ -30,6 +30,7 @@ from twinform.compiler.input.xml_recovery import (
     with_bracket,
     with_single_colons,
 )
+from twinform.compiler.observing import note_failure
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import reading
 from twinform.schemas import XmlElement, undeclared_namespace
@@ -51,6 +52,8 @@ def read_bytes(path: Path, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) 
         with path.open("rb") as file:
             text = read_up_to(file, limits.size)
     except (OSError, ValueError) as error:
+        if path.exists():
+            note_failure()
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise _unreadable(sink, f"cannot read the file: {reason}") from error
     if len(text) > limits.size:

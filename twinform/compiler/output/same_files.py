@@ -35,3 +35,11 @@ def is_below(path: Path, folder: Path) -> bool:
 def is_nothing(path: Path) -> bool:
     """Whether it is the device that forgets, into which any number of things may be written."""
     return os.path.realpath(path) == os.devnull
+
+
+def is_open_at(descriptor: int, path: Path) -> bool:
+    """Whether an open file is still the one that a path leads to."""
+    try:
+        return os.path.samestat(os.fstat(descriptor), path.stat())
+    except OSError:
+        return False

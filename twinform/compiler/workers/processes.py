@@ -13,7 +13,7 @@ from typing import Any, ParamSpec, TypeVar
 from pebble import ProcessExpired, ProcessPool
 
 from twinform.child_python import spawn_context
-from twinform.compiler.workers.running import Failure, Runner, run_on
+from twinform.compiler.workers.running import Failure, NotStartedError, Runner, run_on
 
 Arguments = ParamSpec("Arguments")
 Job = TypeVar("Job")
@@ -25,10 +25,16 @@ _PATIENCE = 120.0
 
 
 class ProcessExecutor(Executor):
-    """Runs each job in one of so many processes, for so many seconds at most; the first job starts them."""
+    """Runs each job in one of so many processes, for so many seconds at most; the first job starts them.
 
-    def __init__(self, processes: int, seconds: float, most_jobs: int = _MOST_JOBS) -> None:
+    With `patience` the first job is handed over when a process is ready, for which so many seconds are waited.
+    """
+
+    def __init__(
+        self, processes: int, seconds: float, most_jobs: int = _MOST_JOBS, patience: float | None = None
+    ) -> None:
         self._processes, self._seconds, self._most_jobs = processes, seconds, most_jobs
+        self._patience = patience
         self._pool: ProcessPool | None = None
 
     def submit(
@@ -37,12 +43,15 @@ class ProcessExecutor(Executor):
         """Hand over a job.
 
         Raises:
+            NotStartedError: no process has become ready.
             BrokenExecutor: the pool lost a process that had nothing to do.
         """
         if self._pool is None:
             # that the task comes along imports what it needs before a job is taken, and its time begins
             context: Any = spawn_context()  # pebble describes contexts more narrowly than they are
             self._pool = ProcessPool(self._processes, self._most_jobs, _begin, (fn,), context)
+            if self._patience is not None:
+                _require_ready(self._pool, self._patience)
         try:
             return self._pool.schedule(fn, args, kwargs, self._seconds)
         except RuntimeError as error:
@@ -60,11 +69,12 @@ def process_runner(processes: int | None = None, seconds: float = 60) -> Runner:
     """Runs jobs in so many processes, as many as there are processors if not given."""
     count = processes or os.cpu_count() or 1
     return Runner(
-        open=partial(ProcessExecutor, count, seconds),
+        open=partial(ProcessExecutor, count, seconds, patience=_PATIENCE),
         window=2 * count,
         timed=True,
         failure=_failure,
         patience=seconds + _PATIENCE,
+        resized=lambda jobs: process_runner(min(count, jobs), seconds),
     )
 
 
@@ -79,6 +89,20 @@ def run(
     every = list(jobs)
     count = min(processes or os.cpu_count() or 1, len(every))
     return run_on(process_runner(count, seconds), task, every)
+
+
+def _require_ready(pool: ProcessPool, patience: float) -> None:
+    """Wait until a process of a pool does something: one that dies while it starts has died of no job.
+
+    Raises:
+        NotStartedError: none does.
+    """
+    try:
+        pool.schedule(os.getpid).result(patience)
+    except TimeoutError as error:
+        raise NotStartedError(f"no process was ready within {patience:g} seconds") from error
+    except (BrokenExecutor, ProcessExpired) as error:
+        raise NotStartedError("the processes for the work die while they start") from error
 
 
 def _failure(error: BaseException) -> Failure | None:

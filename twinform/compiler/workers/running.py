@@ -2,7 +2,7 @@
 
 import traceback
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
@@ -13,6 +13,8 @@ Job = TypeVar("Job")
 Result = TypeVar("Result")
 _MOST_BREAKS = 5
 """Executors in a row that break before anything has come of them."""
+_PAUSE = 5.0
+"""Seconds of silence after which somebody looks whether an executor is still there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +23,14 @@ class Failure:
 
     cause: str
     late: bool = False
+
+
+class NotStartedError(BrokenExecutor):
+    """An executor broke before it began any job."""
+
+
+class UnavailableError(RuntimeError):
+    """There is nobody who could do the work."""
 
 
 def _no_failure(_: BaseException) -> Failure | None:
@@ -34,7 +44,9 @@ class Runner:
     At most `window` jobs are handed over at a time; `timed` means that it ends those whose time is over. `failure`
     recognizes exceptions of a future that mean that its job never came back. After `lost` ones the executor is gone
     for a reason that no job is to blame for. An executor from which nothing comes for so many seconds of `patience` is
-    broken.
+    broken; `check` looks now and then whether it still can be waited for, and raises where it cannot. `everywhere` has
+    each worker call a function once; it gives what comes of that, or the exception, by the name of the machine.
+    `resized` gives the same for fewer jobs at a time.
     """
 
     open: Callable[[], AbstractContextManager[Executor]]
@@ -44,11 +56,21 @@ class Runner:
     failure: Callable[[BaseException], Failure | None] = _no_failure
     lost: tuple[type[Exception], ...] = (CancelledError,)
     patience: float | None = None
+    check: Callable[[Executor], None] | None = None
+    everywhere: "Everywhere | None" = None
+    resized: "Callable[[int], Runner] | None" = None
+
+    def for_jobs(self, count: int) -> "Runner":
+        """The runner for so many jobs, which starts nothing that would have none."""
+        return self.resized(count) if self.resized else self
 
     @classmethod
     def of(cls, executor: Executor, window: int = 64) -> "Runner":
         """A runner for an executor of the caller's, who also shuts it down."""
         return cls(open=lambda: nullcontext(executor), window=window, renewed=False)
+
+
+Everywhere = Callable[[Executor, Callable[..., object], tuple[object, ...]], Mapping[str, object]]
 
 
 def run_on(
@@ -58,6 +80,7 @@ def run_on(
 
     Raises:
         RuntimeError: the task raised, or could not be handed over; the message is the traceback.
+        UnavailableError: there is nobody to do it.
         BrokenExecutor: the executor broke and is not renewed, or breaks whatever it is given.
     """
     return _Run(runner, task, iter(jobs)).results()
@@ -75,56 +98,60 @@ class _Run(Generic[Job, Result]):
 
     def results(self) -> Iterator[tuple[Job, Result | Failure]]:
         while self._is_left():
-            with self.runner.open() as executor:
-                yield from self._on(executor)
+            alone = bool(self.suspects)
+            runner = self.runner.for_jobs(1) if alone else self.runner
+            try:
+                with runner.open() as executor:
+                    yield from self._on(executor, alone=alone)
+            except (BrokenExecutor, *runner.lost) as error:  # it broke before it was given a job
+                self._count_break(error)
 
     def _is_left(self) -> bool:
         if not self.again and not self.suspects:
             self.again.extend(islice(self.waiting, 1))
         return bool(self.again or self.suspects)
 
-    def _on(self, executor: Executor) -> Iterator[tuple[Job, Result | Failure]]:
-        """What comes of an executor, until nothing is left to do or it breaks."""
+    def _on(self, executor: Executor, *, alone: bool) -> Iterator[tuple[Job, Result | Failure]]:
+        """What comes of an executor, until nothing is left for it or it breaks; suspects are each `alone` in it."""
         pending: dict[Future[Result], Job] = {}
-        alone = False
         try:
             while True:
-                alone = self._submit_more(executor, pending, alone=alone)
+                self._submit_more(executor, pending, alone=alone)
                 if not pending:
                     return
-                for future in self._completed(pending):
+                for future in self._completed(executor, pending):
                     result = self._result(future)
                     self.breaks = 0
                     yield pending.pop(future), result
         except (BrokenExecutor, *self.runner.lost) as error:
-            yield from self._after(error, list(pending.values()))
+            yield from self._after(error, list(pending.values()), alone=alone)
 
-    def _submit_more(self, executor: Executor, pending: dict[Future[Result], Job], *, alone: bool) -> bool:
-        """Give the executor more to do; gives whether it has one suspect, and is to have nothing else."""
-        if alone and pending:
-            return True
-        if self.suspects:
-            if pending:
-                return False
-            self._submit(executor, pending, self.suspects.popleft())
-            return True
-        while len(pending) < self.runner.window and self._is_left():
-            self._submit(executor, pending, self.again.popleft())
-        return False
+    def _submit_more(self, executor: Executor, pending: dict[Future[Result], Job], *, alone: bool) -> None:
+        queue, most = (self.suspects, 1) if alone else (self.again, self.runner.window)
+        while len(pending) < most and (queue if alone else self._is_left()):
+            self._submit(executor, pending, queue)
 
-    def _submit(self, executor: Executor, pending: dict[Future[Result], Job], job: Job) -> None:
+    def _submit(self, executor: Executor, pending: dict[Future[Result], Job], queue: deque[Job]) -> None:
+        job = queue.popleft()
         try:
             pending[executor.submit(self.task, job)] = job
         except (BrokenExecutor, *self.runner.lost):
-            self.again.append(job)  # it was never begun
+            queue.appendleft(job)  # it was never begun
+            raise
+        except UnavailableError:
             raise
         except Exception as error:
             raise _raised(error) from error
 
-    def _completed(self, pending: dict[Future[Result], Job]) -> set[Future[Result]]:
-        done = wait(pending, self.runner.patience, FIRST_COMPLETED).done
-        if not done:
-            raise BrokenExecutor("nothing comes back from it")
+    def _completed(self, executor: Executor, pending: dict[Future[Result], Job]) -> set[Future[Result]]:
+        silent = 0.0
+        pause = _PAUSE if self.runner.check else self.runner.patience
+        while not (done := wait(pending, pause, FIRST_COMPLETED).done):
+            silent += pause or 0
+            if self.runner.check:
+                self.runner.check(executor)
+            if self.runner.patience is not None and silent >= self.runner.patience:
+                raise BrokenExecutor("nothing comes back from it")
         return done
 
     def _result(self, future: Future[Result]) -> Result | Failure:
@@ -138,17 +165,24 @@ class _Run(Generic[Job, Result]):
                 raise _raised(error) from error
             return failure
 
-    def _after(self, error: Exception, jobs: list[Job]) -> Iterator[tuple[Job, Failure]]:
+    def _after(self, error: Exception, jobs: list[Job], *, alone: bool) -> Iterator[tuple[Job, Failure]]:
         """Sort out whose fault it is that an executor broke."""
-        self.breaks += 1
-        if not self.runner.renewed or self.breaks > _MOST_BREAKS:
-            raise error
+        self._count_break(error)
         if not isinstance(error, BrokenExecutor):
             self.again.extend(jobs)
-        elif len(jobs) == 1:
-            yield jobs[0], Failure("the process died")
+        elif alone:
+            yield from ((job, Failure("the process died")) for job in jobs)
         else:
+            # a process that has died while it started breaks a pool as one does that has died of a job
             self.suspects.extend(jobs)
+
+    def _count_break(self, error: Exception) -> None:
+        self.breaks += 1
+        if self.runner.renewed and self.breaks <= _MOST_BREAKS:
+            return
+        if isinstance(error, BrokenExecutor):
+            raise error
+        raise UnavailableError(f"the connection was lost {self.breaks} times in a row: {error}") from error
 
 
 def _raised(error: Exception) -> RuntimeError:

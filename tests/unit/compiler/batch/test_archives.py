@@ -12,6 +12,7 @@ import pytest
 from twinform.compiler.batch import archives
 from twinform.compiler.batch.archives import is_archive, unpacked
 from twinform.compiler.batch.entries import FolderError
+from twinform.compiler.observing import digest
 
 Entries = list[tuple[str, bytes]]
 
@@ -45,10 +46,11 @@ def _files(folder: Path) -> dict[str, bytes]:
 
 
 def test_files_come_with_their_times(make: Callable[[Entries], Path]) -> None:
-    with unpacked(make([("a/b.urdf", b"one"), ("c.urdf", b"two")])) as folder:
-        assert _files(folder) == {"a/b.urdf": b"one", "c.urdf": b"two"}
-        assert abs((folder / "c.urdf").stat().st_mtime - 1_000_000_000) < 15 * 3600  # zip has no time zones
-    assert not folder.exists()
+    with unpacked(make([("a/b.urdf", b"one"), ("c.urdf", b"two")])) as made:
+        assert _files(made.folder) == {"a/b.urdf": b"one", "c.urdf": b"two"}
+        assert made.contents == {name: digest(content) for name, content in _files(made.folder).items()}
+        assert abs((made.folder / "c.urdf").stat().st_mtime - 1_000_000_000) < 15 * 3600  # zip has no time zones
+    assert not made.folder.exists()
 
 
 @pytest.mark.parametrize("name", ["../up.urdf", "/root.urdf", "a/../../up.urdf", "a\\..\\up.urdf", "C:up.urdf"])
@@ -79,19 +81,19 @@ def test_links_and_devices_are_left_out(tmp_path: Path) -> None:
             info.type, info.linkname = kind, "/etc/passwd"
             archive.addfile(info)
         archive.addfile(tarfile.TarInfo("good.urdf"))
-    with unpacked(path) as folder:
-        assert _files(folder) == {"good.urdf": b""}
+    with unpacked(path) as made:
+        assert _files(made.folder) == {"good.urdf": b""}
     link = zipfile.ZipInfo("soft.urdf")
     link.external_attr = 0o120777 << 16
     with zipfile.ZipFile(tmp_path / "a.zip", "w") as archive:
         archive.writestr(link, "/etc/passwd")
-    with unpacked(tmp_path / "a.zip") as folder:
-        assert _files(folder) == {}
+    with unpacked(tmp_path / "a.zip") as made:
+        assert _files(made.folder) == {}
 
 
 def test_the_last_of_two_files_of_one_name_counts(tmp_path: Path) -> None:
-    with unpacked(_tar(tmp_path / "a.tar.gz", [("a.urdf", b"one"), ("a.urdf", b"two")])) as folder:
-        assert _files(folder) == {"a.urdf": b"two"}
+    with unpacked(_tar(tmp_path / "a.tar.gz", [("a.urdf", b"one"), ("a.urdf", b"two")])) as made:
+        assert _files(made.folder) == {"a.urdf": b"two"}
 
 
 def test_a_file_where_a_folder_is_needed_is_refused(make: Callable[[Entries], Path]) -> None:
@@ -119,5 +121,5 @@ def test_a_cut_archive_is_refused(tmp_path: Path) -> None:
 def test_nothing_is_looked_for_above_an_archive(tmp_path: Path) -> None:
     from twinform.compiler.search.search_roots import folders_around  # noqa: PLC0415 - only here
 
-    with unpacked(_tar(tmp_path / "a.tar.gz", [("a/b.urdf", b"")])) as folder:
-        assert folders_around(folder / "a/b.urdf") == (folder / "a", folder)
+    with unpacked(_tar(tmp_path / "a.tar.gz", [("a/b.urdf", b"")])) as made:
+        assert folders_around(made.folder / "a/b.urdf") == (made.folder / "a", made.folder)

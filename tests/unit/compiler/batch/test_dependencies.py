@@ -13,6 +13,7 @@ from twinform.compiler.batch.dependencies import (
     are_same,
     dependencies_of,
     packed,
+    renewed,
     unpacked,
 )
 from twinform.compiler.observing import Observation, observed
@@ -57,7 +58,7 @@ def test_all_that_is_asked_for_is_seen(tmp_path: Path, monkeypatch: pytest.Monke
         "folder": Kind.LISTED,
     }
     assert tuple(unpacked(packed(dependencies.values()))) == tuple(dependencies.values())
-    now = time.time_ns()
+    now = time.time_ns() + 1_000_000_000
     root = str(tmp_path)
     files = [dependency for dependency in dependencies.values() if dependency.kind is not Kind.LISTED]
     assert are_current(files, root, noted=now)
@@ -107,6 +108,48 @@ def test_a_link_that_leads_elsewhere_is_another_file(tmp_path: Path) -> None:
     link.unlink()
     link.symlink_to("b")
     assert not are_same(dependencies, str(tmp_path))
+
+
+def _current(path: Path, dependency: Dependency) -> bool:
+    return are_current([dependency], str(path.parent), noted=time.time_ns() + 10_000_000_000)
+
+
+def _written(path: Path, text: str) -> Dependency:
+    with observed() as seen:
+        _old(path, text).read_bytes()
+    return _observed_in(seen, path.parent)[path.name]
+
+
+def test_another_content_of_one_size_and_time_is_seen(tmp_path: Path) -> None:
+    """As `rsync -t`, Nix, Bazel and reproducible archives leave them."""
+    path = tmp_path / "a"
+    dependency = _written(path, "one")
+    assert _current(path, dependency)
+    _old(path, "two")
+    assert not _current(path, dependency)
+    assert not are_same([dependency], str(tmp_path))
+    _old(tmp_path / "b", "two").replace(path)
+    assert not _current(path, dependency)
+
+
+def test_a_time_of_the_last_change_that_somebody_made_up_proves_nothing(tmp_path: Path) -> None:
+    """Images of squashfs and mounts by FUSE have the time of the last modification there, in whole seconds."""
+    path = tmp_path / "a"
+    status = os.stat_result((0o100644, 7, 1, 1, 0, 0, 3, 9, 9, 9), {"st_mtime_ns": 10**18, "st_ctime_ns": 10**18})
+    dependency = Dependency("a", Kind.READ, 3, 10**18, "x", 10**18, 7)
+    assert not are_current([dependency], str(path.parent), status=lambda _: status)
+
+
+def test_what_is_only_newer_has_its_new_status(tmp_path: Path) -> None:
+    path = tmp_path / "a"
+    dependency = _written(path, "one")
+    path.write_text("one")
+    found = renewed([dependency], str(tmp_path))
+    assert found is not None
+    assert not _current(path, dependency)
+    assert _current(path, found[0])
+    path.write_text("two")
+    assert renewed([dependency], str(tmp_path)) is None
 
 
 @pytest.mark.parametrize("row", [[], ["a"], ["a", "eaten"], [1, "read"], ["a", "read", "1"], ["a", "read", 1, 2, 3]])

@@ -15,7 +15,7 @@ from twinform.child_python import python_command
 from twinform.compiler.input.limits import LARGEST
 from twinform.compiler.input.xacro.files import Files, OutsideError
 from twinform.compiler.input.xacro.variables import variable
-from twinform.compiler.observing import note_variable
+from twinform.compiler.observing import note_failure, note_variable
 from twinform.compiler.search.search_roots import folders_around
 from twinform.compiler.search.uris import SearchPath, UriError
 
@@ -133,6 +133,7 @@ class _Conversation:
                 message, content = self._answer(received)
         except BrokenPipeError:
             pass  # it died before it could listen
+        note_failure()
         return {"error": "the expansion died, or did not end within its time", "place": (str(self.path), 1)}
 
     def _answer(self, received: Mapping[str, str]) -> tuple[Mapping[str, object], bytes]:
