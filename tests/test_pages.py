@@ -8,7 +8,13 @@ import pytest
 
 _ROOT = Path(__file__).parents[1]
 _MAP = _ROOT / "ARCHITECTURE.md"
-_PAGES = [_ROOT / "README.md", _MAP, _ROOT / "CONTRIBUTING.md", *sorted((_ROOT / "docs").rglob("*.md"))]
+_PAGES = [
+    _ROOT / "README.md",
+    _MAP,
+    _ROOT / "CONTRIBUTING.md",
+    _ROOT / "SECURITY.md",
+    *sorted((_ROOT / "docs").rglob("*.md")),
+]
 _CODE = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 _LINK = re.compile(r"\]\((?!https?:)([^)#\s]*)(?:#([^)\s]*))?\)")
 _PLACEHOLDER = re.compile(r"[A-Z_]{4,}|[{}*]")
