@@ -76,7 +76,7 @@ def _passes() -> Iterator[str]:
 
 def _patterns() -> Iterator[bytes]:
     yield b"# made\n/out/\n*.tmp.urdf\n!keep.tmp.urdf\ndeep/**/x.urdf\n\\#odd.urdf\n\0out/a.urdf\na/b.tmp.urdf\nb.urdf"
-    yield b"*a*b\n[!a-z]?\0aaaaaaaa\nb"
+    yield b"*a*a*a*b\n[!a-z]?\0aaaaaaaa\nb"
     yield b"twinform: allow missing-limit, a - reason\ntwinform: allow-file b\0a"
 
 

@@ -34,7 +34,7 @@ from twinform.passes import PipelineError, parse_pipeline
 MODEL = b'<robot name="a"><link name="b"/></robot>'
 MESH_KINDS = sorted(FORMATS)
 _SEPARATOR = "\0"
-_REPETITIONS = 5
+_REPETITIONS = 100
 
 
 def load(data: bytes) -> None:

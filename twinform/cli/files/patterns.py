@@ -2,6 +2,7 @@
 
 import os
 import re
+import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -83,7 +84,10 @@ class PathPatterns:
         if len(written) > MOST:
             raise PatternError(f"{len(written):,} patterns; the limit is {MOST:,}")
         try:
-            spec = GitIgnoreSpec.from_lines(written, _LinearPattern, backend="simple")
+            with warnings.catch_warnings():
+                # re warns of brackets such as `[[a]` and `[a--b]`, which may mean something else in later versions
+                warnings.simplefilter("ignore", FutureWarning)
+                spec = GitIgnoreSpec.from_lines(written, _LinearPattern, backend="simple")
         except (ValueError, re.error) as error:
             raise PatternError(str(error)) from error
         return cls(os.path.abspath(folder), spec)  # noqa: PTH100 - links stay links
