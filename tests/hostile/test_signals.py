@@ -1,0 +1,141 @@
+"""The installed command, ended by a signal at any moment of its life: whole files, no leftovers, no traceback."""
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Mapping
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from tests.hostile.injected import Tree, tree
+from tests.hostile.test_injected import COMMANDS, Command, prepare
+from tests.profile import DEEP
+from twinform.storage.staging import PREFIX
+
+pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="looks into /proc")
+_TWINFORM = Path(sys.executable).with_name("twinform")
+_POINTS = 12 if DEEP else 2
+"""Moments at which each command is ended."""
+_QUICK = {"all files of one"}
+
+
+_NAMES = [name if name in _QUICK else pytest.param(name, marks=pytest.mark.deep) for name in COMMANDS]
+
+
+class Ended(NamedTuple):
+    """How a run ended that was sent a signal, and what it has left."""
+
+    code: int
+    errors: str
+    tree: Tree
+    temporary: Tree
+
+
+class Runs:
+    """Runs of a command, each in a new copy of a folder."""
+
+    def __init__(self, command: Command, top: Path) -> None:
+        self._words = [str(_TWINFORM), *command.words.split()]
+        self._template, self.here, self._temporary = top / "template", top / "here", top / "tmp"
+        self._template.mkdir()
+        prepare(command, self._template)
+        self.before = tree(self._template)
+        began = time.monotonic()
+        clean = self.run()
+        self.seconds = time.monotonic() - began
+        assert clean.code == 0, clean.errors
+        self.after = clean.tree
+
+    def run(self, number: signal.Signals | None = None, share: float = 0, times: int = 1) -> Ended:
+        """Run the command, and send it a signal after this share of its life."""
+        for folder in (self.here, self._temporary):
+            shutil.rmtree(folder, ignore_errors=True)
+        shutil.copytree(self._template, self.here, symlinks=True)
+        self._temporary.mkdir()
+        return self.again(number, share, times)
+
+    def again(self, number: signal.Signals | None = None, share: float = 0, times: int = 1) -> Ended:
+        """Run it in the folder as it is."""
+        process = subprocess.Popen(
+            self._words,
+            cwd=self.here,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            env=self._environment(),
+            preexec_fn=_accept_interrupts,  # noqa: PLW1509 - there are no threads
+        )
+        if number is not None:
+            _wait_for_handlers(process)
+            time.sleep(share * self.seconds)
+            for _ in range(times):
+                process.send_signal(number)
+        _, errors = process.communicate()
+        text = errors.decode(errors="replace")
+        return Ended(process.returncode, text, tree(self.here), tree(self._temporary))
+
+    def _environment(self) -> Mapping[str, str]:
+        return {**os.environ, "TMPDIR": str(self._temporary), "TWINFORM_MESH_CACHE": "off"}
+
+
+def _accept_interrupts() -> None:
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # who runs the tests may have it ignored
+
+
+def _wait_for_handlers(process: subprocess.Popen[bytes]) -> None:
+    """Wait until the program handles SIGTERM: what comes earlier is Python's own start."""
+    while process.poll() is None:
+        status = Path(f"/proc/{process.pid}/status").read_text()
+        caught = re.search(r"^SigCgt:\s*(\w+)", status, re.MULTILINE)
+        if caught and int(caught[1], 16) >> (signal.SIGTERM - 1) & 1:
+            return
+        time.sleep(0.001)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, *([signal.SIGTERM, signal.SIGHUP] if DEEP else [])])
+@pytest.mark.parametrize("name", _NAMES)
+def test_a_signal_ends_it_with_all_old_or_all_new(name: str, number: signal.Signals, tmp_path: Path) -> None:
+    command = COMMANDS[name]
+    runs = Runs(command, tmp_path)
+    for point in range(_POINTS):
+        ended = runs.run(number, point / _POINTS)
+        assert ended.code in {0, 128 + number}, ended.errors
+        assert "Traceback" not in ended.errors
+        assert "Exception ignored" not in ended.errors
+        assert ended.temporary == {}
+        if command.apart and ended.code:
+            assert all(ended.tree.get(name, 0) in {runs.before.get(name, 0), runs.after[name]} for name in runs.after)
+        else:
+            assert ended.tree in ([runs.after, runs.before] if ended.code else [runs.after])
+
+
+@pytest.mark.parametrize("name", _NAMES)
+def test_a_killed_run_leaves_whole_files_and_the_next_run_removes_the_rest(name: str, tmp_path: Path) -> None:
+    if name in {"one in place", "one into a file"}:
+        pytest.skip("it does something else when it is run again")
+    runs = Runs(COMMANDS[name], tmp_path)
+    for point in range(_POINTS):
+        ended = runs.run(signal.SIGKILL, (point + 0.5) / _POINTS)
+        for path, content in ended.tree.items():
+            if content is not None and PREFIX not in path:
+                assert content in {runs.before.get(path), runs.after.get(path), *_marks(path, content)}
+        again = runs.again()
+        assert again.code == 0, again.errors
+        assert again.tree == runs.after
+        assert again.temporary == {}
+
+
+def _marks(path: str, content: bytes) -> set[bytes]:
+    """The list of a package's files, which is longer while one package takes the place of another."""
+    return {content} if path.endswith(".twinform-package") and content.endswith(b"\n") else set()
+
+
+def test_a_second_interrupt_changes_nothing(tmp_path: Path) -> None:
+    runs = Runs(COMMANDS["several"], tmp_path)
+    ended = runs.run(signal.SIGINT, 0, times=3)
+    assert (ended.code, ended.errors, ended.tree) == (130, "", runs.before)
