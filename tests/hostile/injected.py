@@ -141,7 +141,9 @@ class Injection:
         if fault in ERRORS:
             if done.code not in {0, 1, 2}:
                 yield f"exit code {done.code}: {done.errors[-500:]}"
-            elif done.code and not any(name in done.errors for name in ("/injected-", "standard output", *self._names)):
+            elif done.code and not any(
+                name in done.errors for name in ("/injected-", "/twinform/", "standard output", *self._names)
+            ):
                 yield f"the message names no file: {done.errors[-500:]}"
         else:
             name = fault.partition(" ")[0]

@@ -139,3 +139,69 @@ def test_a_second_interrupt_changes_nothing(tmp_path: Path) -> None:
     runs = Runs(COMMANDS["several"], tmp_path)
     ended = runs.run(signal.SIGINT, 0, times=3)
     assert (ended.code, ended.errors, ended.tree) == (130, "", runs.before)
+
+
+_ENDLESS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">
+<xacro:macro name="m" params="n"><xacro:if value="${n > 0}"><xacro:m n="${n - 1}"/><xacro:m n="${n - 1}"/></xacro:if>
+</xacro:macro><xacro:m n="60"/></robot>"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
+def test_a_child_process_ends_with_the_command(number: signal.Signals, tmp_path: Path) -> None:
+    (tmp_path / "r.urdf.xacro").write_text(_ENDLESS)
+    command = [_TWINFORM, "check", "r.urdf.xacro"]
+    with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, preexec_fn=_accept_interrupts) as process:  # noqa: PLW1509 - there are no threads
+        child = _child_of(process)
+        process.send_signal(number)
+        process.wait()
+    while _is_running(child):  # the system takes a moment; the child has ten seconds of the processor itself
+        assert _seconds_of(child) < 5
+        time.sleep(0.01)
+
+
+@pytest.mark.deep
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_a_view_ends_with_all_its_processes(number: signal.Signals, tmp_path: Path) -> None:
+    prepare(COMMANDS["a conversion"], tmp_path)
+    command = [_TWINFORM, "view", "r.urdf", "--no-open"]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, preexec_fn=_accept_interrupts) as process:  # noqa: PLW1509 - there are no threads
+        assert process.stdout is not None
+        assert process.stdout.readline().startswith(b"showing")
+        children = _children_of(process)
+        process.send_signal(number)
+        assert process.wait() == (-9 if number == signal.SIGKILL else 0)
+    for child in children:
+        while _is_running(child):
+            time.sleep(0.01)
+
+
+def _children_of(process: subprocess.Popen[bytes]) -> list[int]:
+    tasks = Path(f"/proc/{process.pid}/task").glob("*/children")
+    return [int(child) for task in tasks for child in task.read_text().split()]
+
+
+def _child_of(process: subprocess.Popen[bytes]) -> int:
+    """The child process of a command, once that has one which is at work."""
+    while True:
+        for child in _children_of(process):
+            if _is_running(child) and _seconds_of(child) > 0.5:
+                return child
+        time.sleep(0.01)
+
+
+def _state_of(process: int) -> list[str]:
+    return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+
+
+def _is_running(process: int) -> bool:
+    try:
+        return _state_of(process)[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+
+
+def _seconds_of(process: int) -> float:
+    try:
+        return sum(map(int, _state_of(process)[11:13])) / os.sysconf("SC_CLK_TCK")
+    except (FileNotFoundError, ProcessLookupError):
+        return 0

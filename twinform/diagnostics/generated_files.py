@@ -5,6 +5,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from twinform.storage.writing import write_atomically
+
 
 def main(text: str, arguments: Sequence[str]) -> int:
     """The command line of a generator: print the text, write it to a file or compare it with one.
@@ -23,7 +25,7 @@ def main(text: str, arguments: Sequence[str]) -> int:
     if given.file is None:
         sys.stdout.write(text)
     else:
-        given.file.write_text(text, encoding="utf-8", newline="\n")
+        write_atomically(given.file, text)
     return 0
 
 

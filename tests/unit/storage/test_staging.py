@@ -25,7 +25,7 @@ with staging_folder(Path(sys.argv[1])) as folder:
 
 @pytest.fixture(autouse=True)
 def _searched_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(staging, "_searched", set())
+    monkeypatch.setattr(staging, "_searched", set[Path]())
 
 
 def _killed_in(folder: Path) -> Path:

@@ -8,6 +8,7 @@ from click.testing import CliRunner
 
 from twinform.cli import main
 from twinform.compiler import write_all_atomically, write_atomically
+from twinform.storage.writing import write_new_file
 
 _GOOD = '<robot name="r"><link name="a"/></robot>'
 _BAD = '<robot name="r"><link name="a"/><link name="a"/></robot>'
@@ -151,3 +152,37 @@ def test_a_link_that_leads_to_itself_is_an_error_with_a_message(tmp_path: Path) 
 def test_a_path_may_be_a_text(tmp_path: Path) -> None:
     write_atomically(str(tmp_path / "new/robot.urdf"), "<robot/>")
     assert (tmp_path / "new/robot.urdf").read_text() == "<robot/>"
+
+
+def test_extended_attributes_stay(tmp_path: Path) -> None:
+    file = tmp_path / "robot.sdf"
+    file.write_text("old")
+    try:
+        os.setxattr(file, "user.origin", b"here")
+    except (AttributeError, OSError):
+        pytest.skip("there are none")
+    write_atomically(file, "new")
+    assert os.getxattr(file, "user.origin") == b"here"
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can give a file away")
+def test_what_root_writes_over_stays_its_owners(tmp_path: Path) -> None:
+    file = tmp_path / "robot.sdf"
+    file.write_text("old")
+    os.chown(file, 1234, 1235)
+    write_atomically(file, "new")
+    assert (file.read_text(), file.stat().st_uid, file.stat().st_gid) == ("new", 1234, 1235)
+
+
+def test_a_new_file_is_written_over_nothing(tmp_path: Path) -> None:
+    write_new_file(tmp_path / "new/a.json", "one")
+    with pytest.raises(FileExistsError):
+        write_new_file(tmp_path / "new/a.json", "two")
+    assert (tmp_path / "new/a.json").read_text() == "one"
+    assert _names(tmp_path / "new") == ["a.json"]
+
+
+def test_many_files_are_written_together(tmp_path: Path) -> None:
+    texts = {tmp_path / f"{number}.sdf": str(number) for number in range(100)}
+    write_all_atomically(texts)
+    assert {path: path.read_text() for path in tmp_path.iterdir()} == texts

@@ -5,7 +5,9 @@ and not of the one that asked.
 """
 
 import os
+import select
 import sys
+import threading
 from contextlib import suppress
 from typing import BinaryIO
 
@@ -53,8 +55,18 @@ def _replies() -> BinaryIO:
     return own
 
 
+def _end_with_parent() -> None:
+    """Wait until nobody can write to standard input any more, and end this process, also in the middle of a job."""
+    hung_up = select.poll()
+    hung_up.register(sys.stdin.fileno(), 0)  # that it is closed at the other end is reported in any case
+    hung_up.poll()
+    os._exit(1)
+
+
 def main() -> None:
     """Do jobs until there are no more."""
+    if hasattr(select, "poll"):  # Windows has none
+        threading.Thread(target=_end_with_parent, daemon=True).start()
     _limit_memory(int(sys.argv[1]))
     replies = _replies()
     while (job := Job.read(sys.stdin.buffer)) is not None:

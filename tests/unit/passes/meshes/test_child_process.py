@@ -2,6 +2,8 @@
 
 import importlib
 import io
+import subprocess
+import sys
 import threading
 from pathlib import Path
 from typing import Any
@@ -145,3 +147,13 @@ def test_what_stops_a_reader_is_said_as_that() -> None:
 def test_a_pointer_of_git_lfs_is_no_mesh() -> None:
     pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n"
     assert done(job(pointer)).message == "it is a pointer of Git LFS and not the file itself: run `git lfs pull`"
+
+
+def test_the_process_ends_with_the_one_that_asks_also_in_the_middle_of_a_job() -> None:
+    busy = "from twinform.passes.meshes import child\nchild.done = lambda job: [0 for _ in iter(int, 1)]\nchild.main()"
+    command = [sys.executable, "-c", busy, str(2**32)]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+        assert process.stdin is not None
+        process.stdin.write(job().to_bytes())
+        process.stdin.close()
+        assert process.wait() == 1

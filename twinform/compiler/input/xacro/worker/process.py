@@ -13,6 +13,7 @@ from twinform.compiler.input.xacro.worker.failures import description
 from twinform.compiler.input.xacro.worker.limits import limit
 from twinform.compiler.input.xacro.worker.places import BadFileError, FileLine, places_below
 from twinform.confinement import confine
+from twinform.confinement.parent import end_with_parent
 
 _MOST_REMARKS = 1000
 _NEEDED_LATER = ("unicodedata", "encodings.cp1252", "encodings.iso8859_15", "encodings.utf_16")
@@ -88,6 +89,7 @@ def _expanded(expander: Expander, arguments: dict[str, str]) -> dict[str, Any]:
 
 def main() -> None:
     """Do one task."""
+    end_with_parent()
     limit()
     channel = Channel()
     channel.send(run(channel))
