@@ -13,6 +13,7 @@ from twinform.schemas.json_schema import generate_json_schema
 from twinform.schemas.packaged import XsdVersion, code_file, json_schema_file, schema_file
 from twinform.schemas.text_generator import generate_text_writer
 from twinform.schemas.xsd import generate_schema
+from twinform.storage.writing import write_all_atomically
 
 FORMATS = ("urdf", "sdf")
 
@@ -39,9 +40,7 @@ def main(arguments: Sequence[str]) -> int:
         for file in (files := stale()):
             sys.stderr.write(f"{file}: not what the facts say; run python -m twinform.schemas.generate\n")
         return 1 if files else 0
-    for file, text in generated():
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text, encoding="utf-8", newline="\n")
+    write_all_atomically(dict(generated()))
     return 0
 
 

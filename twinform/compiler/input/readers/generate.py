@@ -8,6 +8,7 @@ from pathlib import Path
 from twinform.child_python import python_command
 from twinform.compiler.input.readers.functions import ModuleWriter
 from twinform.schemas import table
+from twinform.storage.writing import write_all_atomically
 
 _FORMATS = ("urdf", "sdf")
 
@@ -35,8 +36,7 @@ def main(arguments: Sequence[str]) -> int:
         for file in (files := stale()):
             sys.stderr.write(f"{file}: not up to date with the facts; run python -m {__spec__.name}\n")
         return 1 if files else 0
-    for file, text in generated():
-        file.write_text(text, encoding="utf-8", newline="\n")
+    write_all_atomically(dict(generated()))
     return 0
 
 
