@@ -12,6 +12,7 @@ from twinform.cli.findings import show
 from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
 from twinform.cli.outputs import Outputs
 from twinform.cli.tolerance import tolerance_option
+from twinform.compiler import CompileError
 from twinform.diagnostics.reporters import Findings
 from twinform.report import WRITERS, build_report
 from twinform.report.content import make_page
@@ -66,16 +67,20 @@ def command(
         raise click.UsageError("report takes one file or two")
     first, second = sources[0], sources[1] if len(sources) == _MOST else None
     style = style or (_SUFFIXES.get(output.suffix.lower()) if output else None) or "html"
-    found = build_report(
-        first.content,
-        second.content if second else None,
-        load_options_of(arguments, input_options),
-        names=(first.name, second.name if second else ""),
-        model=model,
-        tolerance=tolerance,
-        meshes=meshes,
-        view=make_page if view and style == "html" else None,
-    )
+    try:
+        found = build_report(
+            first.content,
+            second.content if second else None,
+            load_options_of(arguments, input_options),
+            names=(first.name, second.name if second else ""),
+            model=model,
+            tolerance=tolerance,
+            meshes=meshes,
+            view=make_page if view and style == "html" else None,
+        )
+    except CompileError as error:
+        show(Findings(first.name, error.diagnostics), notes=False, on_stderr=True)
+        ctx.exit(UNUSABLE)
     if found.unreadable:
         for subject in found.subjects:
             if subject.loaded.unreadable:

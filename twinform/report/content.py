@@ -120,6 +120,9 @@ def build_report(
     `names` are what the files are called, by default their paths; meshes for the view are looked for beside them.
     `model` is the one that is converted and compared where there are several. `meshes` selects whether mesh files are
     read for numbers, and `view` makes the page of the 3D view; without it there is none.
+
+    Raises:
+        CompileError: a file could be read at first, and then not.
     """
     load_options = load_options or LoadOptions()
     one = _subject(first, names[0], load_options, meshes=meshes)
@@ -131,6 +134,8 @@ def build_report(
                 first, second, load_options, names=(one.name, two.name), model=model, tolerance=tolerance
             )
         except CompileError as error:
+            if error.unreadable and not (one.loaded.unreadable or two.loaded.unreadable):
+                raise
             problem = str(error)
     converted = _converted(first, one, load_options, model)
     page, reason = _view(one, two, comparison, load_options.search, view)
@@ -159,6 +164,8 @@ def _converted(source: Input, subject: Subject, load_options: LoadOptions, model
     try:
         return Converted(target, run_conversion(request, source, load_options, name=subject.name).ledger)
     except CompileError as error:
+        if error.unreadable and not subject.loaded.unreadable:
+            raise
         return Converted(target, reasons=tuple(each for each in error.diagnostics if each.is_error))
 
 
