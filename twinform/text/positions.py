@@ -155,6 +155,9 @@ class _Placing:
             self.parser.Parse(self.data, True)
         except expat.ExpatError as error:
             raise UnplacedError(str(error)) from error
+        finally:
+            # it holds this object by its handlers: Python would look for such a circle only after many more texts
+            del self.parser
         assert self.root is not None  # noqa: S101 - a well-formed text has a root
         return self.root
 

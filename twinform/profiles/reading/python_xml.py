@@ -35,6 +35,9 @@ def parse_with_expat(content: bytes) -> list[Node]:
         parser.Parse(content, True)
     except (expat.ExpatError, ValueError, LookupError) as error:
         raise UnparsedError(str(error), parser.CurrentLineNumber) from None
+    finally:
+        # it refers to itself by this function: Python would look for such a circle only after many more texts
+        parser.StartElementHandler = None
     return top
 
 
