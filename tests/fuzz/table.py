@@ -8,6 +8,8 @@ from pathlib import Path
 from time import process_time
 from typing import NamedTuple
 
+from lsprotocol.types import METHOD_TO_TYPES
+
 from tests.fuzz import targets
 from twinform.cli.config.settings import FileSettings, FormatSettings, Settings
 from twinform.compiler import check
@@ -172,6 +174,11 @@ def _mesh_words() -> Iterator[str]:
     )
 
 
+def _messages() -> Iterator[bytes]:
+    folder = Path(__file__).with_name("found") / "editor_protocol"
+    yield from (path.read_bytes() for path in sorted(folder.iterdir()))
+
+
 def _nothing() -> Iterator[str]:
     return iter(())
 
@@ -185,5 +192,6 @@ TARGETS = {
     "archives": Target(targets.archives, _archives, _nothing, 16384),
     "json": Target(targets.json, _json, _fields),
     "addresses": Target(targets.addresses, _addresses, _nothing, 512),
+    "editor_protocol": Target(targets.editor_protocol, _messages, METHOD_TO_TYPES.keys),
     "meshes": Target(targets.meshes, _meshes, _mesh_words),
 }

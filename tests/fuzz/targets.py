@@ -7,12 +7,14 @@ import tempfile
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from functools import cache
+from io import BytesIO
 from pathlib import Path
 
 from click.testing import CliRunner
 
 import twinform
 from tests.mended import mended_file
+from tests.unit.server.playing import play
 from twinform.cli.check import command as check_command
 from twinform.cli.failure import UNUSABLE
 from twinform.cli.files.exclusion import PatternError
@@ -30,6 +32,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.baseline import Baseline, BaselineError
 from twinform.diagnostics.suppressions import parse_suppressions
 from twinform.passes import PipelineError, parse_pipeline
+from twinform.server.framing import read_messages
 
 MODEL = b'<robot name="a"><link name="b"/></robot>'
 MESH_KINDS = sorted(FORMATS)
@@ -57,6 +60,12 @@ def pipeline(data: bytes) -> None:
     except PipelineError:
         return
     assert parse_pipeline(str(found)) == found, "another pipeline once written and parsed again"
+
+
+def editor_protocol(data: bytes) -> None:
+    """Messages of an editor, one in each line: each request has one answer, and documents are still checked."""
+    assert len(list(read_messages(BytesIO(data)))) <= len(data), "messages out of nothing"
+    play(data.splitlines())
 
 
 def fixers(data: bytes) -> None:

@@ -19,11 +19,11 @@ def command(*, stdio: bool) -> None:
     """
     del stdio
     try:
-        from twinform.server.wiring import serve  # noqa: PLC0415 - an extra has its library
+        from twinform.server.serving import serve  # noqa: PLC0415 - an extra has its library
     except ImportError as error:
         raise Unusable(
             f"the language server needs {error.name or 'pygls'}; run: pip install 'twinform[lsp]'"
         ) from error
     from twinform.cli.config.server import settings_of  # noqa: PLC0415 - see above
 
-    serve(settings_of)
+    click.get_current_context().exit(serve(settings_of))

@@ -15,7 +15,7 @@ from twinform.server.known_names import names_for
 from twinform.server.mapping.rows import Row
 from twinform.server.names import kind_at
 from twinform.server.plugin_facts import described, parameter_of, parameters_in
-from twinform.server.proposal import Proposal
+from twinform.server.proposal import Proposal, literal
 from twinform.server.schema import Place, inside, is_of_xacro
 from twinform.server.session import Session
 from twinform.server.tree import Node
@@ -201,7 +201,7 @@ def _values(session: Session, document: Document, node: Node, attribute: str | N
     kind = kind_at(document, node, attribute)
     if kind is not None:
         for name in names_for(session, document, node, kind):
-            yield Proposal(name.text, name.text.replace("$", "\\$"), _ITEM.Reference, name.kind)
+            yield Proposal(name.text, literal(name.text), _ITEM.Reference, name.kind)
     if node.tag == "plugin" and attribute in {"filename", "name"}:
         yield from _plugins(attribute)
     parameter = parameter_of(node) if attribute is None else None

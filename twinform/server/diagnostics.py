@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from lsprotocol import types
-from pygls.uris import from_fs_path
 
 from twinform.diagnostics import Diagnostic, Location, Severity, Span
 from twinform.diagnostics.addresses import RULES
@@ -93,8 +92,3 @@ def _related(found: Diagnostic, document_of: DocumentOf) -> list[types.Diagnosti
 def _page(found: Diagnostic) -> types.CodeDescription | None:
     """The page of one of our own rules."""
     return types.CodeDescription(f"{RULES}#{found.rule.name}") if found.rule.name in BUILT_IN else None
-
-
-def uri_of(path: Path) -> str:
-    """The URI of a file."""
-    return from_fs_path(str(path.absolute())) or path.absolute().as_uri()

@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from lsprotocol.types import PositionEncodingKind, TextDocumentContentChangeEvent, TextDocumentContentChangePartial
-from pygls.uris import to_fs_path
 
 from twinform.server.positions import Positions
 from twinform.server.schema import FormatName, Schema, format_of
 from twinform.server.settings import LARGEST, MOST_TAGS
 from twinform.server.tree import Tree, parse
+from twinform.server.uris import file_of, path_of
 from twinform.text import SourceText
 
 Made = TypeVar("Made")
@@ -35,10 +35,15 @@ class Document:
     encoding: PositionEncodingKind = PositionEncodingKind.Utf16
     excess: str = ""
 
-    @property
+    @cached_property
     def path(self) -> Path:
-        """The file; one that was never saved has the name that its URI gives it."""
+        """The file; what is no file of this machine has a name like that in its URI."""
         return path_of(self.uri)
+
+    @cached_property
+    def is_file(self) -> bool:
+        """Whether it is a file of this machine, which others can include."""
+        return file_of(self.uri) is not None
 
     @cached_property
     def positions(self) -> Positions:
@@ -90,13 +95,8 @@ class Document:
         text = _LONE.sub("\ufffd", self.text)
         try:
             return SourceText(text, encoding).data
-        except LookupError:  # which the check reports
+        except (LookupError, UnicodeError):  # which the check reports
             return text.encode()
-
-
-def path_of(uri: str) -> Path:
-    """The file that a URI stands for."""
-    return Path(to_fs_path(uri) or uri.rpartition("/")[2] or "untitled")
 
 
 def excess_of(text: str) -> str:
@@ -129,7 +129,7 @@ class Documents:
 
     def of_path(self, path: Path) -> Document | None:
         """The document that is open of a file."""
-        return next((each for each in self if each.path == path and not each.excess), None)
+        return next((each for each in self if each.is_file and each.path == path and not each.excess), None)
 
     def last_good(self, document: Document) -> Document | None:
         """The last state of a document that was well-formed, as far as anybody has looked at it."""

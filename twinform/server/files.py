@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from twinform.compiler.input.limits import read_up_to
-from twinform.server.diagnostics import uri_of
 from twinform.server.documents import Document, Documents, excess_of
 from twinform.server.settings import LARGEST
+from twinform.server.uris import uri_of
 from twinform.text import SourceText, UndecodableError
 
 _MOST = 500

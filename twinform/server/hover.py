@@ -16,6 +16,7 @@ from twinform.server.diagnostics import span_of
 from twinform.server.documents import Document
 from twinform.server.mapping.destinations import destination
 from twinform.server.mapping.rows import FORMATS, FormatName, Row, rows
+from twinform.server.markdown import code, code_block
 from twinform.server.name import Name
 from twinform.server.names import name_at
 from twinform.server.navigation import Found, meant_by, search_of
@@ -104,9 +105,9 @@ def _of_name(session: Session, document: Document, name: Name) -> Iterator[str]:
     group = session.neighbors.included(document, search_of(session, document))
     for found in meant_by(Found(document, name), group, session)[:1]:
         line = found.document.positions.position(found.name.span.start).line + 1
-        where = "" if found.document.path == document.path else f" of {found.document.path.name}"
+        where = "" if found.document.path == document.path else f" of {code(found.document.path.name)}"
         tag = found.name.node.start_tag.of(found.document.text)[:_LONGEST]
-        yield f"{found.name.kind} **{found.name.text}**, line {line}{where}\n\n```xml\n{tag}\n```"
+        yield f"{found.name.kind} {code(found.name.text[:_LONGEST])}, line {line}{where}\n\n{code_block(tag, 'xml')}"
 
 
 def _of_xacro(node: Node, cursor: Cursor) -> Iterator[str]:

@@ -6,9 +6,9 @@ from lsprotocol import types
 
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Span
-from twinform.server.diagnostics import uri_of
 from twinform.server.documents import Document
 from twinform.server.includes import includes_of, resolved, target
+from twinform.server.uris import uri_of
 
 _TEXTS = frozenset({"uri", "albedo_map", "normal_map", "roughness_map", "metalness_map", "filename", "file"})
 """The elements of SDF whose texts name files; a plugin's library is none that a person opens."""

@@ -5,6 +5,11 @@ from dataclasses import dataclass
 from lsprotocol import types
 
 
+def literal(text: str) -> str:
+    """A text in a snippet, where `$` has a meaning: `$CLIPBOARD` is what somebody has copied last."""
+    return text.replace("\\", "").replace("$", "\\$")
+
+
 @dataclass(frozen=True, slots=True)
 class Proposal:
     """Something to write: `new` is a snippet, in which `$` stands before places to fill in.

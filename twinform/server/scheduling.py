@@ -37,6 +37,7 @@ class Checks:
     def forget(self, uri: str) -> None:
         """Have a document not checked any more."""
         self._wanted.pop(uri, None)
+        self._due.pop(uri, None)
         task = self._tasks.pop(uri, None)
         if task is not None:
             task.cancel()
@@ -59,6 +60,9 @@ class Checks:
                 outcome = await self._outcome(job)
                 if done == self._wanted[uri]:
                     await self._show(uri, outcome)
+        except Exception as error:  # noqa: BLE001 - see below
+            # whatever it is, the other documents are still checked
+            await self._show(uri, f"the file could not be checked: this is a fault of twinform: {error!r}")
         finally:
             if self._tasks.get(uri) is asyncio.current_task():
                 del self._tasks[uri]

@@ -23,7 +23,7 @@ _ADVICE = "it is not followed while you type; run `twinform check` on it, and op
 class Session:
     """Holds all state of the server. Handlers of requests ask it for documents, and it checks these as they change."""
 
-    def __init__(self, settings_of: SettingsOf, publish: Publish) -> None:
+    def __init__(self, settings_of: SettingsOf, publish: Publish, worker: Worker | None = None) -> None:
         self.documents = Documents()
         self.files = Files(self.documents)
         self.neighbors = Neighbors(self.files)
@@ -32,7 +32,7 @@ class Session:
         self.found: dict[str, tuple[Document, tuple[Diagnostic, ...]]] = {}
         self.settings_of = settings_of
         self._publish = publish
-        self.worker = Worker()
+        self.worker = worker or Worker()
         self._checks = Checks(self.worker, self.job, self._show)
         self._shown: dict[str, dict[str, list[types.Diagnostic]]] = {}
         self._read: dict[str, frozenset[str]] = {}
@@ -81,7 +81,7 @@ class Session:
     def _check_those_that_read(self, document: Document) -> None:
         """Check the documents again that include one."""
         for uri, files in self._read.items():
-            if uri != document.uri and str(document.path.absolute()) in files:
+            if document.is_file and uri != document.uri and str(document.path.absolute()) in files:
                 self._checks.want(uri)
 
     def job(self, uri: str) -> Job | None:
@@ -91,10 +91,12 @@ class Session:
             return None
         root = document.tree.root
         is_part = document.is_xacro and root is not None and root.tag == "robot" and root.get("name") is None
-        return Job(document.path.absolute(), self._unsaved(), self.settings_of(document.path), is_part)
+        return Job(document.path.absolute(), self._unsaved(document), self.settings_of(document.path), is_part)
 
-    def _unsaved(self) -> Mapping[str, bytes]:
-        return {os.path.realpath(each.path): each.data for each in self.documents if not each.excess}
+    def _unsaved(self, document: Document) -> Mapping[str, bytes]:
+        """The texts of all files that are open, and that of a document, which may be no file."""
+        files = [each for each in self.documents if each.is_file and not each.excess]
+        return {os.path.realpath(each.path): each.data for each in (*files, document)}
 
     async def _show(self, uri: str, outcome: Checked | str) -> None:
         """Show what came of a check."""
@@ -119,7 +121,11 @@ class Session:
     def _publish_for(self, uri: str, made: dict[str, list[types.Diagnostic]]) -> None:
         """Show for each file what is found there on the account of any document that is open."""
         touched = {*made, *self._shown.get(uri, {})}
-        self._shown[uri] = {file: found for file, found in made.items() if found}
+        shown = {file: found for file, found in made.items() if found}
+        if shown:
+            self._shown[uri] = shown
+        else:
+            self._shown.pop(uri, None)
         for file in sorted(touched):
             together = [each for own in self._shown.values() for each in own.get(file, ())]
             state = self.documents.state(file)

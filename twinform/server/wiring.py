@@ -1,19 +1,18 @@
-"""The language server itself: which request is answered by which function, on standard input and output."""
+"""The language server itself: which request is answered by which function, and with what."""
 
-import gc
-import logging
 import threading
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, TypeVar
 
 from lsprotocol import types
-from pygls.exceptions import JsonRpcInvalidParams
+from pygls.exceptions import FeatureRequestError, JsonRpcException, JsonRpcInvalidParams, PyglsError
 from pygls.lsp.server import LanguageServer
 
 from twinform import __version__
 from twinform.server.actions import FIX_ALL, RUN_PASSES, actions, edit_of, text_edits, word_of
 from twinform.server.completion import complete
-from twinform.server.documents import Document, path_of
+from twinform.server.documents import Document
 from twinform.server.editing import Rewritten, lay_out, run_passes
 from twinform.server.folding import folds
 from twinform.server.hover import hover, warm_up
@@ -24,25 +23,32 @@ from twinform.server.renaming import RefusedError, prepare, rename
 from twinform.server.session import Session
 from twinform.server.settings import SettingsOf, no_settings
 from twinform.server.symbols import outline, search
-from twinform.server.workers import TaskError
+from twinform.server.uris import file_of
+from twinform.server.workers import TaskError, Worker
 
-_SELDOM = (100_000, 50, 100)
-"""When the garbage collector looks: all trees, and all that was imported, take it longer than a key may."""
 Answer = TypeVar("Answer")
 
 
-def serve(settings_of: SettingsOf = no_settings) -> None:
-    """Talk to an editor until it says that it is done."""
-    logging.getLogger("pygls").setLevel(logging.CRITICAL)
-    server = make_server(settings_of)
-    gc.set_threshold(*_SELDOM)
-    server.start_io()
+class Server(LanguageServer):
+    """The server with the session that it holds. `on_parent` is told the process of the editor, if that says so."""
+
+    protocol: Protocol  # pyright: ignore[reportIncompatibleVariableOverride] - it is never replaced
+
+    def __init__(self, settings_of: SettingsOf, worker: Worker | None) -> None:
+        super().__init__("twinform", __version__, protocol_cls=Protocol)  # pyright: ignore[reportUnknownMemberType]
+        self.session = Session(settings_of, self.text_document_publish_diagnostics, worker)
+        self.on_parent: Callable[[int], None] | None = None
+
+    def report_server_error(self, error: Exception, source: type[PyglsError] | type[JsonRpcException]) -> None:
+        """Write into the log of the editor what went wrong with a notification; a request has it as its answer."""
+        if source is not FeatureRequestError:
+            self.protocol.log(f"this is a fault of twinform: {error!r}")
 
 
-def make_server(settings_of: SettingsOf = no_settings) -> LanguageServer:
+def make_server(settings_of: SettingsOf = no_settings, worker: Worker | None = None) -> Server:
     """A server that is ready to start."""
-    server = LanguageServer("twinform", __version__, protocol_cls=Protocol)
-    session = Session(settings_of, server.text_document_publish_diagnostics)
+    server = Server(settings_of, worker)
+    session = server.session
     _follow_documents(server, session)
     _answer_at_places(server, session)
     _answer_about_documents(server, session)
@@ -50,16 +56,22 @@ def make_server(settings_of: SettingsOf = no_settings) -> LanguageServer:
     return server
 
 
-def _follow_documents(server: LanguageServer, session: Session) -> None:
+def _follow_documents(server: Server, session: Session) -> None:
     """Keep documents in step, from the beginning of the session to its end."""
 
     @server.feature(types.INITIALIZE)
     def initialize(params: types.InitializeParams) -> None:
         session.documents.encoding = types.PositionEncodingKind(server.workspace.position_encoding)
-        session.folders = [path_of(each.uri) for each in params.workspace_folders or ()]
+        session.folders = _folders(server)
         text = params.capabilities.text_document
         item = text.completion.completion_item if text and text.completion else None
         session.snippets = bool(item and item.snippet_support)
+        if params.process_id is not None and server.on_parent is not None:
+            server.on_parent(params.process_id)
+
+    @server.feature(types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS)
+    def moved(_: types.DidChangeWorkspaceFoldersParams) -> None:
+        session.folders = _folders(server)
 
     @server.feature(types.INITIALIZED)
     def initialized(_: types.InitializedParams) -> None:
@@ -171,7 +183,12 @@ def _rewrite(server: LanguageServer, session: Session) -> None:
         return text_edits(document, done.edits)
 
     @server.command(RUN_PASSES)
-    async def run(uri: str, pipeline: str) -> None:
+    async def run(*arguments: Any) -> None:
+        match arguments:
+            case (str() as uri, str() as pipeline):
+                pass
+            case _:
+                raise JsonRpcInvalidParams(f"{RUN_PASSES} takes two texts: the URI of a document, and a pipeline")
         document, done = await _rewritten(session, uri, run_passes, pipeline)
         if document is None:
             _tell(server, f"{pipeline} has changed nothing: {done.problem}")
@@ -198,7 +215,15 @@ async def _rewritten(
     return None if done.problem else document, done
 
 
+def _folders(server: Server) -> list[Path]:
+    """The folders of the workspace that are on this machine."""
+    found = [file_of(uri) for uri in server.workspace.folders]
+    return [each for each in found if each is not None]
+
+
 def _tell(server: LanguageServer, message: str) -> None:
+    # editors make links of `[text](command:...)`, and a message may quote the file
+    message = message.replace("](", "] (")
     server.window_show_message(types.ShowMessageParams(types.MessageType.Warning, message))
 
 

@@ -33,7 +33,11 @@ class Worker:
             TaskError: it has none.
         """
         try:
-            return await asyncio.wrap_future(self._submit(task, *args, **kwargs))
+            try:
+                return await asyncio.wrap_future(self._submit(task, *args, **kwargs))
+            except (ProcessExpired, BrokenExecutor):
+                # something else may have ended it before it began; a task that ends its process does so again
+                return await asyncio.wrap_future(self._submit(task, *args, **kwargs))
         except TimeoutError as error:
             raise TaskError(f"it took longer than {self._seconds:g} seconds and was ended") from error
         except ProcessExpired as error:

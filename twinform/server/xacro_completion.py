@@ -9,7 +9,7 @@ from twinform.diagnostics import Span
 from twinform.server.documents import Document
 from twinform.server.known_names import names_of_kind
 from twinform.server.name import Name
-from twinform.server.proposal import Proposal
+from twinform.server.proposal import Proposal, literal
 from twinform.server.session import Session
 from twinform.server.tree import Node
 from twinform.server.xacro_names import ELEMENTS, PREFIX, parameter_names
@@ -55,8 +55,9 @@ def xacro_elements(session: Session, document: Document, *, bare: bool) -> Itera
     for macro in names_of_kind(session, document, "macro"):
         tag = f"{PREFIX}{macro.text}"
         needed = [each.name for each in parameter_names(macro.node) if each.needed]
-        attributes = "".join(f' {each}="${number}"' for number, each in enumerate(needed, 1))
-        yield Proposal(tag, tag if bare else f"{tag}{attributes}/>$0", _ITEM.Function, macro.node.get("params") or "")
+        attributes = "".join(f' {literal(each)}="${number}"' for number, each in enumerate(needed, 1))
+        new = literal(tag) if bare else f"{literal(tag)}{attributes}/>$0"
+        yield Proposal(tag, new, _ITEM.Function, macro.node.get("params") or "")
 
 
 def xacro_attributes(session: Session, document: Document, node: Node, *, named: bool) -> Iterator[Proposal]:
@@ -71,7 +72,8 @@ def xacro_attributes(session: Session, document: Document, node: Node, *, named:
     for macro in names_of_kind(session, document, "macro"):
         for each in parameter_names(macro.node) if macro.text == local else ():
             if not each.block and each.name not in node.attributes:
-                new = each.name if named else f'{each.name}="$1"'
+                name = literal(each.name)
+                new = name if named else f'{name}="$1"'
                 yield Proposal(each.name, new, _ITEM.Property, each.written, rank=0 if each.needed else 1)
 
 
@@ -82,4 +84,4 @@ def _is_here(parameter: Name, document: Document, offset: int) -> bool:
 
 
 def _named(text: str, kind: str) -> Proposal:
-    return Proposal(text, text, _ITEM.Variable, kind)
+    return Proposal(text, literal(text), _ITEM.Variable, kind)
