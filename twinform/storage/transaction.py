@@ -107,7 +107,8 @@ class Transaction:
             OSError: the disk does not take them.
         """
         for folder in self._folders:
-            _sync_folder(folder)
+            with named_after(folder):
+                _sync_folder(folder)
 
     def end(self) -> None:
         """Take back what was moved and made, unless the transaction is done, and remove all that was staged."""
@@ -122,6 +123,16 @@ def transaction() -> Generator[Transaction]:
     started = Transaction()
     with undone(started.end):
         yield started
+
+
+@contextmanager
+def named_after(path: Path) -> Generator[None]:
+    """Name the file that an error is about: a failed write does not know, and that of a staged file helps nobody."""
+    try:
+        yield
+    except OSError as error:
+        error.filename, error.filename2 = str(path), None
+        raise
 
 
 def _insist(step: Callable[[], None]) -> None:

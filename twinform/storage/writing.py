@@ -3,11 +3,11 @@
 import errno
 import os
 import stat
-from collections.abc import Callable, Generator, Iterable, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 
-from twinform.storage.transaction import Transaction, transaction
+from twinform.storage.transaction import Transaction, named_after, transaction
 
 _FEW = 4
 """As many files are given to the disk one after the other; more at once, which takes a tenth of the time."""
@@ -156,13 +156,3 @@ def _write_into(path: Path, text: str | bytes) -> None:
 def _bytes(text: str | bytes) -> bytes:
     """What is written: a text in UTF-8."""
     return text if isinstance(text, bytes) else text.encode()
-
-
-@contextmanager
-def named_after(path: Path) -> Generator[None]:
-    """Name the file that an error is about: a failed write does not know, and that of a staged file helps nobody."""
-    try:
-        yield
-    except OSError as error:
-        error.filename, error.filename2 = str(path), None
-        raise

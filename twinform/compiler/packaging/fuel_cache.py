@@ -12,8 +12,8 @@ from lxml import etree
 
 from twinform.compiler.includes.model_config import manifest
 from twinform.compiler.search.fuel import FuelName, Kind, name_of, newest_first
-from twinform.storage.transaction import transaction
-from twinform.storage.writing import named_after, sync_files
+from twinform.storage.transaction import named_after, transaction
+from twinform.storage.writing import sync_files
 
 _PART = re.compile(r"[^./\\\x00-\x1f][^/\\\x00-\x1f]*")
 """A name that is one folder, and no hidden one."""

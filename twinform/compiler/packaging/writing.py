@@ -10,8 +10,8 @@ from pathlib import Path
 
 from twinform.compiler.packaging.package import Content, Package, is_inner_path
 from twinform.storage.staging import remove_leftovers
-from twinform.storage.transaction import Transaction, transaction
-from twinform.storage.writing import named_after, stage_texts, sync_files
+from twinform.storage.transaction import Transaction, named_after, transaction
+from twinform.storage.writing import stage_texts, sync_files
 
 MARK = ".twinform-package"
 """The file that says which files of a folder are ours."""
