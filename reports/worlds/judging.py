@@ -18,8 +18,8 @@ from lxml import etree
 import twinform
 from tests.corpus.examine import rules_of
 from twinform.compiler import ConversionRequest, Language, LoadOptions, split
-from twinform.compiler.search.search_roots import folders_around
 from twinform.compiler.search.uris import SearchPath
+from twinform.file_access.roots import folders_around
 from twinform.ir import Document, World
 from twinform.ir.frames import WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform

@@ -53,8 +53,11 @@ class CorpusFile:
 
     @property
     def paths(self) -> tuple[Path, ...]:
-        """The folders in which its includes are searched for, beside those around it."""
-        return tuple(CORPUS / there for here, there in _SEARCHED.items() if self.name.startswith(here))
+        """The folders in which its includes are searched for: nothing in the corpus says where a project ends."""
+        return (
+            CORPUS / self.repository,
+            *(CORPUS / there for here, there in _SEARCHED.items() if self.name.startswith(here)),
+        )
 
     @property
     def repository(self) -> str:

@@ -10,7 +10,7 @@ import socket
 import subprocess
 import sys
 import sysconfig
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache, partial
@@ -35,34 +35,48 @@ class Outcome:
     opened: frozenset[str]
 
 
-def twinform(*arguments: str | Path, folder: Path, seconds: int = SECONDS, written: int = 0) -> Outcome:
+def twinform(
+    *arguments: str | Path,
+    folder: Path,
+    seconds: int = SECONDS,
+    environment: Mapping[str, str] | None = None,
+    written: int = 0,
+) -> Outcome:
     """Run the command where it may write nothing at all, or files of so many bytes."""
     run = _started if DEEP else _forked
-    code, output, errors = run([str(word) for word in arguments], folder, seconds, written)
+    words = [str(word) for word in arguments]
+    request = ChildRequest(
+        arguments=words,
+        folder=str(folder),
+        memory=MEMORY,
+        seconds=seconds,
+        environment=dict(environment or {}),
+        written=written,
+    )
+    code, output, errors = run(request)
     *lines, last = errors.decode(errors="replace").splitlines() or [""]
     opened: list[str] = json.loads(last) if last.startswith("[") else []
     text = output.decode(errors="replace") + "\n".join([*lines, "" if last.startswith("[") else last])
     return Outcome(code, text, frozenset(each for each in opened if not _is_own(each)))
 
 
-def _started(arguments: list[str], folder: Path, seconds: int, written: int) -> tuple[int, bytes, bytes]:
+def _started(request: ChildRequest) -> tuple[int, bytes, bytes]:
     """Its exit code and what it printed on both streams, in a process that knows nothing, as a user starts it."""
     done = subprocess.run(
-        [sys.executable, "-B", _WATCHED, *arguments],
-        cwd=folder,
+        [sys.executable, "-B", _WATCHED, *request["arguments"]],
+        cwd=request["folder"],
         capture_output=True,
-        preexec_fn=partial(limit, MEMORY, seconds, written),
-        env=_environment(),
+        preexec_fn=partial(limit, MEMORY, request["seconds"], request["written"]),
+        env={**_environment(), **request["environment"]},
         check=False,
     )
     return done.returncode, done.stdout, done.stderr
 
 
-def _forked(arguments: list[str], folder: Path, seconds: int, written: int) -> tuple[int, bytes, bytes]:
+def _forked(request: ChildRequest) -> tuple[int, bytes, bytes]:
     """The same in a fork of a process that has imported the program."""
     connection = _server()
     ours, theirs = zip(os.pipe(), os.pipe(), strict=True)
-    request = ChildRequest(arguments=arguments, folder=str(folder), memory=MEMORY, seconds=seconds, written=written)
     socket.send_fds(connection, [json.dumps(request).encode()], theirs)
     for stream in theirs:
         os.close(stream)

@@ -16,6 +16,8 @@ from typing import TypedDict, cast
 
 _LONGEST_REQUEST = 65536
 _STREAMS = (1, 2)
+_STUCK = 120
+"""Seconds of the clock after which a process ends that waits for a pipe, which takes no time of the processor."""
 _USED = ("cli.check", "cli.convert", "compiler.checking", "compiler.driver")
 """What commands import when they are used."""
 
@@ -27,11 +29,13 @@ class ChildRequest(TypedDict):
     folder: str
     memory: int
     seconds: int
+    environment: dict[str, str]
     written: int
 
 
 def limit(memory: int, seconds: int, written: int = 0) -> None:
     """Hold this process to so many bytes of memory, seconds of the processor, and bytes of a file that it writes."""
+    signal.alarm(_STUCK)
     resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
     resource.setrlimit(resource.RLIMIT_FSIZE, (written, written))
@@ -75,6 +79,7 @@ def _begun(request: ChildRequest, streams: Sequence[int]) -> list[str]:
         os.dup2(stream, number)
         os.close(stream)
     os.chdir(request["folder"])
+    os.environ.update(request["environment"])
     limit(request["memory"], request["seconds"], request["written"])
     return request["arguments"]
 

@@ -100,9 +100,8 @@ _SUBSTITUTIONS = {
     "the class of an argument": (_eval("arg('x').__class__"), _NO),
     "a power in eval": (_eval("9**9**9"), "largest floating point number"),
     "a package above": ('<link name="$(find ../..)"/>', "leads out"),
-    "a secret": ('<link name="$(env THE_SECRET)"/>', "may be a secret"),
-    "a secret or not": ('<link name="$(optenv ACCESS_KEY none)"/>', "may be a secret"),
-    "a secret in eval": (_eval("env('API_TOKEN')"), "may be a secret"),
+    "a secret": ('<link name="$(env PATH)"/>', "may be a secret"),
+    "a secret in eval": (_eval("env('PATH')"), "may be a secret"),
     "a command": ('<link name="$(system touch)"/>', "Unknown substitution command"),
 }
 _FILES = {

@@ -9,6 +9,7 @@ import click
 
 from twinform.cli.config import settings_of
 from twinform.cli.failure import Unusable
+from twinform.file_access import OutsideError, Readable
 
 if TYPE_CHECKING:
     from twinform.diagnostics.baseline import Baseline
@@ -106,13 +107,14 @@ def _read(file: Path, *, missing_ok: bool) -> "Baseline":
     from twinform.diagnostics.baseline import Baseline, BaselineError  # noqa: PLC0415 - few runs have one
 
     try:
-        return Baseline.parse(file.read_text(encoding="utf-8-sig"))
+        return Baseline.parse(Readable.of(file).read(file).decode("utf-8-sig"))
     except FileNotFoundError as error:
         if missing_ok:
             return Baseline()
         raise Unusable(f"there is no baseline {file}: --update-baseline makes it") from error
     except OSError as error:
-        raise Unusable(f"cannot read {file}: {error.strerror}") from error
+        advice = f"; {error.help}" if isinstance(error, OutsideError) else ""
+        raise Unusable(f"cannot read {file}: {error.strerror}{advice}") from error
     except UnicodeDecodeError as error:
         raise Unusable(f"{file}: this is no baseline: it is not in UTF-8") from error
     except BaselineError as error:

@@ -89,7 +89,8 @@ def _data(source: Source, sink: DiagnosticSink, load_options: LoadOptions) -> by
         return source.content
     if load_options.xacro or Path(source.name).suffix.lower() == XACRO:
         return None
-    return read_bytes(Path(source.content), sink, load_options.limits)
+    path = Path(source.content)
+    return read_bytes(path, sink, load_options.limits, load_options.search.readable(path))
 
 
 def _news(name: str, found: Mended, verb: str) -> list[str]:

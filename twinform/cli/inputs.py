@@ -59,6 +59,12 @@ _OPTIONS = (
         help="A folder of models or packages, looked in before those that the environment names; repeatable.",
     ),
     click.option(
+        "--env",
+        metavar="NAME",
+        multiple=True,
+        help="An environment variable that xacro files may read besides those of ROS and Gazebo; * fits any letters.",
+    ),
+    click.option(
         "--xacro/--no-xacro",
         default=None,
         help="Expand all files, or none; by default those called .xacro. It evaluates expressions in them.",
@@ -96,6 +102,7 @@ class InputOptions(TypedDict):
     strict: bool
     engine: Engine
     paths: tuple[Path, ...]
+    env: tuple[str, ...]
     xacro: bool | None
     max_size: int
     max_tags: int
@@ -111,7 +118,8 @@ def load_options_of(
 
     Where there is a policy, what it allows is left out, errors too. `profiles` are those of the consumers.
     """
-    paths = (*input_options["paths"], *settings_of(click.get_current_context()).folders)
+    project = settings_of(click.get_current_context())
+    paths = (*input_options["paths"], *project.folders)
     return LoadOptions(
         input_options["strict"],
         input_options["engine"],
@@ -122,6 +130,7 @@ def load_options_of(
         allow=policy.allow if policy else frozenset(),
         tolerant=policy is not None,
         profiles=profiles,
+        variables=(*input_options["env"], *project.variables),
     )
 
 

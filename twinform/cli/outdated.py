@@ -8,6 +8,7 @@ import click
 
 from twinform.cli.failure import FINDINGS, Unusable
 from twinform.diagnostics.reporters import printable
+from twinform.file_access import Readable
 from twinform.text.line_diff import line_diff
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def report_outdated(texts: "Sequence[tuple[Output, str | bytes]]", *, to_stdout:
 def _differs(path: Path, text: str | bytes) -> bool:
     new = text.encode() if isinstance(text, str) else text
     try:
-        old = path.read_bytes()
+        old = Readable.of(path).read(path)
     except FileNotFoundError:
         return True
     except OSError as error:

@@ -12,6 +12,7 @@ from twinform.cli.failure import Unusable
 from twinform.compiler import write_all_atomically
 from twinform.compiler.output.same_files import folded, identities, is_below, is_nothing
 from twinform.diagnostics import HEAD, SideFile
+from twinform.file_access import read_regular
 from twinform.storage.writing import is_stream
 
 
@@ -134,7 +135,7 @@ def require_as_read(path: Path, before: bytes) -> None:
         Unusable: somebody else has changed it.
     """
     try:
-        now = path.read_bytes()
+        now = read_regular(path)
     except OSError as error:
         raise Unusable(f"cannot read {path} again: {error.strerror}; nothing is written") from error
     if now != before:
@@ -143,7 +144,8 @@ def require_as_read(path: Path, before: bytes) -> None:
 
 def _require_ours(path: Path, side_file: SideFile) -> None:
     """Raise where somebody else's file is in the place of a side file."""
-    with suppress(OSError), path.open("rb") as file:  # writing it will say what is wrong
-        if not side_file.is_earlier(file.read(HEAD)) and path.read_bytes() != side_file.data:
+    with suppress(OSError):  # writing it will say what is wrong
+        data = read_regular(path)
+        if not side_file.is_earlier(data[:HEAD]) and data != side_file.data:
             message = f"{path} is there, and twinform has not written it: remove it, or have another name"
             raise click.UsageError(message)

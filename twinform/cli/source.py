@@ -5,7 +5,8 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from twinform.compiler.input.limits import LARGEST, read_up_to
+from twinform.compiler.input.limits import LARGEST
+from twinform.file_access import STREAMS, Readable, read_up_to
 
 _ENOUGH = 2**16
 """Bytes that hold the root element of every file but those with a very long comment."""
@@ -41,19 +42,24 @@ class Source(NamedTuple):
 
 
 def open_source(argument: str, size: int = LARGEST) -> Source:
-    """The source that an argument names; standard input and pipes are read here, of what is too large a part."""
+    """The source that an argument names; streams are read here, of what is too large a part."""
     if argument == "-":
         return Source(read_up_to(sys.stdin.buffer, size), _STDIN)
-    if _can_be_read_once(Path(argument)):
+    if _is_stream(argument):
         with Path(argument).open("rb") as pipe:
             return Source(read_up_to(pipe, size), argument)
     return Source(argument, argument)
 
 
-def _can_be_read_once(path: Path) -> bool:
-    """Whether it is a pipe, such as `<(xacro robot.urdf.xacro)` in a shell, or a device."""
+def _is_stream(argument: str) -> bool:
+    """Whether it is a pipe or device that was named as one: `/dev/stdin`, or `<(xacro robot.urdf.xacro)` in a shell.
+
+    One of another name may be a trap in somebody's folder: nobody ever writes into it, or a link leads to it.
+    """
+    if not argument.startswith(STREAMS):
+        return False
     try:
-        mode = path.stat().st_mode
+        mode = Path(argument).stat().st_mode
     except (OSError, ValueError):
         return False  # the compiler reports it
     return stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
@@ -68,8 +74,7 @@ def format_of_suffix(name: str) -> str | None:
 
 def _head(path: Path) -> bytes:
     try:
-        with path.open("rb") as file:
-            return file.read(_ENOUGH)
+        return Readable.of(path).read(path, _ENOUGH)[:_ENOUGH]
     except (OSError, ValueError):
         return b""  # the compiler reports it
 

@@ -85,9 +85,10 @@ def file_bytes(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> b
     Raises:
         CompileError: it cannot be read.
     """
-    unsaved = load_options.search.unsaved_of(path)
+    search = load_options.search
+    unsaved = search.unsaved_of(path)
     try:
-        return read_bytes(path, sink, load_options.limits) if unsaved is None else unsaved
+        return read_bytes(path, sink, load_options.limits, search.readable(path)) if unsaved is None else unsaved
     except UnreadableError as error:
         raise CompileError(tuple(sink.diagnostics), unreadable=True) from error
 

@@ -62,7 +62,7 @@ def _difference(before: str, after: str) -> TextEdit:
 
 def _data(job: Job) -> bytes:
     unsaved = job.load_options.search.unsaved_of(job.path)
-    return unsaved if unsaved is not None else job.path.read_bytes()
+    return unsaved if unsaved is not None else job.load_options.search.readable(job.path).read(job.path)
 
 
 def _first(found: tuple[Diagnostic, ...]) -> str:

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from twinform.compiler.input.limits import read_up_to
+from twinform.file_access import Readable
 from twinform.server.documents import Document, Documents, excess_of
 from twinform.server.settings import LARGEST
 from twinform.server.uris import uri_of
@@ -30,10 +30,9 @@ class Files:
             state = (status.st_mtime_ns, status.st_size)
             if path in self._read and self._read[path][0] == state:
                 return self._read[path][1]
-            if not path.is_file() or status.st_size > LARGEST:
+            if status.st_size > LARGEST:
                 return None
-            with path.open("rb") as file:
-                text = SourceText.of(read_up_to(file, LARGEST)).text
+            text = SourceText.of(Readable.of(path).read(path, LARGEST)).text
         except (OSError, ValueError, UndecodableError):
             return None
         if excess_of(text):

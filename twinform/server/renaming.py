@@ -1,9 +1,12 @@
 """Renames what has a name, and all that refers to it: nothing but names changes, and what does not fit is refused."""
 
+import os
 import re
+from collections.abc import Iterable
 
 from lsprotocol import types
 
+from twinform.file_access import Readable
 from twinform.passes.structure.scopes import RESERVED
 from twinform.server.documents import Document
 from twinform.server.name import Name
@@ -49,6 +52,7 @@ def rename(session: Session, document: Document, offset: int, new: str) -> types
         raise RefusedError(f"nothing here is called {name.text!r}: where it is defined has to be known")
     for each in what:
         _refuse_unfit(each, new)
+    _refuse_outside(session, document, (*what, *found))
     changes: dict[str, list[types.TextEdit]] = {}
     for each in {(one.document.uri, one.name.span): one for one in (*what, *found)}.values():
         if not each.document.tree.whole:
@@ -56,6 +60,15 @@ def rename(session: Session, document: Document, offset: int, new: str) -> types
         edit = types.TextEdit(each.document.positions.range(each.name.span), new)
         changes.setdefault(each.document.uri, []).append(edit)
     return types.WorkspaceEdit(changes=changes)
+
+
+def _refuse_outside(session: Session, document: Document, found: Iterable[Found]) -> None:
+    """Refuse to change files that are not of the workspace, such as those of installed packages."""
+    folders = tuple(os.path.realpath(folder) for folder in session.folders)
+    own = Readable(folders) if folders else Readable.of(document.path)
+    for path in {each.document.path for each in found} - {document.path}:
+        if not own.allows(path):
+            raise RefusedError(f"{str(path)!r} would have to change as well, and is outside of the workspace")
 
 
 def _refuse_expression(name: Name) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 
+from twinform.file_access import STREAMS, OutsideError, Readable
 from twinform.storage.transaction import Transaction, named_after, transaction
 
 _FEW = 4
@@ -121,6 +122,7 @@ def _sync(staged: tuple[Path, Path]) -> None:
 
 def _stage(files: Transaction, path: Path, text: str | bytes) -> tuple[Path, Path]:
     """A text in a staged file, and the place where this belongs."""
+    _refuse_way_out(path)
     target = Path(os.path.realpath(path))
     with named_after(path):
         if target.is_symlink():
@@ -130,6 +132,21 @@ def _stage(files: Transaction, path: Path, text: str | bytes) -> tuple[Path, Pat
         new = files.stage(target.parent)
         new.write_bytes(_bytes(text))
     return new, target
+
+
+def _refuse_way_out(path: Path) -> None:
+    """Refuse to write through a link that leads out of its project: somebody else may have put it there.
+
+    Raises:
+        OSError: it is one.
+    """
+    if not path.is_symlink() or str(path).startswith(STREAMS):
+        return
+    try:
+        Readable.of(path).require(path)
+    except OutsideError as error:
+        message = f"it is a link and {error.reason}; name that file itself if it is meant"
+        raise PermissionError(errno.EACCES, message, str(path)) from error
 
 
 def _take_over(old: Path, new: Path) -> None:
@@ -149,6 +166,7 @@ def _take_over(old: Path, new: Path) -> None:
 
 
 def _write_into(path: Path, text: str | bytes) -> None:
+    _refuse_way_out(path)
     with named_after(path), path.open("wb") as stream:
         stream.write(_bytes(text))
 

@@ -12,6 +12,7 @@ import click
 from twinform.cli.failure import Unusable
 from twinform.compiler.batch import PATTERNS, Entry, FolderError, Shard, of_folder, of_names, with_arguments
 from twinform.compiler.batch.archives import is_archive, unpacked
+from twinform.file_access import Readable
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -113,7 +114,7 @@ def _entries(folder: Path, names: Path | None, options: ModelOptions, results: P
         if names is None:
             found = of_folder(folder, options["patterns"], results)
         else:
-            text = sys.stdin.buffer.read() if str(names) == "-" else names.read_bytes()
+            text = sys.stdin.buffer.read() if str(names) == "-" else Readable.of(names).read(names)
             found = of_names(folder, text)
         return with_arguments(found, options["arguments"]) if options["arguments"] else found
     except OSError as error:

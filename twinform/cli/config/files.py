@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import cast
 
 from twinform.cli.config.errors import ConfigError
-from twinform.compiler.search.search_roots import TOPS
+from twinform.file_access import Readable
+from twinform.file_access.roots import REPOSITORY, folders_above, has_any
 
 OWN = "twinform.toml"
 _SHARED = "pyproject.toml"
@@ -39,12 +40,15 @@ def find(start: Path) -> tuple[Path, Table] | None:
 
 
 def _project(start: Path) -> Iterator[Path]:
-    """The folders of the project that a folder belongs to."""
-    home = os.path.realpath(Path("~").expanduser())
-    for folder in (start, *start.parents):
-        yield folder
-        if any((folder / entry).exists() for entry in TOPS) or str(folder) == home:
+    """The folders of the project that a folder belongs to, and the home folder where they lie in it."""
+    last = start
+    for folder in (start, *folders_above(start)):
+        yield (last := folder)
+        if has_any(folder, REPOSITORY):
             return
+    home = Path("~").expanduser()
+    if os.path.realpath(last.parent) == os.path.realpath(home):
+        yield home
 
 
 def _look(path: Path) -> Table | None:
@@ -114,8 +118,7 @@ def _parsed(path: Path) -> Table:
 
 def _bytes(path: Path) -> bytes:
     try:
-        with path.open("rb") as file:
-            data = file.read(_LARGEST + 1)
+        data = Readable.of(path).read(path, _LARGEST)
     except OSError as error:
         raise ConfigError(path, f"cannot be read: {error.strerror}") from error
     if len(data) > _LARGEST:

@@ -41,6 +41,7 @@ class Project:
     extend_exclude: Sequence[str] = ()
     baseline: str | None = None
     per_file: "PerFile | None" = None
+    env: Sequence[str] = ()
 
     @property
     def folders(self) -> Sequence[str]:
@@ -56,6 +57,14 @@ class Project:
         for folder in self.paths:
             require_inside(self.path, Path(folder), "paths")
         return self.paths
+
+    @property
+    def variables(self) -> Sequence[str]:
+        """The environment variables that xacro files may read.
+
+        Only a trusted file names any: it may have come with the xacro files, and name a secret for them.
+        """
+        return self.env if self.trusted else ()
 
     @property
     def baseline_file(self) -> Path | None:
@@ -110,7 +119,7 @@ def config_options(command: Command) -> Command:
         is_eager=True,
         expose_value=False,
         callback=_trust,
-        help="Let the configuration name folders outside of its own and passes that write files, and raise limits.",
+        help="Let the configuration name other folders, variables, and passes that write files, and raise limits.",
     )(command)
     command = click.option(
         "--no-config", is_flag=True, is_eager=True, expose_value=False, callback=_none, help="Use no configuration."
@@ -204,6 +213,7 @@ def _load(ctx: click.Context, _option: click.Parameter, value: Path | None) -> N
         extend_exclude=settings.extend_exclude,
         baseline=settings.baseline,
         per_file=_per_file(path, settings),
+        env=settings.env,
     )
     given = {name: getattr(settings, name) for name in _DEFAULTS} | dict(settings.format)
     given["profiles"] = ",".join(settings.profiles) or None

@@ -59,6 +59,7 @@ class Settings(BaseModel):
     max_size: int | str | None = None
     max_tags: int | None = Field(default=None, gt=0)
     paths: Texts = Field(default_factory=list[str])
+    env: Texts = Field(default_factory=list[str])
     allow: Texts = Field(default_factory=list[str])
     deny: Texts = Field(default_factory=list[str])
     format: FormatSettings = Field(default_factory=FormatSettings)

@@ -18,13 +18,14 @@ from twinform.compiler.output.same_files import is_below
 from twinform.passes import FilesPass, Pass, Pipeline
 from twinform.passes.framework.built_in import BUILT_IN
 
-Hold = Literal["nothing to hold", "lowers a limit", "inside its folder", "known passes"]
+Hold = Literal["nothing to hold", "lowers a limit", "inside its folder", "known passes", "only if trusted"]
 HELD: Mapping[str, Hold] = {
     "allow": "nothing to hold",  # errors cannot be allowed
     "baseline": "inside its folder",
     "carriers": "nothing to hold",
     "check-passes": "known passes",
     "deny": "nothing to hold",
+    "env": "only if trusted",  # any variable may be a secret
     "exclude": "nothing to hold",  # it hides files of its own folder, which --no-config shows
     "extend-exclude": "nothing to hold",
     "files.allow": "nothing to hold",

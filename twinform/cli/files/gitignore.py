@@ -6,7 +6,8 @@ from typing import Self
 
 from twinform.cli.files.exclusion import PatternError
 from twinform.cli.files.patterns import PathPatterns
-from twinform.compiler.search.search_roots import TOPS
+from twinform.file_access import read_regular
+from twinform.file_access.roots import REPOSITORY, has_any
 
 _LARGEST = 2**20
 """Bytes of a file of patterns; a larger one is none."""
@@ -50,13 +51,14 @@ class GitIgnore:
 
 
 def _is_top(folder: Path) -> bool:
-    return any((folder / entry).exists() for entry in TOPS)
+    return has_any(folder, REPOSITORY)
 
 
 def _read(folder: str, file: Path) -> PathPatterns | None:
     try:
-        with file.open("rb") as opened:
-            data = opened.read(_LARGEST)
+        if file.is_symlink():
+            return None  # git follows none either
+        data = read_regular(file, _LARGEST)[:_LARGEST]
         return PathPatterns.of(folder, data.decode("utf-8-sig", "surrogateescape").splitlines())
     except (OSError, PatternError):
         return None  # git passes over what it cannot read, too
@@ -68,8 +70,12 @@ def _git_folder(top: Path) -> Path:
     try:
         if entry.is_dir():
             return entry
-        folder = top / entry.read_text(encoding="utf-8")[:_LARGEST].partition("gitdir:")[2].strip()
+        folder = top / _text(entry).partition("gitdir:")[2].strip()
         common = folder / "commondir"
-        return folder / common.read_text(encoding="utf-8").strip() if common.is_file() else folder
+        return folder / _text(common).strip() if common.is_file() else folder
     except (OSError, UnicodeDecodeError):
         return entry
+
+
+def _text(file: Path) -> str:
+    return read_regular(file, _LARGEST).decode()

@@ -48,7 +48,7 @@ def is_plain(path: Path, *, named: bool = False) -> bool:
 
 
 def _start(path: Path, size: int) -> bytes:
-    from twinform.compiler.input.regular_files import read_regular  # noqa: PLC0415 - few names leave it open
+    from twinform.file_access import read_regular  # noqa: PLC0415 - few names leave it open
 
     try:
         return read_regular(path, size)

@@ -18,8 +18,8 @@ from posixpath import normpath
 from types import MappingProxyType
 from typing import Any
 
-from twinform.compiler.input.regular_files import read_regular
 from twinform.compiler.observing import Observation, digest, is_coarse, is_young
+from twinform.file_access import read_regular
 
 _NOTHING = (0, 0, "", 0, 0)
 """What a dependency has where a row ends early."""

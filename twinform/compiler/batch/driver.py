@@ -64,7 +64,8 @@ class Batch:
         folders = (search.own, search.models, search.packages, search.workspaces, search.fuel)
         asked += [list(map(str, each)) for each in folders]
         asked += [[each.label, each.name] for each in load_options.profiles]
-        asked += [sorted(load_options.arguments.items()), [_named_version(name) for name in READERS], self.job.request]
+        asked += [sorted(load_options.arguments.items()), load_options.variables]
+        asked += [[_named_version(name) for name in READERS], self.job.request]
         return digest(json.dumps(asked).encode())
 
 

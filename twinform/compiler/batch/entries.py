@@ -10,6 +10,8 @@ from pathlib import Path, PurePosixPath
 from posixpath import normpath
 from typing import Any, cast
 
+from twinform.file_access import Readable
+
 PATTERNS = ("*.urdf", "*.sdf", "*.world", "*.urdf.xacro", "*.sdf.xacro", "*.world.xacro")
 """Files that are models by their names; other xacro files are mostly parts of models."""
 _MODEL, _NAME = "model", "name"
@@ -148,7 +150,7 @@ def _is_relative(path: str) -> bool:
 def _rows(table: Path) -> Iterator[tuple[str, dict[str, str]]]:
     """Each row with its place; cells that are empty are left out."""
     try:
-        text = table.read_text(encoding="utf-8-sig")
+        text = Readable.of(table).read(table).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise FolderError(f"{table} is not in UTF-8") from error
     rows = _csv(text) if table.suffix.lower() == ".csv" else _jsonl(text, table)

@@ -12,9 +12,9 @@ from lxml import etree
 
 from twinform.compiler.batch.entries import PATTERNS, stem
 from twinform.compiler.includes.model_config import MANIFESTS, manifest, model_file
-from twinform.compiler.input.regular_files import read_regular
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import DiagnosticSink
+from twinform.file_access import Readable
 
 _LARGEST = 2**28
 """Bytes of all files that come along with a model."""
@@ -38,9 +38,9 @@ def folder_files(model: Path, output: str, request: ConversionRequest, version: 
         return {}
     place = PurePosixPath(output).parent
     files: dict[str, bytes] = {}
-    size = 0
+    size, readable = 0, Readable.of(model)
     for path in _inside(model.parent):
-        data = read_regular(path, _LARGEST)
+        data = readable.read(path, _LARGEST)
         size += len(data)
         if size > _LARGEST:
             raise FolderTooLargeError(f"what lies beside it is larger than {_LARGEST >> 20} MiB")
@@ -57,7 +57,7 @@ def _is_named(config: Path, model: Path) -> bool:
 
 def _inside(folder: Path) -> Iterator[Path]:
     """The files of a folder that are neither models nor those of a model folder in it, sorted."""
-    top = folder.resolve()
+    readable = Readable((os.path.realpath(folder),))
     for place, folders, files in os.walk(folder):
         here = Path(place)
         folders[:] = sorted(name for name in folders if not name.startswith(".") and manifest(here / name) is None)
@@ -66,13 +66,13 @@ def _inside(folder: Path) -> Iterator[Path]:
             is_model = any(path.match(pattern) for pattern in PATTERNS)
             if is_model or name.startswith(".") or (here == folder and name in MANIFESTS):
                 continue
-            if path.is_file() and path.resolve().is_relative_to(top):
+            if path.is_file() and readable.allows(path):
                 yield path
 
 
 def _adapted(config: Path, output: str, model: str, request: ConversionRequest, version: str | None) -> bytes:
     """A model.config that names what the models became; where all become one version, only the newest model."""
-    data = config.read_bytes()
+    data = Readable.of(config).read(config)
     try:
         tree = etree.fromstring(data, etree.XMLParser(resolve_entities=False, no_network=True)).getroottree()
     except etree.XMLSyntaxError:

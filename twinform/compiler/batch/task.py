@@ -14,7 +14,6 @@ from twinform.compiler.batch.record import Outcome, Record, Row
 from twinform.compiler.batch.time_limit import LateError, time_limit
 from twinform.compiler.batch.worksite import fingerprint, own_version
 from twinform.compiler.input.loading import LoadOptions
-from twinform.compiler.input.regular_files import read_regular
 from twinform.compiler.observing import observed
 from twinform.compiler.reproducers.files import write_reproducer
 from twinform.compiler.search.uris import SearchPath
@@ -150,7 +149,7 @@ def _alone(task: Task) -> Task:
 
 def _worked(task: Task) -> Done:
     try:
-        content = read_regular(task.path, task.load_options.limits.size)
+        content = task.load_options.search.readable(task.path).read(task.path, task.load_options.limits.size)
     except OSError as error:
         return Done(
             outcome=Outcome.UNREADABLE,

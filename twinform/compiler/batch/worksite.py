@@ -15,9 +15,9 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from twinform.compiler.batch.entries import Entry
-from twinform.compiler.input.regular_files import read_regular
 from twinform.compiler.observing import digest
 from twinform.compiler.workers import Runner
+from twinform.file_access import read_regular
 
 READERS = ("collada", "pycollada", "scipy", "trimesh", "xacro")
 """Packages that need not be there, and that what comes of a model depends on."""

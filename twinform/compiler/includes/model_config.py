@@ -1,5 +1,6 @@
 """Reads the model.config of a folder: which of its SDF files is the model."""
 
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,6 +8,7 @@ from pathlib import Path
 from twinform.compiler.input.parsing import UnreadableError, parse, read_bytes
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import files as rules
+from twinform.file_access import Readable
 from twinform.schemas import Version, parse_version
 
 MANIFESTS = ("model.config", "manifest.xml")
@@ -49,7 +51,7 @@ def _choose(config: Path, asked: Version | None, sink: DiagnosticSink) -> Path |
     best = max(fitting or entries, key=lambda entry: entry.version)
     path = config.parent / best.name
     where = Location(line=best.line, path="/model/sdf")
-    if not path.resolve().is_relative_to(config.parent.resolve()):
+    if not Readable((os.path.realpath(config.parent),)).allows(path):
         message = f"the model.config names {best.name!r}, which is not in its folder"
         sink.report(rules.URI_LEAVES_FOLDER, message, where, found=best.name)
         return None

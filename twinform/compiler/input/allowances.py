@@ -8,10 +8,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from twinform.compiler.input.limits import Limits
-from twinform.compiler.input.regular_files import read_regular
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Origins, Rule
 from twinform.diagnostics.rules.suppressions import MALFORMED_SUPPRESSION
 from twinform.diagnostics.suppressions import NO_SUPPRESSIONS, Suppressions
+from twinform.file_access import Readable
 
 _MARKS = (b"twinform", "twinform".encode("utf-16-le"), "twinform".encode("utf-16-be"))
 _WITHOUT_MODEL = "without this part there is no model, and nothing else could be checked"
@@ -119,7 +119,7 @@ def suppressions(text: bytes) -> Suppressions:
 def content_of(file: Path, limits: Limits) -> bytes:
     """What is in a file; nothing where it cannot be read."""
     try:
-        return read_regular(file, limits.size)
+        return Readable.of(file).read(file, limits.size)
     except (OSError, ValueError):
         return b""  # a name that stands for something that is no file
 

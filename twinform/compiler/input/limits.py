@@ -6,7 +6,7 @@ What is counted here is counted in the bytes, before there is a tree, since the 
 import re
 import sys
 from dataclasses import dataclass
-from typing import BinaryIO, NamedTuple, cast
+from typing import NamedTuple, cast
 
 from lxml import etree
 
@@ -30,8 +30,6 @@ LONGEST_NAME = 1024
 DEEPEST_MODELS = 64
 """The most models in each other, since a part in them is reached through all. The most in a real file are four."""
 
-_PIECE = 2**16
-"""So much is read at once: most files are smaller, and Python reserves as much memory as it is asked for."""
 _SHORTEST_ATTRIBUTE = len(' a=""')
 _LONG_TAG = re.compile(rb"<[^<]{%d}" % min(MOST_ATTRIBUTES * _SHORTEST_ATTRIBUTE, LONGEST_NAME))
 """A tag that might hold too much, or one that long text follows; few files have any."""
@@ -98,17 +96,6 @@ def parse_size(text: str) -> int:
         said = text if len(text) <= _LONGEST_SIZE else f"{text[:_LONGEST_SIZE]}..."
         raise ValueError(f"{said!r} is no size; write a number of bytes, or a number and a unit such as 200MB or 1GiB")
     return size
-
-
-def read_up_to(file: BinaryIO, size: int) -> bytes:
-    """What is in a file; of one that has more bytes, one byte more than these."""
-    parts: list[bytes] = []
-    left = size + 1
-    while left > 0:
-        wanted = min(left, _PIECE)
-        parts.append(file.read(wanted))
-        left = left - wanted if len(parts[-1]) == wanted else 0
-    return b"".join(parts)
 
 
 def excess_of_bytes(text: bytes, limits: Limits = USUAL_LIMITS) -> Excess | None:

@@ -98,8 +98,9 @@ def _content(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> byt
     Raises:
         UnreadableError: it is missing, or too large.
     """
-    unsaved = load_options.search.unsaved_of(path)
-    return read_bytes(path, sink, load_options.limits) if unsaved is None else unsaved
+    search = load_options.search
+    unsaved = search.unsaved_of(path)
+    return read_bytes(path, sink, load_options.limits, search.readable(path)) if unsaved is None else unsaved
 
 
 def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, allowances: Allowances) -> LoadResult:
@@ -171,7 +172,7 @@ def _check_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) ->
         message = "this is a xacro file, and xacro is refused here"
         sink.report(xacro_rules.XACRO_REFUSED, message, Location(line=1))
         raise UnreadableError
-    expansion = expand(path, load_options.arguments, load_options.search, sink)
+    expansion = expand(path, load_options, sink)
     load_options.search.seen.update(map(Path, {place.file for place in expansion.origins.places}))
     name = expanded_name(sink.file)
     sink.origins[name] = expansion.origins

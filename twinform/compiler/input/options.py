@@ -27,7 +27,8 @@ class LoadOptions:
     those whose name ends so, all where it is true, and none where it is false. `limits` say how large files may be.
     Without `keep_tree` the result has no tree, which needs more memory than the document. Findings of the rules in
     `allow` are left out, as are those that comments in the files allow; errors too where the caller is `tolerant`.
-    `profiles` are those of the consumers that the files are for.
+    `profiles` are those of the consumers that the files are for. `variables` are environment variables that xacro files
+    may read besides those of ROS and Gazebo; `*` may stand in a name.
     """
 
     strict: bool = False
@@ -40,6 +41,7 @@ class LoadOptions:
     allow: frozenset[str] = frozenset()
     tolerant: bool = False
     profiles: "tuple[Profile, ...]" = ()
+    variables: tuple[str, ...] = ()
 
     def allowances(self, file: str, origins: Mapping[str, Origins] | None = None) -> Allowances:
         """What may be left out of the findings about a file."""

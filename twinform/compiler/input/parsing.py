@@ -18,7 +18,6 @@ from twinform.compiler.input.limits import (
     excess_of_bytes,
     excess_of_namespaces,
     excess_of_tree,
-    read_up_to,
     uncountable_encoding,
 )
 from twinform.compiler.input.xml_recovery import (
@@ -33,6 +32,7 @@ from twinform.compiler.input.xml_recovery import (
 from twinform.compiler.observing import note_failure
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import reading
+from twinform.file_access import OutsideError, Readable
 from twinform.schemas import XmlElement, undeclared_namespace
 
 _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
@@ -42,20 +42,22 @@ class UnreadableError(Exception):
     """There is no tree; the diagnostics tell why."""
 
 
-def read_bytes(path: Path, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS) -> bytes:
-    """The bytes of a file; of a pipe or device no more than a file may have.
+def read_bytes(
+    path: Path, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS, readable: Readable | None = None
+) -> bytes:
+    """The bytes of a file that is `readable`, or without this one that does not lead out of its own root.
 
     Raises:
-        UnreadableError: it is missing, or too large.
+        UnreadableError: it is missing, no regular file, too large, or must not be read.
     """
     try:
-        with path.open("rb") as file:
-            text = read_up_to(file, limits.size)
+        text = (readable or Readable.of(path)).read(path, limits.size)
     except (OSError, ValueError) as error:
         if path.exists():
             note_failure()
         reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise _unreadable(sink, f"cannot read the file: {reason}") from error
+        hint = error.help if isinstance(error, OutsideError) else None
+        raise _unreadable(sink, f"cannot read the file: {reason}", hint) from error
     if len(text) > limits.size:
         message = f"the file has more than {limits.size:,} bytes, which is the limit"
         raise _unreadable(sink, message, LIFTED_BY_SIZE)

@@ -6,10 +6,15 @@ from pathlib import Path
 
 from twinform.compiler.input.limits import LARGEST
 from twinform.compiler.input.options import LoadResult
-from twinform.compiler.input.regular_files import read_regular
 from twinform.diagnostics.rules.xacro import XACRO_REFUSED
+from twinform.file_access import Readable
 from twinform.schemas import XmlElement
 from twinform.text import Lines, SourceText
+
+_BLANK = b"\xef\xbb\xbf\xff\xfe\0 \t\r\n"
+"""What may stand before the first tag, in UTF-8 or UTF-16."""
+_JSON_MARK = b"urn:twinform:document:"
+_BEGINNING = 2**12
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,8 +84,14 @@ class SourceFiles:
 
 
 def _data(file: str) -> bytes | None:
+    path = Path(file)
     try:
-        found = read_regular(Path(file), LARGEST)
+        found = Readable.of(path).read(path, LARGEST)
     except (OSError, ValueError):
         return None
-    return found if len(found) <= LARGEST else None
+    return found if len(found) <= LARGEST and _is_model(found) else None
+
+
+def _is_model(data: bytes) -> bool:
+    """Whether it begins as XML does, or is a document of ours: no line of another file is shown to anybody."""
+    return data.lstrip(_BLANK)[:1] in {b"<", b"?"} or _JSON_MARK in data[:_BEGINNING]

@@ -8,9 +8,10 @@ from posixpath import normpath
 from urllib.parse import unquote
 
 from twinform.compiler.search.packages import MODEL_CONFIG, package_name
-from twinform.compiler.search.search_roots import folders_around
 from twinform.compiler.search.uris import SearchPath, UriError, exists
 from twinform.diagnostics import nearest_name
+from twinform.file_access import Readable
+from twinform.file_access.roots import folders_around
 
 _MOST_ENTRIES = 2000
 """Entries of a folder that are looked at."""
@@ -71,15 +72,10 @@ def _near_below(folder: Path, path: str, beside: Path) -> str | None:
         if not exists(folder / part):
             suffix = Path(part).suffix.lower()
             alike = (each for each in _entries(folder) if Path(each).suffix.lower() == suffix)
-            return nearest_name(part, alike) if _is_around(folder, beside) else None
+            # a file from elsewhere must learn of no names but those around it
+            return nearest_name(part, alike) if Readable.of(beside).allows(folder) else None
         folder = folder / part
     return None
-
-
-def _is_around(folder: Path, beside: Path) -> bool:
-    """Whether the names in a folder are the author's own: a file from elsewhere must learn of no other."""
-    real = folder.resolve()
-    return any(real.is_relative_to(each.resolve()) for each in folders_around(beside))
 
 
 def _known(scheme: str, search: SearchPath, beside: Path) -> Iterator[str]:
@@ -96,6 +92,7 @@ def _known(scheme: str, search: SearchPath, beside: Path) -> Iterator[str]:
 def _entries(folder: Path) -> list[str]:
     try:
         with os.scandir(folder) as entries:
-            return [entry.name for entry in islice(entries, _MOST_ENTRIES)]
+            names = (entry.name for entry in islice(entries, _MOST_ENTRIES))
+            return [name for name in names if not name.startswith(".")]
     except OSError:
         return []

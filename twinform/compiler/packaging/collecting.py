@@ -18,6 +18,7 @@ from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import Rule
 from twinform.diagnostics.rules.files import URI_LEAVES_FOLDER
 from twinform.diagnostics.rules.packaging import UNPACKAGED_FILE
+from twinform.file_access import OutsideError
 from twinform.passes.analyses.mesh_files import POINTER, is_pointer
 from twinform.passes.framework.asset_access import AssetError
 
@@ -130,7 +131,7 @@ class Collection:
         format_ = FORMATS.get(suffix_of(found))
         if format_ is None or content.stat().st_size > _LARGEST_READ:
             return self._placed(found, kind, content, (_digest(content),), origins)
-        data = content.read_bytes()
+        data = origins.assets.readable.read(found)
         named = self._named(found, kind, data, format_, origins)
         key = (hashlib.sha256(data).hexdigest(), *sorted(named.items()))
         place = self._placed(found, kind, content, key, origins)
@@ -162,12 +163,12 @@ class Collection:
         real = path.resolve()
         if not stat.S_ISREG(real.stat().st_mode):
             raise UncollectedError(f"{str(path)!r} is no file")
-        if real != path and not origins.is_inside(real, path):
-            message = f"{str(path)!r} leads to {str(real)!r}, outside of its package and of the folders that are known"
-            raise UncollectedError(message, "name the folder with --path DIR if this is meant", URI_LEAVES_FOLDER)
-        with real.open("rb") as file:
-            if is_pointer(file.read(_BEGINNING)):
-                raise UncollectedError(f"{str(path)!r} is {POINTER}", "run `git lfs pull` in its repository")
+        try:
+            beginning = origins.assets.readable.read(path, _BEGINNING)
+        except OutsideError as error:
+            raise UncollectedError(f"{str(path)!r} {error.reason}", error.help, URI_LEAVES_FOLDER) from error
+        if is_pointer(beginning):
+            raise UncollectedError(f"{str(path)!r} is {POINTER}", "run `git lfs pull` in its repository")
         if kind_of(real) != kind_of(path):
             raise UncollectedError(f"{str(path)!r} leads to {str(real)!r}, which is another kind of file")
         return real
@@ -196,9 +197,11 @@ class Collection:
             raise UncollectedError(f"{str(by)!r} names {name!r}, which is not there", _advice(name))
         if kind_of(path) not in _NAMED.get(kind, ()):
             raise UncollectedError(f"{str(by)!r} names {name!r}, which is no kind of file that it may need")
-        if not origins.is_inside(path.resolve(), by):
-            message = f"{str(by)!r} names {name!r}, outside of its package and of the folders that are known"
-            raise UncollectedError(message, "name the folder with --path DIR if this is meant", URI_LEAVES_FOLDER)
+        try:
+            origins.assets.readable.require(path)
+        except OutsideError as error:
+            message = f"{str(by)!r} names {name!r}, which {error.reason}"
+            raise UncollectedError(message, error.help, URI_LEAVES_FOLDER) from error
         real = path.resolve()
         if real not in self._by_source:
             self._by_source[real] = self._file(path, origins)

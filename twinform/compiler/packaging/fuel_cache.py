@@ -12,6 +12,7 @@ from lxml import etree
 
 from twinform.compiler.includes.model_config import manifest
 from twinform.compiler.search.fuel import FuelName, Kind, name_of, newest_first
+from twinform.file_access import Readable
 from twinform.storage.transaction import named_after, transaction
 from twinform.storage.writing import sync_files
 
@@ -88,7 +89,9 @@ def _model(folder: Path) -> Resource:
     name = ""
     if config is not None:
         try:
-            root = etree.fromstring(config.read_bytes(), etree.XMLParser(resolve_entities=False, no_network=True))
+            root = etree.fromstring(
+                Readable.of(config).read(config), etree.XMLParser(resolve_entities=False, no_network=True)
+            )
             name = (root.findtext("name") or "").strip()
         except etree.XMLSyntaxError as error:
             raise FuelError(f"{config} is no XML: {error}") from error
@@ -96,12 +99,12 @@ def _model(folder: Path) -> Resource:
 
 
 def _files(folder: Path) -> list[str]:
-    """The files of a folder that belong to it: no hidden ones, and no links that lead out of it."""
-    top, found = folder.resolve(), list[str]()
+    """The files of a folder that belong to it: none that is hidden, and no link to one or out of the folder."""
+    readable, found = Readable((os.path.realpath(folder),)), list[str]()
     for place, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))
         paths = [Path(place, name) for name in sorted(files) if not name.startswith(".")]
-        inside = (path for path in paths if path.is_file() and path.resolve().is_relative_to(top))
+        inside = (path for path in paths if path.is_file() and readable.allows(path))
         found += [path.relative_to(folder).as_posix() for path in inside]
     return found
 

@@ -3,7 +3,6 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from twinform.compiler.search.search_roots import folders_around
 from twinform.compiler.search.uris import LocalAssets
 
 HIGHEST = 8
@@ -27,19 +26,6 @@ class Origins:
         if own is not None and file.is_relative_to(own) and ".." not in file.relative_to(own).parts:
             return "", file.relative_to(own).parts
         return "", (file.name,)
-
-    def is_inside(self, real: Path, by: Path) -> bool:
-        """Whether a file may be read because another one leads to it.
-
-        It lies in the same package or model, in a folder that was named, in the folders of the document and of what
-        that names, or in some other package.
-        """
-        search = self.assets.search
-        roots = [*search.own, *search.models, *search.packages, *search.workspaces, *search.fuel]
-        holder = self._holder(by.parent)
-        roots += [holder[0]] if holder else [by.parent]
-        roots += [around for around in folders_around(self.assets.beside) if by.is_relative_to(around)][:1]
-        return any(real.is_relative_to(root.resolve()) for root in roots) or self._holder(real.parent) is not None
 
     def _holder(self, folder: Path) -> tuple[Path, str] | None:
         """The nearest folder around that has a package.xml or model.config, and its name."""

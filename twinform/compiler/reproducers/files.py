@@ -9,6 +9,7 @@ from pathlib import Path
 
 from twinform import __version__
 from twinform.compiler.reproducers.reproducer import Reproducer
+from twinform.file_access import Readable
 from twinform.passes import PassError
 from twinform.storage.writing import write_new_file
 
@@ -69,4 +70,4 @@ def read_reproducer(path: Path) -> Reproducer:
         OSError: it cannot be read.
         ValueError: it is no reproducer.
     """
-    return Reproducer.model_validate_json(path.read_bytes())
+    return Reproducer.model_validate_json(Readable.of(path).read(path))

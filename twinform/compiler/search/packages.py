@@ -8,6 +8,7 @@ from pathlib import Path
 
 from lxml import etree
 
+from twinform.file_access import read_regular
 from twinform.schemas import XmlElement
 
 MANIFEST = "package.xml"
@@ -35,10 +36,12 @@ def package_name(folder: Path) -> str | None:
 def read_manifest(file: Path) -> XmlElement | None:
     """The root of a small XML file that says what a folder is; None where there is none, or it is not well-formed."""
     try:
-        if not file.is_file() or file.stat().st_size > _LARGEST:
+        # an installation links its manifests to those of the sources, and a manifest is never a link to anything else
+        if os.path.basename(os.path.realpath(file)) != file.name:  # noqa: PTH119
             return None
-        return etree.fromstring(file.read_bytes(), etree.XMLParser(resolve_entities=False, no_network=True))
-    except (OSError, etree.XMLSyntaxError):
+        data = read_regular(file, _LARGEST)
+        return etree.fromstring(data, etree.XMLParser(resolve_entities=False, no_network=True))
+    except (OSError, ValueError, etree.XMLSyntaxError):
         return None
 
 

@@ -10,8 +10,9 @@ from urllib.parse import unquote, urlsplit
 
 from twinform.compiler.search import fuel
 from twinform.compiler.search.packages import MODEL_CONFIG, PackageIndex, is_package, package_name
-from twinform.compiler.search.search_roots import folders_around
 from twinform.diagnostics.rules import files as rules
+from twinform.file_access import OutsideError, Readable
+from twinform.file_access.roots import folders_around, neighborhood
 from twinform.passes import AssetError
 
 _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH", "GAZEBO_MODEL_PATH")
@@ -40,6 +41,7 @@ class SearchPath:
     index: PackageIndex = field(default_factory=PackageIndex, compare=False, repr=False)
     seen: set[Path] = field(default_factory=set[Path], compare=False, repr=False)
     unsaved: Mapping[str, bytes] = field(default_factory=dict[str, bytes], compare=False, repr=False)
+    _readable: dict[Path, Readable] = field(default_factory=dict[Path, Readable], compare=False, repr=False)
 
     @classmethod
     def of(cls, own: Iterable[str | Path] = (), environment: Mapping[str, str] = os.environ) -> Self:
@@ -77,6 +79,12 @@ class SearchPath:
             case _:
                 raise UriError(rules.UNRESOLVED_URI, f"{uri!r} has a scheme that is not known: {scheme!r}")
 
+    def readable(self, file: Path) -> Readable:
+        """The files that may be read because `file` leads to them, and this file."""
+        if file not in self._readable:
+            self._readable[file] = Readable.of(file, (*self._roots(), *self.fuel), self._of_environment())
+        return self._readable[file]
+
     def unsaved_of(self, path: str | Path) -> bytes | None:
         """What an editor has of a file; None where none does."""
         return self.unsaved.get(os.path.realpath(path)) if self.unsaved else None
@@ -97,11 +105,12 @@ class SearchPath:
         if name == "..":
             raise UriError(rules.URI_LEAVES_FOLDER, f"{uri!r} leads out of the folders of models and packages")
         around = folders_around(beside)
-        for folder in self._candidates(name, around):
-            if exists(folder / inner):
-                self._require_inside(uri, folder / inner, (*around, *self.fuel))
-                return folder / inner
-        raise self._missing(uri, (*self._roots(), *around))
+        neighbors = neighborhood(beside)
+        candidates = self._candidates(name, (*around, neighbors) if neighbors else around)
+        found = self._first_readable(uri, (folder / inner for folder in candidates), beside)
+        if found is None:
+            raise self._missing(uri, (*self._roots(), *around))
+        return found
 
     def _candidates(self, name: str, around: tuple[Path, ...]) -> Iterator[Path]:
         """Every folder that may be called so, the most likely first."""
@@ -122,22 +131,39 @@ class SearchPath:
         yield from fuel.models_named(name, self.fuel)
 
     def _roots(self) -> tuple[Path, ...]:
-        return (*self.own, *self.models, *self.packages, *self.workspaces)
+        return (*self.own, *self._of_environment())
 
-    def _require_inside(self, uri: str, path: Path, around: Iterable[Path]) -> None:
-        real = path.resolve()
-        if not any(real.is_relative_to(root.resolve()) for root in (*self._roots(), *around)):
-            message = f"{uri!r} leads to {str(real)!r}, outside of the folders of models and packages"
-            raise UriError(rules.URI_LEAVES_FOLDER, message, "name the folder with --path DIR if this is meant")
+    def _of_environment(self) -> tuple[Path, ...]:
+        return (*self.models, *self.packages, *self.workspaces)
+
+    def _first_readable(self, uri: str, paths: Iterable[Path], beside: Path) -> Path | None:
+        """The first of some paths that is there and may be read; None where none is there.
+
+        Raises:
+            UriError: those that are there must not be read.
+        """
+        readable = self.readable(beside)
+        denied: OutsideError | None = None
+        for path in paths:
+            if exists(path):
+                try:
+                    readable.require(path)
+                except OutsideError as error:
+                    denied = denied or error
+                else:
+                    return path
+        if denied is not None:
+            raise UriError(rules.URI_LEAVES_FOLDER, f"{uri!r} {denied.reason}", denied.help) from denied
+        return None
 
     def _plain(self, path: str, beside: Path, uri: str | None = None) -> Path:
         """A path: absolute, beside the file, or in one of the folders."""
         around = folders_around(beside)
-        for root in (beside.parent, *self._roots(), *around, *(folder / "models" for folder in around)):
-            if path and exists(root / path):
-                self._require_inside(uri or path, root / path, (beside.parent, *around))
-                return root / path
-        raise self._missing(uri or path, (beside.parent, *self._roots(), *around))
+        roots = (beside.parent, *self._roots(), *around, *(folder / "models" for folder in around))
+        found = self._first_readable(uri or path, (root / path for root in roots), beside) if path else None
+        if found is None:
+            raise self._missing(uri or path, (beside.parent, *self._roots(), *around))
+        return found
 
     def _cached(self, uri: str) -> Path:
         found = fuel.cached(uri, self.fuel)
@@ -194,6 +220,11 @@ class LocalAssets:
     def folder(self) -> Path | None:
         """The folder of the document; None for a text that came from no file."""
         return self.beside.parent if exists(self.beside) else None
+
+    @property
+    def readable(self) -> Readable:
+        """The files that may be read because the document leads to them."""
+        return self.search.readable(self.beside)
 
     def find(self, uri: str) -> Path:
         """The file or folder that a URI names.

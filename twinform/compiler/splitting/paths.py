@@ -10,6 +10,7 @@ from urllib.parse import quote, unquote
 from twinform.compiler.search.uris import LocalAssets, exists
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules.files import MISSING_FILE
+from twinform.file_access import Readable
 from twinform.ir import Document
 from twinform.passes.framework.asset_access import AssetError
 from twinform.passes.transforms.uris import map_uris
@@ -31,6 +32,11 @@ class MovedAssets:
     def folder(self) -> Path | None:
         """The folder of the source."""
         return self.source.folder
+
+    @property
+    def readable(self) -> Readable:
+        """The files that may be read because the source leads to them."""
+        return self.source.readable
 
     def find(self, uri: str) -> Path:
         """The file or folder that a URI names.

@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path, PurePath
 from typing import Any
 
+from twinform.file_access import read_regular
+
 READ = frozenset({"stl", "obj", "dae", "ply", "off", "glb"})
 """Formats that hold all of a mesh in one file, or what else they name is only its appearance."""
 EXTRA = "pip install 'twinform[meshes]'"
@@ -47,7 +49,7 @@ def open_scene(path: Path, *, process: bool = True) -> Scene:
         raise RefusedMeshError("it is no file")  # whoever opens a pipe may wait for ever
     if path.stat().st_size > LARGEST:
         raise RefusedMeshError(f"it is larger than {LARGEST >> 20} MiB")
-    return scene_of(path.read_bytes(), kind_of(path), process=process)
+    return scene_of(read_regular(path), kind_of(path), process=process)
 
 
 def scene_of(

@@ -5,6 +5,7 @@ from typing import Literal, Protocol
 
 from twinform.diagnostics import Rule
 from twinform.diagnostics.rules import files as rules
+from twinform.file_access import Readable
 
 
 class AssetError(Exception):
@@ -23,6 +24,11 @@ class Assets(Protocol):
     @property
     def folder(self) -> Path | None:
         """The folder of the document; None for a text that came from no file."""
+        ...
+
+    @property
+    def readable(self) -> Readable:
+        """The files that may be read because the document leads to them."""
         ...
 
     def find(self, uri: str) -> Path:
@@ -46,6 +52,7 @@ class _NoAssets:
     """A document by itself, of which the origin is not known."""
 
     folder: Path | None = None
+    readable = Readable()
 
     def find(self, uri: str) -> Path:
         raise AssetError(rules.UNRESOLVED_URI, f"{uri!r} cannot be looked up: only the text of the model is known")

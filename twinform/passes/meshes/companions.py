@@ -1,7 +1,7 @@
 """Files that a mesh file names itself: materials, textures and buffers, as far as they may be read.
 
 Whoever made the mesh may be a stranger, and what it names is copied into results. So only images, materials and buffers
-are taken, from the folder of the mesh and those beside it, and not too much of them.
+are taken, where the document may read them, and not too much of them.
 """
 
 import json
@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple, cast
 from urllib.parse import unquote
+
+from twinform.file_access import Readable
 
 _IMAGES = frozenset({".png", ".jpg", ".jpeg", ".tga", ".bmp", ".tif", ".tiff", ".webp"})
 _OTHERS = frozenset({".mtl", ".bin"})
@@ -31,14 +33,15 @@ class Companions(NamedTuple):
     missing: tuple[str, ...]
 
 
-def companions_of(path: Path, kind: str, content: bytes) -> Companions:
-    """What a mesh file names."""
+def companions_of(path: Path, kind: str, content: bytes, readable: Readable | None = None) -> Companions:
+    """What a mesh file names, of the files that are `readable`, or without this one belong to the mesh."""
+    readable = readable or Readable.of(path)
     files, missing, left = dict[str, bytes](), list[str](), _MOST_BYTES
     todo = list(_named(kind, content))
     for name in todo:
         if name in files or name in missing:
             continue
-        data = _read(path, name, left) if len(files) < _MOST else None
+        data = _read(path, name, left, readable) if len(files) < _MOST else None
         if data is None:
             missing.append(name)
             continue
@@ -74,14 +77,12 @@ def _of_gltf(content: bytes) -> Iterator[str]:
                 yield uri
 
 
-def _read(mesh: Path, name: str, most: int) -> bytes | None:
+def _read(mesh: Path, name: str, most: int, readable: Readable) -> bytes | None:
     relative = Path(unquote(name.removeprefix("file://").replace("\\", "/")))
     if relative.is_absolute() or relative.suffix.lower() not in _IMAGES | _OTHERS or "\0" in name:
         return None
     try:
-        real = (mesh.parent / relative).resolve()
-        if not real.is_relative_to(mesh.parent.resolve().parent) or not real.is_file() or real.stat().st_size > most:
-            return None
-        return real.read_bytes()
-    except (OSError, RuntimeError):
+        data = readable.read(mesh.parent / relative, most)
+    except OSError:
         return None
+    return data if len(data) <= most else None

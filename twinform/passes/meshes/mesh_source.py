@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from twinform.diagnostics import HEAD, DiagnosticSink
 from twinform.diagnostics.rules import meshes as rules
+from twinform.file_access import read_regular
 from twinform.passes.analyses.mesh_files import LARGEST, READ, kind_of
 from twinform.passes.analyses.meshes import MeshError
 from twinform.passes.framework.asset_access import AssetError, Assets
@@ -70,7 +71,7 @@ class MeshSources:
             message = f"the mesh {uri!r} is in no format that is read here: {', '.join(sorted(KINDS))}"
             raise MeshError(rules.UNREADABLE_MESH, message)
         content = _content(path, uri)
-        companions, missing = companions_of(path, kind, content)
+        companions, missing = companions_of(path, kind, content, self.assets.readable)
         return MeshSource(path.stem, kind, content, companions, missing)
 
 
@@ -85,6 +86,6 @@ def _content(path: Path, uri: str) -> bytes:
             raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} is no file")
         if path.stat().st_size > LARGEST:
             raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} is larger than {LARGEST >> 20} MiB")
-        return path.read_bytes()
+        return read_regular(path, LARGEST)
     except OSError as error:
         raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be read: {error.strerror}") from error

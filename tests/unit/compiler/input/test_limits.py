@@ -20,10 +20,10 @@ from twinform.compiler.input.limits import (
     excess_of_json,
     excess_of_tree,
     parse_size,
-    read_up_to,
     uncountable_encoding,
 )
 from twinform.diagnostics import Location
+from twinform.file_access import read_up_to
 
 
 @pytest.mark.parametrize("measure", [excess_of_bytes, excess_of_json])

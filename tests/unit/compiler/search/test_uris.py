@@ -15,6 +15,7 @@ TREE = {
     "ws/src/repo/legs/package.xml": "<package><name>legs_description</name></package>",
     "ws/src/repo/legs/urdf/leg.xacro": "",
     "project/models/table/model.sdf": "",
+    "project/twinform.toml": "",
     "project/worlds/room.sdf": "",
     "project/worlds/near.sdf": "",
     "home/.gz/fuel/fuel.gazebosim.org/openrobotics/models/euro pallet/2/model.sdf": "",

@@ -124,6 +124,7 @@ def test_a_pipeline_is_its_text(robot: Path) -> None:
 def test_a_mesh_names_no_file_outside_of_its_neighborhood(tmp_path: Path) -> None:
     folder = tmp_path / "package" / "meshes"
     folder.mkdir(parents=True)
+    (tmp_path / "package" / "package.xml").write_text("<package><name>package</name></package>")
     (tmp_path / "secret.png").write_bytes(b"secret")
     (tmp_path / "package" / "textures").mkdir()
     (tmp_path / "package" / "textures" / "a.png").write_bytes(b"image")

@@ -9,14 +9,14 @@ from contextlib import suppress
 from importlib.machinery import PathFinder
 from pathlib import Path
 from threading import Timer
-from typing import Any, Self, cast
+from typing import Any, cast
 
 from twinform.child_python import python_command
 from twinform.compiler.input.limits import LARGEST
-from twinform.compiler.input.xacro.files import Files, OutsideError
+from twinform.compiler.input.options import LoadOptions
+from twinform.compiler.input.xacro.files import DeniedError, Files
 from twinform.compiler.input.xacro.variables import variable
 from twinform.compiler.observing import note_failure, note_variable
-from twinform.compiler.search.search_roots import folders_around
 from twinform.compiler.search.uris import SearchPath, UriError
 
 _WORKER = Path(__file__).with_name("worker") / "__main__.py"
@@ -30,20 +30,20 @@ _PASSED_ON_STARTS = ("COV", "DYLD_", "LC_", "LD_", "PYTHON")
 """What Python needs of the environment to find its modules; the rest is not in the process at all."""
 
 
-def ask_worker(path: Path, arguments: Mapping[str, str], search: SearchPath) -> dict[str, Any]:
+def ask_worker(path: Path, load_options: LoadOptions) -> dict[str, Any]:
     """What becomes of a file in a process of its own.
 
     Such a process imports no more than most files need. One that needs more than it has says so, does nothing, and
     another takes its place: which files are read, and whether they read data, is only known when nothing can be
     imported any more.
     """
-    task = {"file": str(path), "arguments": dict(arguments)}
+    task = {"file": str(path), "arguments": dict(load_options.arguments)}
     folders = _library_folders()
-    outcome = _ask(path, search, {**task, "yaml": _mentions_data(path, search)}, folders)
+    outcome = _ask(path, load_options, {**task, "yaml": _mentions_data(path, load_options.search)}, folders)
     if "missing" in outcome and folders:
         folders = ()
-        outcome = _ask(path, search, {**task, "yaml": True}, folders)
-    return _ask(path, search, {**task, "yaml": True}, folders) if "lacks" in outcome else outcome
+        outcome = _ask(path, load_options, {**task, "yaml": True}, folders)
+    return _ask(path, load_options, {**task, "yaml": True}, folders) if "lacks" in outcome else outcome
 
 
 def _mentions_data(path: Path, search: SearchPath) -> bool:
@@ -52,8 +52,7 @@ def _mentions_data(path: Path, search: SearchPath) -> bool:
     if unsaved is not None:
         return b"yaml" in unsaved
     try:
-        with path.open("rb") as file:
-            return b"yaml" in file.read(LARGEST)
+        return b"yaml" in search.readable(path).read(path, LARGEST)
     except OSError:
         return True  # reading it will say what is wrong
 
@@ -70,7 +69,7 @@ def _library_folders() -> tuple[str, ...]:
     return tuple(folders) if found and not measured else ()
 
 
-def _ask(path: Path, search: SearchPath, task: Mapping[str, object], folders: tuple[str, ...]) -> dict[str, Any]:
+def _ask(path: Path, load_options: LoadOptions, task: Mapping[str, object], folders: tuple[str, ...]) -> dict[str, Any]:
     """What becomes of a task in a process of its own."""
     # -W: what Python warns of is not the file's to know.
     # -S: nothing is run that packages have left for the start of Python
@@ -83,7 +82,7 @@ def _ask(path: Path, search: SearchPath, task: Mapping[str, object], folders: tu
         timer = Timer(_SECONDS, process.kill)
         timer.start()
         try:
-            return _Conversation.of(path, search).hold(process, task)
+            return _Conversation(path, load_options).hold(process, task)
         finally:
             timer.cancel()
             process.kill()
@@ -104,18 +103,11 @@ def environment() -> dict[str, str]:
 class _Conversation:
     """Answers the questions of the process."""
 
-    def __init__(self, path: Path, search: SearchPath, files: Files) -> None:
+    def __init__(self, path: Path, load_options: LoadOptions) -> None:
         self.path = path
-        self.search = search
-        self.files = files
-
-    @classmethod
-    def of(cls, path: Path, search: SearchPath) -> Self:
-        """With the folders whose files may be read: those around the file, and those of the search path."""
-        folders = (path.parent, *search.own, *folders_around(path))
-        trusted = (*search.models, *search.packages, *search.workspaces)
-        files = Files.of([str(path)], map(str, (*folders, *trusted)), map(str, trusted))
-        return cls(path, search, files)
+        self.search = load_options.search
+        self.variables = load_options.variables
+        self.files = Files(self.search.readable(path))
 
     def hold(self, process: subprocess.Popen[bytes], task: Mapping[str, object]) -> dict[str, Any]:
         """Give the task and answer, until the process sends the result."""
@@ -147,8 +139,8 @@ class _Conversation:
                 case {"match": pattern}:
                     return {"paths": self.files.match(pattern)}, b""
                 case _:
-                    return {"value": _variable(received["environment"])}, b""
-        except OutsideError as error:
+                    return {"value": self._variable(received["environment"])}, b""
+        except DeniedError as error:
             return {"error": str(error), "help": error.advice}, b""
         except (OSError, ValueError) as error:
             return {"missing": getattr(error, "strerror", None) or str(error)}, b""
@@ -157,13 +149,13 @@ class _Conversation:
         """What is in a file that may be read, or what an editor has of it.
 
         Raises:
-            OutsideError: it must not be read.
+            DeniedError: it must not be read.
             OSError: it cannot be read.
         """
         unsaved = self.search.unsaved_of(path)
         if unsaved is None:
             return self.files.read(path)
-        self.files.require_inside(path)
+        self.files.require_readable(path)
         return unsaved
 
     def _find(self, uri: str, files: Iterable[Path]) -> dict[str, str]:
@@ -171,16 +163,24 @@ class _Conversation:
         answer: dict[str, str] = {}
         for file in files:
             try:
+                self.files.require_readable(str(file))  # the process may say anything about where it is
                 return {"path": str(self.search.find(uri, file).absolute())}  # links keep their names
             except UriError as error:
                 answer = {"error": error.message, "help": error.help or ""}
         return answer
 
+    def _variable(self, name: str) -> str | None:
+        """The value of an environment variable.
 
-def _variable(name: str) -> str | None:
-    value = variable(name, os.environ)
-    note_variable(name, value)
-    return value
+        Raises:
+            DeniedError: it must not be read.
+        """
+        value = None
+        try:
+            value = variable(name, os.environ, self.variables)
+        finally:
+            note_variable(name, value)  # what was not given is not written down either
+        return value
 
 
 def _understood(line: bytes) -> dict[str, Any]:

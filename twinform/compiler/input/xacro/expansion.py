@@ -9,9 +9,9 @@ from typing import Any
 from lxml import etree
 
 from twinform.compiler.input.limits import LARGEST
-from twinform.compiler.input.parsing import UnreadableError
+from twinform.compiler.input.options import LoadOptions
+from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.compiler.input.xacro.conversation import ask_worker
-from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import DiagnosticSink, Location, Origins
 from twinform.diagnostics.rules import reading
 from twinform.diagnostics.rules import xacro as rules
@@ -29,16 +29,16 @@ class Expansion:
     origins: Origins
 
 
-def expand(path: Path, arguments: Mapping[str, str], search: SearchPath, sink: DiagnosticSink) -> Expansion:
+def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expansion:
     """The text of a xacro file.
 
     Raises:
         UnreadableError: it cannot be expanded; the diagnostics tell why.
     """
-    if search.unsaved_of(path) is None and not path.is_file():
-        sink.report(reading.UNREADABLE_FILE, "cannot read the file: there is none of this name")
-        raise UnreadableError
-    outcome = ask_worker(path, arguments, search)
+    search = load_options.search
+    if search.unsaved_of(path) is None:
+        read_bytes(path, sink, load_options.limits, search.readable(path))  # says what is wrong, if it cannot be read
+    outcome = ask_worker(path, load_options)
     _report_remarks(outcome, sink)
     if "text" not in outcome:
         _report_failure(outcome, sink)

@@ -1,6 +1,7 @@
 """Draws the thumbnail of a model: its visuals from the front, from the right and from above, without any GPU."""
 
 import importlib
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from tempfile import gettempdir
@@ -11,6 +12,7 @@ from twinform.compiler.packaging.gazebo_model.drawing import Faces, picture
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.files import UNRESOLVED_URI
 from twinform.diagnostics.rules.packaging import NO_THUMBNAIL
+from twinform.file_access import Readable
 from twinform.ir import Box, Capsule, Cone, Cylinder, Document, Ellipsoid, Link, Material, Mesh, Model, Shape, Sphere
 from twinform.ir.defaults import sizes
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
@@ -50,6 +52,10 @@ class _Collected:
     def __init__(self, collection: Collection, folder: Path) -> None:
         self._collection, self._folder = collection, folder
         self._places = {collection.layout.uri(path, "model"): path for path in collection.files}
+
+    @property
+    def readable(self) -> Readable:
+        return Readable(tuple({os.path.realpath(path.parent) for path in self._collection.sources.values()}))
 
     def find(self, uri: str) -> Path:
         place = self._places.get(uri.strip())

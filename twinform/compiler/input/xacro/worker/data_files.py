@@ -13,6 +13,10 @@ LARGEST = 2**20
 """In bytes. The largest real one that we know has 20,000."""
 
 
+class DataFileError(yaml.YAMLError):
+    """A file is no YAML, or none that a model needs."""
+
+
 class _Loader(yaml.SafeLoader):
     """Counts the nodes of a document, those behind an alias as often as it stands there.
 
@@ -62,9 +66,17 @@ class DataFiles:
         loader.name = file
         try:
             return dotted(loader.get_single_data())
+        except yaml.YAMLError as error:
+            raise DataFileError(_complaint(file, getattr(error, "problem_mark", None))) from error
         finally:
             loader.dispose()
 
     def _measure(self, loader: Any, node: Any, *, factor: float) -> float:
         """A number with a unit."""
         return float(self.evaluate(loader.construct_scalar(node))) * factor
+
+
+def _complaint(file: str, mark: Any) -> str:
+    """Where a file is no YAML. What stands there is not repeated: the file may be somebody's secret."""
+    place = f", line {mark.line + 1}, column {mark.column + 1}" if mark is not None else ""
+    return f"cannot read {file!r}: it is no YAML{place}"

@@ -42,7 +42,9 @@ class Expander:
         self.node: Any = None
         self.budget = Budget()
         self.interpreter = Interpreter(self.budget, self.xacro.NameSpace)
-        self.substitutions = Substitutions(self.module, self.interpreter, self._package, compiler.environment)
+        self.substitutions = Substitutions(
+            self.module, self.interpreter, self._package, compiler.environment, self._warn
+        )
         self.texts = Texts(self.interpreter.evaluate, self._substitute, self.xacro.XacroException, self.budget)
         theirs: Mapping[str, Any] = getattr(self.xacro, "_global_symbols", {})
         self.names = vocabulary(theirs, xacro_functions(self), self.budget, self._warn)

@@ -5,6 +5,7 @@ from functools import partial
 from types import ModuleType
 from typing import Any
 
+from twinform.compiler.input.xacro.worker.channel import NotFoundError
 from twinform.compiler.input.xacro.worker.expressions.interpreter import Interpreter
 from twinform.compiler.input.xacro.worker.expressions.values import Value, text_of
 from twinform.compiler.input.xacro.worker.vocabulary import eval_vocabulary
@@ -19,11 +20,13 @@ class Substitutions:
         interpreter: Interpreter,
         package: Callable[[str], str],
         environment: Callable[[str], str | None],
+        warn: Callable[[str], None],
     ) -> None:
         self.module: Any = module
         self.interpreter = interpreter
         self.package = package
         self.environment = environment
+        self.warn = warn
 
     def replacements(self) -> dict[str, Callable[..., str]]:
         """What takes the place of the module's own functions."""
@@ -41,7 +44,11 @@ class Substitutions:
         return value
 
     def _environment_or(self, name: str, default: str = "") -> str:
-        value = self.environment(name)
+        try:
+            value = self.environment(name)
+        except NotFoundError as error:
+            self.warn(f"{error}: {default!r} is taken; {error.advice}")
+            return default
         return default if value is None else value
 
     def _eval(self, expression: str, context: Mapping[str, Any]) -> str:

@@ -1,0 +1,92 @@
+"""Nobody but `file_access` opens a file that a user has given or that one of these names."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import twinform
+
+_PACKAGE = Path(twinform.__file__).parent
+_OPENERS = frozenset({"open", "read_bytes", "read_text"})
+_MODULES_THAT_OPEN = frozenset({"filecmp", "fileinput", "mmap", "shutil", "tarfile", "zipfile"})
+DATA = "data files of the package"
+RESULTS = "results of its own, in a folder that the user has named"
+NOWHERE = "the null device"
+OTHERS = {
+    "cli/fixing.py": "calls `read_bytes` of `compiler/input/parsing.py`",
+    "cli/format.py": "calls `read_bytes` of `compiler/input/parsing.py`",
+    "cli/source.py": "streams that were named as such",
+    "cli/streams.py": NOWHERE,
+    "cli/view.py": "opens a browser",
+    "compiler/batch/archives.py": "the archive that the user has named, and a temporary folder",
+    "compiler/batch/driver.py": "opens a manifest by its own class",
+    "compiler/batch/lock.py": RESULTS,
+    "compiler/batch/manifest.py": RESULTS,
+    "compiler/batch/merging.py": "opens a manifest by its own class",
+    "compiler/batch/report.py": RESULTS,
+    "compiler/batch/worksite.py": "opens an executor, and the modules of the package",
+    "compiler/gazebo_files.py": DATA,
+    "compiler/in_place.py": "calls `read_bytes` of `compiler/input/parsing.py`",
+    "compiler/includes/model_config.py": "calls `read_bytes` of `compiler/input/parsing.py`",
+    "compiler/input/loading.py": "calls `read_bytes` of `compiler/input/parsing.py`",
+    "compiler/input/readers/generate.py": DATA,
+    "compiler/input/xacro/expansion.py": "calls `read_bytes` of `compiler/input/parsing.py`",
+    "compiler/input/xacro/worker/channel.py": NOWHERE,
+    "compiler/observing.py": "a file that is being opened anyway",
+    "compiler/batch/tar_reader.py": "the archive that the user has named",
+    "compiler/packaging/collecting.py": "the digest of a file that was checked; it may be too large for the memory",
+    "compiler/packaging/fuel_cache.py": "copies files that were checked",
+    "compiler/packaging/ros2/rendering.py": DATA,
+    "compiler/packaging/writing.py": RESULTS,
+    "compiler/workers/processes.py": NOWHERE,
+    "compiler/workers/running.py": "opens an executor",
+    "diagnostics/generated_files.py": DATA,
+    "file_access/regular_files.py": "the one reader",
+    "passes/appearance/classic_materials.py": DATA,
+    "passes/classic/tables.py": DATA,
+    "passes/meshes/child.py": NOWHERE,
+    "passes/meshes/consumers.py": DATA,
+    "passes/meshes/results_cache.py": "results of its own, in the cache of the user",
+    "passes/plugins/catalog.py": DATA,
+    "passes/plugins/sensor_settings.py": DATA,
+    "profiles/profile.py": DATA,
+    "profiles/reading/notation.py": DATA,
+    "report/page.py": DATA,
+    "schemas/facts.py": DATA,
+    "schemas/generate.py": DATA,
+    "schemas/meanings.py": DATA,
+    "schemas/packaged.py": DATA,
+    "schemas/reader.py": "a function of this name that reads a text of an element",
+    "server/mapping/destinations.py": DATA,
+    "server/session.py": "a document that an editor has opened",
+    "storage/staging.py": "files that it has made itself",
+    "storage/transaction.py": "files that it has made itself",
+    "storage/writing.py": "files that it has made itself, and pipes that are written into",
+    "view/page_script.py": DATA,
+}
+"""Modules that open something, and what."""
+
+
+def _opening_modules() -> Iterator[str]:
+    for path in sorted(_PACKAGE.rglob("*.py")):
+        name = path.relative_to(_PACKAGE).as_posix()
+        if not name.startswith("testing/") and any(map(_opens, ast.walk(ast.parse(path.read_text())))):
+            yield name
+
+
+def _opens(node: ast.AST) -> bool:
+    match node:
+        case ast.Import(names=names):
+            return any(each.name in _MODULES_THAT_OPEN for each in names)
+        case ast.ImportFrom(module=module):
+            return module in _MODULES_THAT_OPEN
+        case ast.Call(func=ast.Name(id=name) | ast.Attribute(attr=name)):
+            return name in _OPENERS
+        case _:
+            return False
+
+
+def test_only_the_one_reader_opens_files_of_users() -> None:
+    found = set(_opening_modules())
+    assert found - OTHERS.keys() == set(), "read it by twinform.file_access"
+    assert OTHERS.keys() - found == set(), "these open nothing any more"
