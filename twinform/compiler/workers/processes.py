@@ -2,12 +2,14 @@
 
 import multiprocessing
 import os
+import signal
 import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future
 from functools import partial
 from multiprocessing.connection import wait
+from multiprocessing.context import SpawnContext, SpawnProcess
 from typing import Any, ParamSpec, TypeVar
 
 from pebble import ProcessExpired, ProcessPool
@@ -22,6 +24,25 @@ _MOST_JOBS = 1000
 """Jobs after which a process gives way to a new one, whatever memory its libraries have kept."""
 _PATIENCE = 120.0
 """Seconds that a process may take to start, on a machine that is busy with other things."""
+
+
+class _WorkerProcess(SpawnProcess):
+    """A process that Ctrl-C does not reach: one that is starting would print a traceback. Its parent ends it."""
+
+    def start(self) -> None:
+        """Start it with SIGINT blocked, which it inherits; in this process only this thread blocks it, for a moment."""
+        if not hasattr(signal, "pthread_sigmask"):  # Windows
+            super().start()
+            return
+        before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            super().start()
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+class _WorkerContext(SpawnContext):
+    Process = _WorkerProcess
 
 
 class ProcessExecutor(Executor):
@@ -48,7 +69,8 @@ class ProcessExecutor(Executor):
         """
         if self._pool is None:
             # that the task comes along imports what it needs before a job is taken, and its time begins
-            context: Any = spawn_context()  # pebble describes contexts more narrowly than they are
+            spawn_context()
+            context: Any = _WorkerContext()  # pebble describes contexts more narrowly than they are
             self._pool = ProcessPool(self._processes, self._most_jobs, _begin, (fn,), context)
             if self._patience is not None:
                 _require_ready(self._pool, self._patience)
