@@ -12,6 +12,7 @@ from twinform.compiler.fixing.mending import kind_of
 from twinform.diagnostics import Safety, Span
 from twinform.text import SourceText, UndecodableError
 
+ANOTHER_ROBOT = "another robot after safe fixes"
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 
 
@@ -42,7 +43,7 @@ def mended_file(name: str, data: bytes) -> MendedFile:
     same = _same(data, safe.data, name) if safe.data != data and look(data).accepted else None
     faults = [*_faults(look, data, safe, unsafe=False), *(f"unsafe: {each}" for each in _faults(look, data, unsafe))]
     if same is False:
-        faults.append("another robot after safe fixes")
+        faults.append(ANOTHER_ROBOT)
     return MendedFile(
         name,
         safe.data != data,

@@ -13,7 +13,7 @@ from pathlib import Path
 from click.testing import CliRunner
 
 import twinform
-from tests.mended import mended_file
+from tests.mended import ANOTHER_ROBOT, mended_file
 from tests.unit.server.playing import play
 from twinform.cli.check import command as check_command
 from twinform.cli.failure import UNUSABLE
@@ -70,7 +70,9 @@ def editor_protocol(data: bytes) -> None:
 
 def fixers(data: bytes) -> None:
     """Fixes of any file, safe ones and all, add no finding, change nothing outside of their edits, and end."""
-    assert mended_file("", data).faults == ()
+    # stray text in parts that are broken anyway counts as a difference to diff, and fixes take it away
+    faults = [each for each in mended_file("", data).faults if each != ANOTHER_ROBOT]
+    assert not faults, faults
 
 
 def patterns(data: bytes) -> None:
