@@ -121,7 +121,7 @@ def archives(data: bytes) -> None:
         archive = Path(folder, "a.zip" if data.startswith(b"PK") else "a.tar")
         archive.write_bytes(data)
         with suppress(FolderError), unpacked(archive) as made:
-            files = [each for each in made.rglob("*") if not each.is_dir()]
+            files = [each for each in made.folder.rglob("*") if not each.is_dir()]
             assert all(each.is_file() and not each.is_symlink() for each in files), "more than files"
             size = sum(each.stat().st_size for each in files)
             assert size <= max(LEAST_BYTES, MOST_TIMES * len(data)), "larger than promised"
