@@ -13,7 +13,7 @@ from pathlib import Path
 from posixpath import normpath
 
 from reports.packages.robots import Robot
-from twinform.compiler.packaging.references import FORMATS
+from twinform.passes.mesh_references import FORMATS
 from twinform.testing import oracles
 from twinform.testing.oracles.libsdformat.files import named_files
 from twinform.testing.oracles.libsdformat.library import available

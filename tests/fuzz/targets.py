@@ -25,13 +25,13 @@ from twinform.compiler.batch.archives import LEAST_BYTES, MOST_TIMES, unpacked
 from twinform.compiler.batch.entries import FolderError
 from twinform.compiler.output.emitting import emit
 from twinform.compiler.output.json import json_text
-from twinform.compiler.packaging.references import FORMATS
 from twinform.compiler.reproducers.reproducer import Reproducer
 from twinform.compiler.search.uris import SearchPath, UriError
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.baseline import Baseline, BaselineError
 from twinform.diagnostics.suppressions import parse_suppressions
 from twinform.passes import PipelineError, parse_pipeline
+from twinform.passes.mesh_references import FORMATS
 from twinform.server.framing import read_messages
 
 MODEL = b'<robot name="a"><link name="b"/></robot>'

@@ -1,11 +1,12 @@
 """Models in numbers."""
 
 import json
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
+
+from twinform.passes.mesh_jobs.job import Job, Result
 
 from .conftest import BROKEN, WRONG, Run
 
@@ -130,7 +131,7 @@ DOCTYPE = DAE.replace("<COLLADA", "<!DOCTYPE x SYSTEM 'file:///etc/passwd'><COLL
         pytest.param("a.STL", STL, 3, "", id="stl"),
         pytest.param("a.dae", DAE, 2, "", id="dae"),
         pytest.param("a.dae", DOCTYPE, None, "it declares a document type", id="hostile dae"),
-        pytest.param("a.dae", "<COLLADA", None, "it cannot be read", id="broken dae"),
+        pytest.param("a.dae", "<COLLADA", None, "its reader stops at it", id="broken dae"),
         pytest.param("a.stl", "", None, "it has no triangles", id="empty stl"),
         # which of the two is reported depends on the decoders that are installed beside trimesh
         pytest.param("a.stl", "\0" * 80 + "\xff" * 4, None, "it ", id="stl that promises too much"),
@@ -174,7 +175,11 @@ def test_a_mesh_that_is_not_there_is_reported(run: Run, tmp_path: Path) -> None:
 
 
 def test_without_trimesh_the_bytes_are_known(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "trimesh", None)
+    def do(job: Job) -> Result:
+        del job
+        return Result({}, trouble="missing", message="trimesh")
+
+    monkeypatch.setattr("twinform.compiler.statistics.meshes.do", do)
     costs = stats(run, _EXAMPLES / "arm.urdf")["models"][0]["meshes"]
     assert all(each["bytes"] and each["triangles"] is None for each in costs)
     assert "twinform[meshes]" in costs[0]["problem"]

@@ -13,14 +13,14 @@ from twinform.compiler.packaging.file_kinds import FileKind, kind_of, suffix_of
 from twinform.compiler.packaging.layout import Layout, Places
 from twinform.compiler.packaging.origins import Origins
 from twinform.compiler.packaging.package import Content
-from twinform.compiler.packaging.references import FORMATS, ReferenceFormat
 from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import Rule
 from twinform.diagnostics.rules.files import URI_LEAVES_FOLDER
 from twinform.diagnostics.rules.packaging import UNPACKAGED_FILE
 from twinform.file_access import OutsideError
-from twinform.passes.analyses.mesh_files import POINTER, is_pointer
 from twinform.passes.framework.asset_access import AssetError
+from twinform.passes.mesh_jobs.mesh_files import POINTER, is_pointer
+from twinform.passes.mesh_references import FORMATS, ReferenceFormat
 
 _LARGEST_READ = 2**28
 """A file is only looked into up to this size."""

@@ -7,8 +7,8 @@ from typing import Self
 
 from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.file_kinds import suffix_of
-from twinform.compiler.packaging.references import FORMATS
 from twinform.diagnostics import SideFile
+from twinform.passes.mesh_references import FORMATS
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,17 +1,19 @@
 """The cost of meshes: the bytes of their files, and the triangles that have to be drawn or to be tested for contact.
 
-`trimesh` counts the triangles; without it, only the bytes are known.
+The confined process for meshes counts the triangles; without the libraries that it needs, only the bytes are known.
 """
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 from twinform.compiler.search.uris import SearchPath, UriError
 from twinform.ir import Collision, Mesh, Model, Visual, walk
-from twinform.passes.analyses.mesh_files import EXTRA, READ, READERS, RefusedMeshError, kind_of, open_scene
+from twinform.passes.mesh_jobs.child_process import do
+from twinform.passes.mesh_jobs.job import Job
+from twinform.passes.mesh_jobs.mesh_files import EXTRA, READ, RefusedMeshError, content_of, kind_of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,20 +89,12 @@ def _looked_at(path: Path) -> _File:
 
 def _counted(path: Path, size: int) -> _File:
     try:
-        triangles = _triangles(path)
-    except OSError:
-        raise
+        result = do(Job("count", {}, kind_of(path), content_of(path)))
     except RefusedMeshError as error:
         return _File(size, problem=str(error))
-    except Exception as error:  # noqa: BLE001 - readers of six formats raise whatever they like
-        if isinstance(error, ImportError) and error.name in READERS:
-            return _File(size, problem=f"{error.name} is not installed: {EXTRA}")
-        return _File(size, problem=f"it cannot be read: {str(error) or type(error).__name__}")
+    if result.trouble == "missing":
+        return _File(size, problem=f"{result.message} is not installed: {EXTRA}")
+    if result.trouble:
+        return _File(size, problem=result.message)
+    triangles = cast("int", result.facts["triangles"])
     return _File(size, triangles, "" if triangles else "it has no triangles")
-
-
-def _triangles(path: Path) -> int:
-    """All triangles of a file, those of a part as often as the file places it."""
-    scene = open_scene(path, process=False)
-    placed = (scene.graph[node][1] for node in scene.graph.nodes_geometry)
-    return sum(len(getattr(scene.geometry[name], "faces", ())) for name in placed)

@@ -4,26 +4,18 @@ Whoever made the mesh may be a stranger, and what it names is copied into result
 are taken, where the document may read them, and not too much of them.
 """
 
-import json
-import re
-from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple, cast
+from typing import NamedTuple
 from urllib.parse import unquote
 
 from twinform.file_access import Readable
+from twinform.passes.mesh_references import FORMATS
 
 _IMAGES = frozenset({".png", ".jpg", ".jpeg", ".tga", ".bmp", ".tif", ".tiff", ".webp"})
 _OTHERS = frozenset({".mtl", ".bin"})
+_NAMING = frozenset({"dae", "gltf", "mtl", "obj"})
 _MOST_BYTES = 2**27
 _MOST = 256
-_LIBRARY = re.compile(rb"(?m)^[ \t]*+mtllib[ \t]++([^\r\n]++)")
-_MAP = re.compile(
-    rb"(?m)^[ \t]*+(?:map_\w++|bump|norm|disp|decal)[ \t]++(?:-\S++[ \t]++(?:[-\d.]++[ \t]++)*+)*+([^\r\n]++)"
-)
-"""A texture behind its options, such as `-s 1 1 1`. That numbers can be negative is why it never goes back."""
-_IMAGE = re.compile(rb"<init_from>([^<]++)</init_from>")
-_GLTF = re.compile(rb"^glTF")
 
 
 class Companions(NamedTuple):
@@ -37,7 +29,7 @@ def companions_of(path: Path, kind: str, content: bytes, readable: Readable | No
     """What a mesh file names, of the files that are `readable`, or without this one belong to the mesh."""
     readable = readable or Readable.of(path)
     files, missing, left = dict[str, bytes](), list[str](), _MOST_BYTES
-    todo = list(_named(kind, content))
+    todo = _named(kind, content)[:_MOST]
     for name in todo:
         if name in files or name in missing:
             continue
@@ -47,34 +39,17 @@ def companions_of(path: Path, kind: str, content: bytes, readable: Readable | No
             continue
         files[name], left = data, left - len(data)
         if name.lower().endswith(".mtl"):
-            todo += _texts(_MAP, data)
+            todo += _named("mtl", data)[:_MOST]
     return Companions(files, tuple(missing))
 
 
-def _named(kind: str, content: bytes) -> Iterator[str]:
-    if kind == "obj":
-        yield from _texts(_LIBRARY, content)
-    elif kind == "dae":
-        yield from (name for name in _texts(_IMAGE, content) if Path(name).suffix.lower() in _IMAGES)
-    elif kind == "gltf":
-        yield from _of_gltf(content)
-
-
-def _texts(pattern: re.Pattern[bytes], content: bytes) -> Iterator[str]:
-    return (found.strip().decode(errors="replace") for found in pattern.findall(content) if found.strip())
-
-
-def _of_gltf(content: bytes) -> Iterator[str]:
+def _named(kind: str, content: bytes) -> list[str]:
+    """The files that a file of a format names."""
     try:
-        tree = cast("object", json.loads(content))
-    except (ValueError, RecursionError):
-        return  # the reader will say what is wrong
-    for key in ("buffers", "images"):
-        entries = cast("dict[str, object]", tree).get(key) if isinstance(tree, dict) else None
-        for entry in cast("list[object]", entries) if isinstance(entries, list) else []:
-            uri = cast("dict[str, object]", entry).get("uri") if isinstance(entry, dict) else None
-            if isinstance(uri, str) and not uri.startswith("data:"):
-                yield uri
+        names = FORMATS[kind].references(content) if kind in _NAMING else []
+    except ValueError:
+        return []  # the reader will say what is wrong
+    return [name for name in names if kind != "dae" or Path(name).suffix.lower() in _IMAGES]
 
 
 def _read(mesh: Path, name: str, most: int, readable: Readable) -> bytes | None:

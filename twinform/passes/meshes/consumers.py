@@ -5,7 +5,7 @@ from functools import cache
 from typing import Literal, NamedTuple, cast
 
 from twinform.package_files import package_files
-from twinform.passes.meshes.formats import MeshFormat
+from twinform.passes.mesh_jobs.formats import MeshFormat
 
 ConsumerName = Literal["gazebo", "gazebo-fortress", "rviz", "mujoco", "pybullet", "drake", "pinocchio", "web"]
 

@@ -11,7 +11,7 @@ from twinform.diagnostics.rules.meshes import CHANGED_MESH, KEPT_MESH
 from twinform.ir import Document, Geometry, Link, Mesh, Visual, rewrite
 from twinform.passes.analyses.meshes import MeshError
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
-from twinform.passes.meshes.job import Options
+from twinform.passes.mesh_jobs.job import Options
 from twinform.passes.meshes.mesh_pass import MeshPass, Outcome, Workbench, length, number, stays
 from twinform.passes.meshes.mesh_shapes import without_submesh
 

@@ -11,13 +11,13 @@ from pydantic import Field, field_validator
 from twinform.diagnostics import DiagnosticSink, Location, SideFile
 from twinform.diagnostics.rules import meshes as rules
 from twinform.ir import Mesh
-from twinform.passes.analyses.mesh_files import EXTRA
 from twinform.passes.analyses.meshes import MeshError, submesh_of
 from twinform.passes.framework.assets import AssetPass
 from twinform.passes.framework.side_files import CompanionPath, FilesPass
-from twinform.passes.meshes.child_process import do
-from twinform.passes.meshes.formats import MARK
-from twinform.passes.meshes.job import Job, Options, Result
+from twinform.passes.mesh_jobs.child_process import do
+from twinform.passes.mesh_jobs.formats import MARK
+from twinform.passes.mesh_jobs.job import Job, Options, Result
+from twinform.passes.mesh_jobs.mesh_files import EXTRA
 from twinform.passes.meshes.mesh_source import MeshSource, MeshSources
 from twinform.passes.meshes.progress import working_on
 from twinform.passes.meshes.results_cache import ResultsCache

@@ -7,12 +7,11 @@ from typing import NamedTuple
 
 from twinform.diagnostics import HEAD, DiagnosticSink
 from twinform.diagnostics.rules import meshes as rules
-from twinform.file_access import read_regular
-from twinform.passes.analyses.mesh_files import LARGEST, READ, kind_of
 from twinform.passes.analyses.meshes import MeshError
 from twinform.passes.framework.asset_access import AssetError, Assets
+from twinform.passes.mesh_jobs.formats import MARK
+from twinform.passes.mesh_jobs.mesh_files import READ, RefusedMeshError, content_of, kind_of
 from twinform.passes.meshes.companions import companions_of
-from twinform.passes.meshes.formats import MARK
 
 KINDS = frozenset({*READ, "gltf"})
 
@@ -76,16 +75,14 @@ class MeshSources:
 
 
 def _content(path: Path, uri: str) -> bytes:
-    """The bytes of a file; whoever opens a pipe may wait for ever.
+    """The bytes of a file.
 
     Raises:
         MeshError: it cannot be read, or is too large.
     """
     try:
-        if not path.is_file():
-            raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} is no file")
-        if path.stat().st_size > LARGEST:
-            raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} is larger than {LARGEST >> 20} MiB")
-        return read_regular(path, LARGEST)
+        return content_of(path)
+    except RefusedMeshError as error:
+        raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be used: {error}") from error
     except OSError as error:
         raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be read: {error.strerror}") from error

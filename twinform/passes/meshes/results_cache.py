@@ -13,7 +13,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Self
 
-from twinform.passes.meshes.job import BadMessageError, Job, Result
+from twinform.passes.mesh_jobs.job import BadMessageError, Job, Result
 from twinform.storage.writing import write_atomically
 
 VARIABLE = "TWINFORM_MESH_CACHE"

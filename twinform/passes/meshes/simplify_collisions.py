@@ -14,7 +14,7 @@ from twinform.ir.geometry import Box, Capsule, Cylinder, Sphere
 from twinform.ir.transform import Transform
 from twinform.passes.analyses.meshes import MeshError
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
-from twinform.passes.meshes.job import Options
+from twinform.passes.mesh_jobs.job import Options
 from twinform.passes.meshes.mesh_pass import MeshPass, Outcome, Workbench, length, number, stays
 
 Way = Literal["primitive", "hull", "parts"]

@@ -2,18 +2,18 @@
 
 import importlib
 import math
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from twinform.ir import Element, Mesh, Opaque
 from twinform.ir.geometry import Box
 from twinform.ir.solids import Solid, solid
 from twinform.passes.analyses.meshes import MeshError, Meshes
+from twinform.passes.mesh_jobs.job import Job, Result
 
 trimesh: Any = importlib.import_module("trimesh")
 FORMATS = ("stl", "obj", "dae", "ply", "off", "glb")
@@ -85,6 +85,7 @@ def test_a_box_is_the_box_of_the_closed_form_in_every_format(folder: Path, kind:
 SIZES = st.floats(0.01, 10) | st.floats(-10, -0.01)
 
 
+@settings(max_examples=20)  # each is a job of another process
 @given(scale=st.tuples(SIZES, SIZES, SIZES))
 @example(scale=(1.0, 1.0, 1.000000001))  # trimesh takes it for one
 def test_a_scaled_box_is_the_scaled_box_mirrored_or_not(folder: Path, scale: tuple[float, float, float]) -> None:
@@ -152,7 +153,13 @@ def test_the_hull_stands_for_an_open_mesh_if_it_may(folder: Path) -> None:
 
 
 def test_without_the_library_it_reports_what_to_install(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "trimesh", None)
+    missing = Result({}, trouble="missing", message="trimesh")
+
+    def do(job: Job) -> Result:
+        del job
+        return missing
+
+    monkeypatch.setattr("twinform.passes.analyses.meshes.do", do)
     with pytest.raises(MeshError, match="trimesh is not installed") as caught:
         meshes(folder).solid(Mesh(uri="box.stl"), 1)
     assert caught.value.rule.name == "mesh-reader-missing"

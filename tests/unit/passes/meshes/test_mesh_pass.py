@@ -9,8 +9,8 @@ import pytest
 import twinform
 from twinform.ir import Collision, Document, Inertial, Link, Visual, rewrite
 from twinform.passes import PipelineError, parse_pipeline
+from twinform.passes.mesh_jobs.formats import MARK
 from twinform.passes.meshes.companions import companions_of
-from twinform.passes.meshes.formats import MARK
 
 trimesh: Any = importlib.import_module("trimesh")
 ROBOT = """<robot name="r"><link name="base"/>
@@ -82,8 +82,8 @@ def test_a_computed_inertia_keeps_its_collisions(robot: Path) -> None:
 
 
 def test_without_the_libraries_a_diagnostic_says_what_to_install(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from twinform.passes.mesh_jobs.job import Job, Result  # noqa: PLC0415 - see above
     from twinform.passes.meshes import mesh_pass  # noqa: PLC0415 - it is patched
-    from twinform.passes.meshes.job import Job, Result  # noqa: PLC0415 - see above
 
     def missing(job: Job) -> Result:
         del job

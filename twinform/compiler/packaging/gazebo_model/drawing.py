@@ -15,13 +15,19 @@ _AMBIENT, _LIGHT = 0.45, 0.55
 _FORWARD, _UP = (-0.75, 0.5, -0.43), (0.0, 0.0, 1.0)
 """Where the camera looks, x of the model being its front."""
 _TO_LAMP = (0.6, -0.35, 0.72)
-_MOST_SAMPLES = 2**22
+_MOST_SAMPLES = 2**20
 """So many points are worked on at once, which bounds the memory."""
+_MOST_DRAWN = 2**24
+"""Points of a picture, sixteen for each that is seen: triangles that all cover it would take for ever."""
 _LEVELS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512, 768, 1024, 1536, 2048)
 """How many steps a triangle is sampled in, along it and across."""
 
 _Array = Any
 """A `numpy.ndarray`."""
+
+
+class UndrawableError(ValueError):
+    """Why there is no picture of some triangles."""
 
 
 class Faces(NamedTuple):
@@ -36,6 +42,7 @@ def picture(faces: Sequence[Faces]) -> bytes:
 
     Raises:
         ImportError: the extra is not installed.
+        UndrawableError: the triangles hide each other many times.
     """
     numpy: Any = importlib.import_module("numpy")
     image: Any = importlib.import_module("PIL.Image")
@@ -95,6 +102,8 @@ def _samples(numpy: Any, corners: _Array) -> Iterator[tuple[_Array, _Array]]:
     height = doubled / numpy.maximum(length, 1e-12)
     levels = numpy.array(_LEVELS)
     along, across = (numpy.searchsorted(levels, 1.25 * extent) for extent in (length, height))
+    if int(((levels[along] + 1) * (levels[across] + 1)).sum()) > _MOST_DRAWN:
+        raise UndrawableError("too many triangles lie behind each other")
     for group in numpy.unique(along * len(_LEVELS) + across):
         which = numpy.flatnonzero(along * len(_LEVELS) + across == group)
         columns, rows = levels[group // len(_LEVELS)], levels[group % len(_LEVELS)]

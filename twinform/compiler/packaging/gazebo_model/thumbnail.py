@@ -5,10 +5,10 @@ import os
 from collections.abc import Iterator
 from pathlib import Path
 from tempfile import gettempdir
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from twinform.compiler.packaging.collecting import Collection
-from twinform.compiler.packaging.gazebo_model.drawing import Faces, picture
+from twinform.compiler.packaging.gazebo_model.drawing import Faces, UndrawableError, picture
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.files import UNRESOLVED_URI
 from twinform.diagnostics.rules.packaging import NO_THUMBNAIL
@@ -17,12 +17,12 @@ from twinform.ir import Box, Capsule, Cone, Cylinder, Document, Ellipsoid, Link,
 from twinform.ir.defaults import sizes
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
-from twinform.passes.analyses.meshes import MeshError, Meshes
+from twinform.passes.analyses.meshes import MeshError, Meshes, MeshTriangles
 from twinform.passes.framework.asset_access import AssetError
 from twinform.storage.staging import staging_folder
 
 _GREY = (0.72, 0.72, 0.75)
-_MOST_FACES = 4_000_000
+_MOST_FACES = 1_000_000
 
 
 def thumbnail(document: Document, collection: Collection, sink: DiagnosticSink) -> bytes | None:
@@ -32,16 +32,27 @@ def thumbnail(document: Document, collection: Collection, sink: DiagnosticSink) 
     model = document.models[0]
     try:
         with staging_folder(Path(gettempdir())) as folder:
-            faces = list(_faces(model, Meshes(_Collected(collection, folder))))
-        if faces and sum(len(each.points) for each in faces) <= _MOST_FACES:
+            faces = _few(_faces(model, Meshes(_Collected(collection, folder))))
+        if faces:
             return picture(faces)
-        why = "there are too many triangles" if faces else "nothing of it can be drawn"
+        why = "nothing of it can be drawn"
     except ImportError as error:
         why = f"{error.name} is not installed: pip install 'twinform[thumbnails]'"
-    except FrameError as error:
+    except (FrameError, UndrawableError) as error:
         why = str(error)
     sink.report(NO_THUMBNAIL, f"model {model.name!r} has no thumbnail: {why}", model.location, found=model.name)
     return None
+
+
+def _few(faces: Iterator[Faces]) -> list[Faces]:
+    """All of them, as long as they are not too many: a mesh may be shown many times."""
+    found, count = list[Faces](), 0
+    for each in faces:
+        found.append(each)
+        count += len(each.points)
+        if count > _MOST_FACES:
+            raise UndrawableError("there are too many triangles")
+    return found
 
 
 class _Collected:
@@ -101,13 +112,13 @@ def _links(model: Model) -> Iterator[tuple[str, Link]]:
 
 def _triangles(shape: Shape, meshes: Meshes) -> Any:
     """The surface of a shape as a `trimesh.Trimesh`; None where it has none, or is a plane."""
+    if isinstance(shape, Mesh):
+        try:
+            return _of_file(meshes.triangles(shape))
+        except MeshError:
+            return None
     creation: Any = importlib.import_module("trimesh.creation")
     match shape:
-        case Mesh():
-            try:
-                return meshes.triangles(shape)
-            except MeshError:
-                return None
         case Box():
             return creation.box(extents=sizes(shape))
         case Sphere():
@@ -125,6 +136,20 @@ def _triangles(shape: Shape, meshes: Meshes) -> Any:
             return made
         case _:
             return None
+
+
+class _Surface(NamedTuple):
+    """Points and triangles as `trimesh.Trimesh` has them."""
+
+    vertices: Any
+    faces: Any
+
+
+def _of_file(found: MeshTriangles) -> Any:
+    numpy: Any = importlib.import_module("numpy")
+    points = numpy.frombuffer(found.points, numpy.float64).reshape(-1, 3)
+    faces = numpy.frombuffer(found.faces, numpy.int64).reshape(-1, 3)
+    return _Surface(points, faces)
 
 
 def _placed(triangles: Any, at: Transform) -> Any:

@@ -3,8 +3,9 @@
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from twinform.passes.analyses.mesh_files import RefusedMeshError, scene_of
-from twinform.passes.meshes.geometry.libraries import Array, np
+from twinform.passes.mesh_jobs.geometry.libraries import Array, np
+from twinform.passes.mesh_jobs.geometry.reading import scene_of
+from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError
 
 MOST_TRIANGLES = 5_000_000
 
@@ -43,13 +44,15 @@ def placed_parts(scene: Any) -> list[tuple[str, Any]]:
     return found
 
 
-def read_scene(content: bytes, kind: str, companions: Mapping[str, bytes], *, appearance: bool = False) -> Any:
-    """The scene in a file, in its own unit.
+def read_scene(
+    content: bytes, kind: str, companions: Mapping[str, bytes], *, appearance: bool = False, finite: bool = True
+) -> Any:
+    """The scene in a file, in its own unit; where not `finite`, coordinates may be no numbers.
 
     Raises:
         UnusableMeshError: it has no triangles, too many, or coordinates that are no numbers.
     """
-    scene = scene_of(content, kind, companions=companions, appearance=appearance, process=False)
+    scene = scene_of(content, kind, companions=companions, appearance=appearance)
     meshes = [each for each in scene.geometry.values() if len(getattr(each, "faces", ()))]
     if not meshes:
         raise UnusableMeshError("it has no triangles")
@@ -61,7 +64,7 @@ def read_scene(content: bytes, kind: str, companions: Mapping[str, bytes], *, ap
     ):
         raise UnusableMeshError(f"it has more than {MOST_TRIANGLES:,} triangles")
     for each in meshes:
-        if not np.isfinite(each.vertices[each.faces.ravel()]).all():
+        if finite and not np.isfinite(each.vertices[each.faces.ravel()]).all():
             raise UnusableMeshError("it has coordinates that are no finite numbers")
     return scene
 

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping
 
-from twinform.compiler.packaging.references.spans import Span, encoded, names, replaced, text
+from twinform.passes.mesh_references.spans import Span, encoded, names, replaced, text
 
 _LIBRARY = re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]*)", re.MULTILINE)
 _TEXTURE = re.compile(rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]*)", re.MULTILINE | re.IGNORECASE)

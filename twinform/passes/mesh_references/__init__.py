@@ -7,7 +7,7 @@ with other names in their place.
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
-from twinform.compiler.packaging.references import collada, gltf, ogre, wavefront
+from twinform.passes.mesh_references import collada, gltf, ogre, wavefront
 
 Names = Mapping[str, str]
 """From the name of a file as it is written to the one that is to stand there."""

@@ -3,7 +3,7 @@ import struct
 
 import pytest
 
-from twinform.compiler.packaging.references import FORMATS
+from twinform.passes.mesh_references import FORMATS
 
 _DAE = b"""<?xml version="1.0"?>
 <COLLADA><library_images>

@@ -4,8 +4,8 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from twinform.passes.meshes.formats import MARK
-from twinform.passes.meshes.geometry.libraries import np, trimesh
+from twinform.passes.mesh_jobs.formats import MARK
+from twinform.passes.mesh_jobs.geometry.libraries import np, trimesh
 
 _DIGITS = 9
 _STL_HEADER = 80

@@ -8,12 +8,11 @@ from dataclasses import dataclass, field
 from typing import BinaryIO, cast
 
 from twinform.child_python import python_command
-from twinform.passes.meshes.job import BadMessageError, Job, Result
+from twinform.passes.mesh_jobs.job import BadMessageError, Job, Result
+from twinform.passes.mesh_jobs.limits import MEMORY
 
-MEMORY = 4 * 2**30
-"""Bytes of address space that the child may have."""
-SECONDS = 600.0
-"""What takes longer is given up."""
+_PATIENCE = 900.0
+"""Seconds of the clock after which a job is given up, on a machine that is busy; it has fewer of the processor."""
 _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS"), "1")
 """A pool of threads reserves memory for each processor, which counts."""
 
@@ -23,7 +22,7 @@ class MeshProcess:
     """A process that does one job after the other; one that dies takes only its job along."""
 
     memory: int = MEMORY
-    seconds: float = SECONDS
+    seconds: float = _PATIENCE
     _child: "subprocess.Popen[bytes] | None" = None
     _lock: threading.Lock = field(default_factory=threading.Lock)
 
@@ -55,9 +54,11 @@ class MeshProcess:
             self._child = None
 
     def _running(self) -> "subprocess.Popen[bytes]":
-        if self._child is None or self._child.poll() is not None:
+        if self._child is not None and self._child.poll() is not None:
+            self.end()  # it has died since, and its pipes are still open
+        if self._child is None:
             self._child = subprocess.Popen(  # noqa: S603 - our own module
-                python_command("-m", "twinform.passes.meshes.child", str(self.memory)),
+                python_command("-m", "twinform.passes.mesh_jobs.child", str(self.memory)),
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,

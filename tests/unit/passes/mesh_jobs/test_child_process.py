@@ -10,9 +10,10 @@ from typing import Any
 
 import pytest
 
-from twinform.passes.meshes.child import done
-from twinform.passes.meshes.child_process import MeshProcess
-from twinform.passes.meshes.job import BadMessageError, Job, Options, Result
+from twinform.passes.mesh_jobs.child import done
+from twinform.passes.mesh_jobs.child_process import MeshProcess
+from twinform.passes.mesh_jobs.job import BadMessageError, Job, Options, Result
+from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError, content_of
 from twinform.passes.meshes.results_cache import VARIABLE, ResultsCache
 
 trimesh: Any = importlib.import_module("trimesh")
@@ -144,13 +145,17 @@ def test_what_stops_a_reader_is_said_as_that() -> None:
     assert done(job(b"", "stl")).message == "it has no triangles"
 
 
-def test_a_pointer_of_git_lfs_is_no_mesh() -> None:
-    pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n"
-    assert done(job(pointer)).message == "it is a pointer of Git LFS and not the file itself: run `git lfs pull`"
+def test_a_pointer_of_git_lfs_is_no_mesh(tmp_path: Path) -> None:
+    path = tmp_path / "a.stl"
+    path.write_bytes(b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n")
+    with pytest.raises(RefusedMeshError, match="not the file itself: run `git lfs pull`"):
+        content_of(path)
 
 
 def test_the_process_ends_with_the_one_that_asks_also_in_the_middle_of_a_job() -> None:
-    busy = "from twinform.passes.meshes import child\nchild.done = lambda job: [0 for _ in iter(int, 1)]\nchild.main()"
+    busy = (
+        "from twinform.passes.mesh_jobs import child\nchild.done = lambda job: [0 for _ in iter(int, 1)]\nchild.main()"
+    )
     command = [sys.executable, "-c", busy, str(2**32)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
         assert process.stdin is not None

@@ -10,8 +10,9 @@ one the distance comes out larger, never smaller. Nothing is drawn at random.
 import math
 from collections.abc import Callable, Iterator
 
-from twinform.passes.meshes.geometry.libraries import Array, np, spatial
-from twinform.passes.meshes.geometry.surface import Surface
+from twinform.passes.mesh_jobs.geometry.libraries import Array, np
+from twinform.passes.mesh_jobs.geometry.solver_libraries import spatial
+from twinform.passes.mesh_jobs.geometry.surface import Surface
 
 _SAMPLES = 60_000
 """About so many samples of a surface are kept to find triangles by."""

@@ -4,10 +4,11 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from twinform.passes.meshes.geometry.convex import hull
-from twinform.passes.meshes.geometry.distances import Nearest, farthest
-from twinform.passes.meshes.geometry.libraries import Array, np, optimize, trimesh
-from twinform.passes.meshes.geometry.surface import Surface
+from twinform.passes.mesh_jobs.geometry.convex import hull
+from twinform.passes.mesh_jobs.geometry.distances import Nearest, farthest
+from twinform.passes.mesh_jobs.geometry.libraries import Array, np, trimesh
+from twinform.passes.mesh_jobs.geometry.solver_libraries import optimize
+from twinform.passes.mesh_jobs.geometry.surface import Surface
 
 _AROUND, _FINENESS = 48, 3
 _MARGIN = 1.2

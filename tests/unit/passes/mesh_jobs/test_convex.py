@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.profile import examples
-from twinform.passes.meshes.geometry.convex import hull, reduced
-from twinform.passes.meshes.geometry.jobs import simplify
-from twinform.passes.meshes.job import Job, Options
+from twinform.passes.mesh_jobs.geometry.convex import hull, reduced
+from twinform.passes.mesh_jobs.geometry.jobs import simplify
+from twinform.passes.mesh_jobs.job import Job, Options
 
 np: Any = importlib.import_module("numpy")
 trimesh: Any = importlib.import_module("trimesh")

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Mapping
 from xml.sax.saxutils import escape, unescape
 
-from twinform.compiler.packaging.references.spans import Span, names, replaced
+from twinform.passes.mesh_references.spans import Span, names, replaced
 
 _TOKEN = re.compile(
     rb"(?P<comment><!--)|(?P<after>-->)|(?P<image><(?:\w+:)?image[\s>])|(?P<close></(?:\w+:)?image\s*>)"

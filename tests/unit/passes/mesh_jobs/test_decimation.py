@@ -4,9 +4,9 @@ import importlib
 from itertools import pairwise
 from typing import Any, cast
 
-from twinform.passes.meshes.geometry.decimation import decimated
-from twinform.passes.meshes.geometry.jobs import decimate
-from twinform.passes.meshes.job import Job, Options
+from twinform.passes.mesh_jobs.geometry.decimation import decimated
+from twinform.passes.mesh_jobs.geometry.jobs import decimate
+from twinform.passes.mesh_jobs.job import Job, Options
 
 np: Any = importlib.import_module("numpy")
 trimesh: Any = importlib.import_module("trimesh")

@@ -16,6 +16,8 @@ Trouble = Literal["missing", "unreadable"]
 
 _PREFIX = 8
 _LONGEST_TEXT = 2**26
+_MOST_BYTES = 2**30
+"""Of all files of a message. Whoever sends it may be a process that a mesh has taken over."""
 
 
 class BadMessageError(ValueError):
@@ -31,6 +33,11 @@ class Job:
     kind: str
     content: bytes = field(repr=False)
     companions: Mapping[str, bytes] = field(default_factory=dict[str, bytes], repr=False)
+
+    @property
+    def size(self) -> int:
+        """The bytes that are read."""
+        return len(self.content) + sum(map(len, self.companions.values()))
 
     def to_bytes(self) -> bytes:
         """The message."""
@@ -110,8 +117,11 @@ def unpacked(stream: BinaryIO) -> tuple[dict[str, object], list[bytes]] | None:
         raise BadMessageError("no message")
     try:
         head = json.loads(_exactly(stream, length))
-        return head, [_exactly(stream, size) for size in head.pop("sizes")]
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
+        sizes = [int(size) for size in head.pop("sizes")]
+        if min(sizes, default=0) < 0 or sum(sizes) > _MOST_BYTES:
+            raise BadMessageError("a message with too much")
+        return head, [_exactly(stream, size) for size in sizes]
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise BadMessageError(str(error)) from error
 
 

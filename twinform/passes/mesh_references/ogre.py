@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping
 
-from twinform.compiler.packaging.references.spans import Span, encoded, names, replaced, text
+from twinform.passes.mesh_references.spans import Span, encoded, names, replaced, text
 
 _TEXTURE = re.compile(rb"^[ \t]*(?:texture|cubic_texture|anim_texture)[ \t]+(\"[^\"\r\n]*\"|[^\s\"{}]+)", re.MULTILINE)
 

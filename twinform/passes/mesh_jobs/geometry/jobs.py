@@ -1,54 +1,22 @@
-"""The jobs that the child process knows: simplify a collision, decimate a visual, convert a file, draw one."""
+"""Jobs that make other meshes of a mesh: simplify a collision, decimate a visual, convert a file."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, cast
 
-from twinform.passes.meshes.geometry import convex, primitives
-from twinform.passes.meshes.geometry.decimation import WORTH, decimated
-from twinform.passes.meshes.geometry.drawing import drawn
-from twinform.passes.meshes.geometry.formats import appearance_of, upright, written
-from twinform.passes.meshes.geometry.libraries import np, trimesh
-from twinform.passes.meshes.geometry.surface import (
-    Surface,
-    UnusableMeshError,
-    joined,
-    placed_parts,
-    read_scene,
-    scaled,
-    selected,
-)
-from twinform.passes.meshes.job import Job, Result
+from twinform.passes.mesh_jobs.geometry import convex, primitives
+from twinform.passes.mesh_jobs.geometry.decimation import WORTH, decimated
+from twinform.passes.mesh_jobs.geometry.formats import appearance_of, written
+from twinform.passes.mesh_jobs.geometry.libraries import np, trimesh
+from twinform.passes.mesh_jobs.geometry.parts import parts_of
+from twinform.passes.mesh_jobs.geometry.surface import Surface, joined, scaled
+from twinform.passes.mesh_jobs.job import Job, Result
+from twinform.passes.mesh_jobs.limits import allow_work
 
 _ACCURACY = 0.05
 """How much more than the greatest distance that was seen may be said, as part of what is allowed."""
 _LEFT_OUT = (0.5, 0.2, 0.1, 0.05)
 """How much of a convex shape is left out, as parts of what is allowed; the first that is near enough is taken."""
-
-
-def _parts(job: Job, *, appearance: bool = False) -> list[tuple[str, Any]]:
-    """The meshes that a shape uses, in meters."""
-    scene = read_scene(job.content, job.kind, job.companions, appearance=appearance)
-    parts = selected(
-        placed_parts(scene), cast("str | None", job.options["submesh"]), center=bool(job.options["center"])
-    )
-    meter = _meter(parts) if job.kind == "dae" else 1.0
-    if meter != 1.0:
-        for _, part in parts:
-            part.apply_scale(meter)
-    return upright(parts) if job.kind in {"glb", "gltf"} and job.options["gltf_up"] == "y" else parts
-
-
-def _meter(parts: Sequence[tuple[str, Any]]) -> float:
-    """The unit of a COLLADA file in meters, which the reader leaves in the notes of its meshes."""
-    words = next((str(part.metadata["units"]) for _, part in parts if part.metadata.get("units")), "meters")
-    try:
-        factor = float(words.partition("*")[0]) if "*" in words else 1.0
-    except ValueError:
-        factor = math.nan
-    if not (math.isfinite(factor) and factor > 0):
-        raise UnusableMeshError(f"its unit is {words!r}")
-    return factor
 
 
 def _limit(job: Job, surface: Surface) -> float:
@@ -65,7 +33,8 @@ def _tolerance(limit: float, surface: Surface) -> float:
 
 def simplify(job: Job) -> Result:
     """The cheapest stand-in for a collision, of those asked for, that is within the limit."""
-    parts = _parts(job)
+    parts = parts_of(job)
+    allow_work()
     surface = scaled(joined(parts), job.options["scale"])
     limit, tried = _limit(job, surface), list[str]()
     facts: dict[str, object] = {"before": len(surface.faces), "limit": limit if math.isfinite(limit) else None}
@@ -141,7 +110,8 @@ _WAYS: Mapping[str, Callable[[Job, Surface, float], Result | str]] = {
 
 def decimate(job: Job) -> Result:
     """Levels of detail of a visual, each with a share of the triangles of the one before."""
-    parts = _parts(job, appearance=True)
+    parts = parts_of(job, appearance=True)
+    allow_work()
     surface = joined(parts)
     before = sum(len(part.faces) for _, part in parts)
     facts: dict[str, object] = {"before": before, "appearance": sorted(appearance_of(parts))}
@@ -174,7 +144,8 @@ def _share(job: Job, before: int) -> float:
 
 def convert(job: Job) -> Result:
     """A file in another format."""
-    parts = _parts(job, appearance=True)
+    parts = parts_of(job, appearance=True)
+    allow_work()
     kind = str(job.options["to"])
     appearance = appearance_of(parts)
     if not appearance:
@@ -187,13 +158,3 @@ def convert(job: Job) -> Result:
 def _welded(name: str, part: Any) -> Any:
     surface = joined([(name, part)])
     return type(part)(vertices=surface.points, faces=surface.faces, process=False)
-
-
-def draw(job: Job) -> Result:
-    """All triangles of a mesh as arrays, for who draws it."""
-    return Result({}, drawn(_parts(job, appearance=True)))
-
-
-JOBS: Mapping[str, Callable[[Job], Result]] = {
-    "simplify": simplify, "decimate": decimate, "convert": convert, "draw": draw,
-}  # fmt: skip

@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.profile import examples
-from tests.unit.passes.meshes.judge import distances, drawn
-from twinform.passes.meshes.geometry.convex import error_of, hull
-from twinform.passes.meshes.geometry.distances import Nearest, farthest
-from twinform.passes.meshes.geometry.surface import Surface, merged
+from tests.unit.passes.mesh_jobs.judge import distances, drawn
+from twinform.passes.mesh_jobs.geometry.convex import error_of, hull
+from twinform.passes.mesh_jobs.geometry.distances import Nearest, farthest
+from twinform.passes.mesh_jobs.geometry.surface import Surface, merged
 
 np: Any = importlib.import_module("numpy")
 trimesh: Any = importlib.import_module("trimesh")

@@ -3,9 +3,10 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from twinform.passes.meshes.geometry.distances import Nearest, farthest
-from twinform.passes.meshes.geometry.libraries import Array, coacd, fast_simplification, np, spatial
-from twinform.passes.meshes.geometry.surface import Surface, UnusableMeshError
+from twinform.passes.mesh_jobs.geometry.distances import Nearest, farthest
+from twinform.passes.mesh_jobs.geometry.libraries import Array, np
+from twinform.passes.mesh_jobs.geometry.solver_libraries import coacd, fast_simplification, spatial
+from twinform.passes.mesh_jobs.geometry.surface import Surface, UnusableMeshError
 
 _CONCAVITIES = (0.1, 0.05, 0.02, 0.01)
 """Thresholds of CoACD that are tried, from few parts to many."""

@@ -3,14 +3,21 @@
 from collections.abc import Sequence
 from typing import Any
 
-from twinform.passes.meshes.geometry.formats import appearance_of
-from twinform.passes.meshes.geometry.libraries import Array, np, trimesh
+from twinform.passes.mesh_jobs.geometry.formats import appearance_of
+from twinform.passes.mesh_jobs.geometry.libraries import Array, np, trimesh
+from twinform.passes.mesh_jobs.geometry.parts import parts_of
+from twinform.passes.mesh_jobs.job import Job, Result
 
 _SHARP = 0.6
 """Angles between triangles, in radians, from which there is an edge to be seen."""
 _MOST_SMOOTHED = 100_000
 """Larger meshes are drawn with the points that they have: looking for edges takes time."""
 _UNPAINTED = (200, 200, 205, 255)
+
+
+def draw(job: Job) -> Result:
+    """All triangles of a mesh as arrays, for who draws it."""
+    return Result({}, drawn(parts_of(job, appearance=True)))
 
 
 def drawn(parts: Sequence[tuple[str, Any]]) -> dict[str, bytes]:

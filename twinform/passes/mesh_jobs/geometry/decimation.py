@@ -4,9 +4,10 @@ import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from twinform.passes.meshes.geometry.distances import Nearest, farthest
-from twinform.passes.meshes.geometry.libraries import fast_simplification, np
-from twinform.passes.meshes.geometry.surface import Surface, joined
+from twinform.passes.mesh_jobs.geometry.distances import Nearest, farthest
+from twinform.passes.mesh_jobs.geometry.libraries import np
+from twinform.passes.mesh_jobs.geometry.solver_libraries import fast_simplification
+from twinform.passes.mesh_jobs.geometry.surface import Surface, joined
 
 _STEPS = 4
 """Between a number of triangles that is too small and one that is too large, this often the middle is tried."""

@@ -1,0 +1,142 @@
+"""`python -m twinform.passes.mesh_jobs.child`: does jobs on mesh files until its input ends.
+
+Mesh files are untrusted, and the libraries that read them are large. On Linux each job is done by a fork of this
+process, in which they are imported already: limited in time and memory, without files, connections and other processes.
+What goes wrong there is the end of the fork. On other systems the job is done here, with limits on memory.
+"""
+
+import os
+import select
+import signal
+import sys
+import threading
+from contextlib import suppress
+from importlib import import_module
+from typing import BinaryIO
+
+from twinform.confinement import confine
+from twinform.passes.mesh_jobs.job import Job, Result
+from twinform.passes.mesh_jobs.limits import limit_reading, reading_seconds
+from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError
+
+_JOBS = {
+    "count": "measuring", "convert": "jobs", "decimate": "jobs", "draw": "drawing", "measure": "measuring",
+    "simplify": "jobs", "surface": "measuring",
+}  # fmt: skip
+"""In which module of `geometry` the function of a job is, which is called like the job."""
+_LIBRARIES = frozenset({"coacd", "collada", "fast_simplification", "numpy", "scipy", "trimesh"})
+"""What the extra brings, as it is imported."""
+_NEEDED_LATER = (
+    "collada", "lxml.etree", "PIL.Image", "scipy.optimize", "scipy.spatial", "trimesh.exchange.load",
+    "unicodedata", "encodings.idna", "encodings.latin_1", "encodings.utf_16", "encodings.cp437",
+)  # fmt: skip
+"""What readers import when they meet certain files, and could not import then."""
+
+
+def done(job: Job) -> Result:
+    """What comes of a job; no fault of a mesh or of a library gets out."""
+    try:
+        # the libraries may not be installed, and only some jobs need all of them
+        module = import_module(f"twinform.passes.mesh_jobs.geometry.{_JOBS[job.name]}")
+        return getattr(module, job.name)(job)
+    except ImportError as error:
+        library = (error.name or "").partition(".")[0]
+        if library not in _LIBRARIES:  # one that a reader would like to have for files as odd as this
+            return Result({}, trouble="unreadable", message=f"no reader takes it ({error})")
+        return Result({}, trouble="missing", message=library)
+    except MemoryError:
+        return Result({}, trouble="unreadable", message="it needs more memory than it may have")
+    except RefusedMeshError as error:
+        return Result({}, trouble="unreadable", message=str(error))
+    except Exception as error:  # noqa: BLE001 - readers of six formats raise whatever they like
+        message = f"its reader stops at it ({type(error).__name__}: {str(error)[:_LONGEST]})"
+        return Result({}, trouble="unreadable", message=message)
+
+
+_LONGEST = 500
+"""Characters of a message of a library, which may repeat the file."""
+
+
+def _replies() -> BinaryIO:
+    """Where results go; what libraries print goes nowhere."""
+    own = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    silence = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(silence, sys.stdout.fileno())
+    os.dup2(silence, sys.stderr.fileno())
+    return own
+
+
+def _import_libraries() -> None:
+    """Import whatever a job may need, as far as it is installed."""
+    for name in (*_NEEDED_LATER, *(f"twinform.passes.mesh_jobs.geometry.{name}" for name in sorted({*_JOBS.values()}))):
+        with suppress(ImportError):
+            import_module(name)
+    with suppress(ImportError):
+        image = import_module("PIL.Image")
+        image.init()  # the readers of all formats
+
+
+def _done_in_fork(job: Job, memory: int, replies: BinaryIO) -> None:
+    """Do a job in a confined process of its own, which answers; where it dies, say so in its place."""
+    child = os.fork()
+    if not child:
+        answered = False
+        try:
+            _end_with_server()
+            limit_reading(job.size, memory)
+            confine(threads=True)
+            replies.write(done(job).to_bytes())
+            replies.flush()
+            answered = True
+        finally:
+            os._exit(not answered)
+    _, status = os.waitpid(child, 0)
+    if status:
+        replies.write(Result({}, trouble="unreadable", message=_death(status, job)).to_bytes())
+        replies.flush()
+
+
+def _end_with_server() -> None:
+    """Have the system end this fork when the process that it was forked from ends."""
+    with suppress(ImportError):
+        ctypes = import_module("ctypes")
+        ctypes.CDLL(None).prctl(_SET_DEATH_SIGNAL, signal.SIGKILL, 0, 0, 0)
+
+
+_SET_DEATH_SIGNAL = 1
+
+
+def _death(status: int, job: Job) -> str:
+    """Why a fork did not answer."""
+    if os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGXCPU:
+        return f"reading it takes more than {reading_seconds(job.size)} seconds of the processor"
+    return "the process that looks into it died, as it does where it needs too much memory"
+
+
+def _end_with_parent() -> None:
+    """Wait until nobody can write to standard input any more, and end this process, also in the middle of a job."""
+    hung_up = select.poll()
+    hung_up.register(sys.stdin.fileno(), 0)  # that it is closed at the other end is reported in any case
+    hung_up.poll()
+    os._exit(1)
+
+
+def main() -> None:
+    """Do jobs until there are no more."""
+    if hasattr(select, "poll"):  # Windows has none
+        threading.Thread(target=_end_with_parent, daemon=True).start()
+    memory, replies = int(sys.argv[1]), _replies()
+    forks = sys.platform.startswith("linux")
+    if forks:
+        _import_libraries()
+    while (job := Job.read(sys.stdin.buffer)) is not None:
+        if forks:
+            _done_in_fork(job, memory, replies)
+        else:
+            limit_reading(2**28, memory)
+            replies.write(done(job).to_bytes())
+            replies.flush()
+
+
+if __name__ == "__main__":
+    main()
