@@ -53,3 +53,30 @@ def test_a_pattern_of_paths_is_done_with_a_long_name_at_once(pattern: str, where
     outcome = twinform("check", "." if where in texts else f"{pattern}.urdf", folder=tmp_path)
     assert (name in str(outcome.opened)) is (where in texts)
     assert outcome.code == (0 if where in texts else 2), outcome.output
+
+
+_DEAR_TO_ANSWER = {
+    "files": (
+        "".join(f'<xacro:include filename="{n}.xacro" optional="true"/>' for n in range(30_000)),
+        "5,000 files, packages",
+    ),
+    "patterns": (
+        "".join(f'<xacro:include filename="{n}*.xacro" optional="true"/>' for n in range(30_000)),
+        "more than 1,000 things",
+    ),
+    "a long pattern": (f'<xacro:include filename="{"*a" * 500_000}b"/>', "more than 4,096 characters"),
+    "a long path": (f'<xacro:include filename="{"a/" * 500_000}"/>', "more than 4,096 characters"),
+    "a long package": (f'<x a="$(find {"a" * 1_000_000})"/>', "more than 4,096 characters"),
+    "a long variable": (f'<x a="$(env {"a" * 1_000_000})"/>', "more than 4,096 characters"),
+}
+
+
+@pytest.mark.parametrize("name", _DEAR_TO_ANSWER)
+def test_what_a_xacro_file_asks_for_is_counted(name: str, tmp_path: Path) -> None:
+    """The process that expands had its limit; who answered it had none but the clock."""
+    body, words = _DEAR_TO_ANSWER[name]
+    start = '<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro"><link name="a"/>'
+    (tmp_path / "r.urdf.xacro").write_text(f"{start}\n{body}</robot>")
+    outcome = twinform("check", "r.urdf.xacro", folder=tmp_path)
+    assert (outcome.code, words in outcome.output) == (2, True), outcome.output[:2000]
+    assert outcome.output.startswith("r.urdf.xacro:2:")

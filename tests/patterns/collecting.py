@@ -4,6 +4,7 @@ import ast
 import builtins
 import json
 import re
+import tomllib
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
@@ -12,12 +13,14 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple, cast
 
+from lxml import etree
+
 import twinform
+from twinform.compiler.input import syntax_places
 
 PACKAGE = Path(twinform.__file__).parent
 _WAYS = frozenset({"findall", "finditer", "fullmatch", "match", "search", "split", "sub", "subn"})
 _AT_THE_BEGINNING = frozenset({"fullmatch", "match"})
-_NOT_INSTALLED = frozenset({"gazebo", "__main__"})
 
 
 class Used(NamedTuple):
@@ -125,10 +128,35 @@ def _evaluated(call: ast.Call, pattern: ast.expr, way: str, module: ModuleType) 
 
 
 def _of_data() -> Iterator[Used]:
-    """Those that are data: of the JSON schema, and of profiles."""
+    """Those that are data: of the JSON schema and the XSDs, of profiles, and of tables in modules."""
     schema: object = json.loads((PACKAGE / "schemas/json/document.schema.json").read_text(encoding="utf-8"))
-    for pattern in sorted(_json_patterns(schema)):
+    for pattern in sorted(set(_json_patterns(schema))):
         yield Used("schemas/json/document.schema.json", re.compile(pattern), searched=True)
+    values = {
+        str(each.get("value"))
+        for path in PACKAGE.rglob("*.xsd")
+        for each in etree.parse(path).getroot().iter("{http://www.w3.org/2001/XMLSchema}pattern")
+    }
+    for value in sorted(values):
+        yield Used("schemas/xsd", re.compile(value), searched=False)
+    tables = [tomllib.loads(path.read_text(encoding="utf-8")) for path in PACKAGE.glob("profiles/data/*.toml")]
+    for text in sorted({text for table in tables for text in _profile_patterns(table)}):
+        yield Used("profiles/data", re.compile(text), searched=True)
+    module: Mapping[str, Any] = vars(syntax_places)
+    for name, text in {**module["_WORDS"], **module["_BEFORE"]}.items():
+        yield Used(f"compiler/input/syntax_places.py:{name}", re.compile(text.replace("{word}", "a")), searched=True)
+
+
+def _profile_patterns(table: object) -> Iterator[str]:
+    """The values of `message` and `place`, at any depth."""
+    if isinstance(table, dict):
+        for key, each in cast("dict[str, object]", table).items():
+            if key in {"message", "place"} and isinstance(each, str):
+                yield each
+            yield from _profile_patterns(each)
+    elif isinstance(table, list):
+        for each in cast("list[object]", table):
+            yield from _profile_patterns(each)
 
 
 def _json_patterns(value: object) -> Iterator[str]:

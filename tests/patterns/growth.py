@@ -11,7 +11,7 @@ _TIMES = 4
 _MOST = 2.5 * _TIMES
 """How many times longer so many times more may take; the square would be the square."""
 _ROUNDS = 3
-_PATIENCE = 2.0
+_PATIENCE = 0.5
 
 
 class _EndlessError(Exception):

@@ -16,6 +16,7 @@ parser: Any = import_module("re._parser")
 
 _CANDIDATES = "\0\t\n\r !\"#$%&'()*+,-./059:;<=>?@AEXZ[\\]^_`abdefgimnprstxyz{|}~\u00b0\u00e9"
 """Characters of which those that a pattern treats alike are tried once."""
+_LIKELY = "a0 " + _CANDIDATES
 _MANY = 64
 _REPEATS = frozenset({constants.MAX_REPEAT, constants.MIN_REPEAT, constants.POSSESSIVE_REPEAT})
 _Parsed = Any
@@ -37,37 +38,29 @@ def hostile_texts(pattern: re.Pattern[Any]) -> list[Hostile]:
     """What may be hard for a pattern; the texts for patterns of bytes have characters of one byte."""
     source = pattern.pattern if isinstance(pattern.pattern, str) else pattern.pattern.decode("latin-1")
     parsed = parser.parse(source, pattern.flags & ~re.UNICODE if isinstance(pattern.pattern, bytes) else pattern.flags)
-    repeats = [*_repeats(parsed, "")]
-    if not repeats:
-        return []
     characters = _different(parsed)
-    whole = _sample(parsed, [])
+    # a character that most parts of a pattern take is one that they can take from each other
+    shared = "".join(sorted(characters, key=lambda each: -sum(_accepts(of, each) for of in _sets(parsed))))
+    repeats = [each for likely in (_LIKELY, shared) for each in _repeats(parsed, "", likely)]
     befores = dict.fromkeys(["", *(before for before, _ in repeats)])
-    again = dict.fromkeys(
-        [
-            *characters,
-            *(body for _, body in repeats),
-            *(before + body for before, body in repeats),
-            *befores,
-            whole[:-1],
-        ]
-    )
+    bodies = [part for before, body in repeats for part in (body, before + body)]
+    again = dict.fromkeys([*characters, *bodies, *befores, _sample(parsed, _LIKELY)[:-1]])
     ends = ("", "\0", "\n")
-    return [Hostile(before, each, end) for before in befores for each in again if each for end in ends]
+    return [Hostile(before, each, end) for before in befores for each in again if each and repeats for end in ends]
 
 
-def _repeats(parsed: _Parsed, before: str) -> Iterator[tuple[str, str]]:
+def _repeats(parsed: _Parsed, before: str, likely: str) -> Iterator[tuple[str, str]]:
     """What may stand before each repetition without an end, and what it repeats."""
     for operation, argument in parsed:
         if operation in _REPEATS:
             _, most, body = argument
             if most > _MANY:
-                yield before, _sample(body, []) or "a"
-            yield from _repeats(body, before)
+                yield before, _sample(body, likely) or "a"
+            yield from _repeats(body, before, likely)
         else:
             for part in _parts(operation, argument):
-                yield from _repeats(part, before)
-        before += _sample([(operation, argument)], [])
+                yield from _repeats(part, before, likely)
+        before += _sample([(operation, argument)], likely)
 
 
 def _parts(operation: object, argument: Any) -> Sequence[_Parsed]:
@@ -85,35 +78,33 @@ def _parts(operation: object, argument: Any) -> Sequence[_Parsed]:
     return []
 
 
-def _sample(parsed: _Parsed, into: list[str]) -> str:
+def _sample(parsed: _Parsed, likely: str) -> str:
     """A short text that a pattern matches, as far as that can be said without its assertions."""
-    for operation, argument in parsed:
-        if operation is constants.LITERAL:
-            into.append(chr(argument))
-        elif operation is constants.NOT_LITERAL:
-            into.append(next(each for each in "a ." if ord(each) != argument))
-        elif operation is constants.IN:
-            into.append(next((each for each in _by_likelihood() if _accepts(argument, each)), "a"))
-        elif operation is constants.ANY:
-            into.append("a")
-        elif operation in _REPEATS:
-            least, most, body = argument
-            into.append(_sample(body, []) * max(least, min(1, most)))
-        elif operation not in {constants.ASSERT, constants.ASSERT_NOT}:
-            for part in _parts(operation, argument)[:1]:
-                _sample(part, into)
-    return "".join(into)
+    return "".join(_sample_of(operation, argument, likely) for operation, argument in parsed)
 
 
-def _by_likelihood() -> str:
-    return "a0 " + _CANDIDATES
+def _sample_of(operation: object, argument: Any, likely: str) -> str:
+    if operation is constants.LITERAL:
+        return chr(argument)
+    if operation is constants.NOT_LITERAL:
+        return next(each for each in likely + _LIKELY if ord(each) != argument)
+    if operation is constants.IN:
+        return next((each for each in likely + _LIKELY if _accepts(argument, each)), "a")
+    if operation is constants.ANY:
+        return likely[0]
+    if operation in _REPEATS:
+        least, most, body = argument
+        return _sample(body, likely) * max(least, min(1, most))
+    if operation in {constants.ASSERT, constants.ASSERT_NOT}:
+        return ""
+    return "".join(_sample(part, likely) for part in _parts(operation, argument)[:1])
 
 
 def _different(parsed: _Parsed) -> list[str]:
     """One of the characters each that the pattern treats alike."""
     sets = [*_sets(parsed)]
     first: dict[tuple[bool, ...], str] = {}
-    for character in _by_likelihood():
+    for character in _LIKELY:
         first.setdefault(tuple(_accepts(each, character) for each in sets), character)
     return [*first.values()]
 

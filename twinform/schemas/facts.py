@@ -38,7 +38,7 @@ from twinform.package_files import package_files
 
 Version = tuple[int, int]
 
-_LINE = re.compile(r"(?P<indent> *)(?P<name>@?[\w.]+)(?P<rest>.*)")
+_LINE = re.compile(r"(?P<indent> *)(?P<name>@?[\w.]++)(?P<rest>.*)")
 _WORD = re.compile(r'->\s*\S+|\w+=(?:"[^"]*"|\S+)|\S+')
 _COUNTS = frozenset("1?*+")
 _FLAGS = frozenset({"any", "aside", "deprecated", "expected"})

@@ -27,7 +27,7 @@ XACRO_KINDS = frozenset({"macro", "property", "arg", "param"})
 _DEFINES = {"xacro:macro": "macro", "xacro:property": "property", "xacro:arg": "arg"}
 _EXPRESSION = re.compile(r"\$\{(?P<expression>[^}]*)\}?|\$\(arg\s+(?P<arg>[^\s)]+)")
 _WORD = re.compile(r"""'[^']*'|"[^"]*"|(?<![\w.])(?P<word>[A-Za-z_]\w*)""")
-_PARAMETER = re.compile(r"[*^|]*(?P<name>[A-Za-z_][\w.]*)(?:\s*:?=\s*(?:'[^']*'|\"[^\"]*\"|\S+))?")
+_PARAMETER = re.compile(r"(?<![*^|])[*^|]*+(?P<name>[A-Za-z_][\w.]*)(?:\s*:?=\s*(?:'[^']*'|\"[^\"]*\"|\S+))?")
 _RESERVED = frozenset(["and", "or", "not", "if", "else", "for", "in", "is", "True", "False", "None", "lambda"])
 
 

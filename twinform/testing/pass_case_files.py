@@ -17,8 +17,9 @@ from typing import Literal
 from twinform.compiler import CompileError, Conversion, convert
 from twinform.diagnostics import Diagnostic, Entry
 from twinform.testing.case_files import Case, Finding, cases, findings
+from twinform.text.asides import IN_COMMENT
 
-_PASSES = re.compile(r"<!--\s*passes:\s*(?P<pipeline>.*?)\s*-->", re.DOTALL)
+_PASSES = re.compile(rf"<!--\s*+passes:(?P<pipeline>{IN_COMMENT})(?:-->)?")
 _FORMATS: dict[str, Literal["sdf", "urdf"]] = {".urdf": "urdf", ".sdf": "sdf"}
 
 
@@ -32,7 +33,7 @@ class PassCase(Case):
         found = _PASSES.search(self.path.read_text(encoding="utf-8"))
         if found is None:
             raise ValueError(f"{self.path.name} has no <!-- passes: ... -->")
-        return found["pipeline"]
+        return found["pipeline"].strip()
 
     @property
     def found(self) -> Counter[Finding]:

@@ -17,10 +17,8 @@ _WORDS = frozenset(
     {"cfmDamping", "fdir1", "implicitSpringDamper", "material", "provideFeedback", "selfCollide", "static"}
 )
 _READ = _NUMBERS | _WHOLE | _WORDS | _LUMPING | {"turnGravityOff"}
-_NUMBER = re.compile(
-    r"\s*[-+]?(?:0[xX](?:[0-9a-fA-F]|\.[0-9a-fA-F])|\d|\.\d|inf|nan)(?:\d*\.?\d*[eE][-+]?\d+)?",
-    re.ASCII | re.IGNORECASE,
-)
+_NUMBER = re.compile(r"\s*[-+]?(?:0[xX](?:[0-9a-fA-F]|\.[0-9a-fA-F])|\d|\.\d|inf|nan)", re.ASCII | re.IGNORECASE)
+"""How a number begins."""
 _INTEGER = re.compile(r"\s*[-+]?\d{1,9}", re.ASCII)
 _LARGE = re.compile(r"\s*[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
 

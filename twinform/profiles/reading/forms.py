@@ -10,12 +10,12 @@ from collections.abc import Callable, Mapping
 
 _STREAM = re.compile(r"[ \t\n\v\f\r]*[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
 _LEADING = re.compile(r"[ \t\n\v\f\r]*([-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?)", re.ASCII)
-_HEXADECIMAL = re.compile(r"[-+]?0[xX](?:[0-9a-fA-F]+\.?[0-9a-fA-F]*|\.[0-9a-fA-F]+)(?:[pP][-+]?\d+)?", re.ASCII)
+_HEXADECIMAL = re.compile(r"[-+]?0[xX](?:[0-9a-fA-F]++\.?[0-9a-fA-F]*+|\.[0-9a-fA-F]++)(?:[pP][-+]?\d++)?", re.ASCII)
 _WORDS = re.compile(r"[-+]?(?:inf|infinity|nan(?:\(\w*\))?)", re.ASCII | re.IGNORECASE)
 _ASCII_BLANKS = re.compile(r"[ \t\n\v\f\r]+")
 _SHORTEST = 1e-8
 _LONGEST_NAME = 240
-_VERSION = re.compile(r"\s*[-+]?0*(\d+)\.\s*[-+]?0*(\d+)", re.ASCII)
+_VERSION = re.compile(r"\s*+[-+]?(?=\d)0*+(\d{0,9})\.\s*+[-+]?(?=\d)0*+(\d{0,9})", re.ASCII)
 
 
 def _stream(text: str) -> bool:
@@ -112,7 +112,7 @@ def _pythons(text: str, *counts: int) -> bool:
 def _versions(*known: tuple[int, int]) -> Callable[[str], bool]:
     def reads(text: str) -> bool:
         found = _VERSION.fullmatch(text)
-        return found is not None and (int(found[1]), int(found[2])) in known
+        return found is not None and (int(found[1] or 0), int(found[2] or 0)) in known
 
     return reads
 

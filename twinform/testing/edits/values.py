@@ -9,7 +9,7 @@ from twinform.schemas import XmlElement
 from twinform.testing.edits.edit import Edit, Operation, SetAttribute, SetText, path_of
 from twinform.testing.edits.scene import Scene
 
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\Z")
+_NUMBER = re.compile(r"[+-]?(\d++\.?\d*+|\.\d++)([eE][+-]?\d++)?\Z")
 _SIGNED = frozenset({"xyz", "rpy", "pose", "origin", "axis", "lower", "upper", "offset", "multiplier", "quat_xyzw"})
 """Values that may be below zero; all others are changed by a factor, so that they keep their sense."""
 _SHARES = frozenset({"rgba", "ambient", "diffuse", "specular", "emissive", "transparency", "ratio"})

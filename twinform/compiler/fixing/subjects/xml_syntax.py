@@ -37,7 +37,6 @@ _MISMATCH = re.compile(r"Opening and ending tag mismatch: (?P<open>\S+) line \d+
 _NO_BLANK = re.compile(r"""(?<==)\s*(?P<value>"[^"<]*"|'[^'<]*')(?=[A-Za-z_])""")
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 _DOCTYPE = re.compile(r"<!DOCTYPE\s+\w+\s*>\s*", re.IGNORECASE)
-_THREE_HYPHENS = re.compile(rf"<!--{IN_COMMENT}(?<=-)(?<!<!--)(?=-->)")
 _SURE = 0.7
 
 
@@ -264,7 +263,8 @@ def _tag_line(broken: _Broken) -> Span:
 
 def _open_hyphens(broken: _Broken) -> Fix | None:
     """`--->` does not end a comment."""
-    edits = [TextEdit(Span(found.end(), found.end()), " ") for found in _THREE_HYPHENS.finditer(broken.text)]
+    ends = [each.end("inside") for each in _COMMENT.finditer(broken.text) if each["inside"].endswith("-")]
+    edits = [TextEdit(Span(end, end), " ") for end in ends if broken.text.startswith("-->", end)]
     return safe("Put a blank before the end of the comment", *edits) if edits else None
 
 

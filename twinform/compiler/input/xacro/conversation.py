@@ -9,6 +9,7 @@ from contextlib import suppress
 from importlib.machinery import PathFinder
 from pathlib import Path
 from threading import Timer
+from time import thread_time
 from typing import Any, cast
 
 from twinform.child_python import python_command
@@ -23,6 +24,12 @@ _WORKER = Path(__file__).with_name("worker") / "__main__.py"
 _LIBRARIES = ("xacro", "yaml")
 _SECONDS = 60
 """Of the clock, on a machine that is busy; the worker itself has 10 of the processor."""
+_SECONDS_TO_ANSWER = 3
+"""Of the processor, for all questions of one file: what is done here for the worker is not in its own ten."""
+_MOST_QUESTIONS = 5000
+"""What is asked again is not asked of us: the worker keeps the answers."""
+_LONGEST_NAME = 4096
+"""The longest name of a file, package or variable that is looked for, in characters: as long as a path may be."""
 _LONGEST_MESSAGE = 4 * LARGEST
 _QUESTIONS = frozenset({"environment", "find", "match", "read"})
 _PASSED_ON = ("APPDATA", "HOME", "LANG", "PATH", "SYSTEMROOT", "TEMP", "TMPDIR", "USERPROFILE")
@@ -108,6 +115,8 @@ class _Conversation:
         self.search = load_options.search
         self.variables = load_options.variables
         self.files = Files(self.search.readable(path))
+        self.asked = 0
+        self.spent = 0.0
 
     def hold(self, process: subprocess.Popen[bytes], task: Mapping[str, object]) -> dict[str, Any]:
         """Give the task and answer, until the process sends the result."""
@@ -122,7 +131,9 @@ class _Conversation:
                     break
                 if not _QUESTIONS.intersection(received):
                     return received
+                begin = thread_time()
                 message, content = self._answer(received)
+                self.spent += thread_time() - begin
         except BrokenPipeError:
             pass  # it died before it could listen
         note_failure()
@@ -130,6 +141,7 @@ class _Conversation:
 
     def _answer(self, received: Mapping[str, str]) -> tuple[Mapping[str, object], bytes]:
         try:
+            self._require_little(received)
             match received:
                 case {"find": uri, "beside": beside}:
                     return self._find(uri, (Path(beside), self.path)), b""
@@ -144,6 +156,21 @@ class _Conversation:
             return {"error": str(error), "help": error.advice}, b""
         except (OSError, ValueError) as error:
             return {"missing": getattr(error, "strerror", None) or str(error)}, b""
+
+    def _require_little(self, received: Mapping[str, str]) -> None:
+        """Count a question, and refuse it where too much is asked.
+
+        Raises:
+            DeniedError: a name is too long, or there were too many questions, or they took too long.
+        """
+        self.asked += 1
+        if any(len(name) > _LONGEST_NAME for name in received.values()):
+            raise DeniedError(f"the name of a file, package or variable has more than {_LONGEST_NAME:,} characters")
+        if self.asked > _MOST_QUESTIONS:
+            raise DeniedError(f"the file asks for more than {_MOST_QUESTIONS:,} files, packages and variables")
+        if self.spent > _SECONDS_TO_ANSWER:
+            message = f"the files and packages it asks for take more than {_SECONDS_TO_ANSWER} seconds to find"
+            raise DeniedError(message)
 
     def _read(self, path: str) -> bytes:
         """What is in a file that may be read, or what an editor has of it.

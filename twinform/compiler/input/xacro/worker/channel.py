@@ -73,6 +73,7 @@ class Channel:
         nothing = os.open(os.devnull, os.O_RDWR)
         for descriptor in (0, 1):
             os.dup2(nothing, descriptor)
+        self.known: dict[tuple[str, ...], Any] = {}
 
     def send(self, message: dict[str, Any]) -> None:
         """Show a text."""
@@ -94,7 +95,7 @@ class Channel:
 
     def find(self, uri: str, beside: str) -> str:
         """Ask where a URI leads that stands in a file."""
-        return self._ask({"find": uri, "beside": beside})["path"]
+        return self._ask_once({"find": uri, "beside": beside}, "path")
 
     def read(self, path: str) -> bytes:
         """Ask for what is in a file."""
@@ -106,8 +107,15 @@ class Channel:
 
     def match(self, pattern: str) -> list[str]:
         """Ask which files match a pattern."""
-        return self._ask({"match": pattern})["paths"]
+        return self._ask_once({"match": pattern}, "paths")
 
     def environment(self, name: str) -> str | None:
         """Ask for the value of an environment variable."""
-        return self._ask({"environment": name})["value"]
+        return self._ask_once({"environment": name}, "value")
+
+    def _ask_once(self, question: dict[str, str], wanted: str) -> Any:
+        """Ask what has the same answer as long as the process lives."""
+        key = tuple(question.values())
+        if key not in self.known:
+            self.known[key] = self._ask(question)[wanted]
+        return self.known[key]
