@@ -19,6 +19,7 @@ from pebble import ProcessExpired
 from tests.profile import DEEP
 from twinform.compiler import ConversionRequest, LoadOptions
 from twinform.compiler.batch import Batch, Convert, batch, of_folder
+from twinform.compiler.batch.manifest import Manifest
 from twinform.compiler.search.uris import SearchPath
 from twinform.compiler.workers import Runner, process_runner
 
@@ -181,3 +182,30 @@ def test_an_executor_that_fails_loses_no_result(error: BaseException, on_submit:
         executor = _Here(at, error, on_submit=on_submit)
         runner = Runner(open=lambda executor=executor: nullcontext(executor), window=3, failure=usual.failure)
         _fail(lambda executor=executor, runner=runner: _run("out", executor, runner, fresh=True))
+
+
+@pytest.mark.parametrize("dest", ["done", "new"])
+def test_a_result_whose_record_was_cut_off_goes_with_the_next_verdict(
+    dest: str, here: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A run that is killed between the two, and a model that has an error by the next run."""
+    result = here / dest / "crate/model.sdf"
+    before = result.read_bytes() if dest == "done" else b""
+    with monkeypatch.context() as patch:
+
+        def end(*_: object) -> None:
+            raise KeyboardInterrupt
+
+        patch.setattr(Manifest, "add", end)
+        one = _Here()
+        with pytest.raises(KeyboardInterrupt):
+            _run(dest, one, Runner(open=lambda: nullcontext(one), window=1))
+    assert result.read_bytes() != before
+    _put("crate/model.sdf", _CRATE.format("a").replace("<link", '<link name="a"/><link'))
+    _run(dest, _Here())
+    assert not result.exists()
+    _put("crate/model.sdf", _CRATE.format("foot"))
+    _put("three.urdf", _URDF.format("three"))
+    _run(dest, _Here())
+    assert result.is_file()
+    assert (here / dest / ".twinform-batch/journal.jsonl").read_bytes() == b""

@@ -8,11 +8,11 @@ import json
 import os
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
-from dataclasses import fields
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
-from twinform.compiler.batch.dependencies import packed, unpacked
+from twinform.compiler.batch.dependencies import Dependency, packed, unpacked
 from twinform.compiler.batch.lock import locked
 from twinform.compiler.batch.record import Outcome, Record
 from twinform.compiler.output.same_files import is_open_at
@@ -42,6 +42,7 @@ class Manifest:
         self._lines: dict[str, _Line] = {}
         self._count = 0
         self._log: BinaryIO | None = None
+        self._journal: BinaryIO | None = None
 
     @contextmanager
     def open(self) -> Generator["Manifest"]:
@@ -61,15 +62,17 @@ class Manifest:
                 self._log = self._own.open("ab")
                 if self._log.tell() and not _ends_a_line(self._own):
                     self._log.write(b"\n")  # an earlier run was cut off
+                self._recover()
                 yield self
             finally:
                 self.close()
 
     def close(self) -> None:
         """Let go of the files."""
-        for file in (*self._files, *([self._log] if self._log else [])):
-            file.close()
-        self._files, self._log = [], None
+        for file in (*self._files, self._log, self._journal):
+            if file is not None:
+                file.close()
+        self._files, self._log, self._journal = [], None, None
 
     def __len__(self) -> int:
         return len(self._lines)
@@ -96,6 +99,34 @@ class Manifest:
         if self._log is None or not is_open_at(self._log.fileno(), self._own):
             raise FileNotFoundError(errno.ENOENT, "it was removed, renamed or unmounted", str(self.folder.parent))
 
+    def announce(self, source: str, results: tuple[Dependency, ...]) -> None:
+        """Note the results that are about to be written: a run that is killed before their record is there leaves them.
+
+        Raises:
+            OSError: it cannot be written.
+        """
+        if self._journal is None:
+            raise ValueError("the manifest is not open")
+        self._journal.write(record_line(_unasked(source, results)))
+        self._journal.flush()
+
+    def _recover(self) -> None:
+        """Count results that a killed run was writing among those of their model, which is done again."""
+        path = self._own.with_name(self._own.name.replace("manifest", "journal", 1))
+        self._journal = path.open("a+b")
+        self._journal.seek(0)
+        announced = parse_record(self._journal.readline())
+        if announced is None:
+            return
+        known = self.get(announced.source)
+        standing = (known and known.standing) or _unasked(announced.source, ())
+        have = {(each.path, each.digest) for each in standing.results}
+        new = tuple(each for each in announced.results if (each.path, each.digest) not in have)
+        if new:
+            kept = replace(standing, request="", results=(*standing.results, *new))
+            self.add(replace(_unasked(announced.source, ()), outcome=Outcome.UNWRITTEN, kept=kept))
+            self._read()
+
     def add(self, record: Record) -> None:
         """Keep a record, at once and for later runs.
 
@@ -106,9 +137,15 @@ class Manifest:
             raise ValueError("the manifest is not open")
         self._log.write(record_line(record))
         self._log.flush()
+        if self._journal is not None and self._journal.tell():
+            self._journal.truncate(0)
+            self._journal.seek(0)
 
     def _read(self) -> None:
         """Find the last line of each model, in the file that was written last."""
+        for file in self._files:
+            file.close()
+        self._files, self._lines, self._count = [], {}, 0
         files = [path for path in self.folder.glob("manifest*.jsonl") if path.is_file()]
         for path in sorted(files, key=lambda each: (each.stat().st_mtime_ns, each.name)):
             self._files.append(path.open("rb"))
@@ -128,12 +165,16 @@ class Manifest:
         self.close()
         for path in self.folder.glob("manifest-*.jsonl"):
             path.unlink()
-        self._lines, self._count = {}, 0
         self._read()
 
     def merge(self) -> None:
         """Put the records of all shards into the one file."""
         self._tidy()
+
+
+def _unasked(source: str, results: tuple[Dependency, ...]) -> Record:
+    """A record that says which files are ours, and that no request has the same results as."""
+    return Record(source=source, request="", outcome=Outcome.CONVERTED, results=results)
 
 
 def record_line(record: Record) -> bytes:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from twinform.compiler.batch.dependencies import stamp
+from twinform.compiler.batch.dependencies import Dependency, Kind, stamp
 from twinform.compiler.batch.manifest import Manifest
 from twinform.compiler.batch.places import Places
 from twinform.compiler.batch.planning import Known, request_of
@@ -84,11 +84,16 @@ class Recorder:
         places = self._places
         if places is None or done.outcome is not Outcome.CONVERTED:
             return record
-        problem = places.problem(task.entry.name, done.texts) or _written(places.dest, done.texts)
+        made = {name: _digest(text) for name, text in done.texts.items()}
+        problem = places.problem(task.entry.name, done.texts)
+        if problem is None and self.manifest is not None:
+            announced = tuple(Dependency(name, Kind.READ, digest=digest) for name, digest in made.items())
+            self.manifest.announce(record.source, announced)
+        problem = problem or _written(places.dest, done.texts)
         if problem is not None:
             return replace(record, outcome=Outcome.UNWRITTEN, message=f"it cannot be written: {problem}")
         places.take(done.texts)
-        results = tuple(stamp(places.dest / name, name, _digest(text)) for name, text in done.texts.items())
+        results = tuple(stamp(places.dest / name, name, digest) for name, digest in made.items())
         return replace(record, results=results)
 
     def _superseding(self, record: Record) -> Record:
