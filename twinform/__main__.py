@@ -3,11 +3,13 @@
 In a folder of somebody else use the command, or `python -P -m twinform`.
 """
 
+import sys
+
 from twinform.signals import end_on_signals
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from typing import NoReturn
+    from typing import Any, NoReturn
 
 end_on_signals()  # before the command line is imported, which takes longer than many commands
 
@@ -19,7 +21,14 @@ def program() -> "NoReturn":
     from twinform.cli.leaving import run  # noqa: PLC0415 - see above
 
     distrust_current_folder()
+    sys.excepthook = _print_uncaught
     run(main)
+
+
+def _print_uncaught(*error: "Any") -> None:
+    from twinform.cli.printing import print_traceback  # noqa: PLC0415 - it should never be needed
+
+    print_traceback(*error)
 
 
 if __name__ == "__main__":

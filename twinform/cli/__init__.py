@@ -2,7 +2,8 @@
 
 import signal
 import threading
-from collections.abc import Mapping
+from collections.abc import Generator, Mapping
+from contextlib import contextmanager
 from typing import Any, NoReturn
 
 import click
@@ -42,6 +43,18 @@ _INTERRUPTED = 130
 """The exit code of a program that is ended by Ctrl-C, as shells give it."""
 
 
+@contextmanager
+def _printed_errors() -> Generator[None]:
+    """Print errors of the command line, which click would print as they are, and end with their exit code."""
+    try:
+        yield
+    except click.ClickException as error:
+        from twinform.cli.printing import print_error  # noqa: PLC0415 - it seldom happens
+
+        print_error(error)
+        raise click.exceptions.Exit(error.exit_code) from error
+
+
 class _Commands(LazyGroup):
     """Imports a command only when it is called: the compiler takes ten times as long to import as all that is here."""
 
@@ -55,10 +68,16 @@ class _Commands(LazyGroup):
         except OSError as error:
             end_unwritable(error)
 
+    def make_context(self, *args: Any, **extra: Any) -> click.Context:
+        """Parse the options before the command; what is wrong with them is printed as everything is."""
+        with _printed_errors():
+            return super().make_context(*args, **extra)
+
     def invoke(self, ctx: click.Context) -> object:
         """Run the command; a fault of a pass that it does not expect ends it with a message."""
         try:
-            return super().invoke(ctx)
+            with _printed_errors():
+                return super().invoke(ctx)
         except BrokenPipeError:
             end_unread()
         except KeyboardInterrupt:

@@ -9,6 +9,7 @@ from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
 from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
+from twinform.cli.printing import print_report
 from twinform.compiler import CompileError
 from twinform.compiler.advice import REPORTERS, advise
 from twinform.diagnostics.reporters import Findings
@@ -62,4 +63,4 @@ def command(
     except CompileError as error:
         show(Findings(source.name, error.diagnostics), notes=False, on_stderr=True)
         ctx.exit(UNUSABLE if error.unreadable else FINDINGS)
-    click.echo(REPORTERS[style](found), nl=False)
+    print_report(REPORTERS[style](found), style)

@@ -4,11 +4,10 @@ from collections import Counter
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import click
-
 from twinform.cli.baseline import BaselineFile
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import placed, show
+from twinform.cli.printing import print_document, print_line
 from twinform.compiler import LoadResult
 from twinform.diagnostics import Policy, Safety, Severity
 from twinform.diagnostics.reporters import REPORTERS, Findings
@@ -59,18 +58,18 @@ class CheckReport:
             short = self.style == "concise"
             show(findings, notes=self.notes, on_stderr=self.on_stderr, every=self.every, short=short, files=files)
         elif self.style in _STREAMED:
-            click.echo(REPORTERS[self.style]([placed(findings, files)]), nl=False)
+            print_document(REPORTERS[self.style]([placed(findings, files)]))
         else:
             self.kept.append(placed(findings, files))
 
     def end(self) -> int:
         """Print what is left, and the summary; gives the exit code."""
         if self.style not in _STREAMED:
-            click.echo(REPORTERS[self.style](self.kept), nl=False)
+            print_document(REPORTERS[self.style](self.kept))
         news = self.baseline.write(complete=not self.unopened) if self.baseline else ""
-        click.echo(self._summary(), err=True)
+        print_line(self._summary(), err=True)
         if news:
-            click.echo(news, err=True)
+            print_line(news, err=True)
         if self.unreadable:
             return UNUSABLE
         return FINDINGS if self.counts[Severity.ERROR] else 0

@@ -14,6 +14,7 @@ from twinform.cli.instrumentation import InstrumentationOptions
 from twinform.cli.mesh_progress import mesh_progress
 from twinform.cli.outputs import Output, Outputs, beside
 from twinform.cli.own_options import FileOptions
+from twinform.cli.printing import print_line
 from twinform.cli.source import Source
 from twinform.cli.targets import Job
 from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadOptions, read, run_conversion
@@ -117,15 +118,13 @@ def _audit(conversion: Conversion, name: str, outputs: Outputs) -> int:
 
     found = audit(conversion.source, conversion.text, conversion.ledger)
     for part in found.unaccounted:
-        click.echo(
-            f"{name}:{part.location.line}: nothing accounts for {part.text}\n    at {part.location.path}",
-            err=True,
-        )
+        print_line(f"{name}:{part.location.line}: nothing accounts for {part.text}", err=True)
+        print_line(f"    at {part.location.path}", err=True)
     total = f"audit: {found.total} parts, {len(found.unaccounted)} unaccounted"
     if not found.unaccounted:
         outputs.news.append(total)
         return 0
-    click.echo(total, err=True)
+    print_line(total, err=True)
     return FINDINGS
 
 
@@ -178,7 +177,7 @@ def print_plan(job: Job, options: Options, label: str) -> int:
     except CompileError as error:
         options.show(job.source, error.diagnostics)
         return FINDINGS
-    click.echo(f"{label}{': ' if label else ''}{request.plan(loaded.document)}")
+    print_line(f"{label}{': ' if label else ''}{request.plan(loaded.document)}")
     return 0
 
 

@@ -20,6 +20,7 @@ from twinform.cli.instrumentation import InstrumentationOptions, watching_option
 from twinform.cli.outputs import Outputs
 from twinform.cli.own_options import OptionsByFile
 from twinform.cli.policy import policy_options
+from twinform.cli.printing import print_line
 from twinform.cli.request import Asked, ordering_options, request_of
 from twinform.cli.source import Source
 from twinform.cli.targets import TARGETS, Job, Target, jobs, jobs_in_place
@@ -203,7 +204,7 @@ def _end(outputs: Outputs, codes: Sequence[int], load_options: LoadOptions) -> i
         return outputs.write(load_options.search.seen)
     if len(codes) > 1:
         wrong = sum(map(bool, codes))
-        click.echo(f"nothing is written: {wrong} of {len(codes)} inputs could not be converted", err=True)
+        print_line(f"nothing is written: {wrong} of {len(codes)} inputs could not be converted", err=True)
     return max(codes)
 
 

@@ -1,6 +1,5 @@
 """`twinform diff`."""
 
-import os
 from typing import Unpack
 
 import click
@@ -10,13 +9,14 @@ from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
 from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
+from twinform.cli.printing import Color, print_report, print_text, styled
 from twinform.cli.tolerance import tolerance_option
 from twinform.compiler import CompileError
 from twinform.compiler.compare import Severity, compare_files
 from twinform.compiler.compare.reporters import REPORTERS, summary, text
 from twinform.diagnostics.reporters import Findings
 
-_COLORS = {Severity.DIFFERENCE: "red", Severity.NOTE: "cyan"}
+_COLORS: dict[Severity, Color] = {Severity.DIFFERENCE: "red", Severity.NOTE: "cyan"}
 _PAIR = 2
 
 
@@ -58,10 +58,10 @@ def command(
     except CompileError as error:
         show(Findings(a.name, error.diagnostics), notes=False, on_stderr=True)
         ctx.exit(UNUSABLE)
-    click.echo(text(found, _paint) if style == "text" else REPORTERS[style](found), nl=False)
-    click.echo(summary(found), err=True)
+    print_report(text(found, _paint) if style == "text" else REPORTERS[style](found), style)
+    print_text(summary(found), err=True)
     ctx.exit(0 if found.same else FINDINGS)
 
 
 def _paint(word: str, severity: Severity) -> str:
-    return word if os.environ.get("NO_COLOR") else click.style(word, fg=_COLORS[severity], bold=True)
+    return styled(word, _COLORS[severity])

@@ -7,7 +7,7 @@ import click
 from twinform.cli.command import Command
 from twinform.cli.completion import rule_names
 from twinform.cli.failure import Unusable
-from twinform.cli.findings import heading
+from twinform.cli.printing import print_text, styled
 from twinform.diagnostics import Rule
 from twinform.diagnostics.pages import sections, severity_words
 from twinform.diagnostics.registry import OWN, RegisteredRule, RuleRegistryError, find_rule, rules
@@ -30,12 +30,12 @@ def command(name: str | None) -> None:
             raise Unusable(_unknown(name, rules()))
     except RuleRegistryError as error:
         raise Unusable(str(error)) from error
-    click.echo(_page(found.rule, _from(found)))
+    print_text(_page(found.rule, _from(found)))
 
 
 def _list(known: Mapping[str, RegisteredRule]) -> None:
     width = max(map(len, known))
-    click.echo("\n".join(f"{key:{width}}  {severity_words(each.rule)}{_from(each)}" for key, each in known.items()))
+    print_text("\n".join(f"{key:{width}}  {severity_words(each.rule)}{_from(each)}" for key, each in known.items()))
 
 
 def _unknown(name: str, known: Iterable[str]) -> str:
@@ -52,7 +52,7 @@ def _from(registered: RegisteredRule) -> str:
 
 
 def _page(rule: Rule, origin: str) -> str:
-    title = f"{heading(rule.name)} ({severity_words(rule)}){origin}"
+    title = f"{styled(rule.name)} ({severity_words(rule)}){origin}"
     return "\n\n".join(
-        [title, *(f"{heading(head)}\n{click.wrap_text(body, 100, '  ', '  ')}" for head, body in sections(rule))]
+        [title, *(f"{styled(head)}\n{click.wrap_text(body, 100, '  ', '  ')}" for head, body in sections(rule))]
     )

@@ -1,27 +1,22 @@
 """Prints findings on a terminal, in color where it has any."""
 
-import os
 from typing import TYPE_CHECKING
 
 import click
 
+from twinform.cli.printing import Color, print_text, styled
 from twinform.diagnostics import Severity
 from twinform.diagnostics.reporters import Findings, concise, text
 
 if TYPE_CHECKING:
     from twinform.compiler.input.source_files import SourceFiles
 
-_COLORS = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "cyan"}
+_COLORS: dict[Severity, Color] = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "cyan"}
 
 
 def paint(word: str, severity: Severity) -> str:
-    """The word in its color. click takes the color away where the output is no terminal."""
-    return word if os.environ.get("NO_COLOR") else click.style(word, fg=_COLORS[severity], bold=True)
-
-
-def heading(words: str) -> str:
-    """The text as a heading."""
-    return words if os.environ.get("NO_COLOR") else click.style(words, bold=True)
+    """The word in its color."""
+    return styled(word, _COLORS[severity])
 
 
 notes_option = click.option(
@@ -52,7 +47,7 @@ def show(
     if findings.diagnostics:
         found = [placed(findings, files)]
         report = concise(found, paint) if short else text(found, paint, every=every)
-        click.echo(report, nl=False, err=on_stderr)
+        print_text(report, nl=False, err=on_stderr)
 
 
 def placed(findings: Findings, files: "SourceFiles | None" = None) -> Findings:

@@ -16,6 +16,7 @@ from twinform.cli.inputs import InputOptions, file_options, load_options_of, mod
 from twinform.cli.mesh_progress import mesh_progress
 from twinform.cli.pipeline_option import pipeline_option
 from twinform.cli.policy import policy_of, policy_options
+from twinform.cli.printing import print_line
 from twinform.cli.rewriting import Rewrite, show_differences, write_back
 from twinform.cli.source import Source
 from twinform.compiler import CompileError, ConversionRequest, Language, LoadResult, inspect, read
@@ -89,7 +90,7 @@ def command(
     if len(rewrites) < len(runs):
         if len(runs) > 1:
             wrong = len(runs) - len(rewrites)
-            click.echo(f"nothing is written: {wrong} of {len(runs)} files could not be changed", err=True)
+            print_line(f"nothing is written: {wrong} of {len(runs)} files could not be changed", err=True)
         ctx.exit(max(each for each in runs if isinstance(each, int)))
     if diff:
         ctx.exit(FINDINGS if show_differences(rewrites) else 0)
@@ -131,7 +132,7 @@ def _run(source: Source, passes: Pipeline | None, fixing: Fixing, report: Report
         count = len(updated.changes)
         news = [*news, f"{source.name}: {count} change{'' if count == 1 else 's'} by passes"]
     for line in news:
-        click.echo(line, err=True)
+        print_line(line, err=True)
     return rewrite
 
 

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-import click
-
+from twinform.cli.printing import print_line
 from twinform.cli.rewriting import Rewrite, show_differences, write_back
 from twinform.cli.source import Source
 from twinform.compiler import LoadOptions, LoadResult
@@ -59,7 +58,7 @@ def run_fixes(sources: Sequence[Source], fixing: Callable[[Source], Fixing]) -> 
     else:
         write_back(rewrites)
     for line in (line for each in done for line in each.news):
-        click.echo(line, err=True)
+        print_line(line, err=True)
     return [each.loaded for each in done], sum(each.number for each in done)
 
 

@@ -14,6 +14,7 @@ from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.files.model_files import is_text
 from twinform.cli.findings import show
 from twinform.cli.inputs import model_inputs, size_option
+from twinform.cli.printing import print_document, print_line, print_text
 from twinform.cli.rewriting import Rewrite, write_back
 from twinform.cli.source import Source
 from twinform.compiler import CompileError
@@ -94,7 +95,7 @@ def command(
     run = _Run(options, limits, check=check, diff=diff)
     sources, _ = model_inputs(files, exclusion_of(ctx, exclude, force=force_exclude), is_text)
     found = Counter[Outcome](map(run.file, sources))
-    click.echo(run.summary(found), err=True)
+    print_line(run.summary(found), err=True)
     would_change = (check or diff) and found["changed"]
     ctx.exit(UNUSABLE if found["unusable"] else FINDINGS if would_change else 0)
 
@@ -119,7 +120,7 @@ class _Run:
         if self.check or self.diff:
             self._tell(source, before, after)
         elif isinstance(source.content, bytes):
-            click.echo(after, nl=False)
+            print_document(after)
         elif not _write(Rewrite(source, before, after)):
             return "unusable"
         return "same" if before == after else "changed"
@@ -127,9 +128,9 @@ class _Run:
     def _tell(self, source: Source, before: bytes, after: bytes) -> None:
         if self.diff:
             for line in line_diff(source.name, SourceText.of(before).text, SourceText.of(after).text):
-                click.echo(line.encode("utf-8", "replace"), nl=False)
+                print_text(line, nl=False)
         elif before != after:
-            click.echo(source.name)
+            print_line(source.name)
 
     def summary(self, found: Counter[Outcome]) -> str:
         """What became of the files."""
@@ -162,6 +163,6 @@ def _write(rewrite: Rewrite) -> bool:
     try:
         write_back([rewrite])
     except Unusable as error:
-        click.echo(f"Error: {error.message}", err=True)
+        print_line(f"Error: {error.message}", err=True)
         return False
     return True

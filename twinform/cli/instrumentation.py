@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import click
 
 from twinform.cli.failure import UNUSABLE
+from twinform.cli.printing import print_line, print_text
 from twinform.passes import CombinedInstrumentation, PassError, PassInstrumentation
 from twinform.passes.framework.hooks import Dumps, Statistics, table
 
@@ -99,24 +100,24 @@ class InputInstrumentation:
         show_fault(error, self.name, self.options.reproducers)
 
     def _dump(self, step: str, document: str) -> None:
-        click.echo(f"// {self.name} after {step}\n{document}", err=True)
+        print_text(f"// {self.name} after {step}\n{document}", err=True)
 
     def _print(self, text: str) -> None:
-        click.echo(f"{self.name}: {text}", err=True)
+        print_text(f"{self.name}: {text}", err=True)
 
 
 def show_fault(error: PassError, name: str, folder: Path | None = None) -> None:
     """Print what a pass did wrong to the input that messages call `name`, and write what makes it come again."""
     from twinform.compiler.reproducers.files import write_reproducer  # noqa: PLC0415 - passes seldom fail
 
-    click.echo(f"{name}: {error}", err=True)
+    print_line(f"{name}: {error}", err=True)
     try:
         path = write_reproducer(error, name, folder)
     except (OSError, TypeError, ValueError) as problem:
         reason = problem.strerror if isinstance(problem, OSError) else problem
-        click.echo(f"    nothing could be written that makes it come again: {reason}", err=True)
+        print_line(f"    nothing could be written that makes it come again: {reason}", err=True)
     else:
-        click.echo(f"    to see it again: twinform reproduce {click.format_filename(path)}", err=True)
+        print_line(f"    to see it again: twinform reproduce {path}", err=True)
 
 
 def end_with(error: Exception, ctx: click.Context) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from twinform.cli.failure import FINDINGS, Unusable
-from twinform.diagnostics.reporters import printable
+from twinform.cli.printing import print_line
 from twinform.file_access import Readable
 from twinform.text.line_diff import line_diff
 
@@ -30,9 +30,9 @@ def report_outdated(texts: "Sequence[tuple[Output, str | bytes]]", *, to_stdout:
     outdated = [output.path for output, text in texts if _differs(output.path, text)]
     for path in outdated:
         why = "is not what it is made to be" if path.exists() else "is not there"
-        click.echo(f"{path} {why}; run the command without --check", err=True)
+        print_line(f"{path} {why}; run the command without --check", err=True)
     if not outdated:
-        click.echo(f"{_count(len(texts), 'file')} up to date", err=True)
+        print_line(f"{_count(len(texts), 'file')} up to date", err=True)
     return FINDINGS if outdated else 0
 
 
@@ -48,9 +48,9 @@ def _differs(path: Path, text: str | bytes) -> bool:
         return False
     lines = list(line_diff(str(path), old.decode(errors="replace"), new.decode(errors="replace")))
     for line in lines[:_MOST_LINES]:
-        click.echo(printable(line.rstrip()))
+        print_line(line.rstrip())
     if len(lines) > _MOST_LINES:
-        click.echo(f"... and {len(lines) - _MOST_LINES} lines more")
+        print_line(f"... and {len(lines) - _MOST_LINES} lines more")
     return True
 
 

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import click
 
 from twinform.cli.failure import Unusable
+from twinform.cli.printing import print_document, print_line
 from twinform.compiler import write_all_atomically
 from twinform.compiler.output.same_files import folded, identities, is_below, is_nothing
 from twinform.diagnostics import HEAD, SideFile
@@ -118,14 +119,14 @@ class Outputs:
                 raise  # it is about standard output
             raise Unusable(f"cannot write {error.filename}: {error.strerror}") from error
         for line in self.news:
-            click.echo(line, err=True)
+            print_line(line, err=True)
         return 0
 
     def _print(self) -> None:
         for path, before in self.as_read.items():
             require_as_read(path, before)
         if self.stdout is not None:
-            click.echo(self.stdout.encode(), nl=False)  # the XML declaration has UTF-8, whatever the terminal's is
+            print_document(self.stdout)
 
 
 def require_as_read(path: Path, before: bytes) -> None:

@@ -11,6 +11,7 @@ from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import show
 from twinform.cli.instrumentation import show_fault
 from twinform.cli.outputs import Output, Outputs
+from twinform.cli.printing import print_line, print_text
 from twinform.cli.source import Source
 from twinform.compiler import CompileError
 from twinform.compiler.input.source_files import SourceFiles
@@ -61,7 +62,7 @@ def run_packaging(packaging: Packaging) -> int:
         return FINDINGS
     if packaging.dry_run:
         for path in built.package.files:
-            click.echo(path)
+            print_line(path)
         return 0
     _write(built, packaging)
     return 0
@@ -87,8 +88,8 @@ def _write(built: Built, packaging: Packaging) -> None:
     except OSError as error:
         raise Unusable(f"cannot write {error.filename or packaging.folder}: {error.strerror}") from error
     for name, each in built.ledgers.items():
-        click.echo(f"{name}: {summary(each)}", err=True)
-    click.echo(f"{packaging.folder}: {_size(built.package)}", err=True)
+        print_text(f"{name}: {summary(each)}", err=True)
+    print_text(f"{packaging.folder}: {_size(built.package)}", err=True)
 
 
 def _size(package: Package) -> str:

@@ -11,7 +11,7 @@ from twinform.cli.completion import pass_names, pipelines
 from twinform.cli.config import config_options, settings_of
 from twinform.cli.config.options import Project
 from twinform.cli.failure import Unusable
-from twinform.cli.findings import heading
+from twinform.cli.printing import print_document, print_text, styled
 from twinform.passes import Pass, PipelineError, Registered, RegistryError, parse_pipeline, registered_passes
 from twinform.passes.framework.options import nearest
 from twinform.passes.framework.pages import OptionPage, description, options, summary
@@ -47,15 +47,15 @@ def command(ctx: click.Context, name: str | None, style: Literal["text", "json"]
     project = settings_of(ctx)
     try:
         if table is not None:
-            click.echo(print_tables(parse_pipeline(table, names=project.names), _TABLE_NAME), nl=False)
+            print_document(print_tables(parse_pipeline(table, names=project.names), _TABLE_NAME))
             return
         found = _chosen(name)
         if style == "json":
-            click.echo(_json(found, project))
+            print_document(f"{_json(found, project)}\n")
         elif name is None:
-            click.echo("\n".join([*_list(found), *_pipelines(project)]))
+            print_text("\n".join([*_list(found), *_pipelines(project)]))
         else:
-            click.echo("\n\n".join(_page(found[0].load(), found[0].owner)))
+            print_text("\n\n".join(_page(found[0].load(), found[0].owner)))
     except PipelineError as error:
         raise click.BadParameter(str(error), ctx, param_hint="--table") from error
     except RegistryError as error:
@@ -74,7 +74,7 @@ def _chosen(name: str | None) -> list[Registered]:
 def _list(found: Collection[Registered]) -> Iterator[str]:
     for each in found:
         kind = each.load()
-        yield f"{heading(each.name)}{_from(each.owner)}"
+        yield f"{styled(each.name)}{_from(each.owner)}"
         yield f"    {summary(kind)}"
         words = ", ".join(map(_option, options(kind)))
         if words:
@@ -98,17 +98,17 @@ def _pipelines(project: Project) -> Iterator[str]:
     if names:
         yield f"\npipelines of {project.path}"
     for name in names:
-        yield f"{heading(f'@{name}')}\n    {project.names(name)}"
+        yield f"{styled(f'@{name}')}\n    {project.names(name)}"
 
 
 def _page(kind: type[Pass], owner: str) -> Iterator[str]:
-    yield f"{heading(kind.name)} (from {owner})"
+    yield f"{styled(kind.name)} (from {owner})"
     yield description(kind)
     rows = list(options(kind))
     if rows:
-        yield "\n".join([heading("Options"), *map(_row, rows)])
+        yield "\n".join([styled("Options"), *map(_row, rows)])
     if kind.example:
-        yield f"{heading('Example')}\n  {kind.example}"
+        yield f"{styled('Example')}\n  {kind.example}"
 
 
 def _row(option: OptionPage) -> str:

@@ -10,6 +10,7 @@ from twinform.cli.command import Command
 from twinform.cli.config.trust import Outside
 from twinform.cli.failure import FINDINGS, Unusable
 from twinform.cli.findings import paint
+from twinform.cli.printing import print_line, print_text
 from twinform.compiler import LoadOptions
 from twinform.compiler.includes.other_documents import OtherDocuments
 from twinform.compiler.output.same_files import is_below
@@ -44,18 +45,18 @@ def command(ctx: click.Context, file: Path, paths: tuple[Path, ...]) -> None:
     and other models are read in the folder of FILE, and in those of --path.
     """
     found = _read(file)
-    click.echo(f"{found.pipeline} on a document of {found.source}; failed under twinform {found.twinform}", err=True)
+    print_line(f"{found.pipeline} on a document of {found.source}; failed under twinform {found.twinform}", err=True)
     if found.twinform != __version__:
-        click.echo(f"this is twinform {__version__}", err=True)
+        print_line(f"this is twinform {__version__}", err=True)
     sink = DiagnosticSink(found.source)
     error = _run(found, file, SearchPath.of(paths), sink)
-    click.echo(concise([Findings(found.source, tuple(sink.diagnostics))], paint), nl=False, err=True)
+    print_text(concise([Findings(found.source, tuple(sink.diagnostics))], paint), nl=False, err=True)
     if error is None:
         other = "" if found.again else ", as it did when this file was written: it needs the source, lines and all"
-        click.echo(f"it does not fail{other}", err=True)
+        print_line(f"it does not fail{other}", err=True)
         ctx.exit(0)
     cause = error.__cause__
-    click.echo("".join(traceback.format_exception(cause)) if cause else str(error), err=True, nl=cause is None)
+    print_text("".join(traceback.format_exception(cause)) if cause else str(error), err=True, nl=cause is None)
     ctx.exit(FINDINGS)
 
 

@@ -5,10 +5,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import click
-
 from twinform.cli.failure import Unusable
 from twinform.cli.outputs import Outputs, require_as_read
+from twinform.cli.printing import print_document, print_line, print_text
 from twinform.cli.source import Source
 from twinform.compiler import write_all_atomically
 from twinform.diagnostics import SideFile
@@ -40,9 +39,9 @@ def show_differences(rewrites: Iterable[Rewrite]) -> bool:
     """Print what would change as a unified diff; gives whether there is anything."""
     changed = [each for each in rewrites if each.is_change]
     for each in changed:
-        click.echo(_difference(each), nl=False)
+        print_text(_difference(each), nl=False)
         for file in each.side_files:
-            click.echo(f"{Path(each.source.name).parent / file.path} would be written")
+            print_line(f"{Path(each.source.name).parent / file.path} would be written")
     return bool(changed)
 
 
@@ -78,7 +77,7 @@ def write_back(rewrites: Sequence[Rewrite]) -> None:
         raise Unusable(f"cannot write {error.filename}: {error.strerror}") from error
     for each in rewrites:
         if each.is_stream:
-            click.echo(each.after, nl=False)
+            print_document(each.after)
 
 
 def _beside(rewrites: Sequence[Rewrite]) -> dict[Path, str | bytes]:

@@ -9,6 +9,7 @@ from click.core import ParameterSource
 from twinform.cli.command import Command
 from twinform.cli.failure import Unusable
 from twinform.cli.outputs import Outputs
+from twinform.cli.printing import print_document
 from twinform.schemas import Version, json_schema_text, parse_version, schema_text, table
 from twinform.schemas.xacro_xsd import imported_schemas
 from twinform.schemas.xsd import generate_schema, lenient_schema_text
@@ -92,7 +93,7 @@ def _for_xacro(language: str, version: Version, output: Path) -> dict[Path, str]
 
 def _write(texts: dict[Path, str]) -> None:
     if _STDOUT in texts:
-        click.echo(texts[_STDOUT], nl=False)
+        print_document(texts[_STDOUT])
         return
     outputs = Outputs()
     for path, text in texts.items():

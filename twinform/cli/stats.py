@@ -9,6 +9,7 @@ from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
 from twinform.cli.inputs import InputOptions, inputs, load_options_of, reading_options
+from twinform.cli.printing import print_report
 from twinform.compiler import expand, read
 from twinform.compiler.statistics import REPORTERS, FileStatistics, measure
 from twinform.diagnostics.reporters import Findings
@@ -53,5 +54,5 @@ def command(
         else:
             found.append(measure(loaded, loaded.document, load_options.search, meshes=meshes))
     if found or style == "json":
-        click.echo(REPORTERS[style](found), nl=False)
+        print_report(REPORTERS[style](found), style)
     ctx.exit(code)

@@ -7,8 +7,6 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
-import click
-
 _UNUSABLE = 2
 """`twinform.cli.failure.UNUSABLE`, which only commands import."""
 _UNREAD = 128 + 13
@@ -31,8 +29,10 @@ def end_unwritable(error: OSError) -> NoReturn:
     """End after an error of the system that no command expects: mostly of a stream, which has no name."""
     what = error.filename or "cannot write standard output"
     reason = "it is closed" if error.errno == errno.EBADF else error.strerror or error
+    from twinform.cli.printing import print_line  # noqa: PLC0415 - it seldom happens
+
     with suppress(OSError):
-        click.echo(f"Error: {what}: {reason}", err=True)
+        print_line(f"Error: {what}: {reason}", err=True)
     _forget_what_is_left()
     raise SystemExit(_UNUSABLE)
 

@@ -14,6 +14,7 @@ from twinform.cli.completion import files
 from twinform.cli.failure import UNUSABLE, Unusable
 from twinform.cli.findings import show
 from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
+from twinform.cli.printing import print_line
 from twinform.cli.source import Source
 from twinform.compiler import CompileError, LoadOptions
 from twinform.diagnostics import Diagnostic
@@ -133,7 +134,7 @@ class _Session:
         viewer.show(found, self._comparison())
         self._warn()
         if is_new:
-            click.echo(
+            print_line(
                 f"showing {' and '.join(source.name for source in self.sources)} at {viewer.address}; Ctrl-C ends"
             )
             if self.opens:

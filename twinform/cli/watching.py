@@ -10,6 +10,7 @@ from typing import NamedTuple, Protocol, TypeVar
 import click
 
 from twinform.cli.failure import Unusable
+from twinform.cli.printing import print_line
 from twinform.cli.source import Source, format_of_suffix
 from twinform.compiler.observing import Observation, observed
 
@@ -84,7 +85,7 @@ def watch_models(
             stale = [source for source in sources if watched.is_stale(source.name)]
             if stale:
                 _work_on(stale, new_round(), work, watched)
-                click.echo(f"watching {len(sources)} file{'' if len(sources) == 1 else 's'}; Ctrl-C ends", err=True)
+                print_line(f"watching {len(sources)} file{'' if len(sources) == 1 else 's'}; Ctrl-C ends", err=True)
             _wait([source.name for source in sources], watched)
     except KeyboardInterrupt:
         return _INTERRUPTED

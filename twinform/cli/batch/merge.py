@@ -6,6 +6,7 @@ import click
 
 from twinform.cli.command import Command
 from twinform.cli.failure import Unusable
+from twinform.cli.printing import print_line
 from twinform.compiler.batch import BusyError, merge
 
 EXAMPLES = {
@@ -28,4 +29,4 @@ def command(dest: Path, others: tuple[Path, ...]) -> None:
         raise click.UsageError(str(error)) from error
     except OSError as error:
         raise Unusable(f"cannot merge {error.filename or dest}: {error.strerror or error}") from error
-    click.echo(f"{number} model{'' if number == 1 else 's'} in {click.format_filename(dest)}", err=True)
+    print_line(f"{number} model{'' if number == 1 else 's'} in {dest}", err=True)

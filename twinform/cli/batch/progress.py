@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Protocol
 
-import click
+from twinform.cli.printing import print_line
 
 if TYPE_CHECKING:
     from rich.progress import Progress as RichProgress
@@ -42,7 +42,7 @@ class _Lines:
         now = time.monotonic()
         if now - self.printed >= _EVERY:
             self.printed = now
-            click.echo(status(self.done, self.total, self.worked / (now - self.start)), err=True)
+            print_line(status(self.done, self.total, self.worked / (now - self.start)), err=True)
 
 
 def status(done: int, total: int, rate: float) -> str:

@@ -1,17 +1,17 @@
 """Runs a batch from the command line: where it runs, what is printed, and how it ends."""
 
-import sys
 from collections.abc import Callable, Generator
 from concurrent.futures import BrokenExecutor
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Any, NoReturn, TextIO, TypedDict, TypeVar
+from typing import Any, NoReturn, TypedDict, TypeVar
 
 import click
 
 from twinform.cli.batch.progress import progress
 from twinform.cli.failure import UNUSABLE
+from twinform.cli.printing import print_document, print_line
 from twinform.compiler.batch import (
     Batch,
     BusyError,
@@ -93,11 +93,11 @@ def run_and_end(ctx: click.Context, asked: Batch, options: RunOptions) -> NoRetu
     except (BrokenExecutor, RuntimeError) as error:
         problem, code = f"the work cannot be done there: {str(error).strip().rpartition(chr(10))[2]}", UNUSABLE
     except SystemExit:
-        click.echo(str(summary), err=True)
+        print_line(str(summary), err=True)
         raise
     if problem:
-        click.echo(f"Error: {problem}", err=True)
-    click.echo(str(summary), err=True)
+        print_line(f"Error: {problem}", err=True)
+    print_line(str(summary), err=True)
     ctx.exit(code)
 
 
@@ -109,7 +109,7 @@ def _run(asked: Batch, options: RunOptions, summary: Summary) -> None:
         for result in results:
             summary.add(result.record.outcome, known=result.known)
             if report is not None:
-                report.write(report_line(result))
+                report(report_line(result))
             if not result.record.outcome.is_good:
                 _tell(result.record)
             shown.step(known=result.known)
@@ -117,20 +117,19 @@ def _run(asked: Batch, options: RunOptions, summary: Summary) -> None:
 
 def _tell(record: Record) -> None:
     """Name a model that has no result on stderr, with its reason, as soon as it is known."""
-    name = click.format_filename(record.source)
     kept = "; the result of an earlier run stays" if record.kept else ""
-    click.echo(f"{name}: {record.outcome}: {click.format_filename(record.message)}{kept}", err=True)
+    print_line(f"{record.source}: {record.outcome}: {record.message}{kept}", err=True)
 
 
 @contextmanager
-def _report(path: Path | None) -> Generator[TextIO | None]:
+def _report(path: Path | None) -> Generator[Callable[[str], object] | None]:
     if path is None:
         yield None
     elif str(path) == "-":
-        yield sys.stdout
+        yield print_document
     else:
         with open_report(path) as file:
-            yield file
+            yield file.write
 
 
 def _runner(options: RunOptions) -> Runner:
@@ -139,6 +138,6 @@ def _runner(options: RunOptions) -> Runner:
     from twinform.compiler.workers.dask import dask_runner  # noqa: PLC0415 - few have more than one machine
 
     try:
-        return dask_runner(options["scheduler"], tell=partial(click.echo, err=True))
+        return dask_runner(options["scheduler"], tell=partial(print_line, err=True))
     except ImportError as error:
         raise click.UsageError(f"--scheduler needs Dask: pip install 'twinform[dask]' ({error})") from error

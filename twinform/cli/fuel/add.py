@@ -7,6 +7,7 @@ import click
 
 from twinform.cli.command import Command
 from twinform.cli.failure import Unusable
+from twinform.cli.printing import print_line
 from twinform.compiler.packaging.fuel_cache import FuelError, add, resources
 from twinform.compiler.search.fuel import SERVER, caches
 
@@ -39,7 +40,7 @@ def command(
         if name is not None and len(found) > 1:
             raise click.UsageError(f"--name is for one model, and {folder} has {len(found)}")
         for each in found:
-            click.echo(add(each, place, server, owner, name or each.name, resource_version).uri)
+            print_line(add(each, place, server, owner, name or each.name, resource_version).uri)
     except FuelError as error:
         raise click.UsageError(str(error)) from error
     except OSError as error:

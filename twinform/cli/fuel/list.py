@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 
 from twinform.cli.command import Command
+from twinform.cli.printing import print_line
 from twinform.compiler.packaging.fuel_cache import listed
 from twinform.compiler.search.fuel import caches
 
@@ -19,4 +20,4 @@ EXAMPLES = {"Print what can be included by its address": "twinform fuel list"}
 def command(cache: Path | None) -> None:
     """Print the addresses of all that is in the cache, in the newest version."""
     for name in listed((cache,) if cache else caches(os.environ)):
-        click.echo(name.uri)
+        print_line(name.uri)

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.location import Location
 from twinform.diagnostics.reporters.findings import Findings
+from twinform.diagnostics.reporters.printable import printable
 from twinform.diagnostics.rule import Severity
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
@@ -27,7 +28,9 @@ def _command(diagnostic: Diagnostic, file: str) -> str:
         **_end(where),
         "title": diagnostic.rule.name,
     }
-    listed = ",".join(f"{key}={_escape(value, _IN_PROPERTIES)}" for key, value in properties.items() if value)
+    listed = ",".join(
+        f"{key}={_escape(printable(value), _IN_PROPERTIES)}" for key, value in properties.items() if value
+    )
     parts = (diagnostic.message, where.path and f"at {where.path}", diagnostic.help and f"help: {diagnostic.help}")
     message = _escape("\n".join(part for part in parts if part), _IN_DATA)
     return f"::{_COMMANDS[diagnostic.severity]} {listed}::{message}"
@@ -44,4 +47,4 @@ def _end(where: Location) -> dict[str, str]:
 def _escape(text: str, table: tuple[tuple[str, str], ...]) -> str:
     for character, code in table:
         text = text.replace(character, code)
-    return text
+    return printable(text)  # the log is shown in terminals too

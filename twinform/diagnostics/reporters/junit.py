@@ -55,7 +55,7 @@ def _test(diagnostic: Diagnostic, file: str) -> str:
     body = "\n".join(
         part
         for part in (
-            f"{name}{f':{place}' if place else ''}: {diagnostic.severity}: {diagnostic.message}",
+            f"{printable(name)}{f':{place}' if place else ''}: {diagnostic.severity}: {diagnostic.message}",
             where.path and f"at {where.path}",
             diagnostic.help and f"help: {diagnostic.help}",
         )
