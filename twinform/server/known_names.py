@@ -14,7 +14,7 @@ from twinform.server.tree import Node
 
 def names_for(session: Session, document: Document, node: Node, kind: ReferenceKind) -> Iterator[Name]:
     """The names of a kind that an element may refer to, each once."""
-    scope = scope_of_reference(node)
+    scope = scope_of_reference(document, node)
     wanted = scope.get("name") if scope is not None and document.schema.format == "sdf" else None
     kinds = _kinds(kind, document)
     seen: set[str] = set()

@@ -4,8 +4,9 @@ Which attributes and texts are references is known from the fields of the IR tha
 plugins and other parts without a typed form, the name of the parameter shows it, as `rename` goes by.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
+from typing import NamedTuple, TypeVar
 
 from twinform.compiler.input.limits import MOST_ATTRIBUTES
 from twinform.diagnostics import Span
@@ -18,12 +19,16 @@ from twinform.server.mapping.targets import field_of
 from twinform.server.name import Name
 from twinform.server.schema import is_of_xacro
 from twinform.server.tree import Node
-from twinform.server.xacro_names import XACRO_KINDS, meant, xacro_names
+from twinform.server.xacro_names import XACRO_KINDS, xacro_names
 
+Key = TypeVar("Key")
 DEFINED = ("link", "joint", "frame", "model", "material", "sensor")
 """What is called by its attribute `name`, and can be found by it."""
 _SCOPES = frozenset({"model", "world", "robot"})
 _STATES = frozenset({"model", "model_state"})
+_MACRO = "xacro:macro"
+_MOST_STEPS = 64
+"""More models in each other than this have no name that is followed: each step is known by all those before it."""
 _FIELDS: dict[str, ReferenceKind] = {
     f"{node.__name__}.{field}": kind for node, fields in REFERENCES.items() for field, kind in fields.items()
 }
@@ -34,9 +39,43 @@ def names_of(document: Document) -> tuple[Name, ...]:
     return document.once(_collected)
 
 
-def defined(document: Document, text: str) -> list[Name]:
-    """The definitions of a name, whatever of."""
-    return document.once(_by_text).get(text, [])
+class Surroundings(NamedTuple):
+    """The nearest scope and macro, the element itself included, and whether it is part of a recorded state."""
+
+    scope: Node | None
+    macro: Node | None
+    in_state: bool
+
+
+_NOWHERE = Surroundings(None, None, in_state=False)
+
+
+def surroundings(document: Document, node: Node | None) -> Surroundings:
+    """What is around an element in a document: nothing, if the element is one of another document."""
+    return document.once(_all_surroundings).get(node, _NOWHERE)
+
+
+def _all_surroundings(document: Document) -> dict[Node | None, Surroundings]:
+    """Those of all elements, each made from those of its parent: in deep files a climb for each takes minutes."""
+    found: dict[Node | None, Surroundings] = {None: _NOWHERE}
+    for node in document.tree.nodes:
+        outer, parent = found[node.parent], node.parent
+        found[node] = Surroundings(
+            scope=node if node.tag in _SCOPES else outer.scope,
+            macro=node if node.tag == _MACRO else outer.macro,
+            in_state=outer.in_state or (parent is not None and parent.tag == "state"),
+        )
+    return found
+
+
+def defined(document: Document, text: str, kind: str, scope: Node | None) -> list[Name]:
+    """The definitions of a name of a kind in one scope."""
+    return document.once(_by_scope).get((text, kind, scope), [])
+
+
+def defined_anywhere(document: Document, text: str, kind: str) -> list[Name]:
+    """The definitions of a name of a kind in any scope."""
+    return document.once(_by_kind).get((text, kind), [])
 
 
 def _collected(document: Document) -> tuple[Name, ...]:
@@ -44,11 +83,18 @@ def _collected(document: Document) -> tuple[Name, ...]:
     return (*_names(document), *xacro_names(document))
 
 
-def _by_text(document: Document) -> dict[str, list[Name]]:
-    found: dict[str, list[Name]] = {}
-    for each in names_of(document):
-        if each.defines:
-            found.setdefault(each.text, []).append(each)
+def _by_scope(document: Document) -> dict[tuple[str, str, Node | None], list[Name]]:
+    return _grouped(((each.text, each.kind, each.scope), each) for each in names_of(document) if each.defines)
+
+
+def _by_kind(document: Document) -> dict[tuple[str, str], list[Name]]:
+    return _grouped(((each.text, each.kind), each) for each in names_of(document) if each.defines)
+
+
+def _grouped(pairs: Iterable[tuple[Key, Name]]) -> dict[Key, list[Name]]:
+    found: dict[Key, list[Name]] = {}
+    for key, name in pairs:
+        found.setdefault(key, []).append(name)
     return found
 
 
@@ -71,25 +117,26 @@ def _of_attributes(document: Document, node: Node) -> Iterator[Name]:
         if not value:
             continue
         if attribute == "name" and _defines(document, node):
-            yield Name(value, span.value, node, node.tag, defines=True, scope=_scope(node.parent))
+            yield Name(value, span.value, node, node.tag, defines=True, scope=surroundings(document, node.parent).scope)
             continue
-        if attribute == "name" and node.tag in _STATES and _in_state(node):
+        if attribute == "name" and node.tag in _STATES and surroundings(document, node).in_state:
             yield Name(value, span.value, node, "model", defines=False)
             continue
         kind = kind_at(document, node, attribute)
         if kind is not None:
-            yield from _steps(value, span.value, node, kind)
+            yield from _steps(document, value, span.value, node, kind)
 
 
-def _steps(text: str, span: Span, node: Node, kind: str) -> Iterator[Name]:
+def _steps(document: Document, text: str, span: Span, node: Node, kind: str) -> Iterator[Name]:
     """A reference; of `model::part` each step on its own, known by all the steps before it."""
-    start = span.start
+    if text.count("::") >= _MOST_STEPS:
+        return
+    start, scope = span.start, scope_of_reference(document, node)
     for step in text.split("::"):
         end = start + len(step)
         last = end == span.end
         whole = text[: end - span.start]
         if step:
-            scope = scope_of_reference(node)
             yield Name(whole, Span(start, end), node, kind if last else "model", defines=False, scope=scope)
         start = end + len("::")
 
@@ -104,14 +151,14 @@ def _of_text(document: Document, node: Node) -> Iterator[Name]:
     span = document.tree.text_of(node)
     text = span.of(document.text)
     if names_include and text and node.parent is not None:
-        yield Name(text, span, node.parent, "model", defines=True, scope=_scope(node.parent))
+        yield Name(text, span, node.parent, "model", defines=True, scope=surroundings(document, node.parent).scope)
     elif kind is not None and text and "<" not in text:
-        yield from _steps(text, span, node, kind)
+        yield from _steps(document, text, span, node, kind)
 
 
 def _defines(document: Document, node: Node) -> bool:
     """Whether an element is what its name calls, and not something that refers to it."""
-    if node.tag not in DEFINED or (node.tag == "model" and _in_state(node)):
+    if node.tag not in DEFINED or (node.tag == "model" and surroundings(document, node).in_state):
         return False
     row = document.schema.row(node)
     if row is None:
@@ -153,57 +200,55 @@ def _field(row: Row) -> str:
     return field_of(row).partition(":")[0]
 
 
-def _scope(node: Node | None) -> Node | None:
-    """The model or world around a place."""
-    while node is not None and node.tag not in _SCOPES:
-        node = node.parent
-    return node
-
-
-def scope_of_reference(node: Node) -> Node | None:
+def scope_of_reference(document: Document, node: Node) -> Node | None:
     """The scope of what an element refers to: for the pose of a model itself that around the model."""
-    scope = _scope(node)
+    scope = surroundings(document, node).scope
     if scope is not None and node.tag == "pose" and node.parent is scope:
-        return _scope(scope.parent)
+        return surroundings(document, scope.parent).scope
     return scope
 
 
 def found_in(document: Document, name: Name) -> list[Name]:
     """The definitions that a name means in a document: of the first kind that has any, in the nearest scope."""
-    scope = _model_of_state(document, name.scope)
-    text = name.text
     format: FormatName | None = document.schema.format
-    if format == "sdf" and "::" in text:
+    if format == "sdf" and "::" in name.text:
         return _inside(document, name)
-    candidates = defined(document, text)
     if name.kind in XACRO_KINDS:
-        return meant(name, candidates)
+        return _parameters(document, name) or defined_anywhere(document, name.text, name.kind)
+    scope = None if format == "urdf" else _model_of_state(document, name.scope)
     for kind in name.kinds:
-        own = [each for each in candidates if each.kind == kind]
-        own = [each for each in own if format == "urdf" or each.scope is scope] if scope else own
+        own = defined(document, name.text, kind, scope) if scope else defined_anywhere(document, name.text, kind)
         if own:
             return own
     return []
 
 
-def _in_state(node: Node) -> bool:
-    """Whether an element records the state of a world, so that its models are those of the world."""
-    return any(each.tag == "state" for each in node.above())
+def _parameters(document: Document, name: Name) -> list[Name]:
+    """The parameter that a name means: that of the nearest macro around it that has one."""
+    around = surroundings(document, name.node) if name.kind in {"property", "param"} else None
+    while around is not None and around.macro is not None:
+        own = defined(document, name.text, "param", around.macro)
+        if own:
+            return own[-1:]
+        around = surroundings(document, around.macro.parent)
+    return []
 
 
 def _model_of_state(document: Document, scope: Node | None) -> Node | None:
     """The model whose state an element records; any other scope itself."""
-    if scope is None or not _in_state(scope):
+    if scope is None or not surroundings(document, scope).in_state:
         return scope
-    called = defined(document, scope.get("name") or "")
-    return next((each.node for each in called if each.kind == "model"), scope)
+    models = defined_anywhere(document, scope.get("name") or "", "model")
+    return models[0].node if models else scope
 
 
 def _inside(document: Document, name: Name) -> list[Name]:
     """What `inner::name` means: the last of its words, in models of these names in each other."""
     *outer, last = name.text.split("::")
-    scopes: list[Node | None] = [name.scope]
+    scope = name.scope
     for step in outer:
-        scopes = [each.node for each in defined(document, step) if each.kind == "model" and each.scope in scopes]
-    own = [each for each in defined(document, last) if each.scope in scopes]
-    return [each for each in own if each.kind in name.kinds][:1]
+        models = defined(document, step, "model", scope)
+        if not models:
+            return []
+        scope = models[0].node
+    return [own for kind in name.kinds for own in defined(document, last, kind, scope)][:1]

@@ -9,9 +9,10 @@ from twinform.diagnostics import Span
 from twinform.server.documents import Document
 from twinform.server.includes import includes_of, target
 from twinform.server.name import Name
-from twinform.server.names import defined, found_in, name_at, names_of
+from twinform.server.names import defined, found_in, name_at, names_of, surroundings
 from twinform.server.session import Session
 from twinform.server.tree import Node
+from twinform.server.xacro_names import XACRO_KINDS
 
 
 class Place(NamedTuple):
@@ -63,12 +64,23 @@ def references(session: Session, document: Document, offset: int) -> tuple[list[
     what = meant_by(Found(document, name), group, session)
     wanted = {(each.document.path, each.name.span) for each in what}
     last = name.text.rpartition("::")[2]
-    found = [
-        each
-        for each in _called(group, last)
-        if any((one.document.path, one.name.span) in wanted for one in meant_by(each, group, session))
-    ]
+    known: dict[object, bool] = {}
+    found: list[Found] = []
+    for each in _called(group, last):
+        # a file may refer to a name a hundred thousand times, and define it as often
+        key = _what_decides(each)
+        if key not in known:
+            known[key] = any((one.document.path, one.name.span) in wanted for one in meant_by(each, group, session))
+        if known[key]:
+            found.append(each)
     return what, found
+
+
+def _what_decides(found: Found) -> object:
+    """What the meaning of a name depends on: two names with the same have the same meaning."""
+    document, name = found
+    macro = surroundings(document, name.node).macro if name.kind in XACRO_KINDS else None
+    return document.path, name.text, name.kind, name.scope, macro
 
 
 def connected(session: Session, document: Document) -> list[Document]:
@@ -137,7 +149,7 @@ def _called(group: Sequence[Document], last: str) -> Iterator[Found]:
 def is_taken(document: Document, new: str, like: Name) -> Name | None:
     """What is called so already, where the two names would be the same."""
     kinds = {like.kind} if document.schema.format == "urdf" or like.kind not in _ONE_SCOPE else _ONE_SCOPE
-    return next((each for each in defined(document, new) if each.kind in kinds and each.scope is like.scope), None)
+    return next((own[0] for kind in sorted(kinds) if (own := defined(document, new, kind, like.scope))), None)
 
 
 _ONE_SCOPE = frozenset({"link", "joint", "frame", "model"})

@@ -46,14 +46,6 @@ def xacro_names(document: Document) -> Iterator[Name]:
             yield from _in_expressions(inside.of(document.text), inside.start, node)
 
 
-def meant(name: Name, candidates: list[Name]) -> list[Name]:
-    """The definitions that a name of xacro means: a parameter of the macro around it, or else what is of its kind."""
-    own = [each for each in candidates if each.kind == "param" and each.scope is not None and _is_in(name, each.scope)]
-    if own and name.kind in {"property", "param"}:
-        return own[-1:]
-    return [each for each in candidates if each.kind == name.kind]
-
-
 class Parameter(NamedTuple):
     """A parameter of a macro. One that has no default is `needed`, unless it is a `block`, which is an element."""
 
@@ -69,10 +61,6 @@ def parameter_names(macro: Node) -> list[Parameter]:
         Parameter(found["name"], found[0], "=" not in found[0] and found[0][0] != "*", found[0][0] == "*")
         for found in _PARAMETER.finditer(macro.get("params") or "")
     ]
-
-
-def _is_in(name: Name, node: Node) -> bool:
-    return node.start_tag.start <= name.span.start <= node.end
 
 
 def _of_element(node: Node) -> Iterator[Name]:
