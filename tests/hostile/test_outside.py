@@ -140,6 +140,8 @@ ATTEMPTS: Mapping[str, tuple[Mapping[str, str], str]] = {
     # files that commands find or are named
     "link: found in a folder": ({"a.urdf": f"{_LINK}../../.netrc"}, "check ."),
     "link: a model, found in a folder": ({"a.urdf": f"{_LINK}../../secret.urdf"}, "check ."),
+    "link: a xacro file, found in a folder": ({"a.xacro": f"{_LINK}../../.netrc"}, "check ."),
+    "link: of an archive": ({"a.tgz": f"{_LINK}../../.netrc"}, "batch check a.tgz"),
     "link: named": ({"a.urdf": f"{_LINK}../../secret.urdf"}, "convert a.urdf --to sdf"),
     "link: through a folder": ({"up": f"{_LINK}../..", ".git/HEAD": ""}, "check up/secret.urdf"),
     "link: of .gitignore": ({"a.urdf": _body(""), ".gitignore": f"{_LINK}../../.netrc", ".git/HEAD": ""}, "check ."),
@@ -152,7 +154,7 @@ ATTEMPTS: Mapping[str, tuple[Mapping[str, str], str]] = {
     "link: to memory": ({"a.urdf": f"{_LINK}/proc/self/environ"}, "check a.urdf"),
 }
 PIPES = ("check .", "check a.urdf", "convert a.urdf --to sdf", "format --check .", "reproduce a.urdf", "stats a.urdf",
-         "graph a.urdf", "check b.xacro", "diff a.urdf a.urdf")  # fmt: skip
+         "graph a.urdf", "check b.xacro", "batch check a.tgz", "diff a.urdf a.urdf")  # fmt: skip
 REWRITES = {
     "format": "format .",
     "format, named": "format a.urdf",
@@ -210,14 +212,14 @@ def _is_secret(path: str, evil: Path) -> bool:
 @pytest.mark.parametrize("command", PIPES)
 @pytest.mark.parametrize("trap", ["pipe", "link to a pipe", "link to a device"])
 def test_nothing_waits_for_a_pipe_or_device(command: str, trap: str, evil: Path) -> None:
-    for name in ("a.urdf", "b.xacro", "twinform.toml.d", ".gitignore"):
+    for name in ("a.urdf", "b.xacro", "a.tgz", ".gitignore"):
         if trap == "pipe":
             os.mkfifo(evil / name)
         else:
             (evil / name).symlink_to("/dev/zero" if trap == "link to a device" else "pipe")
     if trap == "link to a pipe":
         os.mkfifo(evil / "pipe")
-    outcome = _run(command, evil)
+    outcome = _run(command, evil, 2**20 if command.startswith("batch") else 0)
     assert outcome.code in {1, 2}, outcome.output
     assert "Traceback" not in outcome.output
     assert outcome.output.count("it is") or "leads to" in outcome.output, outcome.output

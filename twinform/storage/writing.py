@@ -122,7 +122,7 @@ def _sync(staged: tuple[Path, Path]) -> None:
 
 def _stage(files: Transaction, path: Path, text: str | bytes) -> tuple[Path, Path]:
     """A text in a staged file, and the place where this belongs."""
-    _refuse_way_out(path)
+    refuse_way_out(path)
     target = Path(os.path.realpath(path))
     with named_after(path):
         if target.is_symlink():
@@ -134,7 +134,7 @@ def _stage(files: Transaction, path: Path, text: str | bytes) -> tuple[Path, Pat
     return new, target
 
 
-def _refuse_way_out(path: Path) -> None:
+def refuse_way_out(path: Path) -> None:
     """Refuse to write through a link that leads out of its project: somebody else may have put it there.
 
     Raises:
@@ -166,7 +166,7 @@ def _take_over(old: Path, new: Path) -> None:
 
 
 def _write_into(path: Path, text: str | bytes) -> None:
-    _refuse_way_out(path)
+    refuse_way_out(path)
     with named_after(path), path.open("wb") as stream:
         stream.write(_bytes(text))
 

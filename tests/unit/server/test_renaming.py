@@ -128,3 +128,29 @@ def test_where_no_name_is_nothing_is_changed() -> None:
     session, document = opened(SESSION / "arm.urdf")
     assert rename(session, document, 0, "a") is None
     assert isinstance(rename(session, document, document.text.index('"upper"') + 2, "b"), types.WorkspaceEdit)
+
+
+@pytest.mark.parametrize("by_link", [False, True])
+def test_files_outside_of_the_workspace_are_not_changed(
+    by_link: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shutil.copytree(SESSION, tmp_path / "installed/wheels")
+    (tmp_path / "installed/wheels/package.xml").write_text("<package><name>wheels</name></package>")
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "installed"))
+    workspace = tmp_path / "workspace"
+    workspace.mkdir()
+    rover = (SESSION / "rover.urdf.xacro").read_text(encoding="utf-8")
+    where = "linked/wheel.xacro" if by_link else "$(find wheels)/wheel.xacro"
+    (workspace / "rover.urdf.xacro").write_text(rover.replace("wheel.xacro", where, 1))
+    (workspace / "linked").symlink_to(tmp_path / "installed/wheels")
+    session, document = opened(workspace / "rover.urdf.xacro")
+    session.folders = [workspace]
+    at = document.text.index("2 * radius") + 5
+    with pytest.raises(RefusedError, match=r"outside of the workspace|has to be known"):
+        rename(session, document, at, "r")
+    session.folders = [tmp_path]
+    if not by_link:
+        edit = rename(session, document, at, "r")
+        assert edit is not None
+        assert edit.changes is not None
+        assert len(edit.changes) == 2

@@ -48,10 +48,10 @@ def is_plain(path: Path, *, named: bool = False) -> bool:
 
 
 def _start(path: Path, size: int) -> bytes:
-    from twinform.file_access import read_regular  # noqa: PLC0415 - few names leave it open
+    from twinform.file_access import Readable  # noqa: PLC0415 - few names leave it open
 
     try:
-        return read_regular(path, size)
+        return Readable.of(path).read(path, size)
     except (OSError, ValueError):
         return b""
 
@@ -65,6 +65,8 @@ def _is_xacro_model(path: Path) -> bool:
     from twinform.text import SourceText, UndecodableError, UnplacedError, spans  # noqa: PLC0415 - as above
 
     data = _start(path, _LARGEST)
+    if not data and path.is_symlink():
+        return True  # whoever reads it says why it is not followed
     try:
         text = SourceText.of(data).text
         root = spans(text)

@@ -17,6 +17,7 @@ from tempfile import gettempdir
 
 from twinform.compiler.batch.entries import FolderError
 from twinform.compiler.batch.tar_reader import BrokenArchiveError, ByteStream, LargeArchiveError, members, opened
+from twinform.file_access import Readable
 from twinform.storage.staging import staging_folder
 
 LEAST_FILES = 5_000
@@ -84,6 +85,7 @@ def unpacked(archive: Path) -> Generator[Unpacked]:
 def _unpack(archive: Path, folder: Path) -> dict[str, str]:
     """Write all files; gives their digests."""
     try:
+        Readable.of(archive).read(archive, 0)  # the readers of archives would wait for a pipe, and follow any link
         room = _Room.of(archive, folder)
         for member in _zip(archive, room) if archive.name.lower().endswith(".zip") else _tar(archive, room):
             room.write(member)

@@ -16,7 +16,7 @@ from twinform.compiler.batch.dependencies import Dependency, packed, unpacked
 from twinform.compiler.batch.lock import locked
 from twinform.compiler.batch.record import Outcome, Record
 from twinform.compiler.output.same_files import is_open_at
-from twinform.storage.writing import is_stream
+from twinform.storage.writing import is_stream, refuse_way_out
 
 FOLDER = ".twinform-batch"
 _BEGIN = b'{"source": '
@@ -52,6 +52,8 @@ class Manifest:
             BusyError: another run is at work here.
             OSError: it cannot be written.
         """
+        for path in (self.folder, self._own):
+            refuse_way_out(path)
         if is_stream(self._own):
             raise FileExistsError(errno.EEXIST, "a pipe or device is in its place", str(self._own))
         with locked(self.folder, self._shard):

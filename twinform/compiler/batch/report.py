@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TextIO
 
 from twinform.compiler.batch.recording import Result
+from twinform.storage.writing import refuse_way_out
 
 
 def report_line(result: Result) -> str:
@@ -33,6 +34,7 @@ def open_report(path: Path) -> Generator[TextIO]:
     Raises:
         OSError: it cannot be written.
     """
+    refuse_way_out(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("w", encoding="ascii", newline="\n", buffering=1) as file:
         yield file
