@@ -66,7 +66,7 @@ def test_what_is_no_file_is_named_and_never_waited_for(here: Path) -> None:
     assert {name: (each["outcome"], each["message"].partition(": ")[2]) for name, each in found.items()} == {
         "good.urdf": ("converted", ""),
         "robot.urdf": ("unreadable", "it is a pipe and no file"),
-        "zero.sdf": ("unreadable", "it is a device and no file"),
+        "zero.sdf": ("unreadable", "it leads to '/dev/zero', outside of the folders of models and packages"),
         "socket.world": ("unreadable", "it is a socket and no file"),
         "gone.sdf": ("unreadable", "No such file or directory"),
         "round.sdf": ("unreadable", "Too many levels of symbolic links"),
