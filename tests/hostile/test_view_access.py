@@ -47,7 +47,8 @@ def _get(netloc: str, path: str, headers: Mapping[str, str]) -> tuple[int, bytes
     with closing(HTTPConnection(netloc, timeout=60)) as connection:
         connection.request("GET", path, headers=dict(headers))
         response = connection.getresponse()
-        return response.status, response.read()
+        content: bytes = response.read()
+        return response.status, content
 
 
 def _socket(netloc: str, path: str, **options: Any) -> bytes | str:

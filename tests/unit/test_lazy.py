@@ -16,6 +16,7 @@ PACKAGES = (
     "twinform.passes",
     "twinform.passes.framework.hooks",
     "twinform.passes.sdf_versions.kinds",
+    "twinform.text",
 )
 
 

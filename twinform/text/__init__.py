@@ -1,14 +1,34 @@
 """The text of model files: where each part stands in it, and the smallest edits that change it."""
 
-from twinform.text.alignment import same_element
-from twinform.text.editing import Editor
-from twinform.text.edits import OverlapError, apply
-from twinform.text.masking import masked
-from twinform.text.merging import Conflict, Merge, merge
-from twinform.text.patching import edits, patch
-from twinform.text.positions import AttributeSpan, ElementSpan, Lines, Place, UnplacedError, spans
-from twinform.text.source_text import SourceText, UndecodableError
-from twinform.text.surroundings import Surroundings
+from typing import TYPE_CHECKING
+
+from twinform.lazy import lazy_attributes
+
+if TYPE_CHECKING:
+    from twinform.text.alignment import same_element
+    from twinform.text.applying import OverlapError, apply
+    from twinform.text.editing import Editor
+    from twinform.text.masking import masked
+    from twinform.text.merging import Conflict, Merge, merge
+    from twinform.text.patching import edits, patch
+    from twinform.text.positions import AttributeSpan, ElementSpan, Lines, Place, UnplacedError, spans
+    from twinform.text.source_text import SourceText, UndecodableError
+    from twinform.text.surroundings import Surroundings
+else:
+    __getattr__ = lazy_attributes(
+        __name__,
+        {
+            "twinform.text.alignment": "same_element",
+            "twinform.text.applying": "OverlapError apply",
+            "twinform.text.editing": "Editor",
+            "twinform.text.masking": "masked",
+            "twinform.text.merging": "Conflict Merge merge",
+            "twinform.text.patching": "edits patch",
+            "twinform.text.positions": "AttributeSpan ElementSpan Lines Place UnplacedError spans",
+            "twinform.text.source_text": "SourceText UndecodableError",
+            "twinform.text.surroundings": "Surroundings",
+        },
+    )
 
 __all__ = [
     "AttributeSpan",

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from twinform.diagnostics import Span, TextEdit
 from twinform.schemas import XmlElement
 from twinform.text.alignment import BLANKS, Contents, aligned, elements, texts
-from twinform.text.edits import apply
+from twinform.text.applying import apply
 from twinform.text.positions import ElementSpan, spans
 from twinform.text.renaming import renamed, with_renamed
 from twinform.text.serializing import Prefixes, contents, serialized, text_of, value_of

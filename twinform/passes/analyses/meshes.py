@@ -12,7 +12,6 @@ from twinform.ir.principal_moments import times_each
 from twinform.ir.scaling import times_power
 from twinform.ir.solids import Solid
 from twinform.passes.framework.asset_access import AssetError, Assets
-from twinform.passes.mesh_jobs.child_process import do
 from twinform.passes.mesh_jobs.job import Job, Options, Result
 from twinform.passes.mesh_jobs.mesh_files import EXTRA, READ, RefusedMeshError, content_of, kind_of
 
@@ -107,6 +106,8 @@ def _done(name: str, path: Path, uri: str, options: Options) -> Result:
     if kind_of(path) not in READ:
         message = f"the mesh {uri!r} is in no format that is read here: {', '.join(sorted(READ))}"
         raise MeshError(rules.UNREADABLE_MESH, message)
+    from twinform.passes.mesh_jobs.child_process import do  # noqa: PLC0415 - most runs read no mesh
+
     try:
         result = do(Job(name, options, kind_of(path), content_of(path)))
     except OSError as error:

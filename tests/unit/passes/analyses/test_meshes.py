@@ -159,7 +159,7 @@ def test_without_the_library_it_reports_what_to_install(folder: Path, monkeypatc
         del job
         return missing
 
-    monkeypatch.setattr("twinform.passes.analyses.meshes.do", do)
+    monkeypatch.setattr("twinform.passes.mesh_jobs.child_process.do", do)
     with pytest.raises(MeshError, match="trimesh is not installed") as caught:
         meshes(folder).solid(Mesh(uri="box.stl"), 1)
     assert caught.value.rule.name == "mesh-reader-missing"

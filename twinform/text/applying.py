@@ -1,4 +1,4 @@
-"""Edits of a text: pieces that are replaced by others."""
+"""Applies edits to a text: pieces of it are replaced by others."""
 
 from collections.abc import Iterable
 
