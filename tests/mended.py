@@ -13,6 +13,8 @@ from twinform.diagnostics import Safety, Span
 from twinform.text import SourceText, UndecodableError
 
 ANOTHER_ROBOT = "another robot after safe fixes"
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
+"""Characters that fixes delete, which may stand in the end of a comment."""
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 
 
@@ -105,7 +107,7 @@ def _against_text(data: bytes, mended: Mended) -> Iterator[str]:
     if (old.mark, old.encoding.lower()) != (new.mark, new.encoding.lower()):
         yield "another encoding"
     kept = Counter(map(_words, _COMMENT.findall(new.text)))
-    lost = Counter(map(_words, _COMMENT.findall(old.text))) - kept
+    lost = Counter(map(_words, _COMMENT.findall(_CONTROL.sub("", old.text)))) - kept
     if lost:
         yield f"a comment is lost: {next(iter(lost))[:60]}"
     if mended.rounds == 1 and not _is_kept(old.text, new.text, [*_spans(mended)]):
