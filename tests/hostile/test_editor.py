@@ -6,13 +6,14 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Generator, Iterator
+from collections.abc import Generator, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import IO, Any, cast
 
 import pytest
 
+from tests.profile import DEEP
 from tests.unit.server.playing import INITIALIZE, notification, opened, request
 
 TWICE = '<robot name="r"><link name="a"/><link name="a"/></robot>'
@@ -24,6 +25,8 @@ JUNK = (
     b"X: " + b"a" * 4_000_000 + b"\n",
 )
 _SECONDS = 60
+_MEMORY = 500_000
+_CANCELLED = -32800
 Message = dict[str, Any]
 
 
@@ -47,8 +50,24 @@ class Session:
                     pass
                 yield json.loads(self.source.read(length))
 
-    def begin(self, parent: int | None = None) -> None:
-        self.send(request(0, "initialize", INITIALIZE | {"processId": parent}), notification("initialized", {}))
+    def begin(self, parent: int | None = None, folder: Path | None = None) -> None:
+        folders = [{"uri": folder.as_uri(), "name": "workspace"}] if folder else None
+        params = INITIALIZE | {"processId": parent, "workspaceFolders": folders}
+        self.send(request(0, "initialize", params), notification("initialized", {}))
+
+    def until(self, id_: object) -> list[Message]:
+        """What the server says until the answer to a request, which comes last."""
+        said: list[Message] = []
+        for each in self.messages():
+            said.append(each)
+            if "method" not in each and each["id"] == id_:
+                return said
+        raise AssertionError("the server has ended")
+
+    def ask(self, method: str, params: Message) -> Message:
+        """The answer to a request."""
+        self.send(request(method, method, params))
+        return self.until(method)[-1]
 
     def rules(self, path: Path, text: str = TWICE) -> list[str]:
         """The rules of the findings in a document that is opened."""
@@ -60,10 +79,11 @@ class Session:
 
 
 @contextmanager
-def started(folder: Path) -> Generator[Session]:
+def started(folder: Path, environment: Mapping[str, str] | None = None) -> Generator[Session]:
     command = [sys.executable, "-m", "twinform", "lsp"]
     pipe = subprocess.PIPE
-    with subprocess.Popen(command, cwd=folder, stdin=pipe, stdout=pipe, stderr=pipe) as process:
+    env = {**os.environ, **(environment or {})}
+    with subprocess.Popen(command, cwd=folder, stdin=pipe, stdout=pipe, stderr=pipe, env=env) as process:
         yield Session(process)
         process.kill()
 
@@ -79,23 +99,166 @@ def children(pid: int) -> list[int]:
     return [int(each) for each in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
 
 
-def test_a_hostile_stream_costs_nothing_but_its_own_messages(tmp_path: Path) -> None:
-    with started(tmp_path) as session:
-        session.begin()
-        for data in JUNK:
-            session.target.write(data)
-            session.send(request("next", "workspace/symbol", {"query": ""}))
-            answers = (each for each in session.messages() if "method" not in each and each["id"] != 0)
-            assert [next(answers).get("error", {}).get("code") for _ in range(2)] == [-32700, None]
-        session.send(opened("file:///nowhere/a%00b.urdf", TWICE))
-        session.send(*(request(n, "textDocument/hover", {}) for n in range(1, 100)))
-        assert session.rules(tmp_path / "robot.urdf") == ["duplicate-name"]
-        peak = Path(f"/proc/{session.process.pid}/status").read_text().partition("VmHWM:")[2].split()[0]
-        assert int(peak) < 500_000
+@pytest.fixture(scope="module")
+def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Session, Path]]:
+    """A server for the tests that do not end it, and its workspace, which is a folder of a repository."""
+    repository = tmp_path_factory.mktemp("repository")
+    folder = repository / "workspace"
+    (repository / ".git").mkdir()
+    folder.mkdir()
+    with started(folder) as session:
+        session.begin(folder=folder)
+        yield session, folder
         session.send(notification("exit", None))
         assert ended(session) == (1, b"")
 
 
+def peak(session: Session) -> int:
+    """The most memory that the server has had, in kilobytes."""
+    return int(Path(f"/proc/{session.process.pid}/status").read_text().partition("VmHWM:")[2].split()[0])
+
+
+def test_a_hostile_stream_costs_nothing_but_its_own_messages(shared: tuple[Session, Path]) -> None:
+    session, folder = shared
+    for data in JUNK:
+        session.target.write(data)
+        session.send(request("next", "workspace/symbol", {"query": ""}))
+        answers = (each for each in session.messages() if "method" not in each and each["id"] != 0)
+        assert [next(answers).get("error", {}).get("code") for _ in range(2)] == [-32700, None]
+    session.send(opened("file:///nowhere/a%00b.urdf", TWICE))
+    session.send(*(request(n, "textDocument/hover", {}) for n in range(1, 100)))
+    assert session.rules(folder / "robot.urdf") == ["duplicate-name"]
+    assert peak(session) < _MEMORY
+
+
+def test_a_flood_of_edits_and_a_huge_text_leave_the_server_alive_and_small(shared: tuple[Session, Path]) -> None:
+    session, folder = shared
+    uri = (folder / "flood.urdf").as_uri()
+    session.rules(folder / "flood.urdf")
+    edits = 10_000 if DEEP else 300
+    huge = "<a>" * (2**26 // 3) if DEEP else "<a>" * 2**21
+    for number in range(edits):
+        document = {"uri": uri, "version": number + 2}
+        text = huge if number == edits // 2 else TWICE.replace('"r"', f'"r{number}"')
+        session.send(
+            notification("textDocument/didChange", {"textDocument": document, "contentChanges": [{"text": text}]}),
+            request(number, "textDocument/formatting", {"textDocument": {"uri": uri}, "options": {}}),
+            notification("$/cancelRequest", {"id": number}),
+        )
+        session.until(number)
+    answer = session.ask("textDocument/documentSymbol", {"textDocument": {"uri": uri}})
+    assert answer["result"][0]["name"] == f"r{edits - 1}"
+    assert session.rules(folder / "after.urdf") == ["duplicate-name"]
+    assert peak(session) < _MEMORY
+
+
+_HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">'
+_USE = _HEAD + '<xacro:include filename="{}"/><xacro:part/></robot>'
+_PART = _HEAD + '<xacro:macro name="part"><link name="s3cret"/></xacro:macro></robot>'
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("../parts/part.xacro", "is outside of the workspace"),
+        ("link.xacro", "is outside of the workspace"),
+        ("folder/part.xacro", "is outside of the workspace"),
+        (".hidden/part.xacro", "nothing here is called 'part'"),
+        ("../../part.xacro", "nothing here is called 'part'"),
+        ("far.xacro", "nothing here is called 'part'"),
+    ],
+)
+def test_a_rename_changes_nothing_outside_of_the_workspace(
+    name: str, reason: str, shared: tuple[Session, Path], tmp_path: Path
+) -> None:
+    session, folder = shared
+    parts = folder.parent / "parts"
+    for place in (parts, folder / ".hidden", folder.parents[1], tmp_path):
+        place.mkdir(exist_ok=True)
+        (place / "part.xacro").write_text(_PART)
+    for link, target in (
+        ("link.xacro", parts / "part.xacro"),
+        ("folder", parts),
+        ("far.xacro", tmp_path / "part.xacro"),
+    ):
+        (folder / link).unlink(missing_ok=True)
+        (folder / link).symlink_to(target)
+    text = _USE.format(name)
+    path = folder / "use.xacro"
+    session.send(opened(path.as_uri(), text))
+    place = {"textDocument": {"uri": path.as_uri()}, "position": {"line": 0, "character": text.index(":part") + 3}}
+    answer = session.ask("textDocument/rename", place | {"newName": "b"})
+    assert reason in answer["error"]["message"]
+    if "nothing" in reason:  # it is not even read
+        assert session.ask("textDocument/definition", place)["result"] == []
+        assert session.ask("textDocument/documentLink", place)["result"] == []
+        assert "s3cret" not in json.dumps(session.ask("textDocument/hover", place))
+
+
+def _command(pipeline: str, path: Path) -> Message:
+    return {"command": "twinform.runPasses", "arguments": [path.as_uri(), pipeline]}
+
+
+@pytest.mark.parametrize(
+    "pipeline",
+    [
+        "bridge-config{file=made.yaml}",
+        "simplify-meshes{triangles=10}",
+        "@other",
+        "nonsense](command:workbench.action.terminal.new)",
+        "[a](command:x){",
+    ],
+)
+def test_passes_that_an_editor_runs_write_nothing_and_their_messages_link_to_nothing(
+    pipeline: str, shared: tuple[Session, Path]
+) -> None:
+    session, folder = shared
+    path = folder / "robot.urdf"
+    session.send(opened(path.as_uri(), TWICE.replace('"a"', '"b"', 1)))
+    before = sorted(folder.rglob("*"))
+    session.send(request("command", "workspace/executeCommand", _command(pipeline, path)))
+    said = session.until("command")
+    (message,) = [each["params"]["message"] for each in said if each.get("method") == "window/showMessage"]
+    assert "has changed nothing" in message
+    assert "](" not in message
+    assert not [each for each in said if each.get("method") == "workspace/applyEdit"]
+    assert sorted(folder.rglob("*")) == before
+
+
+def test_a_command_that_was_cancelled_changes_nothing(shared: tuple[Session, Path]) -> None:
+    session, folder = shared
+    path = folder / "cancelled.urdf"
+    session.rules(path, '<robot name="r"><link name="a"/></robot>')
+    session.send(
+        request("command", "workspace/executeCommand", _command("rename{names=[a:c]}", path)),
+        notification("$/cancelRequest", {"id": "command"}),
+    )
+    said = session.until("command")
+    assert said[-1]["error"]["code"] == _CANCELLED, said
+    document = {"textDocument": {"uri": path.as_uri()}, "options": {"tabSize": 2, "insertSpaces": True}}
+    session.send(request("after", "textDocument/formatting", document))
+    assert not [each for each in session.until("after") if each.get("method") == "workspace/applyEdit"]
+
+
+def test_a_package_that_a_configuration_names_is_not_imported(tmp_path: Path) -> None:
+    packages, folder, sign = tmp_path / "site", tmp_path / "workspace", tmp_path / "imported"
+    (packages / "evil-1.dist-info").mkdir(parents=True)
+    (packages / "evil-1.dist-info/METADATA").write_text("Metadata-Version: 2.1\nName: evil\nVersion: 1\n")
+    (packages / "evil-1.dist-info/entry_points.txt").write_text("[twinform.passes]\nevil = evil:Evil\n")
+    (packages / "evil.py").write_text(f"open({str(sign)!r}, 'w')\n")
+    folder.mkdir()
+    (folder / "twinform.toml").write_text(
+        "passes = 'evil'\ncheck-passes = 'evil'\n[pipelines]\np = 'evil'\n[[files]]\nmatch = ['*']\npasses = 'evil'\n"
+    )
+    with started(folder, {"PYTHONPATH": str(packages)}) as session:
+        session.begin(folder=folder)
+        assert session.rules(folder / "robot.urdf") == ["duplicate-name"]
+        session.send(request("command", "workspace/executeCommand", _command("@p", folder / "robot.urdf")))
+        session.until("command")
+        assert not sign.exists()
+
+
+@pytest.mark.deep
 def test_a_worker_that_was_killed_is_replaced(tmp_path: Path) -> None:
     with started(tmp_path) as session:
         session.begin()
@@ -112,6 +275,7 @@ def test_a_worker_that_was_killed_is_replaced(tmp_path: Path) -> None:
     ("number", "code"),
     [
         (signal.SIGTERM, 143),
+        (signal.SIGINT, 130),
         pytest.param(signal.SIGKILL, -signal.SIGKILL, marks=pytest.mark.deep),
     ],
 )
@@ -129,11 +293,9 @@ def test_a_server_that_is_ended_leaves_no_process_and_no_traceback(tmp_path: Pat
 def test_a_server_whose_editor_is_gone_ends(tmp_path: Path) -> None:
     with started(tmp_path) as session, subprocess.Popen(["sleep", "1000"]) as editor:
         session.begin(editor.pid)
-        assert session.rules(tmp_path / "robot.urdf") == ["duplicate-name"]
-        workers = children(session.process.pid)
+        session.until(0)
         editor.kill()  # the streams stay open
         assert ended(session) == (1, b"")
-        assert not any(is_running(each) for each in workers)
 
 
 def test_a_server_whose_input_is_closed_ends(tmp_path: Path) -> None:

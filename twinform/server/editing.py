@@ -8,7 +8,7 @@ from twinform.compiler.in_place import convert_in_place
 from twinform.compiler.input.loading import read
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import Diagnostic, Span, TextEdit
-from twinform.passes import PassError, PipelineError, parse_pipeline
+from twinform.passes import FilesPass, PassError, PipelineError, parse_pipeline
 from twinform.server.checking import Job
 from twinform.text import Lines, SourceText
 
@@ -29,7 +29,10 @@ def run_passes(job: Job, pipeline: str) -> Rewritten:
     to = document.format.value
     version = document.version if to == "sdf" else None
     try:
-        request = ConversionRequest(to=to, sdf_version=version, passes=parse_pipeline(pipeline))
+        passes = parse_pipeline(pipeline)
+        if any(isinstance(step, FilesPass) for step in passes):
+            return Rewritten(problem="it makes files, and an editor changes documents only; use `twinform convert`")
+        request = ConversionRequest(to=to, sdf_version=version, passes=passes)
         updated = convert_in_place(request, job.path, load_options)
     except CompileError as error:
         return Rewritten(problem=_first(error.diagnostics))

@@ -107,6 +107,17 @@ class Protocol(LanguageServerProtocol):
         """A document was closed."""
         yield self._handler(types.TEXT_DOCUMENT_DID_CLOSE), (params,), None
 
+    @lsp_method(types.WORKSPACE_EXECUTE_COMMAND)
+    async def lsp_workspace__execute_command(  # pyright: ignore[reportIncompatibleMethodOverride] - pygls takes both kinds
+        self, params: types.ExecuteCommandParams
+    ) -> Any:
+        """Run a command, and give what it returns."""
+        handler = self.fm.commands.get(params.command)
+        if handler is None:
+            raise JsonRpcInvalidParams(f"there is no command {params.command!r}"[:_LONGEST])
+        # awaited here, so that it ends when the request is cancelled: pygls lets it go on and change the document
+        return await handler(*(params.arguments or ()))
+
     def _handler(self, method: str) -> Any:
         return self.fm.features[method]
 
@@ -126,7 +137,10 @@ class Protocol(LanguageServerProtocol):
         method: object = message["method"]
         if not isinstance(method, str):
             raise JsonRpcInvalidRequest("'method' is not a text")
-        self._get_handler(method)
+        if method == types.CANCEL_REQUEST:  # pygls has no handler for it, and fails with an id of another type
+            _require_request_id(message.get("params"))
+        else:
+            self._get_handler(method)
         kind = self.get_message_type(method)
         if kind is None:
             raise JsonRpcMethodNotFound.of(method)
@@ -174,6 +188,12 @@ def _id_of(message: Message) -> str | int | None:
     if not is_allowed and "id" in message and "method" in message:
         raise JsonRpcInvalidRequest("the id of a request is a text or an integer")
     return id_ if is_allowed else None
+
+
+def _require_request_id(params: object) -> None:
+    id_ = cast("Message", params).get("id") if isinstance(params, dict) else None
+    if not isinstance(id_, str | int):
+        raise JsonRpcInvalidParams("'id' is that of a request: a text or an integer")
 
 
 def _refuse_constant(word: str) -> NoReturn:

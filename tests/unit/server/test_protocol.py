@@ -2,6 +2,7 @@
 
 import json
 import re
+from pkgutil import resolve_name
 from typing import Any
 
 import pytest
@@ -129,6 +130,27 @@ def test_requests_before_initialize_and_after_shutdown_have_their_errors() -> No
 def test_a_notification_that_cannot_be_used_is_in_the_log(body: bytes) -> None:
     logged = [each for each in play([body]) if each.get("method") == "window/logMessage"]
     assert [each["params"]["message"] for each in logged if "ignored" in each["params"]["message"]]
+
+
+@pytest.mark.parametrize("function", ["twinform.server.checking.inspect", "twinform.server.session.Session.job"])
+def test_an_exception_in_a_check_is_said_and_other_documents_are_checked(
+    function: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    original = resolve_name(function)
+
+    def broken(*args: Any) -> Any:
+        if "robot.urdf" in repr(args):
+            raise ZeroDivisionError("of the test")
+        return original(*args)
+
+    monkeypatch.setattr(function, broken)
+    said = play([opened(URIS[0], ROBOT)])
+    (found,) = [
+        each["params"]["diagnostics"]
+        for each in said
+        if each.get("method") == "textDocument/publishDiagnostics" and each["params"]["uri"] == URIS[0]
+    ]
+    assert ["of the test" in each["message"] for each in found] == [True]
 
 
 def test_a_hover_quotes_a_file_as_code() -> None:
