@@ -14,7 +14,7 @@ from typing import NamedTuple
 import pytest
 
 from tests.hostile.injected import Tree, tree
-from tests.hostile.test_injected import COMMANDS, Command, prepare
+from tests.hostile.test_injected import COMMANDS, Command, environment, prepare
 from tests.profile import DEEP
 from twinform.storage.staging import PREFIX
 
@@ -80,7 +80,7 @@ class Runs:
         return Ended(process.returncode, text, tree(self.here), tree(self._temporary))
 
     def _environment(self) -> Mapping[str, str]:
-        return {**os.environ, "TMPDIR": str(self._temporary), "TWINFORM_MESH_CACHE": "off"}
+        return {**environment(self._template), "TMPDIR": str(self._temporary)}
 
 
 def _accept_interrupts() -> None:

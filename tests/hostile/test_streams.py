@@ -8,6 +8,7 @@ import pytest
 
 from benchmarks import robots
 
+_PROGRAM = Path(sys.executable).with_name("twinform")
 _TWINFORM = f"{sys.executable} -c 'from twinform.cli import main; main()'"
 COMMANDS = {
     **{f"check as {style}": f"check --format {style} bad.urdf" for style in ("text", "json", "sarif", "github")},
@@ -53,9 +54,23 @@ def test_closed_output_is_an_error_too(name: str, folder: Path) -> None:
     assert (done.returncode, done.stderr) == (2, "Error: cannot write standard output: it is closed\n")
 
 
-@pytest.mark.parametrize("name", ["check as json", "a conversion", "rules"])
+@pytest.mark.parametrize(
+    "name",
+    [name if name in {"a conversion", "help"} else pytest.param(name, marks=pytest.mark.deep) for name in COMMANDS],
+)
 def test_a_reader_that_has_read_enough_ends_it_quietly(name: str, folder: Path) -> None:
     done = _run(COMMANDS[name], "| true", folder)
+    assert (done.returncode, done.stderr) == (141, "")
+
+
+@pytest.mark.parametrize("instruction", ["bash_source", "bash_complete"])
+def test_a_shell_that_asks_for_completions_and_goes_is_no_error(
+    instruction: str, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name, value in (("_TWINFORM_COMPLETE", instruction), ("COMP_WORDS", "twinform conv"), ("COMP_CWORD", "1")):
+        monkeypatch.setenv(name, value)
+    line = f"set -o pipefail; {_PROGRAM} | true"
+    done = subprocess.run(["bash", "-c", line], cwd=folder, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (141, "")
 
 
@@ -73,3 +88,9 @@ def test_no_file_takes_the_place_of_a_closed_stream(folder: Path) -> None:
     done = _run("convert good.urdf -o good.sdf --notes", "<&- >&- 2>&-", folder)
     assert done.returncode == 0
     assert (folder / "good.sdf").read_text() == _run("convert good.urdf", "", folder).stdout
+
+
+@pytest.mark.parametrize("closed", ["2>&-", pytest.param("<&- >&- 2>&-", marks=pytest.mark.deep)])
+def test_child_processes_start_where_a_stream_is_closed(closed: str, folder: Path) -> None:
+    assert _run("batch convert . out --to sdf --jobs 1 --quiet", closed, folder).returncode == 1  # `bad.urdf` is there
+    assert (folder / "out" / "good.sdf").exists()

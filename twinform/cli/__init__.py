@@ -10,7 +10,7 @@ import click
 
 from twinform import __version__
 from twinform.cli.lazy_group import LazyGroup
-from twinform.cli.streams import end_unread, end_unwritable, hold_standard_streams
+from twinform.cli.streams import end_unwritable, hold_standard_streams, quiet_when_unread
 from twinform.signals import raise_exit
 
 COMMANDS: Mapping[str, str] = {
@@ -46,13 +46,14 @@ _INTERRUPTED = 130
 @contextmanager
 def _printed_errors() -> Generator[None]:
     """Print errors of the command line, which click would print as they are, and end with their exit code."""
-    try:
-        yield
-    except click.ClickException as error:
-        from twinform.cli.printing import print_error  # noqa: PLC0415 - it seldom happens
+    with quiet_when_unread():  # click would end with another exit code
+        try:
+            yield
+        except click.ClickException as error:
+            from twinform.cli.printing import print_error  # noqa: PLC0415 - it seldom happens
 
-        print_error(error)
-        raise click.exceptions.Exit(error.exit_code) from error
+            print_error(error)
+            raise click.exceptions.Exit(error.exit_code) from error
 
 
 class _Commands(LazyGroup):
@@ -64,7 +65,8 @@ class _Commands(LazyGroup):
             signal.signal(signal.SIGTERM, raise_exit)
         hold_standard_streams()
         try:
-            return super().main(*args, **extra)
+            with quiet_when_unread():
+                return super().main(*args, **extra)
         except OSError as error:
             end_unwritable(error)
 
@@ -78,8 +80,6 @@ class _Commands(LazyGroup):
         try:
             with _printed_errors():
                 return super().invoke(ctx)
-        except BrokenPipeError:
-            end_unread()
         except KeyboardInterrupt:
             raise SystemExit(_INTERRUPTED) from None
         except (click.ClickException, click.exceptions.Exit, click.Abort, OSError):

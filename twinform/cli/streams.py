@@ -3,7 +3,8 @@
 import errno
 import os
 import sys
-from contextlib import suppress
+from collections.abc import Generator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import NoReturn
 
@@ -21,7 +22,8 @@ def hold_standard_streams() -> None:
         try:
             os.fstat(number)
         except OSError:
-            os.open(os.devnull, flags)  # the lowest number that is free
+            opened = os.open(os.devnull, flags)  # the lowest number that is free
+            os.set_inheritable(opened, True)  # a child process without the stream cannot start
             setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115 - to stay
 
 
@@ -37,10 +39,14 @@ def end_unwritable(error: OSError) -> NoReturn:
     raise SystemExit(_UNUSABLE)
 
 
-def end_unread() -> NoReturn:
-    """End quietly: who has read enough, as `head` does, closes the pipe."""
-    _forget_what_is_left()
-    raise SystemExit(_UNREAD)
+@contextmanager
+def quiet_when_unread() -> Generator[None]:
+    """End the program quietly where nobody reads its output any more: `head` closes the pipe once it has enough."""
+    try:
+        yield
+    except BrokenPipeError:
+        _forget_what_is_left()
+        raise SystemExit(_UNREAD) from None
 
 
 def _forget_what_is_left() -> None:
