@@ -217,26 +217,28 @@ def _repeated() -> Iterator[tuple[str, Costly]]:
                 )
 
 
-def _link(inside: str) -> str:
+def link_with(inside: str) -> str:
+    """A robot of URDF whose one link has this in it."""
     return f'<robot name="r"><link name="a">{inside}</link></robot>'
 
 
-def _model(inside: str) -> str:
+def model_with(inside: str) -> str:
+    """A model of SDF with this in it, before its link."""
     return f'<sdf version="1.11"><model name="m">{inside}<link name="a"/></model></sdf>'
 
 
 _LONG: dict[str, tuple[str, Callable[[str], str]]] = {
-    "a mass": ("urdf", lambda text: _link(f'<inertial><mass value="{text}"/></inertial>')),
-    "an origin": ("urdf", lambda text: _link(f'<visual><origin xyz="{text}"/>{_SHAPE}</visual>')),
+    "a mass": ("urdf", lambda text: link_with(f'<inertial><mass value="{text}"/></inertial>')),
+    "an origin": ("urdf", lambda text: link_with(f'<visual><origin xyz="{text}"/>{_SHAPE}</visual>')),
     "a color": (
         "urdf",
         lambda text: f'<robot name="r"><link name="a"/><material name="m"><color rgba="{text}"/></material></robot>',
     ),
-    "an unknown attribute": ("urdf", lambda text: _link(f'<x y="{text}"/>')),
+    "an unknown attribute": ("urdf", lambda text: link_with(f'<x y="{text}"/>')),
     "a setting": ("urdf", lambda text: f'<robot name="r"><link name="a"/><gazebo><x>{text}</x></gazebo></robot>'),
     "a file name": (
         "urdf",
-        lambda text: _link(f'<visual><geometry><mesh filename="package://{text}"/></geometry></visual>'),
+        lambda text: link_with(f'<visual><geometry><mesh filename="package://{text}"/></geometry></visual>'),
     ),
     "a version": ("urdf", lambda text: f'<robot name="r" version="{text}"><link name="a"/></robot>'),
     "a type": ("urdf", lambda text: f'<robot name="r"><link name="a"/><joint name="j" type="{text}"/></robot>'),
@@ -245,12 +247,12 @@ _LONG: dict[str, tuple[str, Callable[[str], str]]] = {
     "a comment": ("urdf", lambda text: f'<robot name="r"><!-- {text} --><link name="a"/></robot>'),
     "a suppression": ("urdf", lambda text: f'<robot name="r"><!-- twinform: allow {text} --><link name="a"/></robot>'),
     "an instruction": ("urdf", lambda text: f'<robot name="r"><?p {text}?><link name="a"/></robot>'),
-    "a pose": ("sdf", lambda text: _model(f"<pose>{text}</pose>")),
-    "a static": ("sdf", lambda text: _model(f"<static>{text}</static>")),
-    "a URI": ("sdf", lambda text: _model(f"<include><uri>{text}</uri></include>")),
-    "a plugin's file": ("sdf", lambda text: _model(f'<plugin name="p" filename="{text}"/>')),
-    "a relative_to": ("sdf", lambda text: _model(f'<frame name="f"><pose relative_to="{text}"/></frame>')),
-    "an unknown element of SDF": ("sdf", lambda text: _model(f"<x>{text}</x>")),
+    "a pose": ("sdf", lambda text: model_with(f"<pose>{text}</pose>")),
+    "a static": ("sdf", lambda text: model_with(f"<static>{text}</static>")),
+    "a URI": ("sdf", lambda text: model_with(f"<include><uri>{text}</uri></include>")),
+    "a plugin's file": ("sdf", lambda text: model_with(f'<plugin name="p" filename="{text}"/>')),
+    "a relative_to": ("sdf", lambda text: model_with(f'<frame name="f"><pose relative_to="{text}"/></frame>')),
+    "an unknown element of SDF": ("sdf", lambda text: model_with(f"<x>{text}</x>")),
     "a version of SDF": ("sdf", lambda text: f'<sdf version="{text}"><model name="m"><link name="a"/></model></sdf>'),
     "an expression": ("urdf.xacro", lambda text: f'{_XACRO_BEFORE}<x a="${{{text}}}"/></robot>'),
     "a package": ("urdf.xacro", lambda text: f'{_XACRO_BEFORE}<x a="$(find {text})"/></robot>'),

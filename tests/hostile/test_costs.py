@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.hostile.child import twinform
-from tests.hostile.costly_documents import DOCUMENTS
+from tests.hostile.child import rules, twinform
+from tests.hostile.costly_documents import DOCUMENTS, link_with, model_with
 from tests.profile import DEEP
 
 _SECONDS = 3 if DEEP else 4
@@ -55,7 +55,52 @@ def test_a_pattern_of_paths_is_done_with_a_long_name_at_once(pattern: str, where
     assert outcome.code == (0 if where in texts else 2), outcome.output
 
 
+_ONCE_DEAR_TO = (
+    ("diff", "a world: models of their own names"),
+    ("diff", "URDF: tree of their own names"),
+    ("check --fix --diff", "broken XML: undeclared prefixes of their own names"),
+)
+
+
+@pytest.mark.parametrize(("command", "name"), _ONCE_DEAR_TO)
+def test_no_command_costs_more_than_the_size_of_its_document(command: str, name: str, tmp_path: Path) -> None:
+    document = DOCUMENTS[name]
+    file = f"robot.{document.suffix}"
+    (tmp_path / file).write_text(document.make())
+    files = [file, file] if command == "diff" else [file]
+    outcome = twinform(*command.split(), *files, folder=tmp_path, seconds=_SECONDS)
+    assert outcome.code in {0, 1, 2}, outcome.output[-2000:]
+    assert "Traceback" not in outcome.output
+
+
+_MANY = {
+    "numbers in an attribute": (
+        "urdf",
+        link_with('<visual><origin xyz="%"/></visual>'),
+        "1 ",
+        3_000_000,
+        "invalid-value",
+    ),
+    "numbers in an element": ("sdf", model_with("<pose>%</pose>"), "1 ", 3_000_000, "invalid-value"),
+    "elements in one": ("urdf", link_with("%"), "<x/>", 200_000, "oversized-file"),
+    "materials in one": ("urdf", '<robot name="r">%</robot>', '<material name="m"/>', 200_000, "oversized-file"),
+}
+
+
+@pytest.mark.parametrize("name", _MANY)
+def test_a_great_many_of_one_thing_are_refused_before_they_are_read(name: str, tmp_path: Path) -> None:
+    """Three million numbers took 12 seconds and 470 MB."""
+    suffix, around, one, count, rule = _MANY[name]
+    (tmp_path / f"robot.{suffix}").write_text(around.replace("%", one * count))
+    outcome = twinform("check", f"robot.{suffix}", folder=tmp_path, seconds=3)
+    assert rules(outcome.output) == [rule], outcome.output[:2000]
+
+
 _DEAR_TO_ANSWER = {
+    "variables": (
+        "".join(f'<x a="$(optenv N{n} 0)"/>' for n in range(30_000)),
+        "5,000 files, packages and variables",
+    ),
     "files": (
         "".join(f'<xacro:include filename="{n}.xacro" optional="true"/>' for n in range(30_000)),
         "5,000 files, packages",

@@ -74,10 +74,14 @@ def _loose_float(text: str) -> float:
 
 
 def _vector(counts: tuple[int, ...]) -> Parser:
+    most = max(counts)
+
     def parse(text: str) -> tuple[float, ...]:
-        values = tuple(map(float, text.split()))
-        if len(values) not in counts:
+        # what stands behind the last number remains one word, so that a million of them cost no more than one
+        words = text.split(None, most)
+        if len(words) not in counts:
             raise ValueError
+        values = tuple(map(float, words))
         # a finite sum has finite terms, and is quicker to see
         if (math.isfinite(sum(values)) or all(map(math.isfinite, values))) and _is_plain(text):
             return values
@@ -115,12 +119,12 @@ def _uint(text: str) -> int:
 
 
 def _ints(text: str) -> tuple[int, ...]:
-    first, second = map(_int, _ascii(text).split())
+    first, second = map(_int, _ascii(text).split(None, 2))
     return first, second
 
 
 def _time(text: str) -> tuple[float, ...] | float:
-    words = _ascii(text).split()
+    words = _ascii(text).split(None, 2)
     return tuple(map(_float, words)) if len(words) == 2 else _float(text)
 
 

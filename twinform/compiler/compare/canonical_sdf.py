@@ -15,13 +15,13 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Model
 from twinform.ir.frames import FrameError
 from twinform.passes import Assets, Pass, Pipeline
-from twinform.passes.analyses.candidates import candidates, name_once_expanded, wanted_includes
+from twinform.passes.analyses.candidates import name_once_expanded, wanted_includes
 from twinform.passes.carriers.token_mass import without_tokens
 from twinform.passes.legalise.names import RestoreNames
 from twinform.passes.legalise.to_sdf import to_sdf
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_urdf.floating_links import without_loose_floating
-from twinform.passes.legalise.to_urdf.select_model import SelectModel
+from twinform.passes.legalise.to_urdf.select_model import Selector
 from twinform.passes.sdf_versions import raise_words
 from twinform.schemas import versions_of
 
@@ -69,10 +69,11 @@ def _robots(
         return
     if document.format is Format.SDF:  # names that a model of URDF had, as far as these are unlike others
         canonical = RestoreNames(to=Format.URDF, unique=True).run(canonical, DiagnosticSink())
-    names = list(dict.fromkeys(one.full_name for one in candidates(canonical)))
-    called = Counter(one.model.name for one in candidates(canonical))
+    selector = Selector(canonical)
+    names = list(dict.fromkeys(one.full_name for one in selector.among))
+    called = Counter(one.model.name for one in selector.among)
     for name in [None] if len(names) == 1 else names if model is None else [model]:
-        chosen = SelectModel(model=name).run(canonical, sink)
+        chosen = selector.select(name, sink)
         if sink.has_errors:
             return
         chosen = UniqueNames().run(chosen, DiagnosticSink())  # before 1.7 a joint and a link could share theirs

@@ -10,9 +10,10 @@ from twinform.ir import Format
 
 def compare_frames(findings: Findings, a: Robot, b: Robot, bases: Mapping[str, Base]) -> None:
     """Compare the frames of both robots; a link of the same name stands for a frame too."""
+    nested = a.models | b.models
     for name, one in a.frames.items():
         if name in b.frames:
-            _compare(findings, one, b.frames[name], bases, nested=name in a.models | b.models)
+            _compare(findings, one, b.frames[name], bases, nested=name in nested)
     unmatched_a, unmatched_b = (
         _without_like(findings, a, b, bases, in_a=True),
         _without_like(findings, b, a, bases, in_a=False),

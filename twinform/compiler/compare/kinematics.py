@@ -43,6 +43,7 @@ class Moving:
         self.robot = robot
         self.bases = bases
         self.hung = spanning_tree(robot.joints.values())
+        self.roots: dict[str, str] = {}
 
     def poses(self, names: list[str], sample: int) -> Iterator[Transform]:
         """The frame of each link at the joint positions of a sample, in that of the root that it hangs from."""
@@ -52,9 +53,14 @@ class Moving:
             yield self.bases.get(self._root(name), _STILL).inverse().compose(pose)
 
     def _root(self, name: str) -> str:
-        while name in self.hung:
+        """The link that a link hangs from, noted for each one between them: a chain is gone through once."""
+        path: list[str] = []
+        while name in self.hung and name not in self.roots:
+            path.append(name)
             name = self.hung[name].parent
-        return name
+        root = self.roots.get(name, name)
+        self.roots.update(dict.fromkeys(path, root))
+        return root
 
     def _moved(self, name: str, sample: int, moved: dict[str, Transform]) -> Transform:
         """How a link has moved from where it is with every joint at zero, in the model's frame."""

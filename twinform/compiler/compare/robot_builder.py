@@ -1,6 +1,6 @@
 """Builds the robot that is compared from a model in the syntax of the newest SDF version."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import partial
 
 from twinform.compiler.compare.joint_values import joint_leaves
@@ -60,13 +60,14 @@ class _RobotBuilder:
         leaves, parts = self.reader.parts(model, identity)
         inner = [*(self._shell(shell, frame.name) for frame, shell in shells), *self._carried_shells()]
         of_urdf = source if self.format is Format.URDF else Model(name="")
+        links, joints = ({part.name for part in parts} for parts in (of_urdf.links, of_urdf.joints))
         return Robot(
             name=model.name,
             format=self.format,
             world=self.graph.pose(WORLD, MODEL, kind="world", base="model"),
             bodies={link.name: self._body(link) for link in model.links},
             joints={joint.name: self._joint(joint) for joint in model.joints if not _is_made_for_static(joint, model)},
-            frames={frame.name: self._frame(frame, of_urdf) for frame in model.frames},
+            frames={frame.name: self._frame(frame, links, joints) for frame in model.frames},
             models=frozenset(part.name for part in inner),
             leaves=leaves,
             parts=(*parts, *inner),
@@ -111,13 +112,14 @@ class _RobotBuilder:
                 turn = self.graph.pose(axis.expressed_in, MODEL, kind="frame", base="model")
             yield unit(turn.rotate(direction(axis, Format.SDF)))
 
-    def _frame(self, frame: Frame, source: Model) -> NamedFrame:
+    def _frame(self, frame: Frame, links: Collection[str], joints: Collection[str]) -> NamedFrame:
+        """The frame; `links` and `joints` are the names of those that the file had as URDF."""
         return NamedFrame(
             frame.name,
             self.graph.body(frame.name, kind="frame"),
             self.graph.pose(frame.name, MODEL, kind="frame", base="model"),
-            was_link=any(link.name == frame.name for link in source.links),
-            was_joint=any(joint.name == frame.name for joint in source.joints),
+            was_link=frame.name in links,
+            was_joint=frame.name in joints,
             where=self.reader.place(frame),
         )
 

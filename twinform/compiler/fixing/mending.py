@@ -15,7 +15,12 @@ from twinform.text import SourceText, apply
 
 MOST_ROUNDS = 100
 _MOST_CHECKS = 200
-"""So often a file is read to find the fixes that make new findings; those that are not tried then are left."""
+_LEAST_CHECKS = 10
+_MOST_BYTES = 4_000_000
+"""So often a file is read to find the fixes that make new findings, and so much of it, but for the least number.
+
+Fixes that are not tried then are left.
+"""
 _PREDICATE = re.compile(r"\[(?:@name='(?:.*?'\](?=[/\[]|$)|.*)|\d+\](?=[/\[]|$))")
 
 Group = list[Diagnostic]
@@ -115,18 +120,25 @@ class _Mending:
         pending, best = [[*_apart(offered)]], state
         while pending:
             groups = pending.pop()
+            if self.checks >= _most_checks(state.data):
+                self._refuse(groups, ("too-many-tries",))
+                continue
             after = self._after(state, [*good, *groups])
-            new = ("too-many-tries",) if self.checks > _MOST_CHECKS else _worse(best.loaded, after.loaded, groups)
+            new = _worse(best.loaded, after.loaded, groups)
             if not new:
                 good, best = [*good, *groups], after
             elif len(groups) > 1:
                 half = len(groups) // 2
                 pending += (groups[half:], groups[:half])
             else:
-                self.refused.append(Refused(groups[0][0], new))
-                self.tried.update(map(_key, groups[0]))
+                self._refuse(groups, new)
         self.applied += [each for group in good for each in group]
         return best
+
+    def _refuse(self, groups: Iterable[Group], new: tuple[str, ...]) -> None:
+        for group in groups:
+            self.refused.append(Refused(group[0], new))
+            self.tried.update(map(_key, group))
 
     def _after(self, state: _State, groups: Iterable[Group]) -> _State:
         source = SourceText.of(state.data)
@@ -134,6 +146,11 @@ class _Mending:
         data = source.with_text(apply(source.text, edits)).data
         self.checks += 1
         return _State(data, self.look(data))
+
+
+def _most_checks(data: bytes) -> int:
+    """How often a text is read: the larger it is, the less often."""
+    return max(_LEAST_CHECKS, min(_MOST_CHECKS, _MOST_BYTES // (len(data) or 1)))
 
 
 def _apart(offered: Iterable[Diagnostic]) -> Iterator[Group]:

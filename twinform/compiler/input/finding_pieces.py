@@ -5,6 +5,7 @@ The smallest piece is chosen that holds what was found; where none does without 
 
 import re
 from collections.abc import Iterable, Iterator
+from itertools import islice
 
 from twinform.diagnostics import Diagnostic, Rule, Span, nearest_name
 from twinform.diagnostics.rules import (
@@ -166,16 +167,16 @@ def _in_children(element: ElementSpan, found: str, text: str) -> Span | None:
 
 
 def _only(found: Iterable[Span]) -> Span | None:
-    spans = list(found)
+    spans = [*islice(found, 2)]
     return spans[0] if len(spans) == 1 else None
 
 
 def _only_token(part: Span, wanted: str | None, text: str) -> Span | None:
     """The word of a text or value, if that has several of which exactly one is wanted."""
-    if not wanted:
+    if not wanted or not _TOKEN.fullmatch(wanted):
         return None
-    words = [Span(*found.span()) for found in _TOKEN.finditer(text, part.start, part.end)]
-    return _only(word for word in words if word.of(text) == wanted)
+    words = (found for found in _TOKEN.finditer(text, part.start, part.end) if found[0] == wanted)
+    return _only(Span(*found.span()) for found in words)
 
 
 def _own_text(element: ElementSpan, text: str) -> Span | None:

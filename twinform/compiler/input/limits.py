@@ -17,6 +17,8 @@ LARGEST = 64 * 2**20
 """The largest file, in bytes, where nobody says otherwise. The largest real one has 2 MB; 10,000 links have 10."""
 MOST_TAGS = 1_000_000
 """The most tags where nobody says otherwise. A chain of 10,000 links has 280,000, the largest real file 40,000."""
+MOST_CHILDREN = 50_000
+"""The most elements in one: each is a part of the model, and read as one. A chain of 10,000 links has 20,000."""
 MOST_ATTRIBUTES = 256
 """The most attributes of one element, since libxml2 looks each of them up among all. The most in a real file is 12."""
 MOST_LOOKUPS = 250_000_000
@@ -34,6 +36,7 @@ _SHORTEST_ATTRIBUTE = len(' a=""')
 _LONG_TAG = re.compile(rb"<[^<]{%d}" % min(MOST_ATTRIBUTES * _SHORTEST_ATTRIBUTE, LONGEST_NAME))
 """A tag that might hold too much, or one that long text follows; few files have any."""
 _CROWDED = etree.XPath(f"/descendant::*[@*[{MOST_ATTRIBUTES + 1}]]")
+_POPULOUS = etree.XPath(f"(/descendant::*[*[{MOST_CHILDREN + 1}]])[1]")
 _LONG_NAMED = etree.XPath(f"/descendant::*[string-length(@name) > {LONGEST_NAME}]")
 _DEEP_MODEL = etree.XPath(
     f"(/descendant::*[local-name() = 'model'][count(ancestor::*[local-name() = 'model']) >= {DEEPEST_MODELS}])[1]"
@@ -121,6 +124,13 @@ def excess_of_tree(root: XmlElement, text: bytes) -> Excess | None:
         if deep:
             where = Location(line=deep[0].sourceline or 0, path=f"/{root.tag}")
             return Excess(f"models are in each other more than {DEEPEST_MODELS} deep", where)
+    if text.count(b"<") > MOST_CHILDREN:
+        populous = cast("list[XmlElement]", _POPULOUS(root))
+        if populous:
+            element = populous[0]
+            count = sum(1 for _ in element.iterchildren("*"))
+            message = f"<{element.tag}> has {count:,} elements in it; the limit is {MOST_CHILDREN:,}"
+            return Excess(message, Location(line=element.sourceline or 0, path=path_of(element)))
     if not _LONG_TAG.search(text):
         return None
     for find, what in ((_CROWDED, f"attributes; the limit is {MOST_ATTRIBUTES}"), (_LONG_NAMED, "")):

@@ -83,16 +83,24 @@ def _known(scheme: str, search: SearchPath, beside: Path) -> Iterator[str]:
     around = folders_around(beside)
     if scheme == "package":
         for folder in (*search.own, *around):
-            yield from filter(None, (package_name(folder), *(package_name(folder / name) for name in _entries(folder))))
+            yield from filter(None, (package_name(folder), *(package_name(folder / name) for name in _folders(folder))))
         return
     for folder in (*search.own, *search.models, *around, *(each / "models" for each in around)):
-        yield from (name for name in _entries(folder) if exists(folder / name / MODEL_CONFIG))
+        yield from (name for name in _folders(folder) if exists(folder / name / MODEL_CONFIG))
 
 
 def _entries(folder: Path) -> list[str]:
+    return [entry.name for entry in _scanned(folder)]
+
+
+def _folders(folder: Path) -> list[str]:
+    # a thousand files beside each other would be opened for each of them, as if they were folders
+    return [entry.name for entry in _scanned(folder) if entry.is_dir()]
+
+
+def _scanned(folder: Path) -> list[os.DirEntry[str]]:
     try:
         with os.scandir(folder) as entries:
-            names = (entry.name for entry in islice(entries, _MOST_ENTRIES))
-            return [name for name in names if not name.startswith(".")]
+            return [entry for entry in islice(entries, _MOST_ENTRIES) if not entry.name.startswith(".")]
     except OSError:
         return []

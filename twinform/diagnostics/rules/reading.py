@@ -17,8 +17,8 @@ OVERSIZED_FILE = Rule(
     name="oversized-file",
     severity=Severity.ERROR,
     fatal=True,
-    finds="A file beyond the limits: 64 MB, a million tags, elements 256 deep, 256 attributes in an element, names of "
-    "1,024 characters, 10 MB in one text; entities that unfold into more.",
+    finds="A file beyond the limits: 64 MB, a million tags, elements 256 deep, 50,000 elements and "
+    "256 attributes in one element, names of 1,024 characters, 10 MB in one text; entities that unfold into more.",
     matters="A hostile file could fill the memory, or keep the machine busy for hours. Robots stay far below: a chain "
     "of 10,000 links has 280,000 tags.",
     example="A million `<x/>`; a link in a link in a link, a thousand deep.",

@@ -135,6 +135,26 @@ def test_fixes_that_never_end_are_stopped(monkeypatch: pytest.MonkeyPatch) -> No
     assert mend_by(_look, b"b").rounds == MOST_ROUNDS
 
 
+@pytest.mark.parametrize(("size", "most"), [(100, 200), (400_000, 10)])
+def test_a_large_file_is_not_read_as_often_to_find_the_bad_fixes(
+    size: int, most: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each fix makes a finding; to find that out of 300 takes twice as many looks at the file."""
+    text = b"b" * 300 + b" " * size
+    edits = {at: _edit(at, "c") for at in range(300)}
+    monkeypatch.setattr("twinform.compiler.fixing.mending.with_fixes", _offering(edits))
+    looks: list[bytes] = []
+
+    def look(data: bytes) -> LoadResult:
+        looks.append(data)
+        return _look(data[:300])
+
+    mended = mend_by(look, text)
+    assert (len(looks), mended.data) == (1 + most, text)
+    assert len(mended.refused) == 300
+    assert mended.refused[-1].new == ("too-many-tries",)
+
+
 def test_one_for_display_is_never_made(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("twinform.compiler.fixing.mending.with_fixes", _offering({0: _edit(0, "a")}, Safety.DISPLAY))
     assert mend_by(_look, b"b", unsafe=True).data == b"b"

@@ -160,6 +160,19 @@ def _nested(depth: int) -> bytes:
     return f"<sdf version='1.11'>{opened}{'</model>' * depth}</sdf>".encode()
 
 
+def test_an_element_has_so_many_elements_in_it() -> None:
+    """Each of them is a part of the model; 200,000 in one line took 14 seconds."""
+    inside = "<!-- a --><x/>" * limits.MOST_CHILDREN
+    for more, message in (
+        ("", None),
+        ("<x/>", f"<link> has {limits.MOST_CHILDREN + 1:,} elements in it; the limit is {limits.MOST_CHILDREN:,}"),
+    ):
+        text = f"<robot name='r'>\n<link name='l'>{inside}{more}</link></robot>".encode()
+        excess = excess_of_tree(etree.fromstring(text), text)
+        assert (excess and excess.message) == message
+        assert excess is None or excess.location == Location(line=2, path="/robot[@name='r']/link[@name='l']")
+
+
 def test_models_are_so_deep_in_each_other() -> None:
     document = twinform.loads(_nested(limits.DEEPEST_MODELS))
     assert twinform.convert(document, to="urdf").text

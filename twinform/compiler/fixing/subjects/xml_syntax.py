@@ -38,6 +38,8 @@ _NO_BLANK = re.compile(r"""(?<==)\s*(?P<value>"[^"<]*"|'[^'<]*')(?=[A-Za-z_])"""
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 _DOCTYPE = re.compile(r"<!DOCTYPE\s+\w+\s*>\s*", re.IGNORECASE)
 _SURE = 0.7
+_MOST_DECLARED = 100
+"""Namespaces of a root to which more are added. libxml2 names a hundred prefixes at a time; real files have 16."""
 
 
 def _in_markup(pattern: re.Pattern[str], text: str) -> Iterator[re.Match[str]]:
@@ -137,7 +139,7 @@ def _comments_by_line(file: FixableFile) -> dict[int, list[TextEdit]]:
 def _prefix(finding: Diagnostic, file: FixableFile) -> Fix | None:
     """Declare the prefix on the root element."""
     found = _PREFIX.search(finding.message)
-    if found is None:
+    if found is None or file.text.count("xmlns:") >= _MOST_DECLARED:
         return None
     prefix = found["prefix"]
     name, uri = f"xmlns:{prefix}", usual_namespace(prefix)

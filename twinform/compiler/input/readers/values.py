@@ -79,7 +79,7 @@ def vector3(text: str | None) -> Vector3 | None:
     if known is not None or text is None:
         return known
     try:
-        first, second, third = text.split()
+        first, second, third = text.split(None, 3)  # a fourth is enough to see that it is no vector
         x, y, z = float(first), float(second), float(third)  # quicker than `map`
     except ValueError:
         return None
@@ -91,7 +91,7 @@ def pose(text: str | None) -> tuple[Vector3, Vector3] | None:
     if text is None:
         return None
     try:
-        x, y, z, roll, pitch, yaw = map(float, text.split())
+        x, y, z, roll, pitch, yaw = map(float, text.split(None, 6))
     except ValueError:
         return None
     if isfinite(x + y + z + roll + pitch + yaw) and text.isascii() and "_" not in text:

@@ -107,6 +107,10 @@ def environment() -> dict[str, str]:
     return {**passed_on, "PYTHONHASHSEED": "0", "PYTHONIOENCODING": "utf-8"}
 
 
+class _TooMuchError(DeniedError):
+    """Too much is asked for by one file."""
+
+
 class _Conversation:
     """Answers the questions of the process."""
 
@@ -153,7 +157,7 @@ class _Conversation:
                 case _:
                     return {"value": self._variable(received["environment"])}, b""
         except DeniedError as error:
-            return {"error": str(error), "help": error.advice}, b""
+            return {"error": str(error), "help": error.advice, "ends": isinstance(error, _TooMuchError)}, b""
         except (OSError, ValueError) as error:
             return {"missing": getattr(error, "strerror", None) or str(error)}, b""
 
@@ -161,16 +165,16 @@ class _Conversation:
         """Count a question, and refuse it where too much is asked.
 
         Raises:
-            DeniedError: a name is too long, or there were too many questions, or they took too long.
+            _TooMuchError: a name is too long, or there were too many questions, or they took too long.
         """
         self.asked += 1
         if any(len(name) > _LONGEST_NAME for name in received.values()):
-            raise DeniedError(f"the name of a file, package or variable has more than {_LONGEST_NAME:,} characters")
+            raise _TooMuchError(f"the name of a file, package or variable has more than {_LONGEST_NAME:,} characters")
         if self.asked > _MOST_QUESTIONS:
-            raise DeniedError(f"the file asks for more than {_MOST_QUESTIONS:,} files, packages and variables")
+            raise _TooMuchError(f"the file asks for more than {_MOST_QUESTIONS:,} files, packages and variables")
         if self.spent > _SECONDS_TO_ANSWER:
             message = f"the files and packages it asks for take more than {_SECONDS_TO_ANSWER} seconds to find"
-            raise DeniedError(message)
+            raise _TooMuchError(message)
 
     def _read(self, path: str) -> bytes:
         """What is in a file that may be read, or what an editor has of it.

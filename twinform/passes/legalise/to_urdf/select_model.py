@@ -1,5 +1,6 @@
 """Selecting the model that becomes the robot."""
 
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
@@ -29,18 +30,39 @@ class SelectModel(Pass):
         if sink.has_errors:
             return document
         chosen = _choose(list(candidates(document)), self.model, document.location, sink)
-        if chosen is None or sink.has_errors:
-            return document
-        if document.format is Format.URDF:
+        if chosen is None or document.format is Format.URDF:
             return document  # which is that model, and nothing else
-        model, world = chosen.model, chosen.world
-        if world is not None:
-            model = _place(model, world, sink)
+        alone = _alone(document, chosen, sink)
         for part in _outside(document, chosen):
             part.drop(sink)
-        return document.model_copy(
-            update={"models": (model,), "worlds": (), "lights": (), "includes": (), "opaque": ()}
-        )
+        return alone
+
+
+class Selector:
+    """Takes each model out of one file without counting the others every time, which `SelectModel` does."""
+
+    def __init__(self, document: Document) -> None:
+        self.document = document
+        self.among = list(candidates(document))
+        self._by_name: defaultdict[str | None, list[Candidate]] = defaultdict(list)
+        for one in self.among:
+            for name in {one.model.name, one.full_name}:
+                self._by_name[name].append(one)
+
+    def select(self, name: str | None, sink: DiagnosticSink) -> Document:
+        """The document with the model of this name, or with the only one; the ledger has nothing of the others."""
+        called = self._by_name.get(name, [])
+        among = called if len(called) == 1 else self.among
+        chosen = _choose(among, name, self.document.location, sink)
+        if chosen is None or self.document.format is Format.URDF:
+            return self.document
+        return _alone(self.document, chosen, sink)
+
+
+def _alone(document: Document, chosen: "_Chosen", sink: DiagnosticSink) -> Document:
+    """The document with this model, at its place in the world, and nothing else."""
+    model = chosen.model if chosen.world is None else _place(chosen.model, chosen.world, sink)
+    return document.model_copy(update={"models": (model,), "worlds": (), "lights": (), "includes": (), "opaque": ()})
 
 
 @dataclass(frozen=True, slots=True)

@@ -60,6 +60,10 @@ class NotFoundError(Exception):
         self.advice = advice
 
 
+class TooMuchError(NotFoundError):
+    """More was asked for than is answered: nothing of the file is expanded, whatever it has instead."""
+
+
 class MissingFileError(OSError):
     """A file that is not there: an include that is optional does without it."""
 
@@ -90,7 +94,8 @@ class Channel:
         if "missing" in answer:
             raise MissingFileError(answer["missing"])
         if "error" in answer:
-            raise NotFoundError(answer["error"], answer["help"])
+            refusal = TooMuchError if answer.get("ends") else NotFoundError
+            raise refusal(answer["error"], answer["help"])
         return answer
 
     def find(self, uri: str, beside: str) -> str:

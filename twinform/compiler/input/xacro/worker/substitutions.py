@@ -5,7 +5,7 @@ from functools import partial
 from types import ModuleType
 from typing import Any
 
-from twinform.compiler.input.xacro.worker.channel import NotFoundError
+from twinform.compiler.input.xacro.worker.channel import NotFoundError, TooMuchError
 from twinform.compiler.input.xacro.worker.expressions.interpreter import Interpreter
 from twinform.compiler.input.xacro.worker.expressions.values import Value, text_of
 from twinform.compiler.input.xacro.worker.vocabulary import eval_vocabulary
@@ -46,6 +46,8 @@ class Substitutions:
     def _environment_or(self, name: str, default: str = "") -> str:
         try:
             value = self.environment(name)
+        except TooMuchError:
+            raise
         except NotFoundError as error:
             self.warn(f"{error}: {default!r} is taken; {error.advice}")
             return default
