@@ -8,7 +8,9 @@ import subprocess
 import sys
 import time
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
+from resource import RLIM_INFINITY, RLIMIT_FSIZE, setrlimit
 from typing import NamedTuple
 
 import pytest
@@ -23,6 +25,8 @@ _TWINFORM = Path(sys.executable).with_name("twinform")
 _POINTS = 12 if DEEP else 2
 """Moments at which each command is ended."""
 _QUICK = {"all files of one"}
+_CHANGING = {"one in place", "one into a file", "a reproducer", "one more reproducer"}
+"""Commands that do something else when they are run again."""
 
 
 _NAMES = [name if name in _QUICK else pytest.param(name, marks=pytest.mark.deep) for name in COMMANDS]
@@ -41,6 +45,7 @@ class Runs:
     """Runs of a command, each in a new copy of a folder."""
 
     def __init__(self, command: Command, top: Path) -> None:
+        self._command = command
         self._words = [str(_TWINFORM), *command.words.split()]
         self._template, self.here, self._temporary = top / "template", top / "here", top / "tmp"
         self._template.mkdir()
@@ -49,18 +54,22 @@ class Runs:
         began = time.monotonic()
         clean = self.run()
         self.seconds = time.monotonic() - began
-        assert clean.code == 0, clean.errors
-        self.after = clean.tree
+        assert clean.code == command.code, clean.errors
+        self.after, self.printed = clean.tree, clean.errors
 
-    def run(self, number: signal.Signals | None = None, share: float = 0, times: int = 1) -> Ended:
-        """Run the command, and send it a signal after this share of its life."""
+    def run(
+        self, number: signal.Signals | None = None, share: float = 0, times: int = 1, largest: int = RLIM_INFINITY
+    ) -> Ended:
+        """Run the command, and send it a signal after this share of its life; no file may grow past `largest` bytes."""
         for folder in (self.here, self._temporary):
             shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(self._template, self.here, symlinks=True)
         self._temporary.mkdir()
-        return self.again(number, share, times)
+        return self.again(number, share, times, largest)
 
-    def again(self, number: signal.Signals | None = None, share: float = 0, times: int = 1) -> Ended:
+    def again(
+        self, number: signal.Signals | None = None, share: float = 0, times: int = 1, largest: int = RLIM_INFINITY
+    ) -> Ended:
         """Run it in the folder as it is."""
         process = subprocess.Popen(
             self._words,
@@ -68,7 +77,7 @@ class Runs:
             stdout=subprocess.DEVNULL,
             stderr=subprocess.PIPE,
             env=self._environment(),
-            preexec_fn=_accept_interrupts,  # noqa: PLW1509 - there are no threads
+            preexec_fn=partial(_begin, largest),  # noqa: PLW1509 - there are no threads
         )
         if number is not None:
             _wait_for_handlers(process)
@@ -79,12 +88,20 @@ class Runs:
         text = errors.decode(errors="replace")
         return Ended(process.returncode, text, tree(self.here), tree(self._temporary))
 
+    def is_whole(self, ended: Ended) -> bool:
+        """Whether all files are old, or all are new; of a command that writes each for itself, whether each is."""
+        if ended.code == self._command.code or not self._command.apart:
+            return ended.tree in ([self.before, self.after] if ended.code else [self.after])
+        names = {*ended.tree, *self.before, *self.after}
+        return all(ended.tree.get(name, 0) in {self.before.get(name, 0), self.after.get(name, 0)} for name in names)
+
     def _environment(self) -> Mapping[str, str]:
         return {**environment(self._template), "TMPDIR": str(self._temporary)}
 
 
-def _accept_interrupts() -> None:
+def _begin(largest: int = RLIM_INFINITY) -> None:
     signal.signal(signal.SIGINT, signal.default_int_handler)  # who runs the tests may have it ignored
+    setrlimit(RLIMIT_FSIZE, (largest, largest))
 
 
 def _wait_for_handlers(process: subprocess.Popen[bytes]) -> None:
@@ -104,19 +121,16 @@ def test_a_signal_ends_it_with_all_old_or_all_new(name: str, number: signal.Sign
     runs = Runs(command, tmp_path)
     for point in range(_POINTS):
         ended = runs.run(number, point / _POINTS)
-        assert ended.code in {0, 128 + number}, ended.errors
-        assert "Traceback" not in ended.errors
+        assert ended.code in {command.code, 128 + number}, ended.errors
+        assert "Traceback" not in ended.errors.replace(runs.printed, "")
         assert "Exception ignored" not in ended.errors
         assert ended.temporary == {}
-        if command.apart and ended.code:
-            assert all(ended.tree.get(name, 0) in {runs.before.get(name, 0), runs.after[name]} for name in runs.after)
-        else:
-            assert ended.tree in ([runs.after, runs.before] if ended.code else [runs.after])
+        assert runs.is_whole(ended)
 
 
 @pytest.mark.parametrize("name", _NAMES)
 def test_a_killed_run_leaves_whole_files_and_the_next_run_removes_the_rest(name: str, tmp_path: Path) -> None:
-    if name in {"one in place", "one into a file"}:
+    if name in _CHANGING:
         pytest.skip("it does something else when it is run again")
     runs = Runs(COMMANDS[name], tmp_path)
     for point in range(_POINTS):
@@ -125,7 +139,7 @@ def test_a_killed_run_leaves_whole_files_and_the_next_run_removes_the_rest(name:
             if content is not None and PREFIX not in path:
                 assert content in {runs.before.get(path), runs.after.get(path), *_marks(path, content)}
         again = runs.again()
-        assert again.code == 0, again.errors
+        assert again.code == COMMANDS[name].code, again.errors
         assert again.tree == runs.after
         assert again.temporary == {}
 
@@ -133,6 +147,18 @@ def test_a_killed_run_leaves_whole_files_and_the_next_run_removes_the_rest(name:
 def _marks(path: str, content: bytes) -> set[bytes]:
     """The list of a package's files, which is longer while one package takes the place of another."""
     return {content} if path.endswith(".twinform-package") and content.endswith(b"\n") else set()
+
+
+@pytest.mark.parametrize("largest", [0, pytest.param(100, marks=pytest.mark.deep)])
+@pytest.mark.parametrize("name", _NAMES)
+def test_files_that_may_not_grow_are_not_written(name: str, largest: int, tmp_path: Path) -> None:
+    runs = Runs(COMMANDS[name], tmp_path)
+    ended = runs.run(largest=largest)
+    assert ended.code in {COMMANDS[name].code, 2}, ended.errors
+    assert "Traceback" not in ended.errors.replace(runs.printed, "")
+    assert ended.code != 2 or "File too large" in ended.errors
+    assert ended.temporary == {}
+    assert runs.is_whole(ended)
 
 
 def test_a_second_interrupt_changes_nothing(tmp_path: Path) -> None:
@@ -150,7 +176,7 @@ _ENDLESS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">
 def test_a_child_process_ends_with_the_command(number: signal.Signals, tmp_path: Path) -> None:
     (tmp_path / "r.urdf.xacro").write_text(_ENDLESS)
     command = [_TWINFORM, "check", "r.urdf.xacro"]
-    with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, preexec_fn=_accept_interrupts) as process:  # noqa: PLW1509 - there are no threads
+    with subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, preexec_fn=_begin) as process:  # noqa: PLW1509 - there are no threads
         child = _child_of(process)
         process.send_signal(number)
         process.wait()
@@ -164,7 +190,7 @@ def test_a_child_process_ends_with_the_command(number: signal.Signals, tmp_path:
 def test_a_view_ends_with_all_its_processes(number: signal.Signals, tmp_path: Path) -> None:
     prepare(COMMANDS["a conversion"], tmp_path)
     command = [_TWINFORM, "view", "r.urdf", "--no-open"]
-    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, preexec_fn=_accept_interrupts) as process:  # noqa: PLW1509 - there are no threads
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, preexec_fn=_begin) as process:  # noqa: PLW1509 - there are no threads
         assert process.stdout is not None
         assert process.stdout.readline().startswith(b"showing")
         children = _children_of(process)

@@ -1,5 +1,6 @@
 """Standard output that is full, closed, or read by nobody: an error in words, never a traceback, and no file."""
 
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,7 @@ import pytest
 
 from benchmarks import robots
 
+_CRATE = Path(__file__).parents[2] / "examples" / "crate"
 _PROGRAM = Path(sys.executable).with_name("twinform")
 _TWINFORM = f"{sys.executable} -c 'from twinform.cli import main; main()'"
 COMMANDS = {
@@ -19,6 +21,7 @@ COMMANDS = {
     "rules": "explain",
     "passes": "passes --format json",
     "a schema": "schema urdf",
+    "fuel add": "fuel add crate --owner somebody --cache cache",
     "help": "--help",
     "the version": "--version",
 }
@@ -26,6 +29,7 @@ COMMANDS = {
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
+    shutil.copytree(_CRATE, tmp_path / "crate")
     (tmp_path / ".git").mkdir()
     (tmp_path / "good.urdf").write_text(robots.urdf(2))
     (tmp_path / "other.urdf").write_text(robots.urdf(3))

@@ -1,6 +1,8 @@
 """`twinform fuel add`."""
 
 import os
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
 
 import click
@@ -35,12 +37,21 @@ def command(
     Printed are the addresses by which they can be included. What is there already with the same files stays.
     """
     place = cache or caches(os.environ)[0]
-    try:
+    with _explained(place):
         found = resources(folder)
-        if name is not None and len(found) > 1:
-            raise click.UsageError(f"--name is for one model, and {folder} has {len(found)}")
-        for each in found:
-            print_line(add(each, place, server, owner, name or each.name, resource_version).uri)
+    if name is not None and len(found) > 1:
+        raise click.UsageError(f"--name is for one model, and {folder} has {len(found)}")
+    for each in found:
+        with _explained(place):
+            added = add(each, place, server, owner, name or each.name, resource_version)
+        print_line(added.uri)
+
+
+@contextmanager
+def _explained(place: Path) -> Generator[None]:
+    """End the command with a message where a model cannot be read, or has no place in the cache."""
+    try:
+        yield
     except FuelError as error:
         raise click.UsageError(str(error)) from error
     except OSError as error:

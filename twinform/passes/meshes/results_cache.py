@@ -69,7 +69,10 @@ class ResultsCache:
             _prune(path.parent)
 
     def _path(self, job: Job) -> Path | None:
-        return self.folder / f"{job.digest(_versions())}.result" if self.folder is not None else None
+        if self.folder is not None:
+            with suppress(OSError):  # which versions are installed cannot be read
+                return self.folder / f"{job.digest(_versions())}.result"
+        return None
 
 
 def _versions() -> dict[str, str]:

@@ -1,7 +1,9 @@
 """Jobs on meshes in another process, and the cache of what comes of them."""
 
+import errno
 import importlib
 import io
+import os
 import subprocess
 import sys
 import threading
@@ -104,6 +106,17 @@ def test_a_damaged_result_is_none(tmp_path: Path) -> None:
     assert cache.get(job()) is None
     file.write_bytes(b"")
     assert cache.get(job()) is None
+
+
+def test_nothing_is_kept_where_the_versions_cannot_be_read(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    def fail(name: str) -> str:
+        raise OSError(errno.EIO, os.strerror(errno.EIO), name)
+
+    monkeypatch.setattr("twinform.passes.meshes.results_cache.version", fail)
+    cache = ResultsCache(tmp_path)
+    cache.put(job(), Result({"error": 1.0}))
+    assert cache.get(job()) is None
+    assert [*tmp_path.iterdir()] == []
 
 
 def test_runs_side_by_side_do_each_other_no_harm(tmp_path: Path) -> None:
