@@ -147,7 +147,8 @@ class Injection:
             if done.code not in {0, 1, 2}:
                 yield f"exit code {done.code}: {done.errors[-500:]}"
             elif done.code and not any(
-                name in done.errors for name in (tempfile.gettempdir(), "/twinform/", "standard output", *self._names)
+                name in done.errors
+                for name in (tempfile.gettempdir(), os.devnull, "/twinform/", "standard output", *self._names)
             ):
                 yield f"the message names no file: {done.errors[-500:]}"
         else:

@@ -36,6 +36,7 @@ _CHANGING = {
         "convert o.sdf --into odd.urdf", ("convert odd.urdf -o o.sdf", "fix o.sdf --passes prefix-names{prefix=x_}")
     ),
 }
+_QUICK = {"format", "in place"}
 
 
 def _run(command: Command, folder: Path, what: str, call: str = "fsync", number: int = 1) -> tuple[int, str]:
@@ -46,7 +47,9 @@ def _run(command: Command, folder: Path, what: str, call: str = "fsync", number:
     return done.returncode, done.stderr
 
 
-@pytest.mark.parametrize("name", _CHANGING)
+@pytest.mark.parametrize(
+    "name", [name if name in _QUICK else pytest.param(name, marks=pytest.mark.deep) for name in _CHANGING]
+)
 def test_nothing_is_written_over_what_somebody_has_changed_meanwhile(name: str, tmp_path: Path) -> None:
     prepare(_CHANGING[name], tmp_path)
     before = tree(tmp_path)
@@ -76,7 +79,7 @@ def test_a_package_that_was_killed_half_way_can_be_made_again(number: int, tmp_p
     assert found == [".twinform-package", "model.config", "model.sdf"]
 
 
-@pytest.mark.parametrize("there", [False, True])
+@pytest.mark.parametrize("there", [True, pytest.param(False, marks=pytest.mark.deep)])
 def test_the_longest_name_of_a_file_system_is_no_problem(there: bool, tmp_path: Path) -> None:
     prepare(COMMANDS["a conversion"], tmp_path)
     name = f"{'x' * 251}.sdf"

@@ -22,7 +22,7 @@ from twinform.storage.staging import PREFIX
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="looks into /proc")
 _TWINFORM = Path(sys.executable).with_name("twinform")
-_POINTS = 12 if DEEP else 2
+_POINTS = 12 if DEEP else 1
 """Moments at which each command is ended."""
 _QUICK = {"all files of one"}
 _CHANGING = {"one in place", "one into a file", "a reproducer", "one more reproducer"}
@@ -120,7 +120,7 @@ def test_a_signal_ends_it_with_all_old_or_all_new(name: str, number: signal.Sign
     command = COMMANDS[name]
     runs = Runs(command, tmp_path)
     for point in range(_POINTS):
-        ended = runs.run(number, point / _POINTS)
+        ended = runs.run(number, (point + 0.5) / _POINTS)
         assert ended.code in {command.code, 128 + number}, ended.errors
         assert "Traceback" not in ended.errors.replace(runs.printed, "")
         assert "Exception ignored" not in ended.errors
@@ -149,14 +149,15 @@ def _marks(path: str, content: bytes) -> set[bytes]:
     return {content} if path.endswith(".twinform-package") and content.endswith(b"\n") else set()
 
 
-@pytest.mark.parametrize("largest", [0, pytest.param(100, marks=pytest.mark.deep)])
-@pytest.mark.parametrize("name", _NAMES)
+@pytest.mark.deep
+@pytest.mark.parametrize("largest", [0, 100])
+@pytest.mark.parametrize("name", COMMANDS)
 def test_files_that_may_not_grow_are_not_written(name: str, largest: int, tmp_path: Path) -> None:
     runs = Runs(COMMANDS[name], tmp_path)
     ended = runs.run(largest=largest)
     assert ended.code in {COMMANDS[name].code, 2}, ended.errors
     assert "Traceback" not in ended.errors.replace(runs.printed, "")
-    assert ended.code != 2 or "File too large" in ended.errors
+    assert ended.code != 2 or "File too large" in ended.errors or "TMPDIR: nothing can be written" in ended.errors
     assert ended.temporary == {}
     assert runs.is_whole(ended)
 
@@ -172,7 +173,7 @@ _ENDLESS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">
 </xacro:macro><xacro:m n="60"/></robot>"""
 
 
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize("number", [signal.SIGKILL, pytest.param(signal.SIGINT, marks=pytest.mark.deep)])
 def test_a_child_process_ends_with_the_command(number: signal.Signals, tmp_path: Path) -> None:
     (tmp_path / "r.urdf.xacro").write_text(_ENDLESS)
     command = [_TWINFORM, "check", "r.urdf.xacro"]
@@ -210,7 +211,7 @@ def _child_of(process: subprocess.Popen[bytes]) -> int:
     """The child process of a command, once that has one which is at work."""
     while True:
         for child in _children_of(process):
-            if _is_running(child) and _seconds_of(child) > 0.5:
+            if _is_running(child) and _seconds_of(child) > 0.2:
                 return child
         time.sleep(0.01)
 

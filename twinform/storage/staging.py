@@ -63,6 +63,21 @@ class StagingFolder:
             self._lock = None
 
 
+def temporary_folder() -> Path:
+    """The folder for temporary files, without symbolic links on the way to it.
+
+    Raises:
+        FileNotFoundError: nothing can be written in any folder that there is for them.
+    """
+    from tempfile import gettempdir  # noqa: PLC0415 - most commands need none
+
+    try:
+        return Path(os.path.realpath(gettempdir()))
+    except FileNotFoundError as error:  # which has no name
+        message = "nothing can be written in any folder for temporary files"
+        raise FileNotFoundError(errno.ENOENT, message, "TMPDIR") from error
+
+
 @contextmanager
 def staging_folder(parent: Path) -> Generator[Path]:
     """A new folder in `parent` for as long as the block lasts.

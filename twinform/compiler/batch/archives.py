@@ -13,12 +13,11 @@ from collections.abc import Generator, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
-from tempfile import gettempdir
 
 from twinform.compiler.batch.entries import FolderError
 from twinform.compiler.batch.tar_reader import BrokenArchiveError, ByteStream, LargeArchiveError, members, opened
 from twinform.file_access import Readable
-from twinform.storage.staging import staging_folder
+from twinform.storage.staging import staging_folder, temporary_folder
 
 LEAST_FILES = 5_000
 """Files and folders that any archive may have."""
@@ -77,7 +76,7 @@ def unpacked(archive: Path) -> Generator[Unpacked]:
     Raises:
         FolderError: it is no archive, is broken, holds too much, or a name in it leads out of it.
     """
-    with staging_folder(Path(os.path.realpath(gettempdir()))) as folder:
+    with staging_folder(temporary_folder()) as folder:
         (folder / _TOP).touch()  # what is around the folder is none of the archive's business
         yield Unpacked(folder, _unpack(archive, folder))
 

@@ -4,7 +4,6 @@ No model is opened here, only by what the executor runs, which may crash.
 """
 
 import json
-import tempfile
 from collections.abc import Generator, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import closing, contextmanager
@@ -25,6 +24,7 @@ from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.observing import digest
 from twinform.compiler.workers import Failure, Runner, process_runner, run_on
 from twinform.passes import SideFilePass
+from twinform.storage.staging import temporary_folder
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -171,7 +171,7 @@ def _task(entry: Entry, asked: Batch, output: str, plan: Plan, recorder: Recorde
         dest=str(asked.dest) if asked.dest else "",
         output=output,
         known=plan.candidate(entry, output),
-        faults=(manifest.folder if manifest else Path(tempfile.gettempdir(), "twinform")) / "faults",
+        faults=(manifest.folder if manifest else temporary_folder() / "twinform") / "faults",
         seconds=None if runner.timed else asked.seconds,
         version=own_version(),
         site="" if runner.everywhere is None else fingerprint(),

@@ -2,7 +2,6 @@
 
 import os
 import re
-import tempfile
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -11,6 +10,7 @@ from twinform import __version__
 from twinform.compiler.reproducers.reproducer import Reproducer
 from twinform.file_access import Readable
 from twinform.passes import PassError
+from twinform.storage.staging import temporary_folder
 from twinform.storage.writing import write_new_file
 
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
@@ -33,14 +33,19 @@ def write_reproducer(error: PassError, source: str, folder: Path | None = None) 
     """
     text = Reproducer.of(error, source, __version__).to_json()
     stem = f"twinform-{error.name}-{_stem(source)}"
-    folders = [folder] if folder else [Path(), Path(tempfile.gettempdir())]
     problem: OSError | None = None
-    for each in folders:
+    for each in _folders(folder):
         try:
             return _write_new(each, stem, text)
         except OSError as error_:
             problem = error_
     raise problem or FileNotFoundError(str(folder))
+
+
+def _folders(folder: Path | None) -> Iterator[Path]:
+    yield folder or Path()
+    if folder is None:
+        yield temporary_folder()
 
 
 def _stem(source: str) -> str:

@@ -4,7 +4,6 @@ import importlib
 import os
 from collections.abc import Iterator
 from pathlib import Path
-from tempfile import gettempdir
 from typing import Any, Literal, NamedTuple
 
 from twinform.compiler.packaging.collecting import Collection
@@ -19,7 +18,7 @@ from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.analyses.meshes import MeshError, Meshes, MeshTriangles
 from twinform.passes.framework.asset_access import AssetError
-from twinform.storage.staging import staging_folder
+from twinform.storage.staging import staging_folder, temporary_folder
 
 _GREY = (0.72, 0.72, 0.75)
 _MOST_FACES = 1_000_000
@@ -31,7 +30,7 @@ def thumbnail(document: Document, collection: Collection, sink: DiagnosticSink) 
         return None
     model = document.models[0]
     try:
-        with staging_folder(Path(gettempdir())) as folder:
+        with staging_folder(temporary_folder()) as folder:
             faces = _few(_faces(model, Meshes(_Collected(collection, folder))))
         if faces:
             return picture(faces)
