@@ -59,6 +59,7 @@ _ONCE_DEAR_TO = (
     ("diff", "a world: models of their own names"),
     ("diff", "URDF: tree of their own names"),
     ("check --fix --diff", "broken XML: undeclared prefixes of their own names"),
+    ("check --fix --diff", "broken XML: late declarations of their own names"),
 )
 
 

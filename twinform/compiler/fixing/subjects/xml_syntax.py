@@ -90,8 +90,14 @@ def _version(_: Diagnostic, file: FixableFile) -> Fix | None:
 
 
 def _late_declaration(_: Diagnostic, file: FixableFile) -> Fix | None:
-    """Move it to the beginning, or delete it where one stands there already."""
-    text = file.text
+    """What `_moved_declaration` says, which is the same for each finding of the file."""
+    if "late declaration" not in file.memo:
+        file.memo["late declaration"] = _moved_declaration(file.text)
+    return file.memo["late declaration"]
+
+
+def _moved_declaration(text: str) -> Fix | None:
+    """Move the first late declaration to the beginning, or delete it where one stands there already."""
     found = [*_outside(_COMMENT, _DECLARATION, text)]
     late = [each for each in found if each.start()]
     if not late:

@@ -6,6 +6,7 @@ back as it was is an error.
 
 import json
 import re
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -54,7 +55,7 @@ def read_json(text: bytes, sink: DiagnosticSink) -> JsonSource | None:
     """
     try:
         decoded = text.decode("utf-8-sig")
-        data = json.loads(decoded, object_pairs_hook=_object, parse_constant=_refuse)
+        data = json.loads(decoded, object_pairs_hook=_object, parse_constant=_refuse, parse_int=_whole)
     except json.JSONDecodeError as error:
         _report(sink, f"not JSON: {error.msg} (column {error.colno})", Location(line=error.lineno, column=error.colno))
         return None
@@ -97,6 +98,13 @@ def _object(pairs: list[tuple[str, Any]]) -> Data:
 
 def _refuse(word: str) -> object:
     raise ValueError(f'{word} is no number of JSON; SDF may have the word "{word}" in quotes')
+
+
+def _whole(digits: str) -> int:
+    most = sys.get_int_max_str_digits()
+    if most and len(digits.lstrip("-")) > most:  # the words of `int` are about Python, not about the file
+        raise ValueError(f"a number has more than {most:,} digits")
+    return int(digits)
 
 
 def _report(sink: DiagnosticSink, message: str, where: Location | None = None) -> None:

@@ -93,6 +93,7 @@ WRONG: dict[str, tuple[object, list[tuple[int, str, str]]]] = {
         '{"format": "urdf", "format": "sdf"}',
         [(1, "", "not JSON: an object has the field 'format' twice")],
     ),
+    "too many digits": ('{"a":' + "9" * 5000 + "}", [(1, "", "not JSON: a number has more than 4,300 digits")]),
     "too deep": ('{"a":' + "[" * 100_000, [(1, "", "not JSON: it is nested too deep")]),
     "deep, and read": (
         {**ROBOT, "models": json.loads("[" * 850 + "]" * 850)},
