@@ -161,7 +161,7 @@ def _readers(path: Path, old: Body, size: float) -> dict[str, bool]:
 def _peak() -> float:
     """Megabytes of the largest process that did work on meshes."""
     resource: Any = importlib.import_module("resource")
-    from twinform.passes.meshes import child_process  # noqa: PLC0415 - it is ended, so that it is counted
+    from twinform.passes.mesh_jobs import child_process  # noqa: PLC0415 - it is ended, so that it is counted
 
     child_process.shared().end()
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1000

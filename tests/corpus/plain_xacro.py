@@ -15,6 +15,7 @@ from pathlib import Path
 from lxml import etree
 
 from tests.corpus.files import CORPUS, CorpusFile, Kind, corpus_files
+from twinform.compiler.input.options import LoadOptions
 from twinform.compiler.input.parsing import UnreadableError
 from twinform.compiler.input.xacro.expansion import expand
 from twinform.compiler.search.uris import SearchPath, UriError
@@ -108,7 +109,7 @@ def _canonical(text: bytes) -> bytes:
 def _ours(path: Path, search: SearchPath) -> tuple[bytes | None, str]:
     sink = DiagnosticSink(str(path))
     try:
-        return expand(path, {}, search, sink).text, ""
+        return expand(path, LoadOptions(search=search), sink).text, ""
     except UnreadableError:
         return None, sink.diagnostics[-1].message
 

@@ -47,13 +47,14 @@ def test_what_the_command_would_refuse_is_refused(what: str, tmp_path: Path) -> 
 @pytest.mark.parametrize("what", LEFT_OUT)
 def test_what_does_no_harm_is_left_out(what: str, tmp_path: Path) -> None:
     name, make = LEFT_OUT[what]
-    with unpacked(placed(tmp_path, name, make())) as folder:
-        found = {path.name for path in folder.rglob("[!.]*")}
+    with unpacked(placed(tmp_path, name, make())) as content:
+        found = {path.name for path in content.folder.rglob("[!.]*")}
     assert found <= {"good.urdf", "in.zip"}
     assert "good.urdf" in found
 
 
 def test_names_that_differ_in_little_are_different_files(tmp_path: Path) -> None:
     names = ["a.urdf", "A.urdf", "é.urdf", unicodedata.normalize("NFD", "é.urdf")]
-    with unpacked(placed(tmp_path, "a.zip", zipped([(name, name.encode()) for name in names]))) as folder:
-        assert {path.name: path.read_bytes() for path in folder.glob("*.urdf")} == {n: n.encode() for n in names}
+    with unpacked(placed(tmp_path, "a.zip", zipped([(name, name.encode()) for name in names]))) as content:
+        found = {path.name: path.read_bytes() for path in content.folder.glob("*.urdf")}
+    assert found == {name: name.encode() for name in names}

@@ -40,7 +40,8 @@ def opened(running: subprocess.Popen[str]) -> SplitResult:
     assert running.stdout is not None
     line = running.stdout.readline()
     address = next(word for word in line.split() if word.startswith("http"))
-    return urlsplit(address.rstrip(";"))
+    parts: SplitResult = urlsplit(address.rstrip(";"))
+    return parts
 
 
 def _get(netloc: str, path: str, headers: Mapping[str, str]) -> tuple[int, bytes]:

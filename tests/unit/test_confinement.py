@@ -105,7 +105,12 @@ def test_layers_hold_in_this_order_or_are_left_out(monkeypatch: pytest.MonkeyPat
 
 def test_a_python_without_ctypes_is_held_to_limits(monkeypatch: pytest.MonkeyPatch) -> None:
     package = "twinform.confinement"
-    monkeypatch.setattr(f"{package}.renounce_descriptors", lambda **_: True)
+
+    def renounce(*, threads: bool) -> bool:
+        del threads
+        return True
+
+    monkeypatch.setattr(f"{package}.renounce_descriptors", renounce)
     monkeypatch.setitem(sys.modules, f"{package}.landlock", None)
     assert confine() == ["resources"]
 

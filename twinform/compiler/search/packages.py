@@ -40,6 +40,8 @@ def read_manifest(file: Path) -> XmlElement | None:
         if os.path.basename(os.path.realpath(file)) != file.name:  # noqa: PTH119
             return None
         data = read_regular(file, _LARGEST)
+        if len(data) > _LARGEST:
+            return None
         return etree.fromstring(data, etree.XMLParser(resolve_entities=False, no_network=True))
     except (OSError, ValueError, etree.XMLSyntaxError):
         return None

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from twinform.file_access import Readable
 from twinform.ir import Element, Mesh, Opaque
 from twinform.ir.geometry import Box
 from twinform.ir.solids import Solid, solid
@@ -22,6 +23,7 @@ FORMATS = ("stl", "obj", "dae", "ply", "off", "glb")
 class Folder:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        self.readable = Readable.of(folder / "model.urdf")
 
     def find(self, uri: str) -> Path:
         return self.folder / uri

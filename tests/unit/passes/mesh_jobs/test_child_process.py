@@ -82,7 +82,8 @@ def test_a_process_that_runs_out_of_time_or_memory_takes_only_its_job_along() ->
         process.end()
     process = MeshProcess(memory=2**25)
     try:
-        assert process.do(job()).trouble is not None
+        many = trimesh.creation.icosphere(6).export(file_type="stl")  # more than what is free of the memory that it has
+        assert process.do(job(many)).trouble is not None
     finally:
         process.end()
 

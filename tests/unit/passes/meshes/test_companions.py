@@ -15,7 +15,6 @@ from twinform.passes.meshes.companions import companions_of
         "\tmap_Kd -s 1 1 1 wood.png\r",
         "map_Bump -bm 0.5 wood.png",
         "bump -o -1 -2 -3 -mm 0 1 wood.png",
-        "map_Kd " + "-1 " * 200 + "wood.png",
     ],
 )
 def test_the_texture_of_a_material_is_found_behind_its_options(line: str, tmp_path: Path) -> None:

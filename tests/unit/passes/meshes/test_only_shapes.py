@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 import twinform
 from tests.profile import examples
 from twinform.diagnostics import DiagnosticSink
+from twinform.file_access import Readable
 from twinform.ir import Collision, Document, Geometry, Link, Mesh, Node, Visual, rewrite
 from twinform.ir.verify import verify
 from twinform.passes import parse_pipeline
@@ -26,6 +27,7 @@ class Folder:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        self.readable = Readable.of(folder / "model.urdf")
 
     def find(self, uri: str) -> Path:
         return self.folder / uri
