@@ -39,9 +39,8 @@ def opened(running: subprocess.Popen[str]) -> SplitResult:
     """The address that the command prints."""
     assert running.stdout is not None
     line = running.stdout.readline()
-    address = next(word for word in line.split() if word.startswith("http"))
-    parts: SplitResult = urlsplit(address.rstrip(";"))
-    return parts
+    address: str = next(word for word in line.split() if word.startswith("http"))
+    return urlsplit(address.rstrip(";"))
 
 
 def _get(netloc: str, path: str, headers: Mapping[str, str]) -> tuple[int, bytes]:
