@@ -18,7 +18,8 @@ LARGEST = 64 * 2**20
 MOST_TAGS = 1_000_000
 """The most tags where nobody says otherwise. A chain of 10,000 links has 280,000, the largest real file 40,000."""
 MOST_CHILDREN = 50_000
-"""The most elements in one: each is a part of the model, and read as one. A chain of 10,000 links has 20,000."""
+"""The most elements in one, unless more tags are allowed: each is read as a part of the model. A chain of 10,000 links
+has 20,000."""
 MOST_ATTRIBUTES = 256
 """The most attributes of one element, since libxml2 looks each of them up among all. The most in a real file is 12."""
 MOST_LOOKUPS = 250_000_000
@@ -117,20 +118,22 @@ def uncountable_encoding(text: bytes) -> str | None:
     return declared[1].decode() if declared and not _COUNTABLE.fullmatch(declared[1]) else None
 
 
-def excess_of_tree(root: XmlElement, text: bytes) -> Excess | None:
+def excess_of_tree(root: XmlElement, text: bytes, limits: Limits = USUAL_LIMITS) -> Excess | None:
     """Why this tree is too much to be read, which was parsed from this text."""
     if text.count(b"<model") > DEEPEST_MODELS:
         deep = cast("list[XmlElement]", _DEEP_MODEL(root))
         if deep:
             where = Location(line=deep[0].sourceline or 0, path=f"/{root.tag}")
             return Excess(f"models are in each other more than {DEEPEST_MODELS} deep", where)
-    if text.count(b"<") > MOST_CHILDREN:
+    # a robot that needs more tags than usual has more links, all of which are in one element
+    if limits.tags <= MOST_TAGS and text.count(b"<") > MOST_CHILDREN:
         populous = cast("list[XmlElement]", _POPULOUS(root))
         if populous:
             element = populous[0]
             count = sum(1 for _ in element.iterchildren("*"))
             message = f"<{element.tag}> has {count:,} elements in it; the limit is {MOST_CHILDREN:,}"
-            return Excess(message, Location(line=element.sourceline or 0, path=path_of(element)))
+            where = Location(line=element.sourceline or 0, path=path_of(element))
+            return Excess(message, where, LIFTED_BY_TAGS)
     if not _LONG_TAG.search(text):
         return None
     for find, what in ((_CROWDED, f"attributes; the limit is {MOST_ATTRIBUTES}"), (_LONG_NAMED, "")):

@@ -84,9 +84,9 @@ def parse(
     repaired = False
     try:
         root = etree.fromstring(text, _parser(recover=False, keep_comments=keep_comments))
-        refuse_excess(excess_of_tree(root, text), sink)
+        refuse_excess(excess_of_tree(root, text, limits), sink)
     except etree.XMLSyntaxError as error:
-        root, repaired = _recover(text, sink, error, keep_comments=keep_comments), True
+        root, repaired = _recover(text, sink, error, limits, keep_comments=keep_comments), True
     refuse_excess(excess_of_namespaces(root, text, repaired=repaired), sink)
     if root.getroottree().docinfo.doctype:
         from twinform.compiler.input.syntax_places import SyntaxPlaces  # noqa: PLC0415 - few files are refused
@@ -123,7 +123,9 @@ def _parser(*, recover: bool, keep_comments: bool) -> etree.XMLParser:
     )
 
 
-def _recover(text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError, *, keep_comments: bool) -> XmlElement:
+def _recover(
+    text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError, limits: Limits, *, keep_comments: bool
+) -> XmlElement:
     from twinform.compiler.input.syntax_places import SyntaxPlaces  # noqa: PLC0415 - few files are not well-formed
 
     source, whole = text, with_bracket(text)
@@ -147,7 +149,7 @@ def _recover(text: bytes, sink: DiagnosticSink, error: etree.XMLSyntaxError, *, 
         where = SyntaxPlaces(text).location(flaw) if text == source else Location(line=flaw.line, path="/")
         sink.report(reading.NOT_WELL_FORMED, f"not well-formed XML: {flaw.message}", where, help=flaw.help)
         raise UnreadableError from error
-    refuse_excess(excess_of_tree(root, text), sink)
+    refuse_excess(excess_of_tree(root, text, limits), sink)
     places = SyntaxPlaces(source)
     is_unchanged = text == source
     for number, flaw in enumerate((*flaws, *repaired(log))):

@@ -23,7 +23,7 @@ OVERSIZED_FILE = Rule(
     "of 10,000 links has 280,000 tags.",
     example="A million `<x/>`; a link in a link in a link, a thousand deep.",
     better="Split the world into files, and include them. For a file that is your own, `--max-size` and `--max-tags` "
-    "lift the first two limits.",
+    "lift the first two limits; more than a million tags also mean any number of elements in one.",
 )
 NOT_WELL_FORMED = Rule(
     name="not-well-formed",

@@ -171,6 +171,7 @@ def test_an_element_has_so_many_elements_in_it() -> None:
         excess = excess_of_tree(etree.fromstring(text), text)
         assert (excess and excess.message) == message
         assert excess is None or excess.location == Location(line=2, path="/robot[@name='r']/link[@name='l']")
+        assert excess_of_tree(etree.fromstring(text), text, Limits(tags=limits.MOST_TAGS + 1)) is None
 
 
 def test_models_are_so_deep_in_each_other() -> None:
