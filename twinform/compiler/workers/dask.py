@@ -22,6 +22,8 @@ _PATIENCE = 600.0
 _PAUSE = 2.0
 _LONGEST_ANSWER = 60.0
 """Seconds that a scheduler may take to say which workers it has, and all of them to answer a question."""
+# whoever loses a connection logs a traceback, and the command itself says what it waits for
+_LOGGERS = ("distributed", "distributed.client", "tornado.application", "asyncio")
 
 
 def dask_runner(address: str, patience: float = _PATIENCE, tell: Callable[[str], None] = lambda _: None) -> Runner:
@@ -118,7 +120,8 @@ def _connected(address: str, waiting: _Waiting) -> Generator[Executor]:
 
 def _client(address: str, waiting: _Waiting) -> Any:
     """A connection; the scheduler may be about to start."""
-    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)  # the command reports what it waits for
+    for name in _LOGGERS:
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     while True:
         try:
             return Client(address, timeout=_PAUSE, set_as_default=False)
