@@ -49,6 +49,7 @@ class Mistake:
     def make(self, folder: Path) -> tuple[Path, int]:
         """The file with the mistake in a copy of all files, and the line of the mistake."""
         shutil.copytree(_FOLDER, folder, dirs_exist_ok=True)
+        (folder / ".git").mkdir()  # without a repository the models beside that of the file are none of its business
         path = folder / self.file
         text = path.read_text("utf-8")
         assert text.count(self.find) == 1
