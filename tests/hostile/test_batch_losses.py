@@ -94,7 +94,7 @@ def test_only_a_verdict_on_the_model_takes_a_result_away(here: Path) -> None:
 
 def test_a_run_with_no_time_loses_nothing(here: Path) -> None:
     for number in range(3):
-        (here / f"src/{number}.urdf").write_text(robots.urdf(150 + number))
+        (here / f"src/{number}.urdf").write_text(robots.urdf(1_500 + number))
     assert _batch(here)[0] == 0
     before = _results(here)
     code, outcomes, _ = _batch(here, "--fresh", "--timeout", "0.01")

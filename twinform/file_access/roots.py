@@ -3,6 +3,7 @@
 import os
 import stat
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 
 REPOSITORY = (".git", ".hg")
@@ -22,10 +23,12 @@ def find_root(file: Path) -> Path:
     may use all of the package. Where there is none of them, it is the file's own folder.
     """
     own = own_folder(file)
-    around = (own, *folders_above(own))
-    top = next((folder for folder in around if has_any(folder, REPOSITORY)), None)
-    if top is not None:
-        return top
+    around: list[Path] = []
+    # no folder above the top is looked at: whatever is there must not make a batch convert the file again
+    for folder in chain((own,), folders_above(own)):
+        if has_any(folder, REPOSITORY):
+            return folder
+        around.append(folder)
     nearest = (next((folder for folder in around if has_any(folder, (name,))), own) for name in PROJECT)
     return min(nearest, key=lambda folder: len(folder.parts))
 
@@ -52,7 +55,7 @@ def neighborhood(file: Path) -> Path | None:
 def package_around(file: Path) -> Path | None:
     """The folder of the package or model that a file lies in; None where it lies in none."""
     own = own_folder(file)
-    return next((folder for folder in (own, *folders_above(own)) if has_any(folder, PACKAGE)), None)
+    return next((folder for folder in chain((own,), folders_above(own)) if has_any(folder, PACKAGE)), None)
 
 
 def own_folder(file: Path) -> Path:
