@@ -112,12 +112,13 @@ def test_what_was_looked_for_in_vain_is_looked_for_again(run: Run, here: Path) -
 
 
 def test_variables_that_a_model_asks_for_count(run: Run, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    run(*CONVERT)
+    asking = (*CONVERT, "--env", "SIDE")
+    run(*asking)
     monkeypatch.setenv("SIDE", "right")
-    assert last(run, *CONVERT).endswith("(4 known from before)")
+    assert last(run, *asking).endswith("(4 known from before)")
     assert '"right"' in Path("out/x.sdf").read_text()
     monkeypatch.setenv("ELSE", "nobody asks")
-    assert last(run, *CONVERT).endswith("(5 known from before)")
+    assert last(run, *asking).endswith("(5 known from before)")
 
 
 def test_a_file_that_is_only_newer_is_compared_by_its_content(run: Run, here: Path) -> None:
