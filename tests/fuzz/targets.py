@@ -23,6 +23,7 @@ from twinform.cli.format import command as format_command
 from twinform.compiler import check
 from twinform.compiler.batch.archives import LEAST_BYTES, MOST_TIMES, unpacked
 from twinform.compiler.batch.entries import FolderError
+from twinform.compiler.input.options import LoadResult
 from twinform.compiler.output.emitting import emit
 from twinform.compiler.output.json import json_text
 from twinform.compiler.reproducers.reproducer import Reproducer
@@ -30,6 +31,7 @@ from twinform.compiler.search.uris import SearchPath, UriError
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.baseline import Baseline, BaselineError
 from twinform.diagnostics.suppressions import parse_suppressions
+from twinform.ir import Document
 from twinform.passes import PipelineError, parse_pipeline
 from twinform.passes.mesh_references import FORMATS
 from twinform.server.framing import read_messages
@@ -42,12 +44,11 @@ _REPETITIONS = 100
 
 def load(data: bytes) -> None:
     """Nothing but findings comes of any bytes, and what is accepted is the same text once written, read and written."""
-    checked = check(data)
-    if not checked.accepted or checked.document is None:
-        assert checked.diagnostics, "refused without a word"
+    checked, document = _checked(data)
+    if document is None:
         return
     sink = DiagnosticSink()
-    text = emit(checked.document, sink)
+    text = emit(document, sink)
     # what comments allow is an error again in a text without them
     if not sink.has_errors and not checked.allowed:
         assert emit(twinform.loads(text), sink) == text, "another text once read again"
@@ -134,16 +135,23 @@ def json(data: bytes) -> None:
     for parse, refusal in ((Baseline.parse, BaselineError), (Reproducer.model_validate_json, ValueError)):
         with suppress(refusal):
             _require_same(parse, parse(text))
-    checked = check(data)
-    if not checked.accepted or checked.document is None:
-        assert checked.diagnostics, "refused without a word"
+    checked, document = _checked(data)
+    if document is None:
         return
     sink = DiagnosticSink()
-    written = json_text(checked.document, sink)
+    written = json_text(document, sink)
     if not sink.has_errors and not checked.allowed:
         again = check(written.encode()).document
         assert again is not None, "refused once written"
         assert json_text(again, sink) == written, "another text once read again"
+
+
+def _checked(data: bytes) -> tuple[LoadResult, Document | None]:
+    """What comes of a check, and the document if it is accepted; what is not has a finding that says why."""
+    checked = check(data)
+    document = checked.document if checked.accepted else None
+    assert document is not None or checked.diagnostics, "refused without a word"
+    return checked, document
 
 
 def _require_same(parse: Callable[[str], Baseline | Reproducer], found: Baseline | Reproducer) -> None:

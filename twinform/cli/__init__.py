@@ -4,7 +4,7 @@ import signal
 import threading
 from collections.abc import Generator, Mapping
 from contextlib import contextmanager
-from typing import Any, NoReturn
+from typing import Any
 
 import click
 
@@ -97,10 +97,3 @@ class _Commands(LazyGroup):
 @click.version_option(__version__, prog_name="twinform")
 def main() -> None:
     """Compile robot models between URDF and SDF: strict, lossless, both ways."""
-
-
-def program() -> NoReturn:
-    """Run the program, for scripts that an earlier version has installed."""
-    from twinform.__main__ import program as run_program  # noqa: PLC0415 - it changes what signals do
-
-    run_program()
