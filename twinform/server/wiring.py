@@ -2,12 +2,14 @@
 
 import threading
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
 from lsprotocol import types
 from pygls.exceptions import FeatureRequestError, JsonRpcException, JsonRpcInvalidParams, PyglsError
 from pygls.lsp.server import LanguageServer
+from pygls.protocol import default_converter
 
 from twinform import __version__
 from twinform.server.actions import FIX_ALL, RUN_PASSES, actions, edit_of, text_edits, word_of
@@ -27,6 +29,9 @@ from twinform.server.uris import file_of
 from twinform.server.workers import TaskError, Worker
 
 Answer = TypeVar("Answer")
+# What a converter generates stays in `linecache` until the process ends, and takes longer to make than a session
+# takes to begin: all servers of a process share one.
+_converter = cache(default_converter)
 
 
 class Server(LanguageServer):
@@ -35,7 +40,9 @@ class Server(LanguageServer):
     protocol: Protocol  # pyright: ignore[reportIncompatibleVariableOverride] - it is never replaced
 
     def __init__(self, settings_of: SettingsOf, worker: Worker | None) -> None:
-        super().__init__("twinform", __version__, protocol_cls=Protocol)  # pyright: ignore[reportUnknownMemberType]
+        super().__init__(  # pyright: ignore[reportUnknownMemberType]
+            "twinform", __version__, protocol_cls=Protocol, converter_factory=_converter
+        )
         self.session = Session(settings_of, self.text_document_publish_diagnostics, worker)
         self.on_parent: Callable[[int], None] | None = None
 
