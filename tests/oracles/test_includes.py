@@ -6,7 +6,10 @@ import pytest
 
 import twinform
 from twinform.testing.oracles import libsdformat
+from twinform.testing.oracles.libsdformat.library import models_of
 
+NEWEST = "1.9"
+"""The newest version that libsdformat 12 reads."""
 _CASES = Path(__file__).parents[1] / "cases" / "includes"
 
 
@@ -17,3 +20,37 @@ def test_libsdformat_accepts_what_includes_become(tmp_path: Path, name: str) -> 
     path = tmp_path / name
     path.write_text(result.text)
     assert libsdformat.judge([path])[path].errors == ()
+
+
+@pytest.mark.skipif(not libsdformat.available(), reason=libsdformat.MISSING)
+def test_the_model_of_a_folder_is_the_one_that_libsdformat_takes(tmp_path: Path) -> None:
+    versions = ["1.4", "1.6", "1.8", "1.10", "1.12"]
+    folder = tmp_path / "crate"
+    folder.mkdir()
+    for version in versions:
+        link = f"<link name='of_{version}'><inertial><mass>1</mass></inertial></link>"
+        text = f"<sdf version='{version}'><model name='m'>{link}</model></sdf>"
+        (folder / f"{version}.sdf").write_text(text)
+    rows = "".join(f"<sdf version='{version}'>{version}.sdf</sdf>" for version in versions)
+    (folder / "model.config").write_text(f"<model><name>crate</name>{rows}</model>")
+    for own in ("1.4", "1.6", "1.9"):
+        world = tmp_path / "world.sdf"
+        include = "<include><uri>model://crate</uri></include>"
+        world.write_text(f"<sdf version='{own}'><world name='w'>{include}</world></sdf>")
+        (theirs,) = models_of(world, [tmp_path])[1]
+        made = twinform.convert(world, to="sdf", sdf_version=NEWEST, expand_includes=True, paths=[tmp_path])
+        (ours,) = made.document.worlds[0].models
+        assert [link.name for link in ours.links] == [row["name"] for row in theirs["links"]]
+
+
+@pytest.mark.parametrize(("asked", "taken"), [(None, "of_1.11"), ("1.9", "of_1.8"), ("1.12", "of_1.11")])
+def test_the_reader_chooses_the_model_of_a_folder(asked: str | None, taken: str, tmp_path: Path) -> None:
+    (tmp_path / "crate").mkdir()
+    for version in ("1.8", "1.11"):
+        text = f"<sdf version='{version}'><model name='m'><link name='of_{version}'/></model></sdf>"
+        (tmp_path / "crate" / f"{version}.sdf").write_text(text)
+    rows = "".join(f"<sdf version='{version}'>{version}.sdf</sdf>" for version in ("1.8", "1.11"))
+    (tmp_path / "crate" / "model.config").write_text(f"<model><name>crate</name>{rows}</model>")
+    text = "<sdf version='1.9'><world name='w'><include><uri>model://crate</uri></include></world></sdf>"
+    made = twinform.convert(text.encode(), to="sdf", sdf_version=asked, expand_includes=True, paths=[tmp_path])
+    assert [link.name for link in made.document.worlds[0].models[0].links] == [taken]

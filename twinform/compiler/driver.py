@@ -187,7 +187,7 @@ def convert_once(
         CompileError: the source, a pass or the result has an error.
     """
     with garbage_collection_paused():
-        load_options = replace(load_options, keep_tree=False)
+        load_options = replace(load_options, keep_tree=False).read_by(request.sdf_version)
         loaded = read(source, load_options, name=name)
         request = replace(request, assets=LocalAssets(load_options.search, Path(loaded.path)))
         if loaded.accepted and (request.expand_includes or request.to == "urdf" or request.model is not None):

@@ -5,18 +5,20 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from twinform.ir.defaults import MASS, MOMENT, sizes
+from twinform.ir.defaults import INERTIAL, MASS, MOMENT, filled, sizes
 from twinform.ir.document import Format
 from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, ShapeNode, Sphere
 from twinform.ir.link import Inertia, Inertial
 from twinform.ir.node import Vector3
 from twinform.ir.principal_moments import Symmetric, times_each
+from twinform.ir.rewrite import replace_fields
 from twinform.ir.scaling import common_exponent, safe_sum, times_power
 from twinform.ir.transform import Transform
 
 ELEMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 """The fields of an inertia in the order of a tensor."""
 ORIGIN: Vector3 = (0.0, 0.0, 0.0)
+_USUAL_ELEMENTS = {name: getattr(INERTIAL.inertia, name) for name in ELEMENTS}
 _THINNEST = 1e-70
 """What is thinner than this part of its length fills no volume: the fourth powers of thinner ones lose digits."""
 
@@ -135,6 +137,14 @@ def written_solid(inertial: Inertial | None, format_: Format) -> Solid:
     written = inertial or Inertial()
     mass = MASS[format_] if written.mass is None else written.mass
     return Solid(mass or 0.0, ORIGIN, tensor(written.inertia, MOMENT[format_] or 0.0))
+
+
+def with_written_defaults(inertial: Inertial | None) -> Inertial:
+    """The inertial of a link of SDF with the mass and the inertia written that SDF has by default."""
+    if inertial is None:
+        return INERTIAL
+    inertia = filled(inertial.inertia or Inertia(), _USUAL_ELEMENTS)
+    return replace_fields(filled(inertial, {"mass": INERTIAL.mass}), inertia=inertia)
 
 
 def placed(one: Solid, at: Transform) -> Solid:

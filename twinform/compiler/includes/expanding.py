@@ -6,7 +6,7 @@ from pathlib import Path
 from posixpath import dirname
 from typing import NamedTuple
 
-from twinform.compiler.includes.model_config import manifest, model_file
+from twinform.compiler.includes.model_config import manifest, model_file, newest_read
 from twinform.compiler.input.limits import LIFTED_BY_TAGS, excess_of_names
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.search.uris import UriError
@@ -18,7 +18,7 @@ from twinform.ir.verify import verify
 from twinform.passes import Pipeline
 from twinform.passes.includes import Included, expand_includes, frame_of_sdf, has_includes
 from twinform.passes.legalise import Target, legalisation
-from twinform.schemas import Version, parse_version, versions_of
+from twinform.schemas import versions_of
 
 _DEEPEST = 32
 _MOST = 10_000
@@ -159,7 +159,7 @@ class _Reader:
         config = manifest(path)
         if config is not None:
             self.load_options.search.seen.add(config)
-            return model_file(config, _version(document), self.sink)
+            return model_file(config, newest_read(document, self.load_options), self.sink)
         usual = path / "model.sdf"
         rule = files.MISSING_MODEL_CONFIG if usual.is_file() else files.BROKEN_MODEL_CONFIG
         message = f"{include.uri!r} is the folder {str(path)!r}, which has no model.config"
@@ -225,10 +225,6 @@ def _nesting(document: Document) -> int:
     while level:
         depth, level = depth + 1, [inner for model in level for inner in model.models]
     return depth
-
-
-def _version(document: Document) -> Version | None:
-    return parse_version(document.version) if document.version in versions_of("sdf") else None
 
 
 def _folder(include: Include, path: Path) -> str:

@@ -5,11 +5,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from twinform.compiler.input.options import LoadOptions
 from twinform.compiler.input.parsing import UnreadableError, parse, read_bytes
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import files as rules
 from twinform.file_access import Readable
-from twinform.schemas import Version, parse_version
+from twinform.ir import Document, Format
+from twinform.schemas import Version, parse_version, versions_of
 
 MANIFESTS = ("model.config", "manifest.xml")
 """The name of today and the older one."""
@@ -25,6 +27,13 @@ class _Entry:
 def manifest(folder: Path) -> Path | None:
     """The file that names the model file of a folder; None where the folder has none."""
     return next((folder / name for name in MANIFESTS if (folder / name).is_file()), None)
+
+
+def newest_read(document: Document, load_options: LoadOptions) -> Version:
+    """The newest version that who reads a document and its includes knows: the reader's, or that of the document."""
+    own = document.version if document.format is Format.SDF and document.version in versions_of("sdf") else None
+    reader = parse_version(load_options.sdf_version)
+    return max(parse_version(own), reader) if own else reader
 
 
 def model_file(config: Path, asked: Version | None, sink: DiagnosticSink) -> Path | None:

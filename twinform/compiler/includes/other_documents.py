@@ -4,13 +4,13 @@ import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from twinform.compiler.includes.model_config import manifest, model_file
+from twinform.compiler.includes.model_config import manifest, model_file, newest_read
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.search.uris import UriError
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules.edits import UNREAD_DOCUMENT
 from twinform.ir import Document, Format
-from twinform.schemas import parse_version
+from twinform.schemas import Version
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,13 +37,13 @@ class OtherDocuments:
     def _find(self, path: str, around: Document, sink: DiagnosticSink) -> Path | None:
         """A path is relative to the working directory, as on the command line; URIs are searched for."""
         if "://" not in path:
-            return _file(Path(path), around, sink)
+            return _file(Path(path), newest_read(around, self.load_options), sink)
         try:
             found = self.load_options.search.find(path, Path(self.file or "."))
         except UriError as error:
             sink.report(UNREAD_DOCUMENT, error.message, around.location, found=path, help=error.help)
             return None
-        return _file(found, around, sink)
+        return _file(found, newest_read(around, self.load_options), sink)
 
     def _read(self, path: Path) -> LoadResult:
         load_options = replace(
@@ -74,10 +74,9 @@ class OtherDocuments:
         return Path(os.path.relpath(path.resolve().parent, here.resolve())).as_posix()
 
 
-def _file(path: Path, around: Document, sink: DiagnosticSink) -> Path | None:
+def _file(path: Path, asked: Version, sink: DiagnosticSink) -> Path | None:
     """The path, or of the folder of a model the file that its `model.config` names; None after an error."""
     config = manifest(path) if path.is_dir() else None
     if config is None:
         return path
-    asked = parse_version(around.version) if around.version and around.format is Format.SDF else None
     return model_file(config, asked, sink)

@@ -1,12 +1,13 @@
 """`LoadOptions` and `LoadResult`: how a file is read, and what was found in it."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from twinform.compiler.input.allowances import Allowances
 from twinform.compiler.input.limits import USUAL_LIMITS, Limits
+from twinform.compiler.request import DEFAULT_SDF_VERSION
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Entry, Origins
 from twinform.ir import Document, count_parts
@@ -28,7 +29,8 @@ class LoadOptions:
     Without `keep_tree` the result has no tree, which needs more memory than the document. Findings of the rules in
     `allow` are left out, as are those that comments in the files allow; errors too where the caller is `tolerant`.
     `profiles` are those of the consumers that the files are for. `variables` are environment variables that xacro files
-    may read besides those of ROS and Gazebo; `*` may stand in a name.
+    may read besides those of ROS and Gazebo; `*` may stand in a name. `sdf_version` is the newest that the reader
+    of the files knows: of a folder that has a model in several versions, it takes the newest one up to that.
     """
 
     strict: bool = False
@@ -42,6 +44,11 @@ class LoadOptions:
     tolerant: bool = False
     profiles: "tuple[Profile, ...]" = ()
     variables: tuple[str, ...] = ()
+    sdf_version: str = DEFAULT_SDF_VERSION
+
+    def read_by(self, sdf_version: str | None) -> "LoadOptions":
+        """The options for files that a reader of this version of SDF reads; the same ones where none is asked for."""
+        return self if sdf_version is None else replace(self, sdf_version=sdf_version)
 
     def allowances(self, file: str, origins: Mapping[str, Origins] | None = None) -> Allowances:
         """What may be left out of the findings about a file."""

@@ -85,6 +85,7 @@ def split(
         CompileError: the source, a pass or one of the results has an error.
     """
     with garbage_collection_paused():
+        load_options = load_options.read_by(request.sdf_version)
         checked = read(source, load_options, name=name)
         if request.expand_includes:
             checked = expand(checked, load_options, carriers=request.carriers)

@@ -1,13 +1,13 @@
 """Verifies joints: parent and child, axes, limits and mimic."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from twinform.diagnostics import DiagnosticSink, Location, did_you_mean
 from twinform.diagnostics.rules import joints as rules
 from twinform.diagnostics.rules import model as names
 from twinform.diagnostics.rules.limits import RANGE_IN_DEGREES
-from twinform.ir.joint import Axis, Joint, Limit
+from twinform.ir.joint import Axis, Joint, Limit, Mimic
 from twinform.ir.node import Vector3
 
 _FREEDOMS = {
@@ -126,15 +126,25 @@ def verify_mimics(joints: Iterable[Joint], sink: DiagnosticSink) -> None:
     leaders: dict[str, str] = {}
     for joint, axis in followers:
         mimic = axis.mimic
-        leader = known.get(mimic.joint or "") if mimic else None
-        if mimic is None or (leader is not None and leader is not joint and leader.type in _FREEDOMS):
-            leaders[joint.name] = leader.name if leader else ""
+        what = useless_leader(joint, mimic, known) if mimic else ""
+        if mimic is None or not what:
+            leaders[joint.name] = (mimic and mimic.joint) or ""
             continue
-        what = "which is no joint" if leader is None else "itself" if leader is joint else "which has no axis"
         message = f"joint {joint.name!r} mimics {mimic.joint!r}, {what}"
-        hint = did_you_mean(mimic.joint or "", (each for each in known if each != joint.name)) if not leader else None
+        others = (each for each in known if each != joint.name)
+        hint = None if mimic.joint in known else did_you_mean(mimic.joint or "", others)
         sink.report(names.UNKNOWN_LEADER, message, mimic.location, found=mimic.joint, help=hint)
     _report_circles(followers, leaders, sink)
+
+
+def useless_leader(joint: Joint, mimic: Mimic, joints: Mapping[str, Joint]) -> str:
+    """Why nothing moves by what a joint mimics; empty where that is another joint with an axis."""
+    leader = joints.get(mimic.joint or "")
+    if leader is None:
+        return "which is no joint"
+    if leader.name == joint.name:
+        return "itself"
+    return "" if leader.type in _FREEDOMS else "which has no axis"
 
 
 def _report_circles(followers: list[tuple[Joint, Axis]], leaders: dict[str, str], sink: DiagnosticSink) -> None:

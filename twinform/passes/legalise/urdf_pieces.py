@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from twinform.ir import Element, Joint, Link, Model, Node, Opaque
+from twinform.ir import Element, Joint, Link, Mimic, Model, Node, Opaque
+from twinform.ir.verify.joints import useless_leader
 from twinform.passes.transforms.gazebo_tags import LINK_TAGS
 
 _ABOUT_JOINTS = frozenset({"transmission", "ros2_control"})
@@ -21,13 +22,16 @@ def joints_of(element: Element) -> Iterator[str]:
         yield from (child.get("name") or "" for child in element.children if child.name == "joint")
 
 
-def misfit(piece: Opaque, node: Node) -> str:
-    """Why a piece cannot stand in a node as that is by now; empty where it can. The node is in the notation of URDF."""
+def misfit(piece: Opaque, node: Node, model: Model) -> str:
+    """Why a piece cannot stand in a node of a model, or in the model, as that is by now; empty where it can.
+
+    The model is in the notation of URDF.
+    """
     if isinstance(node, Model):
         return _misfit_of_model(piece, node)
     if isinstance(node, Link):
         return _misfit_of_link(piece)
-    return _misfit_of_joint(piece, node) if isinstance(node, Joint) else ""
+    return _misfit_of_joint(piece, node, model) if isinstance(node, Joint) else ""
 
 
 def _misfit_of_link(piece: Opaque) -> str:
@@ -45,7 +49,7 @@ def is_zero(text: str) -> bool:
         return False
 
 
-def _misfit_of_joint(piece: Opaque, joint: Joint) -> str:
+def _misfit_of_joint(piece: Opaque, joint: Joint, model: Model) -> str:
     attribute = piece.attribute[0] if piece.attribute else ""
     if attribute == "type" and not piece.at and joint.type not in BALLS:
         return f"the joint is {joint.type} by now"
@@ -53,9 +57,21 @@ def _misfit_of_joint(piece: Opaque, joint: Joint) -> str:
         return "the joint has no limits any more"
     if piece.at == "limit" and attribute in _ENDS and joint.type not in _ENDLESS:
         return f"the joint is {joint.type} and has limits of its own"
+    if piece.element and not piece.at and piece.element.name == "mimic" and joint.type not in WITHOUT_AXIS:
+        return _misfit_of_mimic(piece.element, joint, model)
     if piece.element and not piece.at and piece.element.name in OF_AN_AXIS and joint.type not in WITHOUT_AXIS:
         return f"the joint is {joint.type} and has that type itself"
     return ""
+
+
+def _misfit_of_mimic(element: Element, joint: Joint, model: Model) -> str:
+    """A mimic travels where nothing moves by it."""
+    if joint.axis is not None and joint.axis.mimic is not None:
+        return "the joint mimics another one"
+    leader = element.get("joint")
+    if useless_leader(joint, Mimic(joint=leader), {each.name: each for each in model.joints}):
+        return ""
+    return f"joint {leader!r} has an axis by now, and this joint has moved without it"
 
 
 def _would_act(element: Element, link: Link) -> bool:

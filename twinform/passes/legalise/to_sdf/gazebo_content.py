@@ -7,8 +7,21 @@ from typing import Any
 from lxml import etree
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Axis, Collision, Format, GazeboExtension, Joint, Link, Model, Node, Visual
-from twinform.ir.defaults import INERTIAL, direction, with_range
+from twinform.ir import (
+    Axis,
+    Collision,
+    Format,
+    GazeboExtension,
+    Inertial,
+    Joint,
+    Link,
+    Model,
+    Node,
+    Visual,
+    replace_fields,
+)
+from twinform.ir.defaults import direction, with_range
+from twinform.ir.solids import with_written_defaults
 from twinform.schemas import Context, element_xml, reader, table
 
 _HAS_AXIS = frozenset({"revolute", "continuous", "prismatic", "screw"})
@@ -40,7 +53,10 @@ def read_content(
         return {}
     base: dict[str, Any] = {"name": name, **_REQUIRED.get(kind, {})}
     node = _NODES[kind].model_validate({**base, **{field: data[field] for field in fields}})
-    return {field: getattr(node, field) for field in fields}
+    made = {field: getattr(node, field) for field in fields}
+    if isinstance(node, Link) and node.inertial is not None:
+        made["inertial"] = _as_in_sdf(node.inertial)
+    return made
 
 
 def _report(found: DiagnosticSink, step: str, reference: str, sink: DiagnosticSink) -> None:
@@ -53,8 +69,12 @@ def _report(found: DiagnosticSink, step: str, reference: str, sink: DiagnosticSi
 
 
 def with_mass(link: Link) -> Link:
-    """A link without a written mass has 1 kg in SDF; in URDF it has none."""
-    return link if link.inertial is not None else link.model_copy(update={"inertial": INERTIAL})
+    """The link with all of its inertial written: what it leaves out is 1 kg or 1 kg m^2 in SDF, and nothing in URDF."""
+    return replace_fields(link, inertial=_as_in_sdf(link.inertial))
+
+
+def _as_in_sdf(inertial: Inertial | None) -> Inertial:
+    return inertial if inertial is not None and inertial.auto else with_written_defaults(inertial)
 
 
 def with_axis(joint: Joint) -> Joint:

@@ -1,14 +1,17 @@
 """Conversion of URDF joint types, axes and limits to SDF."""
 
+from collections.abc import Mapping
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, Rule
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Axis, Element, Format, Joint, Limit, Link, Model, Opaque, count_parts
+from twinform.ir import Axis, Element, Format, Joint, Limit, Link, Mimic, Model, Opaque, count_parts
 from twinform.ir.defaults import AXIS, with_range
 from twinform.ir.frames import WORLD
+from twinform.ir.verify.joints import useless_leader
 from twinform.passes.carriers.annotations import annotate_synthesized, is_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, carry, to_element
+from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.planar import planar_chain
 from twinform.passes.legalise.to_sdf.unique_names import free_name
@@ -30,7 +33,8 @@ class UrdfJoints(ModelPass):
     limits written, 0 where URDF leaves them out; 5. a `floating` joint goes, and so does one synthesized to fix a
     static model to the world; its child link is posed where it was; 6. limits of acceleration and jerk, which SDF
     lacks, are carried; 7. a `planar` joint becomes two sliding joints and a turning one, with two links without mass
-    between them, all of them annotated so that they become one again.
+    between them, all of them annotated so that they become one again; 8. a `mimic` of what has no axis, which
+    libsdformat refuses, is carried.
     Never touches: names, origins, parents, children.
     Diagnostics: `joint-chain`; ledger entries under `urdf-only` and `no-joint`.
     """
@@ -41,12 +45,30 @@ class UrdfJoints(ModelPass):
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with joints of SDF."""
         free = {joint.child: joint for joint in model.joints if _is_free(joint, model)}
-        joints = tuple(self._joint(joint, sink) for joint in model.joints if not _is_free(joint, model))
+        mimicking = self._without_useless_mimics(model, sink) if any(map(_mimic_of, model.joints)) else model.joints
+        joints = tuple(self._joint(joint, sink) for joint in mimicking if not _is_free(joint, model))
         links = model.links
         if free:
             links = tuple(self._free(link, free[link.name], sink) if link.name in free else link for link in links)
         model = model.model_copy(update={"joints": joints, "links": links})
         return self._unfold(model, sink) if any(joint.type == "planar" for joint in joints) else model
+
+    def _without_useless_mimics(self, model: Model, sink: DiagnosticSink) -> tuple[Joint, ...]:
+        """The joints of the model without mimics that libsdformat refuses since SDF 1.11; SDF keeps its own."""
+        if came_from(model, Format.SDF):
+            return model.joints
+        known = {joint.name: joint for joint in model.joints}
+        return tuple(self._without_useless_mimic(joint, known, sink) for joint in model.joints)
+
+    def _without_useless_mimic(self, joint: Joint, known: Mapping[str, Joint], sink: DiagnosticSink) -> Joint:
+        mimic = _mimic_of(joint)
+        if joint.axis is None or mimic is None or not useless_leader(joint, mimic, known):
+            return joint
+        pieces = [each for each in to_element(joint, "joint", "urdf").children if each.name == "mimic"]
+        axis = joint.axis.model_copy(update={"mimic": None})
+        bare = joint.model_copy(update={"axis": None if axis == Axis.unchecked() else axis})
+        message = f"joint {joint.name!r} cannot mimic {mimic.joint!r} in SDF"
+        return self._keep(bare, [Opaque.unchecked(element=each) for each in pieces], message, sink)
 
     def _unfold(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with a chain in the place of each planar joint."""
@@ -163,6 +185,10 @@ def _limit(joint: Joint, limit: Limit | None) -> tuple[Limit | None, list[Opaque
     unsaid = (*_HIGHER, "lower", "upper") if joint.type == "continuous" else _HIGHER
     limit, rest = _without(limit, unsaid)
     return limit if joint.type == "continuous" else with_range(limit, Format.URDF), rest
+
+
+def _mimic_of(joint: Joint) -> Mimic | None:
+    return joint.axis.mimic if joint.axis else None
 
 
 def _is_free(joint: Joint, model: Model) -> bool:

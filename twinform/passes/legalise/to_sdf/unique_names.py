@@ -5,9 +5,11 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import to_sdf
-from twinform.ir import Format, Joint, Link, Model, ReferenceKind, map_references
+from twinform.ir import Format, Joint, Link, Model, map_references
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.names import with_old_name
+from twinform.passes.structure.renaming import with_followed
+from twinform.passes.structure.scopes import scope_of
 
 Named = TypeVar("Named", Link, Joint, Model)
 _NO_NAME = "robot"
@@ -21,8 +23,9 @@ class UniqueNames(ModelPass):
     poses follow; 2. a link called `world`, or with two underscores at both ends, becomes `NAME_link`, and joints and
     poses follow; 3. names lose the blanks around them, which libsdformat drops where it reads them; 4. a robot without
     a name is called `robot`.
-    Never touches: names inside plugins, which only the plugins understand.
-    Diagnostics: `renamed`. The old name is carried.
+    References follow, also those in frames, sensors and plugins of `<gazebo>`, as in the pass `rename`.
+    Never touches: a text that may be something else than a reference.
+    Diagnostics: `renamed`, and `unfollowed-name` for such a text. The old name is carried.
     """
 
     name: ClassVar[str] = "unique-names"
@@ -39,8 +42,11 @@ class UniqueNames(ModelPass):
         joints = {name: free_name(_new(name, "joint", names), taken) for name in clashes}
         if not links and not joints:
             return model
-        new: dict[ReferenceKind, dict[str, str]] = {"link": links, "joint": joints}
+        new: dict[str, dict[str, str]] = {"link": links, "joint": joints}
+        # typed references mean links and joints here, also one called `world`, which means something else in SDF
         followed = map_references(model, lambda kind, name: new.get(kind, {}).get(name, name), Format.URDF)
+        scope = scope_of(model, lambda part, name: new.get(part, {}).get(name, name), deep=False)
+        followed = with_followed(followed, scope, Format.URDF, sink)
         update = {
             "links": tuple(self._renamed(link, links, sink) for link in followed.links),
             "joints": tuple(self._renamed(joint, joints, sink) for joint in followed.joints),
@@ -54,7 +60,9 @@ class UniqueNames(ModelPass):
         kind = type(node).__name__.lower()
         message = f"{kind} {node.name!r} is called {name!r} in SDF"
         sink.report(to_sdf.RENAMED, message, node.location, found=node.name)
-        sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, to_sdf.RENAMED, message, node.location)
+        sink.account(
+            Fate.CARRIED if self.carriers else Fate.DROPPED, to_sdf.RENAMED, message, node.location.at("@name")
+        )
         if self.carriers:
             node = with_old_name(node, name)
         return node.model_copy(update={"name": name})

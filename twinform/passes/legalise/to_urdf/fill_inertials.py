@@ -2,12 +2,9 @@
 
 from typing import ClassVar
 
-from twinform.ir import Inertia, Link, Model, replace_fields
-from twinform.ir.defaults import INERTIAL, filled
-from twinform.ir.solids import ELEMENTS
+from twinform.ir import Link, Model, replace_fields
+from twinform.ir.solids import with_written_defaults
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
-
-_ELEMENTS = {name: getattr(INERTIAL.inertia, name) for name in ELEMENTS}
 
 
 class FillInertials(ToUrdfPass):
@@ -26,8 +23,4 @@ class FillInertials(ToUrdfPass):
 
 
 def _fill_link(link: Link) -> Link:
-    if link.inertial is None:
-        return link.model_copy(update={"inertial": INERTIAL})
-    inertia = filled(link.inertial.inertia or Inertia(), _ELEMENTS)
-    inertial = replace_fields(filled(link.inertial, {"mass": INERTIAL.mass}), inertia=inertia)
-    return replace_fields(link, inertial=inertial)
+    return replace_fields(link, inertial=with_written_defaults(link.inertial))

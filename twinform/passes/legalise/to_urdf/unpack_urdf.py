@@ -32,14 +32,14 @@ class UnpackUrdf(ModelPass):
         if sink.has_errors:
             return model
         model = map_children(
-            model, lambda child: rewrite(child, Node, partial(_unpack, sink), having=bits_of_ours("urdf"))
+            model, lambda child: rewrite(child, Node, partial(_unpack, model, sink), having=bits_of_ours("urdf"))
         )
         model = _with_overruled(model, sink)
-        return _unpacked(_with_world(model), partial(misfit, node=model), sink)
+        return _unpacked(_with_world(model), partial(misfit, node=model, model=model), sink)
 
 
-def _unpack(sink: DiagnosticSink, node: Node) -> Node:
-    return _unpacked(node, lambda piece: misfit(piece, node), sink)
+def _unpack(model: Model, sink: DiagnosticSink, node: Node) -> Node:
+    return _unpacked(node, lambda piece: misfit(piece, node, model), sink)
 
 
 def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], sink: DiagnosticSink) -> AnyNode:
