@@ -16,7 +16,7 @@ from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.gazebo_extensions import check_extensions
 from twinform.compiler.input.limits import LARGEST, LIFTED_LIMITS, MOST_TAGS, USUAL_LIMITS, Limits, excess_of_json
 from twinform.compiler.input.options import Input, LoadOptions, LoadResult, expanded_name, name_of_input, parts_of
-from twinform.compiler.input.parser_quirks import report_split_values, report_tabbed_numbers
+from twinform.compiler.input.parser_quirks import has_comment_after_text, report_split_values, report_tabbed_numbers
 from twinform.compiler.input.parsing import (
     UnreadableError,
     parse,
@@ -241,7 +241,8 @@ def read_document(
     """
     engine = load_options.engine
     root, namespace = read_tree(text, sink, load_options.limits)
-    report_split_values(text, sink)
+    if has_comment_after_text(text):
+        report_split_values(read_tree_again(text, keep_comments=True), sink)
     if b"<xacro:" in text or b"${" in text:
         report_unexpanded(root, sink)
     format_, build = _ROOTS[str(root.tag)]

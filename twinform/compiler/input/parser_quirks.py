@@ -54,12 +54,8 @@ def _lines_alone(found: re.Match[bytes]) -> bytes:
     return b"\n" * found[0].count(b"\n")
 
 
-def report_split_values(text: bytes, sink: DiagnosticSink) -> None:
-    """Report texts of an SDF file with a comment in the middle, which the tree for all other code does not show."""
-    if not _has_comment_after_text(text):
-        return
-    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, remove_pis=True, recover=True)
-    root = etree.fromstring(text, parser)
+def report_split_values(root: XmlElement, sink: DiagnosticSink) -> None:
+    """Report the texts of a tree, with its comments, that have a comment in the middle."""
     places: Places = {}
     for element in root.iter(etree.Element):
         if _is_split(element):
@@ -68,7 +64,7 @@ def report_split_values(text: bytes, sink: DiagnosticSink) -> None:
             sink.report(structure.SPLIT_VALUE, message, where, found=(element.text or "").strip())
 
 
-def _has_comment_after_text(text: bytes) -> bool:
+def has_comment_after_text(text: bytes) -> bool:
     """Whether a comment follows text: few files have one that does, and no other is read twice."""
     at = text.find(_COMMENT)
     while at >= 0:
