@@ -7,6 +7,7 @@ from reports.systems.reading import Read, SystemSource
 from reports.systems.sensors import SensorSource
 from twinform.passes.plugins.catalog import sensors, systems
 from twinform.passes.plugins.parts import Alternative, Channel, Parameter, PluginKind, SensorKind
+from twinform.passes.plugins.topic_patterns import without_parentheses
 
 _AS_READ = {"topic": "text", "joint": "text", "link": "text", "collision": "text"}
 """The kind of value that a type of the catalog is read as, where it has another name."""
@@ -105,7 +106,9 @@ def _topic_parts(kind: PluginKind, release: str) -> set[str]:
         if release in channel.releases:
             patterns += [channel.pattern, *(each.pattern for each in _alternatives(kind, channel, release))]
     patterns += [each.suffix for each in sensors().values() if kind.name in each.systems and kind.name != "sensors"]
-    return {part for pattern in patterns for part in pattern.split("/") if part and "{" not in part} - _STRUCTURE
+    return {
+        part for pattern in patterns for part in without_parentheses(pattern).split("/") if part and "{" not in part
+    } - _STRUCTURE
 
 
 def _alternatives(kind: PluginKind, channel: Channel, release: str) -> Iterator[Alternative]:

@@ -10,15 +10,15 @@ from collections.abc import Set as AbstractSet
 from typing import NamedTuple
 
 from twinform.diagnostics import Location
-from twinform.ir import Capsule, Element, Joint, Model
+from twinform.ir import Capsule, Model
 from twinform.ir.frames import WORLD
+from twinform.passes.transforms.lumped_links import lumped_links
 
 NO_MASS = 1e-6
 """What weighs no more, in kg, has no mass for libsdformat before 13."""
 _SCOPE = "::"
 _SHARED = frozenset({"fixed", "revolute", "continuous", "prismatic"})
 """Joints that are one joint in both formats."""
-_KEEPS = frozenset({"preserveFixedJoint", "disableFixedJointLumping"})
 
 
 class Change(NamedTuple):
@@ -67,7 +67,7 @@ def _of_names(made: Model) -> Iterator[Change]:
 
 def _of_mass(made: Model, named: AbstractSet[str]) -> Iterator[Change]:
     """What is left out because it has no mass, and what is named but goes into another link."""
-    hosts = _hosts(made)
+    hosts = lumped_links(made)
     weights: dict[str, float] = defaultdict(float)
     for link in made.links:
         weights[hosts[link.name]] += (link.inertial and link.inertial.mass) or 0.0
@@ -80,27 +80,6 @@ def _of_mass(made: Model, named: AbstractSet[str]) -> Iterator[Change]:
         if hosts[link.name] != link.name and link.name in outside:
             what = f"link {link.name!r}, which a joint names, would go into {hosts[link.name]!r}"
             yield Change(what, link.location)
-
-
-def _hosts(made: Model) -> dict[str, str]:
-    """The link that each link goes into, itself where it stays."""
-    kept = {block.reference for block in made.extensions if any(map(_keeps, block.content))}
-    above: dict[str, Joint] = {
-        joint.child or "": joint
-        for joint in made.joints
-        if joint.type == "fixed" and joint.parent != WORLD and joint.name not in kept
-    }
-    hosts: dict[str, str] = {}
-    for link in made.links:
-        way = [link.name]
-        while way[-1] in above and way[-1] not in hosts:
-            way.append(above[way[-1]].parent or "")
-        hosts |= dict.fromkeys(way, hosts.get(way[-1], way[-1]))
-    return hosts
-
-
-def _keeps(element: Element) -> bool:
-    return element.name in _KEEPS and (element.text or "").strip().lower() in {"true", "yes", "1"}
 
 
 def _named_in_extensions(made: Model) -> Iterator[str]:

@@ -177,10 +177,14 @@ ADDED_WORLD_SYSTEM = Rule(
 UNBRIDGED_TOPIC = Rule(
     name="unbridged-topic",
     severity=Severity.INFO,
-    finds="A topic of Gazebo that the configuration of the bridge leaves out: ROS has no such message, or the name of "
-    "the topic depends on a world that is not known, which is a warning.",
+    finds="A topic of Gazebo that the configuration of the bridge leaves out: ROS has no such message; or, as a "
+    "warning, the name depends on a world that is not known, or Gazebo itself has no such topic. gz-transport refuses "
+    "names with blanks, `@`, `~`, `//` and `:=`. Most systems remove these from a name; some do not, and publish "
+    "nothing. A sensor on a fixed joint of URDF is left out with the joint.",
     matters="ROS does not see it.",
-    example="An `air_speed` sensor; a joint state publisher without `<topic>` in a model file.",
-    better="Give the sensor or plugin a topic of its own, or say which world it is: `bridge-config{world=NAME ...}`.",
-    references="ros_gz_bridge, README.md",
+    example="An `air_speed` sensor; a joint state publisher without `<topic>` in a model file; the transforms of a "
+    "differential drive in `<robot name='my robot'>`.",
+    better="Give the sensor or plugin a topic of its own, say which world it is (`bridge-config{world=NAME ...}`), or "
+    "choose names of letters, digits and underscores.",
+    references="ros_gz_bridge, README.md; gz-transport, `TopicUtils.cc`",
 )

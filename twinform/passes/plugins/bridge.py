@@ -70,6 +70,11 @@ def _can_be_bridged(topic: Topic, sink: DiagnosticSink) -> bool:
         help_ = "name it with `world=NAME`, or give the sensor or plugin a topic of its own"
         sink.report(rules.UNBRIDGED_TOPIC, message, where, found=topic.name, help=help_, severity=Severity.WARNING)
         return False
+    if topic.missing:
+        message = f"Gazebo has no topic for {topic.message} here: {topic.missing}"
+        help_ = "give the sensor or plugin a topic of its own, without blanks, @, ~, // and :="
+        sink.report(rules.UNBRIDGED_TOPIC, message, where, found=topic.name, help=help_, severity=Severity.WARNING)
+        return False
     if ros_message(topic.message) is None:
         message = f"the bridge knows no message of ROS for {topic.message} on {topic.name!r}"
         sink.report(rules.UNBRIDGED_TOPIC, message, where, found=topic.message)

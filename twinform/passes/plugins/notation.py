@@ -11,15 +11,16 @@ its count, its type, and options: `default=`, `unit=` (`rad|m` where it is for w
 `enum=a|b`, `since=`, `until=` and `except=` releases, `needed=` releases `a|b` that do not work without, `any` for
 content that is not known (in the first line: for more parameters). Rows that are indented further stand inside. `>`
 and `<` are topics that the plugin reads and writes: the parameter that sets it or `-`, the message, the default;
-`alt=PARAMETER[+PARAMETER]:TOPIC[:MESSAGE]` where these are written, `unless=PARAMETER`, `when=PARAMETER`,
-`each=PATH/OF/PARAMETER` for one topic a value, and the releases. Values with blanks stand in double
-quotes, and `#` begins a comment.
+`alt=PARAMETER[+PARAMETER]:TOPIC[:MESSAGE]` where these are written, `unless=` and `when=` with such
+`PARAMETER[+PARAMETER]`, separated by `|`, `each=PATH/OF/PARAMETER` for one topic a value, the spelling (`or-default`,
+`exact` or `raw`, see `Spelling`), and the releases. In a topic, `{...}` is a value, and what stands in `(...)` alone
+becomes a valid topic. Values with blanks stand in double quotes, and `#` begins a comment.
 `needs=a|b` in the first line are systems of which the world has to have one.
 """
 
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple, cast
+from typing import NamedTuple, cast, get_args
 
 from twinform.passes.plugins.parts import (
     Alternative,
@@ -29,6 +30,7 @@ from twinform.passes.plugins.parts import (
     ParameterType,
     PluginKind,
     Scope,
+    Spelling,
 )
 
 
@@ -108,11 +110,16 @@ def _channel(words: list[str], above: frozenset[str], releases: Sequence[str]) -
         message=message,
         pattern=pattern,
         alternatives=tuple(_alternative(*each) for each in alternatives),
-        unless=options.get("unless"),
-        when=options.get("when"),
+        unless=_conditions(options.get("unless")),
+        when=_conditions(options.get("when")),
         each=tuple(options.get("each", "").split("/")) if "each" in options else (),
         releases=_span(options, releases) & above,
+        spelling=next((each for each in get_args(Spelling) if each in rest), "valid"),
     )
+
+
+def _conditions(text: str | None) -> tuple[tuple[str, ...], ...]:
+    return tuple(tuple(each.split("+")) for each in text.split("|")) if text else ()
 
 
 def _alternative(parameters: str, pattern: str, message: str | None = None) -> Alternative:

@@ -8,6 +8,7 @@ from twinform.passes.plugins.catalog import releases, ros_message, sensors, syst
 from twinform.passes.plugins.options import options_of
 from twinform.passes.plugins.parts import Parameter, PluginKind, SensorKind
 from twinform.passes.plugins.sensor_settings import addable, settings_of
+from twinform.passes.plugins.topic_patterns import without_parentheses
 
 _INTRODUCTION = """\
 # Systems and sensors of Gazebo
@@ -41,7 +42,8 @@ def _sensors() -> str:
 
 def _sensor(kind: SensorKind) -> str:
     made = "; ".join(
-        f"`{each.pattern}` {each.message} ({ros_message(each.message) or 'no ROS message'})" for each in kind.publishes
+        f"`{without_parentheses(each.pattern)}` {each.message} ({ros_message(each.message) or 'no ROS message'})"
+        for each in kind.publishes
     )
     return (
         f"| `{kind.type}`{_since(kind.releases)} | {', '.join(kind.aliases)} | {', '.join(kind.holders)} | "
@@ -78,7 +80,7 @@ def _system(kind: PluginKind) -> str:
     for channel in kind.channels:
         verb = "reads" if channel.direction == ">" else "writes"
         renamed = f", or `{channel.parameter}`" if channel.parameter else ""
-        lines.append(f"It {verb} {channel.message} on `{channel.pattern}`{renamed}.\n")
+        lines.append(f"It {verb} {channel.message} on `{without_parentheses(channel.pattern)}`{renamed}.\n")
     return "\n".join(lines)
 
 

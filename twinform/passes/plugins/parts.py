@@ -13,6 +13,13 @@ ParameterType = Literal[
     "element",
 ]  # fmt: skip
 
+Parameters = tuple[str, ...]
+"""The names of parameters."""
+
+Spelling = Literal["valid", "or-default", "exact", "raw"]
+"""What a plugin does with text that gz-transport refuses: it makes a valid topic of it; it makes one, and takes the
+default where nothing is left of a parameter; it takes the default at once; it has no topic."""
+
 Scope = Literal["world", "model", "link", "joint", "sensor", "visual", "actor", "gui"]
 """What a plugin stands in."""
 
@@ -73,7 +80,7 @@ class Parameter:
 class Alternative:
     """Another topic or message where all of some parameters are written and not false; an empty pattern keeps it."""
 
-    parameters: tuple[str, ...]
+    parameters: Parameters
     pattern: str
     message: str | None
 
@@ -83,9 +90,12 @@ class Channel:
     """A topic of gz-transport that a plugin reads (`>`) or writes (`<`).
 
     `parameter` sets it; else it follows the pattern, in which `{model}`, `{world}` and names of parameters stand for
-    their values, `{models}` for the model with those around it, and `{scope}` for these as topics have them. The last
-    alternative that applies wins. It is not there where `unless` is written and true, nor where `when` is not. With
-    `each`, the path of a parameter that repeats, there is one for each of its values, which `{each}` stands for.
+    their values. `{scope}` is the topic of the world and the models around the plugin, `{models}` the same without the
+    world, `{loaded}` what a plugin sees of that when it is loaded, and `{loaded_part}` that around a part of its model.
+    The last alternative that applies wins. The topic is not there where one of the conditions `unless` holds, nor where
+    there are conditions `when` and none holds; each of them names parameters that are all written and not false.
+    With `each`, the path of a parameter that repeats, there is one topic for each of its values, which `{each}` stands
+    for. `spelling` is what becomes of text that is no valid topic.
     """
 
     direction: Literal["<", ">"]
@@ -93,10 +103,11 @@ class Channel:
     message: str
     pattern: str
     alternatives: tuple[Alternative, ...]
-    unless: str | None
-    when: str | None
+    unless: tuple[Parameters, ...]
+    when: tuple[Parameters, ...]
     each: tuple[str, ...]
     releases: frozenset[str]
+    spelling: Spelling = "valid"
 
 
 @dataclass(frozen=True, slots=True)

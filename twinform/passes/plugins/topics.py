@@ -1,24 +1,42 @@
 """Topics of gz-transport that the plugins and sensors of a document publish and subscribe to."""
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from twinform.ir import Document, Element, Plugin, Sensor
+from twinform.ir import Document, Element, Format, Model, Plugin, Sensor
 from twinform.ir.node import Node
 from twinform.passes.plugins.catalog import modern_class, systems_of_file
 from twinform.passes.plugins.parts import Channel, PluginKind, Published, SensorKind
 from twinform.passes.plugins.sites import Site, plugins_of, sensors_of
+from twinform.passes.plugins.topic_patterns import (
+    as_valid_topic,
+    is_valid_topic,
+    placeholders,
+    qualified,
+    text_of_pattern,
+    topic_of_pattern,
+    without_parentheses,
+)
 from twinform.passes.plugins.worlds import kind_of_sensor
+from twinform.passes.transforms.gazebo_tags import TRUE
+from twinform.passes.transforms.lumped_links import lumped_joints, lumped_links
 
-_PLACE = re.compile(r"\{([^{}]++)\}")
-_UNDER_MODEL = "/model/"
 _CLOUD = re.compile(r"points|cloud", re.IGNORECASE)
 """What is in names of topics with point clouds: `velodyne_points`, `lidar/points`, `cloud_in`."""
-_CLOUD_TOPIC = "{topic}/points"
+_CLOUD_TOPICS = frozenset({"{topic}/points", "({topic}/points)"})
 _OWN_INFO = "camera"
 """The kind of sensor that reads `<camera_info_topic>` (CameraSensor.cc): others put it where they want."""
+_ANY_WORLD = "{world}"
+"""What stands for the name of a world that is not known."""
+_CONTACT = "contact"
+"""The kind of sensor whose topic stands in `<contact>`, and is not made valid (contact/Contact.cc, Load)."""
+_UNNAMED = {_CONTACT: "__default_topic__"}
+"""The topic that stands for none: `__default__`, but in `<contact>` (sdf/contact.sdf)."""
+_WITHOUT_WORLD = frozenset({"ionic", "jetty"})
+"""Releases in which plugins leave the world out of the name that they have when they are loaded. A model of the world
+is in it by then, and a spawned one is not, so these leave out its own name (SdfEntityCreator.cc, PosePublisher.cc)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +44,8 @@ class Topic:
     """A topic, and what makes it: `direction` is `<` for what Gazebo writes and `>` for what it reads.
 
     `short` is what is left of it inside of the model. `needs_world` means that its name contains that of a world which
-    the document does not have. `source` is the plugin or sensor, `model` the name of the model around it.
+    the document does not have; `missing` says why Gazebo has no such topic, and is empty where it has one. `source` is
+    the plugin or sensor, `model` the name of the model around it.
     """
 
     name: str
@@ -36,16 +55,24 @@ class Topic:
     model: str
     source: Node
     needs_world: bool = False
+    missing: str = ""
 
 
 def topics_of(document: Document, release: str, world: str | None = None) -> Iterator[Topic]:
-    """The topics of a document in a release; `world` is the name of the world that a model is put into."""
+    """The topics of a document in a release; `world` is the name of the world that a model is put into.
+
+    Gazebo reads URDF with the links in one that fixed joints hold together, and such a robot is spawned.
+    """
+    urdf = document.format is Format.URDF
+    lumped = _Lumped.of(document.models if urdf else ())
     for sensor, site in sensors_of(document):
-        yield from _of_sensor(sensor, site, release, world)
+        kind = kind_of_sensor(sensor, release)
+        if kind is not None:
+            yield from _of_sensor(sensor, kind, _Place(site, release, world, urdf), lumped)
     for plugin, site in plugins_of(document):
         kind = _kind_of(plugin, release)
         if kind is not None:
-            yield from _of_plugin(plugin, kind, site, release, world)
+            yield from _of_plugin(plugin, kind, _Place(site, release, world, urdf))
 
 
 def _kind_of(plugin: Plugin, release: str) -> PluginKind | None:
@@ -54,26 +81,106 @@ def _kind_of(plugin: Plugin, release: str) -> PluginKind | None:
     return next(iter(named or kinds), None)
 
 
-def _of_sensor(sensor: Sensor, site: Site, release: str, world: str | None) -> Iterator[Topic]:
-    kind = kind_of_sensor(sensor, release)
-    if kind is None:
-        return
-    own = _written_topic(sensor)
-    scope = "/".join(["", "world", _world_of(site, world), *_scoped(site), site.scope, site.holder])
-    suffix = f"/{kind.suffix}" if kind.suffix else ""
-    name = _absolute(own) if own else f"{scope}/sensor/{sensor.name}{suffix}"
-    needs_world = own is None and site.world is None and world is None
-    model = site.models[0].name if site.models else ""
-    for each in kind.publishes:
-        if release not in each.releases:
-            continue
-        beside = name.rsplit("/", 1)[0]
-        made = each.pattern.format(topic=name, beside=beside)
-        info = _text_in(sensor, "camera", "camera_info_topic") if kind.type == _OWN_INFO else None
-        if made.endswith("/camera_info") and info and info != "__default__":
-            made = _absolute(info)
-        short = _named_for_cloud(made, name, kind) if own else made.removeprefix(f"{scope}/sensor/")
-        yield Topic(made, short, _message(each, sensor, kind), "<", model, sensor, needs_world)
+@dataclass(frozen=True, slots=True)
+class _Lumped:
+    """What Gazebo makes of links of URDF that are fixed together: the host of each link, and the joints that go."""
+
+    links: Mapping[str, str]
+    joints: frozenset[str]
+
+    @classmethod
+    def of(cls, models: Sequence[Model]) -> "_Lumped":
+        links = {name: host for model in models for name, host in lumped_links(model).items()}
+        return cls(links, frozenset(joint.name for model in models for joint in lumped_joints(model).values()))
+
+
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """Where a plugin or sensor is; `given_world` is that of a model without one, into which it may be `spawned`."""
+
+    site: Site
+    release: str
+    given_world: str | None
+    spawned: bool
+
+    @property
+    def world(self) -> str | None:
+        """The name of the world, where it is known."""
+        return self.site.world.name if self.site.world else self.given_world
+
+    @property
+    def outer(self) -> str:
+        """The name of the model that all is in."""
+        return self.site.models[0].name if self.site.models else ""
+
+    @property
+    def models(self) -> str:
+        """The models around it, as names of topics have them."""
+        return "/".join(part for model in self.site.models for part in ("model", model.name))
+
+    @property
+    def scope(self) -> str:
+        """The world and the models around it (`Util.cc`, scopedName)."""
+        return "/".join(filter(None, ("world", _ANY_WORLD if self.world is None else self.world, self.models)))
+
+    def scopes(self) -> dict[str, str]:
+        """The topics that patterns call by these names (`Util.cc`, topicFromScopedName)."""
+        part = "/part"
+        return {
+            "scope": _topic_of(self.scope),
+            "models": _topic_of(_without_world(self.scope)),
+            "loaded": _topic_of(self._loaded()),
+            "loaded_part": f"/{self._loaded(part)}".removesuffix(part),
+        }
+
+    def _loaded(self, end: str = "") -> str:
+        """What a plugin sees of its place, or of a part of it, when it is loaded."""
+        if self.release not in _WITHOUT_WORLD:
+            return (self.models or self.scope) + end
+        return _without_world((self.models if self.spawned else self.scope) + end)
+
+
+def _topic_of(scope: str) -> str:
+    return as_valid_topic(f"/{scope}") or ""
+
+
+def _without_world(scope: str) -> str:
+    """The names without the first two parts, whatever stands in them (`Util.cc`, removeParentScope)."""
+    for _ in range(2):
+        scope = scope[scope.find("/") + 1 :]
+    return scope
+
+
+def _of_sensor(sensor: Sensor, kind: SensorKind, place: _Place, lumped: "_Lumped") -> Iterator[Topic]:
+    own, site = _written_topic(sensor), place.site
+    holder = lumped.links.get(site.holder, site.holder) if site.scope == "link" else site.holder
+    above = f"{place.scope}/{site.scope}/{holder}/sensor"
+    text = own or "/".join(filter(None, (above, sensor.name, kind.suffix)))
+    name = topic_of_pattern("{topic}", {"topic": text}, raw=kind.type == _CONTACT)
+    rows = [row for row in kind.publishes if place.release in row.releases]
+    made = [_sensor_topic(row, name, sensor, kind) for row in rows]
+    missing = "" if all(made) else _refused(text)  # with one of its topics, Gazebo refuses the sensor
+    if site.scope == "joint" and holder in lumped.joints:
+        missing = f"it leaves out fixed joint {holder!r} and its sensors; a <preserveFixedJoint> for it keeps them"
+    for row, topic in zip(rows, made, strict=True):
+        shown = qualified(topic or text)
+        short = _named_for_cloud(shown, qualified(name or ""), kind) if own else _inside(shown, f"/{above}")
+        message, needs_world = _message(row, sensor, kind), own is None and place.world is None
+        yield Topic(shown, short, message, "<", place.outer, sensor, needs_world, missing)
+
+
+def _refused(text: str) -> str:
+    return f"gz-transport takes no topic {text!r}"
+
+
+def _sensor_topic(published: Published, name: str | None, sensor: Sensor, kind: SensorKind) -> str | None:
+    if name is None:
+        return None
+    info = _text_in(sensor, "camera", "camera_info_topic") if kind.type == _OWN_INFO else None
+    if published.pattern.endswith("/camera_info") and info and info != "__default__":
+        return topic_of_pattern("{info}", {"info": info}, raw=True)
+    beside = "".join(f"/{part}" for part in name.split("/")[:-1] if part)  # CameraSensor.cc, AdvertiseInfo
+    return topic_of_pattern(published.pattern, {"topic": name, "beside": beside}, raw=True)
 
 
 def _named_for_cloud(made: str, name: str, kind: SensorKind) -> str:
@@ -81,15 +188,16 @@ def _named_for_cloud(made: str, name: str, kind: SensorKind) -> str:
 
     gz has the scan or image under that name and the cloud on `points` below it.
     """
-    if _CLOUD.search(name.rpartition("/")[2]) and any(each.pattern == _CLOUD_TOPIC for each in kind.publishes):
-        made = {name: f"{name}/{kind.suffix}", _CLOUD_TOPIC.format(topic=name): name}.get(made, made)
+    if _CLOUD.search(name.rpartition("/")[2]) and any(each.pattern in _CLOUD_TOPICS for each in kind.publishes):
+        made = {name: f"{name}/{kind.suffix}", f"{name}/points": name}.get(made, made)
     return made.lstrip("/")
 
 
 def _written_topic(sensor: Sensor) -> str | None:
     """The topic in the sensor; of a contact sensor the one in `<contact>`, as Gazebo reads no other."""
-    topic = _text_in(sensor, "contact", "topic") if sensor.type == "contact" else sensor.topic
-    return topic if topic and topic != "__default_topic__" else None
+    is_contact = sensor.type == _CONTACT
+    topic = _text_in(sensor, "contact", "topic") if is_contact else sensor.topic
+    return topic if topic and topic != _UNNAMED.get(sensor.type or "", "__default__") else None
 
 
 def _text_in(sensor: Sensor, holder: str, name: str) -> str | None:
@@ -106,84 +214,110 @@ def _message(published: Published, sensor: Sensor, kind: SensorKind) -> str:
     return published.instead if name and _text_in(sensor, kind.element, name) == value else published.message
 
 
-def _scoped(site: Site) -> Iterator[str]:
-    for model in site.models:
-        yield from ("model", model.name)
+def _of_plugin(plugin: Plugin, kind: PluginKind, place: _Place) -> Iterator[Topic]:
+    model = place.site.model.name if place.site.model else ""
+    defaults = {row.name: row.default for row in kind.parameters if row.default is not None}
+    world = _ANY_WORLD if place.world is None else place.world
+    names = {"model": model, "world": world, **place.scopes()}
+    around = (f"/world/{world}", f"/{place.models}", f"/model/{model}")
+    for channel in kind.channels:
+        written = _read(plugin, kind, channel, place.release)
+        if place.release not in channel.releases or not _is_there(channel, kind, written):
+            continue
+        pattern, message = _choose(channel, plugin, kind, written)
+        needs_world = place.world is None and any(each in pattern for each in ("{world}", "{scope}"))
+        for each in dict.fromkeys(_texts(plugin.content, channel.each)) if channel.each else ("",):
+            known = {**defaults, **written, **_inside_parameters(pattern, plugin), **names, "each": each}
+            text = text_of_pattern(without_parentheses(pattern), known)
+            if text is None:  # Gazebo refuses a plugin without that parameter, which is what its check says
+                continue
+            name = topic_of_pattern(pattern, known, raw=channel.spelling in {"raw", "exact"})
+            shown = qualified(name or text)
+            missing = "" if name else _refused(text)
+            short = _inside(shown, *around)
+            yield Topic(shown, short, message, channel.direction, place.outer, plugin, needs_world, missing)
 
 
-def _world_of(site: Site, world: str | None) -> str:
-    return site.world.name if site.world else world or ""
-
-
-def _of_plugin(plugin: Plugin, kind: PluginKind, site: Site, release: str, world: str | None) -> Iterator[Topic]:
-    values = {row.name: row.default for row in kind.parameters if row.default is not None}
+def _read(plugin: Plugin, kind: PluginKind, channel: Channel, release: str) -> dict[str, str]:
+    """The parameters that the plugin of a release reads, the first of each name, as far as it takes them."""
     written: dict[str, str] = {}
     for element in plugin.content:
-        written.setdefault(element.name, (element.text or "").strip())
-    model = site.model.name if site.model else ""
-    models = "/model/".join(each.name for each in site.models)
-    scope = "/".join(_scoped(site))
-    values |= {**written, "model": model, "models": models, "scope": scope, "world": _world_of(site, world)}
-    for channel in kind.channels:
-        if release not in channel.releases or not _is_there(channel, written):
-            continue
-        pattern, message = _choose(channel, written)
-        needs_world = "{world}" in pattern and not values["world"]
-        outer = site.models[0].name if site.models else ""
-        for each in dict.fromkeys(_texts(plugin.content, channel.each)) if channel.each else ("",):
-            name = _absolute(_filled(pattern, {**values, "each": each}))
-            short = _inside(name, values["world"], model, models)
-            yield Topic(name, short, message, channel.direction, outer, plugin, needs_world)
+        row = kind.parameter(element.name)
+        if row is None or release in row.releases:
+            written.setdefault(element.name, (element.text or "").strip())
+    for name in [name for name in written if (row := kind.parameter(name)) is not None and row.type == "topic"]:
+        text = _taken(written.pop(name), channel)
+        if text:
+            written[name] = text
+    return written
 
 
-def _is_there(channel: Channel, written: Mapping[str, str]) -> bool:
-    if channel.unless and _is_on(written, channel.unless):
+def _taken(text: str, channel: Channel) -> str | None:
+    """What a plugin takes of the text of a topic; None where it takes the default."""
+    match channel.spelling:
+        case "or-default":
+            return as_valid_topic(text)
+        case "exact":
+            return text if is_valid_topic(text) else None
+        case _:
+            return text
+
+
+def _is_there(channel: Channel, kind: PluginKind, written: Mapping[str, str]) -> bool:
+    if any(_hold(each, kind, written) for each in channel.unless):
         return False
-    return channel.when is None or _is_on(written, channel.when)
+    return not channel.when or any(_hold(each, kind, written) for each in channel.when)
 
 
-def _texts(elements: Iterable[Element], path: tuple[str, ...]) -> Iterator[str]:
-    """The texts of all elements at a path."""
+def _hold(parameters: Iterable[str], kind: PluginKind, written: Mapping[str, str]) -> bool:
+    """Whether all parameters are written, and those that are true or false are true."""
+    return all(_is_on(name, kind, written) for name in parameters)
+
+
+def _is_on(name: str, kind: PluginKind, written: Mapping[str, str]) -> bool:
+    row = kind.parameter(name)
+    return name in written and (row is None or row.type != "bool" or written[name].lower() in TRUE)
+
+
+def _texts(elements: Iterable[Element], path: Sequence[str]) -> Iterator[str]:
+    """The texts of all elements at a path, which may end in an attribute."""
+    name, *inside = path
     for element in elements:
-        if element.name == path[0]:
-            if path[1:]:
-                yield from _texts(element.children, path[1:])
-            elif element.text and element.text.strip():
-                yield element.text.strip()
+        if element.name != name:
+            continue
+        if inside and inside[0].startswith("@"):
+            yield element.get(inside[0][1:]) or ""
+        elif inside:
+            yield from _texts(element.children, inside)
+        elif element.text and element.text.strip():
+            yield element.text.strip()
 
 
-def _inside(name: str, world: str, model: str, models: str) -> str:
-    """What is left of a topic inside of the model."""
-    short = name.removeprefix(f"/world/{world}")
-    for scope in (models, model):
-        short = short.removeprefix(f"{_UNDER_MODEL}{scope}/")
-    return short.lstrip("/")
+def _inside_parameters(pattern: str, plugin: Plugin) -> dict[str, str]:
+    """The values at paths that a pattern names, such as `{breadcrumb/sdf/model/@name}`."""
+    found = {
+        path: next(_texts(plugin.content, tuple(path.split("/"))), "") for path in placeholders(pattern) if "/" in path
+    }
+    return {path: text for path, text in found.items() if text}
 
 
-def _choose(channel: Channel, written: Mapping[str, str]) -> tuple[str, str]:
-    """The pattern and message of a channel: those of the parameter, of the last alternative, or the usual ones."""
+def _inside(name: str, *around: str) -> str:
+    """What is left of a topic inside of the world and the models around its source."""
+    for scope in filter(None, map(as_valid_topic, around)):
+        name = name.removeprefix(scope) if name.startswith(f"{scope}/") else name
+    return name.lstrip("/")
+
+
+def _choose(channel: Channel, plugin: Plugin, kind: PluginKind, written: Mapping[str, str]) -> tuple[str, str]:
+    """The pattern and message of a channel: those of the parameter, of the last alternative, or the usual ones.
+
+    A parameter that is written and not taken keeps alternatives for the topic away (DetachableJoint.cc, Configure).
+    """
+    own = channel.parameter
+    asked = any(element.name == own for element in plugin.content)
     pattern, message = channel.pattern, channel.message
     for each in channel.alternatives:
-        if all(_is_on(written, name) for name in each.parameters):
-            pattern, message = each.pattern or pattern, each.message or message
-    if channel.parameter and written.get(channel.parameter):
-        pattern = written[channel.parameter]
-    return pattern, message
-
-
-def _is_on(written: Mapping[str, str], parameter: str) -> bool:
-    return written.get(parameter, "").lower() not in {"", "false", "0"}
-
-
-def _filled(pattern: str, values: Mapping[str, str]) -> str:
-    """The pattern with values; `{a|b}` is the first of them that there is."""
-
-    def fill(found: re.Match[str]) -> str:
-        return next((values[name] for name in found[1].split("|") if values.get(name)), "")
-
-    return _PLACE.sub(fill, pattern)
-
-
-def _absolute(name: str) -> str:
-    """A topic as gz-transport knows it, with one slash before every part."""
-    return "/" + "/".join(filter(None, name.split("/")))
+        if _hold(each.parameters, kind, written):
+            pattern = pattern if asked else each.pattern or pattern
+            message = each.message or message
+    return f"{{{own}}}" if own and own in written else pattern, message

@@ -88,9 +88,21 @@ CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
         [("drop", "/drop", ">"), ("drop/remaining", "/drop/remaining", "<")],
     ),
     "breadcrumbs without": ("", plugin("breadcrumbs"), []),
+    "breadcrumbs that have a name": (
+        "",
+        plugin("breadcrumbs", "<breadcrumb><sdf version='1.6'><model name='b'/></sdf></breadcrumb>"),
+        [
+            ("breadcrumbs/b/deploy", "/model/r/breadcrumbs/b/deploy", ">"),
+            ("breadcrumbs/b/deploy/remaining", "/model/r/breadcrumbs/b/deploy/remaining", "<"),
+        ],
+    ),
     "a battery that is charged by topic": (
         "",
-        plugin("linear-battery", "<battery_name>b</battery_name><recharge_by_topic>true</recharge_by_topic>"),
+        plugin(
+            "linear-battery",
+            "<battery_name>b</battery_name><enable_recharge>1</enable_recharge>"
+            "<charging_time>1</charging_time><recharge_by_topic>true</recharge_by_topic>",
+        ),
         [
             ("battery/b/state", "/model/r/battery/b/state", "<"),
             ("battery/b/recharge/start", "/model/r/battery/b/recharge/start", ">"),
@@ -143,7 +155,7 @@ CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
     ),
     "a steering that takes actuators": (
         "",
-        plugin("ackermann-steering", "<steering_only>1</steering_only><use_actuator_msg>1</use_actuator_msg>"),
+        plugin("ackermann-steering", "<use_actuator_msg>1</use_actuator_msg><actuator_number>0</actuator_number>"),
         [("actuators", "/actuators", ">")],
     ),
     "a topic for each link": (
@@ -192,7 +204,9 @@ CASES: dict[str, tuple[str, str, list[tuple[str, str, str]]]] = {
     ),
     "another message": (
         "",
-        plugin("joint-controller", f"{HIP}<use_actuator_msg>true</use_actuator_msg>"),
+        plugin(
+            "joint-controller", f"{HIP}<use_actuator_msg>true</use_actuator_msg><actuator_number>0</actuator_number>"
+        ),
         [("actuators", "/actuators", ">")],
     ),
     "what is switched off": (
@@ -237,6 +251,53 @@ def test_a_nested_model_publishes_below_all_its_parents() -> None:
     inner = model(plugins=plugin("joint-state-publisher"), name="arm")
     outer = in_world(f'<model name="r"><link name="l"/>{inner}</model>')
     assert [row[1] for row in rows(outer)] == ["/world/w/model/r/model/arm/joint_state"]
+
+
+MASS = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+ROBOT = f"""<robot name="my robot"><link name="base">{MASS}</link><link name="mast">{MASS}</link>
+<link name="tip">{MASS}</link><joint name="a" type="fixed"><parent link="base"/><child link="mast"/></joint>
+<joint name="b" type="fixed"><parent link="mast"/><child link="tip"/></joint>{{}}</robot>"""
+
+
+def robot(content: str) -> Document:
+    return twinform.loads(ROBOT.format(content))
+
+
+def missing(document: Document) -> list[tuple[str, str | None]]:
+    sink = DiagnosticSink()
+    bridges(document, "harmonic", sink, "w")
+    return [(str(each.severity), each.found) for each in sink.diagnostics if each.rule.name == "unbridged-topic"]
+
+
+def test_a_sensor_of_a_link_that_gazebo_lumps_publishes_below_the_link_that_stays() -> None:
+    document = robot('<gazebo reference="tip"><sensor name="i" type="imu"/></gazebo>')
+    topic = "/world/w/model/my_robot/link/base/sensor/i/imu"
+    assert [row[:2] for row in rows(document, world="w")] == [("i/imu", topic)]
+
+
+def test_a_sensor_on_a_joint_that_gazebo_lumps_has_no_topic() -> None:
+    sensor = '<gazebo reference="a"><sensor name="f" type="force_torque"><topic>f</topic></sensor>{}</gazebo>'
+    assert missing(robot(sensor.format(""))) == [("warning", "/f")]
+    assert not missing(robot(sensor.format("<preserveFixedJoint>true</preserveFixedJoint>")))
+
+
+def test_a_topic_that_gazebo_cannot_have_is_reported_and_not_bridged() -> None:
+    document = robot(f"<gazebo>{plugin('diff-drive')}</gazebo>")
+    names = [f"/model/my_robot/{name}" for name in ("cmd_vel", "odometry", "enable")]
+    assert [row[1] for row in rows(document, world="w")] == names
+    assert missing(document) == [("warning", "/model/my robot/tf")]
+
+
+def test_a_word_for_the_default_topic_is_one_where_it_is_read_as_one() -> None:
+    imu, contact = (
+        '<sensor name="s" type="imu"><topic>{}</topic></sensor>',
+        '<sensor name="s" type="contact">{}</sensor>',
+    )
+    above = "/world/w/model/r/link/base/sensor/s"
+    assert list(topics(alone(imu.format("__default__")), "harmonic", "w")) == [f"{above}/imu"]
+    assert list(topics(alone(imu.format("__default_topic__")), "harmonic", "w")) == ["/__default_topic__"]
+    inner = "<contact><collision>c</collision><topic>__default_topic__</topic></contact>"
+    assert list(topics(alone(contact.format(inner)), "harmonic", "w")) == [f"{above}/contact"]
 
 
 def test_boxes_have_another_message_in_space() -> None:
@@ -334,4 +395,4 @@ def test_a_doppler_log_publishes_below_its_name() -> None:
 def test_a_topic_may_have_any_character() -> None:
     document = alone('<sensor name="s" type="imu"><topic>\U0001f916 "\u540d"</topic></sensor>')
     read = yaml.safe_load(bridge_yaml(bridges(document, "harmonic", DiagnosticSink())))
-    assert read[1]["gz_topic_name"] == '/\U0001f916 "\u540d"'
+    assert read[1]["gz_topic_name"] == '/\U0001f916_"\u540d"'

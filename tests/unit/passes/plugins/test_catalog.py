@@ -81,7 +81,7 @@ def test_every_row_of_the_tables_makes_sense(kind: PluginKind) -> None:
         _make_sense(path, row)
     names = {row.name for row in kind.parameters}
     for channel in kind.channels:
-        mentioned = {channel.parameter, channel.unless, channel.when, *(channel.each[:1])} - {None}
+        mentioned = {channel.parameter, *sum((*channel.unless, *channel.when), ()), *(channel.each[:1])} - {None}
         mentioned |= {name for each in channel.alternatives for name in each.parameters}
         assert mentioned <= names
         assert channel.message.startswith("gz.msgs.")

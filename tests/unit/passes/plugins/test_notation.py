@@ -14,7 +14,7 @@ system wheel-slip  file=slip.so class=gz::Slip scope=model|link
     limits      *  number   any except=old|new
   mode          ?  text     default="a=b c" enum=a|b since=middle needed=old|new
   angle         ?  number   unit=rad|m
-  > topic  gz.msgs.Twist  /cmd  alt=sub:/{sub}/x alt=other+more:/y:gz.msgs.Pose unless=quiet
+  > topic  gz.msgs.Twist  /cmd  alt=sub:/{sub}/x alt=other+more:/y:gz.msgs.Pose unless=quiet|other+more or-default
   < -      gz.msgs.Odom   /{each} when=on each=wheel/limits until=new
 plugin bare  file=bare.so class=Bare scope=world any since=new
   only  1  bool
@@ -68,12 +68,13 @@ def test_a_table_is_read_whole() -> None:
                 "gz.msgs.Twist",
                 "/cmd",
                 (Alternative(("sub",), "/{sub}/x", None), Alternative(("other", "more"), "/y", "gz.msgs.Pose")),
-                "quiet",
-                None,
+                (("quiet",), ("other", "more")),
+                (),
                 (),
                 EVER,
+                "or-default",
             ),
-            Channel("<", None, "gz.msgs.Odom", "/{each}", (), None, "on", ("wheel", "limits"), early),
+            Channel("<", None, "gz.msgs.Odom", "/{each}", (), (), (("on",),), ("wheel", "limits"), early),
         ),
         free=False,
     )
