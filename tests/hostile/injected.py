@@ -124,8 +124,8 @@ class Injection:
         if clean.code != self.code:
             yield f"without a fault: exit code {clean.code}: {clean.errors}"
             return
-        for fault in faults:
-            number = 1 + len(self.arguments) % every
+        for index, fault in enumerate(faults):
+            number = 1 + (len(self.arguments) + index) % every  # so that a few runs see many calls
             while True:
                 done = self._once(fault, number)
                 if done.count < number:
@@ -242,14 +242,16 @@ def main() -> None:
 
 
 def warm(injection: Injection) -> None:
-    """Run the command in this process, which imports what it needs."""
+    """Run the command in this process, which imports what it needs. No child process stays, which forks would share."""
     from twinform.cli import main as command  # noqa: PLC0415 - who only wants the names of faults does not need it
+    from twinform.passes.mesh_jobs.child_process import shared  # noqa: PLC0415 - as above
 
     with tempfile.TemporaryDirectory() as top:
         here = Path(top, "here")
         shutil.copytree(injection.template, here, symlinks=True)
         with contextlib.chdir(here):
             CliRunner().invoke(command, list(injection.arguments))
+    shared().end()
 
 
 if __name__ == "__main__":
