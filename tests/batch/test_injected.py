@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 from contextlib import nullcontext, suppress
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -19,9 +20,12 @@ from pebble import ProcessExpired
 from tests.profile import DEEP
 from twinform.compiler import ConversionRequest, LoadOptions
 from twinform.compiler.batch import Batch, Convert, batch, of_folder
+from twinform.compiler.batch.entries import Shard
 from twinform.compiler.batch.manifest import Manifest
+from twinform.compiler.batch.merging import merge
 from twinform.compiler.search.uris import SearchPath
 from twinform.compiler.workers import Runner, process_runner
+from twinform.storage.staging import PREFIX
 
 from .conftest import results
 
@@ -97,7 +101,9 @@ def _put(name: str, text: str) -> None:
     path.write_text(text)
 
 
-def _run(dest: str, executor: Executor, runner: Runner | None = None, *, fresh: bool = False) -> None:
+def _run(
+    dest: str, executor: Executor, runner: Runner | None = None, *, fresh: bool = False, shard: Shard | None = None
+) -> None:
     source = Path("src")
     asked = Batch(
         source=source,
@@ -106,6 +112,7 @@ def _run(dest: str, executor: Executor, runner: Runner | None = None, *, fresh: 
         load_options=LoadOptions(search=SearchPath()),
         dest=Path(dest),
         fresh=fresh,
+        shard=shard,
     )
     with batch(asked, runner or executor) as found:
         for _ in found:
@@ -159,6 +166,36 @@ def _until_none(error: BaseException, *, fresh: bool) -> Iterator[int]:
 def test_a_call_that_fails_loses_no_result(error: BaseException, fresh: bool, here: Path) -> None:
     assert here.is_dir()
     assert max(_until_none(error, fresh=fresh)) > 40
+
+
+def _manifests(folder: str) -> dict[str, bytes]:
+    """What is kept beside results: the manifests, and nothing else that has content."""
+    found = Path(folder, ".twinform-batch").rglob("*")
+    return {path.name: content for path in found if path.is_file() and (content := path.read_bytes())}
+
+
+@pytest.mark.parametrize(
+    "error", [OSError(errno.EIO, "Input/output error"), KeyboardInterrupt()], ids=["io", "interrupt"]
+)
+def test_a_merge_that_fails_leaves_the_manifests_of_all_shards(error: BaseException, here: Path) -> None:
+    for number in (1, 2):
+        _run("shards", _Here(), shard=Shard(number, 2))
+    shutil.copytree("shards", "merged")
+    merge(here / "merged", [])
+    before, after = _manifests("shards"), _manifests("merged")
+    assert (len(before), len(after)) == (2, 1)
+    for at in count(1, _STEP):
+        shutil.rmtree("out", ignore_errors=True)
+        shutil.copytree("shards", "out")
+        _FAULTS.at, _FAULTS.error, _FAULTS.count, _FAULTS.folder = at, error, 0, str(here / "out")
+        with suppress(OSError, KeyboardInterrupt):
+            merge(here / "out", [])
+        _FAULTS.folder = ""
+        assert _manifests("out") in (before, after)
+        assert not [*Path("out").rglob(f"{PREFIX}*")]
+        if _FAULTS.count < at:
+            assert at > 10
+            break
 
 
 @pytest.mark.parametrize("on_submit", [False, True])

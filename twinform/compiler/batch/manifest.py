@@ -5,7 +5,6 @@ Lines stay on the disk; in memory is where each begins. Each shard of a run writ
 
 import errno
 import json
-import os
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from dataclasses import fields, replace
@@ -16,7 +15,8 @@ from twinform.compiler.batch.dependencies import Dependency, packed, unpacked
 from twinform.compiler.batch.lock import locked
 from twinform.compiler.batch.record import Outcome, Record
 from twinform.compiler.output.same_files import is_open_at
-from twinform.storage.writing import is_stream, refuse_way_out
+from twinform.storage.transaction import named_after, transaction
+from twinform.storage.writing import is_stream, refuse_way_out, sync_files
 
 FOLDER = ".twinform-batch"
 _BEGIN = b'{"source": '
@@ -158,15 +158,23 @@ class Manifest:
                     self._lines[source] = _Line(len(self._files) - 1, offset)
 
     def _tidy(self) -> None:
-        """Write all that counts into one file."""
-        new = self._own.with_suffix(".new")
-        with new.open("wb") as file:
-            file.writelines(record_line(record) for record in map(self.get, self._lines) if record)
-            os.fsync(file.fileno())
-        new.replace(self._own)
-        self.close()
-        for path in self.folder.glob("manifest-*.jsonl"):
-            path.unlink()
+        """Write all that counts into one file.
+
+        Raises:
+            OSError: it cannot be written; the files of all shards are there as before.
+        """
+        with transaction() as files:
+            new = files.stage(self.folder)
+            with named_after(self._own), new.open("wb") as file:
+                file.writelines(record_line(record) for record in map(self.get, self._lines) if record)
+            sync_files([(new, self._own)])
+            self.close()
+            with named_after(self._own):
+                files.move(new, self._own)
+            for path in self.folder.glob("manifest-*.jsonl"):
+                files.take_away(path, self.folder)
+            files.sync()
+            files.done = True
         self._read()
 
     def merge(self) -> None:
