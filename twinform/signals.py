@@ -29,13 +29,19 @@ def undone(undo: "Callable[[], None]") -> "Generator[None]":
     """Call `undo` when the block ends, or when a signal ends the program before.
 
     A signal may come while `undo` runs, which is then called again: it has to look at what is there, and do the rest.
+    A signal that raises an exception is raised after that.
     """
     _unfinished.append(undo)
     try:
         yield
     finally:
-        undo()
-        _unfinished.remove(undo)
+        try:
+            undo()
+        except BaseException:
+            undo()
+            raise
+        finally:
+            _unfinished.remove(undo)
 
 
 def end_on_signals() -> None:

@@ -139,7 +139,7 @@ def _insist(step: Callable[[], None]) -> None:
     """Do a step, and once more where it fails: nothing else may be left undone for its sake."""
     try:
         step()
-    except (OSError, KeyboardInterrupt):
+    except OSError:
         with suppress(OSError):
             step()
 

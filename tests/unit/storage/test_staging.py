@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -87,3 +88,21 @@ def test_a_folder_of_another_user_stays(tmp_path: Path) -> None:
     os.chown(left, 1234, 1234)
     remove_leftovers(tmp_path)
     assert left.exists()
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, SystemExit])
+def test_an_interrupt_of_the_cleanup_is_raised_when_all_is_gone(
+    error: type[BaseException], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real = os.rmdir
+    raised = iter([error()])
+
+    def rmdir(*args: Any, **more: Any) -> None:
+        if now := next(raised, None):
+            raise now
+        real(*args, **more)
+
+    monkeypatch.setattr(os, "rmdir", rmdir)
+    with pytest.raises(error), staging_folder(tmp_path) as folder:
+        (folder / "inner").mkdir()
+    assert not [*tmp_path.iterdir()]

@@ -1,11 +1,15 @@
 """Output is all there or not there at all."""
 
 import os
+import shutil
+from contextlib import suppress
+from itertools import count
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
+from tests.hostile.injected import CALLS, Counter
 from twinform.cli import main
 from twinform.compiler import write_all_atomically, write_atomically
 from twinform.storage.writing import write_new_file
@@ -186,3 +190,22 @@ def test_many_files_are_written_together(tmp_path: Path) -> None:
     texts = {tmp_path / f"{number}.sdf": str(number) for number in range(100)}
     write_all_atomically(texts)
     assert {path: path.read_text() for path in tmp_path.iterdir()} == texts
+
+
+def test_an_interrupt_at_any_call_is_raised_and_leaves_all_old_or_all_new(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    one, two = tmp_path / "one", tmp_path / "new/two"
+    for number in count(1):
+        shutil.rmtree(two.parent, ignore_errors=True)
+        one.write_text("old")
+        counter = Counter("KeyboardInterrupt", number)
+        with monkeypatch.context() as patch, suppress(KeyboardInterrupt):
+            for name in CALLS:
+                patch.setattr(os, name, counter.around(getattr(os, name)))
+            write_all_atomically({one: "new", two: "new"})
+            assert counter.count < number
+        found = {path.name: path.is_file() and path.read_text() for path in tmp_path.rglob("*")}
+        assert found in ({"one": "old"}, {"one": "new", "new": False, "two": "new"})
+        if counter.count < number:
+            return
