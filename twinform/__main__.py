@@ -4,6 +4,7 @@ In a folder of somebody else use the command, or `python -P -m twinform`.
 """
 
 import sys
+import warnings
 
 from twinform.signals import end_on_signals
 
@@ -22,6 +23,8 @@ def program() -> "NoReturn":
 
     distrust_current_folder()
     sys.excepthook = _print_uncaught
+    if not sys.warnoptions:  # they are for developers, such as those of numpy about numbers in a file
+        warnings.simplefilter("ignore")
     run(main)
 
 

@@ -56,6 +56,8 @@ class _Vertex:
     source: Source | None
     inside: str = ""
     placement: str | None = None
+    is_around: bool = False
+    """Whether `pose` and `placement` are those of the root in this frame, and not the other way round."""
     parent: "_Vertex | None" = None
     depth: int = -1
     local: Transform | None = None
@@ -169,13 +171,9 @@ class FrameGraph:
 
     def _add_world_around(self, model: Model) -> None:
         """The world of a model that is looked at alone is one more frame in it: nothing else depends on its pose."""
-        world = self._add(_vertex("world", "", WORLD, model.source))
+        world = self._add(_Vertex("world", WORLD, "", model.pose, "", "model", "", model.source))
         world.parent, world.depth = self.root, 1
-        pose = Transform.from_pose(model.pose)
-        if model.placement_frame:
-            placed = self._between(self._find(model.placement_frame, "frame", model.source), self.root)
-            pose = pose.compose(placed.inverse())
-        world.local = pose.inverse()
+        world.placement, world.is_around = model.placement_frame, True
 
     def _add(self, vertex: _Vertex) -> _Vertex:
         self._named.setdefault(vertex.name, []).append(vertex)
@@ -220,17 +218,18 @@ class FrameGraph:
         """The vertex in its parent."""
         if vertex.local is None:
             pose = Transform.from_pose(vertex.pose)
-            vertex.local = pose.compose(self._placement(vertex).inverse()) if vertex.placement else pose
+            pose = pose.compose(self._placement(vertex).inverse()) if vertex.placement else pose
+            vertex.local = pose.inverse() if vertex.is_around else pose
         return vertex.local
 
     def _placement(self, vertex: _Vertex) -> Transform:
-        """The frame that a nested model's pose is about, in that model."""
+        """The frame that a model's pose is about, in that model."""
         if vertex.visiting:
             raise _circle([vertex], "is placed by")
         vertex.visiting = True
         try:
             placed = self._find(vertex.placement or MODEL, "frame", vertex.source, vertex.inside)
-            return self._between(placed, vertex)
+            return self._between(placed, self.root if vertex.is_around else vertex)
         finally:
             vertex.visiting = False
 

@@ -19,7 +19,7 @@ _SEE_THROUGH = 0.35
 def _visuals(figure: Figure) -> Iterator[Handle]:
     for link, name, shape in figure.shapes("visual"):
         color = figure.look.color or rgb(shape.color)
-        opacity = figure.look.opacity or (shape.color[3] if shape.color else None)
+        opacity = figure.look.opacity or next(iter((shape.color or ())[3:]), None)  # SDF may leave alpha out
         yield _heard(figure, link, figure.draw(shape, name, color, opacity))
 
 

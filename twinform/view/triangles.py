@@ -57,10 +57,13 @@ def _of_mesh(shape: Mesh, meshes: MeshDrawings) -> Triangles:
     found = meshes.drawing(shape)
     if isinstance(found, str):
         return _stand_in(found)
-    scale = np.asarray(shape.scale or (1.0, 1.0, 1.0), dtype=np.float32)
+    with np.errstate(over="ignore"):
+        scale = np.asarray(shape.scale or (1.0, 1.0, 1.0), dtype=np.float32)
+        points = np.frombuffer(found["points"], dtype=np.float32).reshape(-1, 3) * scale
     if not (np.isfinite(scale).all() and scale.all()):
         return _stand_in("its scale is zero or not finite")
-    points = np.frombuffer(found["points"], dtype=np.float32).reshape(-1, 3) * scale
+    if not np.isfinite(points).all():
+        return _stand_in("its points are beyond what can be drawn")
     faces = np.frombuffer(found["faces"], dtype=np.uint32).reshape(-1, 3)
     colors = np.frombuffer(found["colors"], dtype=np.uint8).reshape(-1, 4) if "colors" in found else None
     return Triangles(points, faces if scale.prod() > 0 else faces[:, ::-1], colors)

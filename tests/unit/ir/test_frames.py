@@ -299,3 +299,10 @@ def test_the_world_is_the_same_one_inside_a_nested_model() -> None:
     inner = Model(name="inner", pose=at(1), links=(Link(name="l", pose=at(7, relative_to="world")),))
     assert place(FrameGraph(Model(name="m", pose=at(10), models=(inner,))).pose("inner::l", "__model__")) == (-3, 0, 0)
     assert place(FrameGraph(World(name="w", models=(inner,))).pose("inner::l", "world")) == (7, 0, 0)
+
+
+def test_what_places_a_model_in_a_world_is_looked_for_when_it_is_asked_for() -> None:
+    graph = FrameGraph(Model(name="m", placement_frame="nowhere", links=(Link(name="l", pose=at(1)),)))
+    assert place(graph.pose("l", "__model__")) == (1, 0, 0)
+    with pytest.raises(FrameError, match="there is no frame 'nowhere'"):
+        graph.pose("l", "world")

@@ -57,7 +57,8 @@ def _angles(scan: Element | None, direction: str, count: int) -> Iterator[float]
     element = scan.find(direction) if scan else None
     least, most = _number(element, "min_angle", 0.0), _number(element, "max_angle", 0.0)
     shown = min(count, _MOST_RAYS) if most - least > _FLAT else 1
-    return (least + (most - least) * (i / (shown - 1) if shown > 1 else 0.5) for i in range(shown))
+    shares = (i / (shown - 1) if shown > 1 else 0.5 for i in range(shown))
+    return (least * (1 - share) + most * share for share in shares)  # a difference may be too large for a number
 
 
 def _number(element: Element | None, name: str, usual: float) -> float:

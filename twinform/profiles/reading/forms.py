@@ -122,7 +122,7 @@ def fits_bytes(text: str) -> bool:
     pieces = text.split()
     if len(pieces) not in {1, 4} or not all(map(_python, pieces)):
         return False
-    return all(math.isfinite(float(piece)) and 0 <= int(float(piece) * 255) <= 255 for piece in pieces)
+    return all(-1 < float(piece) * 255 < 256 for piece in pieces)
 
 
 def _bounded(text: str) -> bool:
