@@ -13,6 +13,7 @@ import json
 import os
 import shutil
 import signal
+import stat
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -31,6 +32,13 @@ CALLS = (
 ERRORS = {name: getattr(errno, name) for name in ("EIO", "ENOSPC", "EACCES", "EINTR")}
 SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP")
 FAULTS = (*ERRORS, *(f"{name} {when}" for name in SIGNALS for when in ("before", "after")), "KeyboardInterrupt")
+_open = open
+CACHE = "kept"
+"""The folder of results that are kept for later runs, in which one may be missing."""
+_NAMED = (os.devnull, "/twinform/", "/site-packages/", "standard output")
+"""What else a message may name than files of the folder."""
+_LEFT = "[unreadable-mesh]"
+"""What is said of a mesh that cannot be read, and stays as it is."""
 _FORGOTTEN = ("Traceback", "Exception ignored", "Fatal Python error")
 Tree = Mapping[str, bytes | None]
 
@@ -91,7 +99,9 @@ class _File(io.FileIO):
 
 
 def _opened(counter: Counter, file: Any, mode: str = "r", buffering: int = -1, *text: Any, **more: Any) -> Any:
-    """What `open` gives, of a file that counts."""
+    """What `open` gives, of a file that counts; pipes to child processes do not."""
+    if isinstance(file, int) and stat.S_ISFIFO(os.fstat(file).st_mode):
+        return _open(file, mode, buffering, *text, **more)
     raw = _File(file, mode.replace("b", "").replace("t", ""), more.pop("closefd", True), more.pop("opener", None))
     raw.counter = counter
     if buffering == 0:
@@ -137,7 +147,7 @@ class Injection:
     def _problems(self, done: "_Done", fault: str) -> Iterator[str]:
         if any(word in done.errors and word not in self.printed for word in _FORGOTTEN):
             yield f"a traceback: {done.errors[-1500:]}"
-        if not self._is_whole(done.tree, complete=done.code == 0):
+        if _LEFT not in done.errors and not self._is_whole(done.tree, complete=done.code == 0):
             names = {*done.tree, *self.before}
             changed = sorted(name for name in names if done.tree.get(name, 0) != self.before.get(name, 0))
             yield f"exit code {done.code}, and what is there is neither old nor new: {changed}: {done.errors[-300:]}"
@@ -146,10 +156,7 @@ class Injection:
         if fault in ERRORS:
             if done.code not in {0, 1, 2}:
                 yield f"exit code {done.code}: {done.errors[-500:]}"
-            elif done.code and not any(
-                name in done.errors
-                for name in (tempfile.gettempdir(), os.devnull, "/twinform/", "standard output", *self._names)
-            ):
+            elif done.code and not any(name in done.errors for name in (tempfile.gettempdir(), *_NAMED, *self._names)):
                 yield f"the message names no file: {done.errors[-500:]}"
         else:
             name = fault.partition(" ")[0]
@@ -158,9 +165,9 @@ class Injection:
                 yield f"exit code {done.code}: {done.errors[-500:]}"
 
     def _is_whole(self, found: Tree, *, complete: bool) -> bool:
-        if complete or not self.apart:
-            return found == self.after or (not complete and found == self.before)
-        return all(
+        if not self.apart and not complete:
+            return found in (self.before, self.after)
+        return (not complete or _without_cache(found) == _without_cache(self.after)) and all(
             found.get(name, 0) in (self.before.get(name, 0), self.after.get(name, 0))
             for name in {*found, *self.before, *self.after}
         )
@@ -230,6 +237,10 @@ def tree(folder: Path) -> Tree:
     return {
         path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else None for path in folder.rglob("*")
     }
+
+
+def _without_cache(tree: Tree) -> Tree:
+    return {path: content for path, content in tree.items() if path.partition("/")[0] != CACHE}
 
 
 def main() -> None:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import pytest
 
 from benchmarks import robots
-from tests.hostile.injected import FAULTS
+from tests.hostile.injected import CACHE, FAULTS
 from tests.profile import DEEP
 from tests.unit.passes.framework.conftest import write_distribution
 
@@ -126,7 +126,7 @@ def _write_models(folder: Path) -> None:
 def environment(template: Path) -> Mapping[str, str]:
     """What a command needs to know the pass that fails; meshes are kept in the folder where it runs."""
     path = os.pathsep.join([str(_EXAMPLES.parent), str(template / "plugin")])
-    return {**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1", "TWINFORM_MESH_CACHE": "kept"}
+    return {**os.environ, "PYTHONPATH": path, "PYTHONDONTWRITEBYTECODE": "1", "TWINFORM_MESH_CACHE": CACHE}
 
 
 def prepare(command: Command, template: Path) -> None:

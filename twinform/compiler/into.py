@@ -12,7 +12,7 @@ from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules.edits import EDIT_CONFLICT
-from twinform.ir import Format
+from twinform.ir import Document, Format
 from twinform.passes import Pipeline
 from twinform.schemas import versions_of
 
@@ -49,15 +49,25 @@ def _version(request: ConversionRequest, into: Path, load_options: LoadOptions) 
     """The version of SDF that parts are written in: that of the file that they go into, if no other is asked for."""
     if request.to != "sdf" or request.sdf_version:
         return request.sdf_version
-    document = read(str(into), load_options, name=str(into)).document
-    return document.version if document and document.version in versions_of("sdf") else None
+    version = _document(into, load_options).version
+    return version if version in versions_of("sdf") else None
+
+
+def _document(path: Path, load_options: LoadOptions) -> Document:
+    """The document in a file.
+
+    Raises:
+        CompileError: it cannot be read.
+    """
+    loaded = read(str(path), load_options, name=str(path))
+    if loaded.document is None:
+        raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
+    return loaded.document
 
 
 def _built(request: ConversionRequest, edited: Path, into: Path, load_options: LoadOptions) -> bytes:
     """What a file is converted to, in the format and the version of the edited one."""
-    document = read(str(edited), load_options, name=str(edited)).document
-    if document is None:  # it could be converted a moment ago
-        raise CompileError(())
+    document = _document(edited, load_options)
     back = replace(request, to=document.format.value, sdf_version=None, urdf_version=None, passes=Pipeline())
     if document.format is Format.SDF:
         back = replace(back, sdf_version=document.version, model=None)

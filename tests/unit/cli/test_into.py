@@ -1,6 +1,10 @@
 """`twinform convert --into`: a file follows the edits of the one that was made of it."""
 
+import errno
+import os
+from collections.abc import Iterator
 from copy import deepcopy
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -8,6 +12,7 @@ import pytest
 
 from twinform.compiler import in_place
 from twinform.compiler.into import convert_into
+from twinform.file_access import readable
 from twinform.schemas import XmlElement
 from twinform.text import Merge
 
@@ -179,3 +184,30 @@ def test_a_file_that_cannot_be_read_stays(run: Run, twins: Path) -> None:
     Path("r.urdf").write_text("<robot")
     assert run("convert", "r.sdf", "--into", "r.urdf").exit_code == 2
     assert Path("r.urdf").read_text() == "<robot"
+
+
+@pytest.mark.parametrize(
+    ("source", "into", "old", "new"), [("r.urdf", "r.sdf", "1.50", "2.5"), ("r.sdf", "r.urdf", "1.5<", "2.5<")]
+)
+def test_a_file_that_cannot_be_read_any_more_is_an_error_with_a_message(
+    source: str, into: str, old: str, new: str, run: Run, twins: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _edit(source, old, new)
+    before, really = Path(into).read_text(), readable.read_regular
+    failed = 0
+    for number in range(1, 9):
+        calls = count(1)
+
+        def failing(*given: Any, calls: Iterator[int] = calls, number: int = number) -> Any:
+            if next(calls) == number:
+                raise OSError(errno.EIO, os.strerror(errno.EIO))
+            return really(*given)
+
+        monkeypatch.setattr(readable, "read_regular", failing)
+        done = run("convert", source, "--into", into)
+        if done.exit_code:  # a look at what a file is may fail: it is read after that
+            failed += 1
+            assert (done.exit_code, "Input/output error" in done.stderr) == (2, True)
+            assert Path(into).read_text() == before
+        Path(into).write_text(before)
+    assert failed > 2

@@ -29,7 +29,11 @@ class MeshProcess:
     def do(self, job: Job) -> Result:
         """What comes of a job."""
         with self._lock:
-            child = self._running()
+            try:
+                child = self._running()
+            except OSError as error:
+                why = f"the process that looks into it cannot be started ({error.strerror})"
+                return Result({}, trouble="unreadable", message=why)
             late = threading.Event()
             timer = threading.Timer(self.seconds, _give_up, (child, late))
             timer.daemon = True

@@ -176,3 +176,15 @@ def test_the_process_ends_with_the_one_that_asks_also_in_the_middle_of_a_job() -
         process.stdin.write(job().to_bytes())
         process.stdin.close()
         assert process.wait() == 1
+
+
+def test_a_process_that_cannot_be_started_is_a_word_about_the_mesh(monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise OSError(errno.EAGAIN, os.strerror(errno.EAGAIN))
+
+    monkeypatch.setattr(subprocess, "Popen", full)
+    found = MeshProcess().do(job())
+    assert (found.trouble, "cannot be started (Resource temporarily unavailable)" in found.message) == (
+        "unreadable",
+        True,
+    )
