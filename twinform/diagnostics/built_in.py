@@ -57,6 +57,8 @@ BUILT_IN: Mapping[str, str] = {
     "frame-made-link": "to_urdf",
     "frame-not-in-tf": "ros2",
     "gazebo-conflict": "to_sdf",
+    "gazebo-material": "to_urdf",
+    "gazebo-shape-name": "to_urdf",
     "gazebo-tag-without-target": "to_sdf",
     "gearbox": "to_urdf",
     "gone-from-sdf": "sdf_versions",

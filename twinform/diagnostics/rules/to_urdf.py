@@ -169,6 +169,31 @@ COLORS = Rule(
     better="Nothing needs doing: the colors as they were written are kept in a carrier.",
 )
 
+GAZEBO_MATERIAL = Rule(
+    name="gazebo-material",
+    severity=Severity.INFO,
+    finds="A color or texture of SDF that becomes one of URDF, and another one where Gazebo reads that.",
+    matters=(
+        "Gazebo divides the color of a URDF material by 0.8, so that it is brighter there than the SDF was, and makes "
+        "a material black that has a texture alone."
+    ),
+    example="`<diffuse>0.4 0.4 0.4 1</diffuse>` is 0.4 in URDF, and 0.5 where Gazebo reads that.",
+    better="Load the SDF in Gazebo; other readers of the URDF, and a conversion back, have the material as it was.",
+    references="sdformat, parser_urdf.cc, CreateVisual.",
+)
+GAZEBO_SHAPE_NAME = Rule(
+    name="gazebo-shape-name",
+    severity=Severity.INFO,
+    finds="A shape of SDF with a name under which Gazebo would not apply the `<gazebo>` tags of its link.",
+    matters=(
+        "When Gazebo reads URDF, it tells by the name of a shape which tags it gets: one whose name does not begin "
+        "with that of its link gets none, and loses its friction, its material and so on without a message."
+    ),
+    example='`<collision name="ball">` of link `caster` is called `caster_ball` in URDF.',
+    better="Nothing needs doing: the old name is kept in an annotation, and a conversion back to SDF restores it.",
+    references="sdformat, parser_urdf.cc, CreateCollision and InsertSDFExtensionCollision.",
+)
+
 STALE_CARRIER = Rule(
     name="stale-carrier",
     severity=Severity.WARNING,

@@ -44,11 +44,10 @@ from twinform.passes.structure.lumping_plan import Plan, plan
 from twinform.passes.structure.mentions import mentions
 from twinform.passes.structure.model_edit import EditContext
 from twinform.passes.structure.moved_plugins import moved_plugin
+from twinform.passes.structure.tagged_shapes import KINDS, shape_name
 from twinform.passes.transforms.notation import in_radians
 
 Shape = TypeVar("Shape", Visual, Collision)
-_LUMP = "_fixed_joint_lump__"
-_FIELDS = {"visuals": "visual", "collisions": "collision"}
 
 
 def lump_as_libsdformat(model: Model, keep: tuple[str, ...], place: EditContext) -> Model:
@@ -84,7 +83,7 @@ def _turning(joint: Joint) -> Joint:
 def _named(link: Link) -> Link:
     """The link with its shapes by the names that libsdformat gives them, whether anything was lumped or not."""
     update: dict[str, object] = {}
-    for field, kind in _FIELDS.items():
+    for field, kind in KINDS.items():
         shapes: tuple[Visual | Collision, ...] = getattr(link, field)
         named = tuple(
             shape.model_copy(update={"name": shape_name(link.name, shape.name, kind, number)})
@@ -93,12 +92,6 @@ def _named(link: Link) -> Link:
         if named != shapes:
             update[field] = named
     return link.model_copy(update=update) if update else link
-
-
-def shape_name(link: str, name: str | None, kind: str, number: int) -> str:
-    """What libsdformat calls the shape of this number in a link; a name that it gave before grows once more."""
-    made = f"{name or link}_{kind}" + (f"_{number}" if number else "")
-    return made if made.startswith(link) else f"{link}{_LUMP}{made}"
 
 
 class _Lumping:
@@ -136,7 +129,7 @@ class _Lumping:
         at = {name: self.graph.pose(name, host) for name in names}
         guests = [placed(body_of(self.links[name], self.graph, Format.URDF), at[name]) for name in names]
         link = with_guests(link, own, guests, self.place.sink)
-        for field in _FIELDS:
+        for field in KINDS:
             self._note_mixed(host, names, field)
             moved = [shape for name in names for shape in _moved(getattr(self.links[name], field), name, at[name])]
             link = link.model_copy(update={field: (*getattr(link, field), *moved)})

@@ -20,6 +20,7 @@ from twinform.passes.legalise.to_sdf.name_shapes import NameShapes
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.legalise.to_sdf.restore_joints import RestoreJoints
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
+from twinform.passes.legalise.to_sdf.restore_shape_names import RestoreShapeNames
 from twinform.passes.legalise.to_sdf.retarget import RetargetSdf
 from twinform.passes.legalise.to_sdf.shared_materials import SharedMaterials
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
@@ -47,6 +48,7 @@ def to_sdf(
     before_named_frames = parse_version(version) < _ONE_SCOPE
     return (
         CarryUrdf.unchecked(carriers=carriers),  # before anything of SDF comes in
+        RestoreShapeNames.unchecked(),
         FollowLumpedNames.unchecked(carriers=carriers),
         FoldGazebo.unchecked(carriers=carriers),
         *raise_unversioned(carriers=carriers),

@@ -4,11 +4,11 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, Source
 from twinform.diagnostics.rules import to_sdf as rules
-from twinform.ir import Collision, Format, GazeboExtension, Model
+from twinform.ir import Collision, GazeboExtension, Model
 from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
-from twinform.passes.structure.model_edit import EditContext
+from twinform.passes.structure.tagged_shapes import seen_shapes
 
 
 class FollowLumpedNames(ModelPass):
@@ -64,13 +64,9 @@ def own_collisions(model: Model) -> dict[Source, Followed]:
 
 def names_of_libsdformat(model: Model) -> dict[str, Followed]:
     """What names that only libsdformat gives mean: what it lumps has the same shapes, from where they were written."""
-    from twinform.passes.structure.lump_as_libsdformat import lump_as_libsdformat  # noqa: PLC0415 - few robots need it
-
     own = own_collisions(model)
     known = {each.name for each in own.values()}
-    lumped = lump_as_libsdformat(model, (), EditContext(Format.URDF, DiagnosticSink()))
-    shapes = (shape for link in lumped.links for shape in link.collisions)
-    named = ((shape.name, own.get(shape.source)) for shape in shapes if shape.name and shape.source)
+    named = ((seen.name, own.get(seen.shape.source)) for seen in seen_shapes(model, "collisions") if seen.shape.source)
     return {name: meant for name, meant in named if meant and name not in known}
 
 

@@ -16,6 +16,7 @@ from twinform.passes.legalise.to_urdf.map_geometry import MapGeometry, UrdfVersi
 from twinform.passes.legalise.to_urdf.map_joints import MapJoints
 from twinform.passes.legalise.to_urdf.map_materials import MapMaterials
 from twinform.passes.legalise.to_urdf.map_surfaces import MapSurfaces
+from twinform.passes.legalise.to_urdf.name_shapes_for_gazebo import NameShapesForGazebo
 from twinform.passes.legalise.to_urdf.rebase_links import RebaseLinks
 from twinform.passes.legalise.to_urdf.relate_gearboxes import RelateGearboxes
 from twinform.passes.legalise.to_urdf.resolve_joint_ends import ResolveJointEnds
@@ -73,6 +74,7 @@ def to_urdf(
         MapSurfaces.unchecked(carriers=carriers),
         ExtendGazebo.unchecked(carriers=carriers),
         CarryTheRest.unchecked(carriers=carriers, urdf_version=urdf_version),
+        NameShapesForGazebo.unchecked(carriers=carriers),
         RestoreMaterials.unchecked(),
         RestoreShapes.unchecked(),
         RestoreNames.unchecked(to=Format.URDF),

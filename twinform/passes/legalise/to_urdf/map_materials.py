@@ -2,6 +2,7 @@
 
 from typing import ClassVar
 
+from twinform.diagnostics import Fate
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual
 from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS, material_name
@@ -22,7 +23,7 @@ class MapMaterials(ToUrdfPass):
     becomes the texture; 3. each such material gets a name, LINK_VISUAL_material, because URDF asks for one; 4. a
     material of Gazebo Classic that all visuals of a link share is its `<material>` tag too.
     Never touches: the other parts of a material, which the last pass carries.
-    Diagnostics: in the ledger `colors` and `sdf-only`.
+    Diagnostics: in the ledger `colors`, `gazebo-material` and `sdf-only`.
     """
 
     name: ClassVar[str] = "map-materials"
@@ -56,6 +57,7 @@ def _map_visual(visual: Visual, link: Link, names: set[str], keeper: Keeper) -> 
         update |= {"texture": uri, "albedo_map": None}
     if not update:
         return visual
+    _note_gazebo(visual, material, keeper)
     update["name"] = unique_name(material_name(link, visual), names)
     names.add(str(update["name"]))
     return visual.model_copy(update={"material": material.model_copy(update=update)})
@@ -75,6 +77,17 @@ def _keep_colors(visual: Visual, material: Material, keeper: Keeper) -> Visual:
     message = f"visual {visual.name!r} has more colors than a URDF material can have"
     keeper.account(rules.COLORS, message, material.location, sum(1 for name in others if written[name]))
     return keeper.annotate(visual, COLORS, attributes={**others, "of": format_value(color)}, always=True)
+
+
+def _note_gazebo(visual: Visual, material: Material, keeper: Keeper) -> None:
+    """An entry in the ledger where Gazebo makes another material of that of URDF."""
+    parts = urdf_color(material.diffuse or material.ambient or ())[:3]
+    # it divides all by 0.8 and cuts off at 1, and reads no textures: parser_urdf.cc, CreateVisual
+    brighter = "brighter, as it divides colors by 0.8" if any(0 < part < 1 for part in parts) else ""
+    bare = "without its texture" if material.albedo_map is not None else ""
+    if what := " and ".join(filter(None, (bare, brighter))):
+        message = f"Gazebo shows visual {visual.name!r} {what} when it reads URDF"
+        keeper.sink.account(Fate.APPROXIMATED, rules.GAZEBO_MATERIAL, message, material.location, weight=0)
 
 
 def _script_tag(link: Link, keeper: Keeper) -> GazeboExtension | None:

@@ -23,7 +23,8 @@ class _Error(TypedDict):
 class ShapeRow(TypedDict):
     """A visual or collision: its pose as it is written and in its link, a position and a quaternion each.
 
-    `geometry` is the number that the library has for its shape.
+    `geometry` is the number that the library has for its shape. `values` are the texts below it that are not the
+    library's default, by path, such as `surface/friction/ode/mu`; its geometry and plugins are not among them.
     """
 
     kind: str
@@ -31,16 +32,21 @@ class ShapeRow(TypedDict):
     pose: list[float]
     place: list[float]
     geometry: int
+    values: dict[str, str]
 
 
 class LinkRow(TypedDict):
-    """A link: poses are a position and a quaternion, moments are xx, yy, zz, xy, xz, yz about the center of mass."""
+    """A link: poses are a position and a quaternion, moments are xx, yy, zz, xy, xz, yz about the center of mass.
+
+    `values` are those of its own elements, such as `gravity`, that are not the library's default.
+    """
 
     name: str
     pose: list[float]
     mass: float
     center: list[float]
     moments: list[float]
+    values: dict[str, str]
     shapes: list[ShapeRow]
 
 
@@ -57,9 +63,13 @@ class JointRow(TypedDict):
 
 
 class SensorRow(TypedDict):
-    """A sensor: the pose is a position and a quaternion, the text is its XML without the pose."""
+    """A sensor: the pose is a position and a quaternion, the text is its XML without the pose.
+
+    `inside` is the link or joint that it is on.
+    """
 
     name: str
+    inside: str
     kind: str
     pose: list[float]
     text: str
@@ -78,6 +88,7 @@ class RobotRow(TypedDict):
     name: str
     pose: list[float]
     static: bool
+    values: dict[str, str]
     links: list[LinkRow]
     joints: list[JointRow]
     sensors: list[SensorRow]

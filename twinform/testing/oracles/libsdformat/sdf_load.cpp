@@ -10,8 +10,10 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <sdf/sdf.hh>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -46,12 +48,58 @@ Pose3d resolved(const sdf::SemanticPose &semantic, const std::string &frame) {
   return pose;
 }
 
+// whether an element is another row, or is described with numbers; an extension has no default values
+bool is_apart(const std::string &name) {
+  for (const char *each : {"pose", "geometry", "inertial", "visual", "collision", "sensor", "light", "plugin", "link",
+                           "joint", "frame", "model", "include"}) {
+    if (name == each) return true;
+  }
+  return name.find(':') != std::string::npos;
+}
+
+// the text of a value, which it may have in several ways: `1` is `true`, `0.0` is `0`, and a color may leave out its alpha
+std::string spelt(const sdf::ParamPtr &value, const std::string &text) {
+  if (value->GetTypeName() == "bool") return text == "1" || text == "true" ? "true" : "false";
+  std::istringstream words(text);
+  std::string word, out;
+  int count = 0;
+  for (; words >> word; ++count) {
+    char *end = nullptr;
+    const double number = std::strtod(word.c_str(), &end);
+    out += (out.empty() ? "" : " ") + (*end == '\0' ? json::number(number) : word);
+  }
+  return value->GetTypeName() == "color" && count == 3 ? out + " 1" : out;
+}
+
+// the values below an element that are not the library's default, each by its path
+void collect(const sdf::ElementPtr &element, const std::string &path, std::vector<std::string> &found) {
+  const auto add = [&found](const std::string &at, const sdf::ParamPtr &value) {
+    if (!value) return;
+    const std::string text = spelt(value, value->GetAsString());
+    if (text != spelt(value, value->GetDefaultAsString())) found.push_back(json::member(at, json::quoted(text)));
+  };
+  for (sdf::ElementPtr child = element->GetFirstElement(); child; child = child->GetNextElement()) {
+    if (is_apart(child->GetName())) continue;
+    const std::string at = path.empty() ? child->GetName() : path + "/" + child->GetName();
+    add(at, child->GetValue());
+    for (const sdf::ParamPtr &attribute : child->GetAttributes()) add(at + "/@" + attribute->GetKey(), attribute);
+    collect(child, at, found);
+  }
+}
+
+std::string values(const sdf::ElementPtr &element) {
+  std::vector<std::string> found;
+  collect(element, "", found);
+  return json::object(found);
+}
+
 template <typename Shape>
 void describe_shape(const char *kind, const Shape &shape, const char *&separator) {
   std::cout << separator << "{\"kind\": \"" << kind << "\", \"name\": " << json::quoted(shape.Name())
             << ", \"pose\": " << written(shape.RawPose())
             << ", \"place\": " << written(resolved(shape.SemanticPose(), ""))
-            << ", \"geometry\": " << (shape.Geom() == nullptr ? 0 : static_cast<int>(shape.Geom()->Type())) << "}";
+            << ", \"geometry\": " << (shape.Geom() == nullptr ? 0 : static_cast<int>(shape.Geom()->Type()))
+            << ", \"values\": " << values(shape.Element()) << "}";
   separator = ", ";
 }
 
@@ -68,7 +116,8 @@ void describe_link(const sdf::Link &link, const std::string &scope, const Pose3d
             << ", \"pose\": " << written(model * resolved(link.SemanticPose(), "__model__"))
             << ", \"mass\": " << json::number(mass.Mass()) << ", \"center\": " << written(inertial.Pose())
             << ", \"moments\": "
-            << numbers(mass.Ixx(), mass.Iyy(), mass.Izz(), mass.Ixy(), mass.Ixz(), mass.Iyz()) << ", \"shapes\": [";
+            << numbers(mass.Ixx(), mass.Iyy(), mass.Izz(), mass.Ixy(), mass.Ixz(), mass.Iyz())
+            << ", \"values\": " << values(link.Element()) << ", \"shapes\": [";
   describe_shapes(link);
   std::cout << "]}";
 }
@@ -125,25 +174,26 @@ std::string written(const sdf::ElementPtr &element) {
   return json::quoted(copy->ToString(""));
 }
 
-void describe_sensor(const sdf::Sensor &sensor, const Pose3d &model, const char *&separator) {
-  std::cout << separator << "{\"name\": " << json::quoted(sensor.Name()) << ", \"kind\": " << json::quoted(sensor.TypeStr())
+void describe_sensor(const sdf::Sensor &sensor, const std::string &inside, const Pose3d &model, const char *&separator) {
+  std::cout << separator << "{\"name\": " << json::quoted(sensor.Name()) << ", \"inside\": " << json::quoted(inside)
+            << ", \"kind\": " << json::quoted(sensor.TypeStr())
             << ", \"pose\": " << written(model * resolved(sensor.SemanticPose(), "__model__"))
             << ", \"text\": " << written(sensor.Element()) << "}";
   separator = ", ";
 }
 
-void describe_sensors(const sdf::Model &model, const Pose3d &pose, const char *&separator) {
+void describe_sensors(const sdf::Model &model, const std::string &scope, const Pose3d &pose, const char *&separator) {
   for (uint64_t i = 0; i < model.LinkCount(); ++i) {
     const sdf::Link &link = *model.LinkByIndex(i);
-    for (uint64_t k = 0; k < link.SensorCount(); ++k) describe_sensor(*link.SensorByIndex(k), pose, separator);
+    for (uint64_t k = 0; k < link.SensorCount(); ++k) describe_sensor(*link.SensorByIndex(k), scope + link.Name(), pose, separator);
   }
   for (uint64_t i = 0; i < model.JointCount(); ++i) {
     const sdf::Joint &joint = *model.JointByIndex(i);
-    for (uint64_t k = 0; k < joint.SensorCount(); ++k) describe_sensor(*joint.SensorByIndex(k), pose, separator);
+    for (uint64_t k = 0; k < joint.SensorCount(); ++k) describe_sensor(*joint.SensorByIndex(k), scope + joint.Name(), pose, separator);
   }
   for (uint64_t i = 0; i < model.ModelCount(); ++i) {
     const sdf::Model &inner = *model.ModelByIndex(i);
-    describe_sensors(inner, pose * resolved(inner.SemanticPose(), "__model__"), separator);
+    describe_sensors(inner, scope + inner.Name() + "::", pose * resolved(inner.SemanticPose(), "__model__"), separator);
   }
 }
 
@@ -179,14 +229,15 @@ Pose3d in_world(const sdf::Model &model) {
 void describe(const sdf::Model &model) {
   const char *separator = "";
   std::cout << "{\"name\": " << json::quoted(model.Name()) << ", \"pose\": " << written(in_world(model))
-            << ", \"static\": " << (model.Static() ? "true" : "false") << ", \"links\": [";
+            << ", \"static\": " << (model.Static() ? "true" : "false")
+            << ", \"values\": " << values(model.Element()) << ", \"links\": [";
   describe_links(model, "", Pose3d::Zero, separator);
   separator = "";
   std::cout << "], \"joints\": [";
   describe_joints(model, "", Pose3d::Zero, separator);
   separator = "";
   std::cout << "], \"sensors\": [";
-  describe_sensors(model, Pose3d::Zero, separator);
+  describe_sensors(model, "", Pose3d::Zero, separator);
   separator = "";
   std::cout << "], \"plugins\": [";
   describe_plugins(model.Element(), separator);

@@ -1,0 +1,174 @@
+"""What two robots of libsdformat differ in beside bodies and joints: surfaces, materials, sensors, plugins, flags."""
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+import numpy as np
+from lxml import etree
+
+from twinform.schemas import XmlElement
+from twinform.testing.oracles.libsdformat.library import RobotRow, SensorRow, ShapeRow
+from twinform.testing.oracles.libsdformat.robot import pose_matrix
+from twinform.testing.oracles.robot import WORLD, Matrix
+
+CUT_OFF = 1e-5
+"""The tolerance for poses, in m and as entries of a rotation: libsdformat keeps six digits where it lumps links."""
+_STEEP = 5e-3
+"""The tolerance for entries of rotations of shapes: urdfdom turns what points straight up or down by up to this."""
+_FIXED = 4
+"""The number that libsdformat has for a fixed joint."""
+
+
+class Difference(NamedTuple):
+    """A value that is not the same: of which parts, from the outside in, where in the last of them, and both texts."""
+
+    kind: str
+    parts: tuple[str, ...]
+    path: str
+    there: str = ""
+    here: str = ""
+
+    def __str__(self) -> str:
+        return (
+            f"{self.kind} {'/'.join(self.parts)}: {self.path}: {self.there or 'nothing'}, not {self.here or 'nothing'}"
+        )
+
+
+class _Placed(NamedTuple):
+    """A shape, the link that it is on, and where it is in the world."""
+
+    link: str
+    row: ShapeRow
+    place: Matrix
+
+
+def differences(before: RobotRow, after: RobotRow) -> Iterator[Difference]:
+    """What only one of the two has, what has other values, and sensors that have moved.
+
+    Shapes are the same where they are of one kind at one place, whatever their names are.
+    """
+    pairs = list(_pairs(before, after))
+    yield from _values("model", (), before["values"], after["values"])
+    yield from _of_links(before, after)
+    for one, other in pairs:
+        names = one.link, one.row["name"]
+        if other is None:
+            yield Difference(one.row["kind"], names, "", "there", "missing")
+        else:
+            yield from _values(one.row["kind"], names, one.row["values"], other.row["values"])
+    names = {other.row["name"]: one.row["name"] for one, other in pairs if other and one.row["kind"] == "collision"}
+    yield from _of_sensors(before, after, names)
+    yield from _only("plugin", Counter(_plugins(before)), Counter(_plugins(after)))
+
+
+def _values(
+    kind: str, parts: tuple[str, ...], before: Mapping[str, str], after: Mapping[str, str]
+) -> Iterator[Difference]:
+    for path in sorted(before.keys() | after.keys()):
+        there, here = _spelt(before.get(path, "")), _spelt(after.get(path, ""))
+        if there != here:
+            yield Difference(kind, parts, path, there, here)
+
+
+def _of_links(before: RobotRow, after: RobotRow) -> Iterator[Difference]:
+    """Values of links; those of a link that was lumped are the ones of the link that it is part of now."""
+    links = {row["name"]: row for row in after["links"]}
+    above = {row["child"]: row["parent"] for row in before["joints"] if row["kind"] == _FIXED}
+    for row in before["links"]:
+        name = row["name"]
+        while name not in links and above.get(name, WORLD) != WORLD:
+            name = above[name]
+        if name in links:
+            yield from _values("link", (row["name"],), row["values"], links[name]["values"])
+
+
+def _pairs(before: RobotRow, after: RobotRow) -> Iterator[tuple[_Placed, _Placed | None]]:
+    """Each shape, and the one that it is afterwards; of several at one place the one with the same values, or first."""
+    rest = list(_shapes(after))
+    for one in _shapes(before):
+        near = [other for other in rest if _is_same_place(one, other)]
+        alike = [other for other in near if not list(_values("", (), one.row["values"], other.row["values"]))]
+        found = next(iter((*alike, *near)), None)
+        yield one, found
+        rest = [other for other in rest if other is not found]
+
+
+def _shapes(robot: RobotRow) -> Iterator[_Placed]:
+    frame = pose_matrix(robot["pose"])
+    for link in robot["links"]:
+        for row in link["shapes"]:
+            yield _Placed(link["name"], row, frame @ pose_matrix(link["pose"]) @ pose_matrix(row["place"]))
+
+
+def _is_same_place(one: _Placed, other: _Placed) -> bool:
+    if one.row["kind"] != other.row["kind"] or one.row["geometry"] != other.row["geometry"]:
+        return False
+    gap = np.abs(one.place - other.place)
+    far = max(1.0, float(np.abs(one.place[:3, 3]).max()))
+    return bool(gap[:3, 3].max() <= CUT_OFF * far and gap[:3, :3].max() <= _STEEP)
+
+
+def _of_sensors(before: RobotRow, after: RobotRow, names: Mapping[str, str]) -> Iterator[Difference]:
+    there = [(row, _content(row["text"], names)) for row in after["sensors"]]
+    frames = pose_matrix(before["pose"]), pose_matrix(after["pose"])
+    for row in before["sensors"]:
+        named = [pair for pair in there if (pair[0]["name"], pair[0]["kind"]) == (row["name"], row["kind"])]
+        if not named:
+            yield Difference("sensor", (row["inside"], row["name"]), "", "there", "missing")
+            continue
+        content = _content(row["text"], {})
+        found = next((pair for pair in named if pair[1] == content), named[0])
+        yield from _of_sensor(row, content, *found)
+        poses = [frame @ pose_matrix(each["pose"]) for frame, each in zip(frames, (row, found[0]), strict=True)]
+        if (far := float(np.abs(poses[0] - poses[1]).max())) > CUT_OFF:
+            yield Difference("sensor", (row["inside"], row["name"]), "pose", "", f"moved by {far:.2g}")
+        there = [pair for pair in there if pair is not found]
+    yield from (Difference("sensor", (row["inside"], row["name"]), "", "missing", "there") for row, _ in there)
+
+
+def _of_sensor(row: SensorRow, content: list[str], other: SensorRow, seen: list[str]) -> Iterator[Difference]:
+    parts = row["inside"], row["name"]
+    for only, here in ((sorted({*content} - {*seen}), False), (sorted({*seen} - {*content}), True)):
+        for path, _, text in (each.partition("=") for each in only):
+            yield Difference("sensor", parts, path, "" if here else text, text if here else "")
+    if row["inside"] != other["inside"]:
+        yield Difference("sensor", parts, "parent", row["inside"], other["inside"])
+
+
+def _only(kind: str, here: Counter[tuple[str, ...]], there: Counter[tuple[str, ...]]) -> Iterator[Difference]:
+    yield from (Difference(kind, (key[0],), " ".join(key[1:])[:120], "there", "missing") for key in here - there)
+    yield from (Difference(kind, (key[0],), " ".join(key[1:])[:120], "missing", "there") for key in there - here)
+
+
+def _plugins(robot: RobotRow) -> Iterator[tuple[str, ...]]:
+    for row in robot["plugins"]:
+        yield (row["inside"], *_content(row["text"], {}))
+
+
+def _content(text: str, names: Mapping[str, str]) -> list[str]:
+    """Every attribute and text of some XML with its path, sorted; collisions by the names given for theirs."""
+    # where libsdformat writes a prefix that it does not declare, the parser goes on
+    root = etree.fromstring(text.encode(), etree.XMLParser(recover=True, remove_comments=True))
+    return sorted(_leaves(root, "", names))
+
+
+def _leaves(element: XmlElement, around: str, names: Mapping[str, str]) -> Iterator[str]:
+    path = f"{around}/{element.tag}"
+    text = (element.text or "").strip()
+    yield f"{path}={_spelt(names.get(text, text) if path.endswith('/contact/collision') else text)}"
+    yield from (f"{path}@{name}={_spelt(str(value))}" for name, value in element.items())
+    for child in element:
+        if not str(child.tag).startswith("tf:"):  # a carrier, which Gazebo passes over
+            yield from _leaves(child, path, names)
+
+
+def _spelt(text: str) -> str:
+    return " ".join(map(_number, text.split()))
+
+
+def _number(text: str) -> str:
+    try:
+        return f"{float(text) + 0.0:.6g}"
+    except ValueError:
+        return text

@@ -1,0 +1,97 @@
+"""One robot of an SDF file, the URDF made of it, and what libsdformat 12 makes of both."""
+
+import re
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import twinform
+from reports.equipment.differences import Difference, differences
+from reports.harness.pages import without_names
+from tests.corpus.examine import rules_of
+from tests.corpus.files import CorpusFile
+from tests.corpus.there_and_back import robots
+from twinform.diagnostics import Ledger
+from twinform.testing.oracles.libsdformat.library import RobotRow, describe, models_of
+
+_NAMED = re.compile(r"\[@name='([^']*)'\]")
+
+
+class Verdict(StrEnum):
+    """What became of the equipment of a robot."""
+
+    SAME = "same"
+    LEDGER = "as in the ledger"
+    DIFFERENT = "different"
+    RESULT = "result not readable"
+    REFUSED = "not converted"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """A robot, how many parts of it were compared, and what differs; `silent` is what the ledger says nothing about."""
+
+    name: str
+    verdict: Verdict
+    parts: int = 0
+    cause: str = ""
+    found: tuple[Difference, ...] = ()
+    silent: tuple[Difference, ...] = ()
+
+
+def judge(file: CorpusFile) -> tuple[Outcome, ...]:
+    """What became of every robot of a file, or of the first few; none where libsdformat reads none."""
+    checked = twinform.check(file.path)
+    if checked.document is None or not checked.accepted:
+        return ()
+    _, rows = models_of(file.path, file.paths)
+    among = {row["name"]: row for row in rows}
+    named = (
+        (robot, robot.rpartition("::")[2] if robot else next(iter(among), "")) for robot in robots(checked.document)
+    )
+    return tuple(_judged(file, robot, among[name]) for robot, name in named if name in among)
+
+
+def _judged(file: CorpusFile, robot: str | None, before: RobotRow) -> Outcome:
+    name, parts = f"{file.name} {robot or ''}".strip(), _parts(before)
+    try:
+        conversion = twinform.convert(file.path, to="urdf", model=robot, paths=file.paths)
+    except twinform.CompileError as error:
+        return Outcome(name, Verdict.REFUSED, parts, ", ".join(rules_of(error.diagnostics)))
+    with TemporaryDirectory() as folder:
+        output = Path(folder, "robot.urdf")
+        output.write_text(conversion.text, encoding="utf-8")
+        try:
+            after = describe(output)
+        except RuntimeError as error:
+            return Outcome(name, Verdict.RESULT, parts, str(error)[:200])
+    found = tuple(differences(before, after))
+    silent = tuple(each for each in found if not _is_listed(each, conversion.ledger))
+    verdict = Verdict.DIFFERENT if silent else Verdict.LEDGER if found else Verdict.SAME
+    return Outcome(name, verdict, parts, str(silent[0]) if silent else "", found, silent)
+
+
+def _parts(robot: RobotRow) -> int:
+    """How many parts there are to compare: what sets a value, sensors and plugins."""
+    shapes = [shape for link in robot["links"] for shape in link["shapes"]]
+    setting = sum(bool(row["values"]) for row in (robot, *robot["links"], *shapes))
+    return setting + len(robot["sensors"]) + len(robot["plugins"])
+
+
+def _is_listed(found: Difference, ledger: Ledger) -> bool:
+    """Whether an entry of the ledger is about the value, about something in it, or about the part around it."""
+    return any(_covers(entry.location.path, found) for entry in ledger.entries)
+
+
+def _covers(path: str, found: Difference) -> bool:
+    *names, rest = _NAMED.split(path)
+    wanted = [name for part in found.parts for name in part.split("::")]
+    if names[1::2][-len(wanted) :] != wanted:
+        return False
+    steps = zip(_steps(without_names(rest)), _steps(found.path), strict=False)
+    return all(one == other for one, other in steps)
+
+
+def _steps(path: str) -> list[str]:
+    return [step for step in path.split("/") if step]

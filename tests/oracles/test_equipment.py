@@ -1,0 +1,78 @@
+"""What libsdformat makes of our URDF, `<gazebo>` tags and all, is what it makes of the SDF that this was made of."""
+
+from pathlib import Path
+
+import pytest
+
+from reports.equipment.judging import Outcome, Verdict, judge
+from reports.equipment.report import KNOWN
+from reports.harness.sample import is_good
+from tests.corpus.files import ROOT, CorpusFile, Kind, chunks
+from twinform.testing.oracles import libsdformat
+
+_SDF = chunks(Kind.SDF)
+_CASES = sorted(path for path in (ROOT / "tests/cases/convert").glob("*.sdf") if ".expected" not in path.name)
+_MODEL = "<sdf version='1.9'><model name='m'><link name='base'>{}</link></model></sdf>"
+_GEOMETRY = "<geometry><sphere><radius>{}</radius></sphere></geometry>"
+_FRICTION = "<surface><friction><ode>{}</ode></friction></surface>"
+
+
+@pytest.fixture(autouse=True)
+def reader() -> None:
+    if not libsdformat.available():
+        pytest.skip(libsdformat.MISSING)
+
+
+def _judged(text: str, folder: Path) -> Outcome:
+    path = folder / "model.sdf"
+    path.write_text(text)
+    (found,) = judge(CorpusFile(str(path), Kind.SDF, {}))
+    return found
+
+
+@pytest.mark.parametrize("name", ["collision", "base", "base_collision", "base_fixed_joint_lump__a_collision_1", "b"])
+@pytest.mark.parametrize(
+    "values",
+    [
+        _FRICTION.format("<mu>0.1</mu><mu2>0.2</mu2><fdir1>1 0 0</fdir1>"),
+        _FRICTION.format("<slip1>0.1</slip1>"),
+        "<surface><contact><ode><kp>1e5</kp><kd>2</kd><max_vel>3</max_vel><min_depth>0.1</min_depth></ode></contact></surface>",
+        "<surface><bounce><restitution_coefficient>0.5</restitution_coefficient></bounce></surface>",
+        "<max_contacts>3</max_contacts><laser_retro>7</laser_retro>",
+    ],
+)
+def test_gazebo_finds_the_values_of_a_collision_of_any_name(name: str, values: str, tmp_path: Path) -> None:
+    found = _judged(_MODEL.format(f"<collision name='{name}'>{_GEOMETRY.format(1)}{values}</collision>"), tmp_path)
+    assert (found.found, found.parts) == ((), 1)
+
+
+@pytest.mark.parametrize("name", ["visual", "base", "base_visual", "base_fixed_joint_lump__a_visual_1", "b"])
+@pytest.mark.parametrize(
+    "values",
+    ["<transparency>0.5</transparency>", "<cast_shadows>false</cast_shadows>", "<meta><layer>1</layer></meta>"],
+)
+def test_gazebo_finds_the_values_of_a_visual_of_any_name(name: str, values: str, tmp_path: Path) -> None:
+    found = _judged(_MODEL.format(f"<visual name='{name}'>{_GEOMETRY.format(1)}{values}</visual>"), tmp_path)
+    assert (found.found, found.parts) == ((), 1)
+
+
+@pytest.mark.parametrize("names", [("collision", "other"), ("base", "base_collision"), ("base_1", "1")])
+def test_contact_sensors_name_collisions_as_gazebo_does(names: tuple[str, str], tmp_path: Path) -> None:
+    shapes = "".join(f"<collision name='{name}'>{_GEOMETRY.format(n)}</collision>" for n, name in enumerate(names, 1))
+    sensed = "".join(f"<collision>{name}</collision>" for name in names)
+    sensor = f"<sensor name='s' type='contact'><contact>{sensed}<topic>t</topic></contact></sensor>"
+    found = _judged(_MODEL.format(shapes + sensor), tmp_path)
+    assert (found.found, found.parts) == ((), 1)
+
+
+@pytest.mark.parametrize("path", _CASES, ids=lambda path: path.stem)
+def test_gazebo_finds_what_the_case_has(path: Path) -> None:
+    found = judge(CorpusFile(str(path), Kind.SDF, {}))
+    assert [each for one in found for each in one.silent] == []
+
+
+@pytest.mark.parametrize("chunk", _SDF)
+def test_gazebo_finds_what_a_model_of_the_corpus_has(corpus: Path, chunk: str) -> None:
+    assert corpus.is_dir()
+    found = [one for file in _SDF[chunk] if is_good(file) for one in judge(file) if one.verdict is Verdict.DIFFERENT]
+    assert [f"{one.name}: {one.cause}" for one in found if not KNOWN.why("known", one.name)] == []
