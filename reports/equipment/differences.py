@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from lxml import etree
 
+from twinform.passes.carriers.lumped_names import LUMP
 from twinform.schemas import XmlElement
 from twinform.testing.oracles.libsdformat.library import RobotRow, SensorRow, ShapeRow
 from twinform.testing.oracles.libsdformat.robot import pose_matrix
@@ -84,14 +85,24 @@ def _of_links(before: RobotRow, after: RobotRow) -> Iterator[Difference]:
 
 
 def _pairs(before: RobotRow, after: RobotRow) -> Iterator[tuple[_Placed, _Placed | None]]:
-    """Each shape, and the one that it is afterwards; of several at one place the one with the same values, or first."""
-    rest = list(_shapes(after))
-    for one in _shapes(before):
-        near = [other for other in rest if _is_same_place(one, other)]
-        alike = [other for other in near if not list(_values("", (), one.row["values"], other.row["values"]))]
-        found = next(iter((*alike, *near)), None)
-        yield one, found
-        rest = [other for other in rest if other is not found]
+    """Each shape, and the one that it is afterwards: at one place, that with its name in it, or its values."""
+    waiting, rest = list(_shapes(before)), list(_shapes(after))
+    for is_it in (_is_named_after, _has_values_of, _is_at_place_of):
+        for one in list(waiting):
+            found = next((other for other in rest if _is_at_place_of(one, other) and is_it(one, other)), None)
+            if found is not None:
+                yield one, found
+                waiting = [each for each in waiting if each is not one]
+                rest = [each for each in rest if each is not found]
+    yield from ((one, None) for one in waiting)
+
+
+def _is_named_after(one: _Placed, other: _Placed) -> bool:
+    return one.row["name"].replace(LUMP, "_") in other.row["name"]
+
+
+def _has_values_of(one: _Placed, other: _Placed) -> bool:
+    return not list(_values("", (), one.row["values"], other.row["values"]))
 
 
 def _shapes(robot: RobotRow) -> Iterator[_Placed]:
@@ -101,7 +112,7 @@ def _shapes(robot: RobotRow) -> Iterator[_Placed]:
             yield _Placed(link["name"], row, frame @ pose_matrix(link["pose"]) @ pose_matrix(row["place"]))
 
 
-def _is_same_place(one: _Placed, other: _Placed) -> bool:
+def _is_at_place_of(one: _Placed, other: _Placed) -> bool:
     if one.row["kind"] != other.row["kind"] or one.row["geometry"] != other.row["geometry"]:
         return False
     gap = np.abs(one.place - other.place)
