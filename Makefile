@@ -56,6 +56,7 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md
 	$(BIN)/python -m twinform.profiles.page docs/reference/profiles.md
+	$(BIN)/python -m twinform.compiler.compare.page docs/reference/not_compared.md
 	$(BIN)/python -m twinform.cli.pages docs/reference/commands.md
 	$(BIN)/python -m twinform.server.mapping.pages urdf docs/reference/urdf.md
 	$(BIN)/python -m twinform.server.mapping.pages sdf docs/reference/sdf.md
@@ -77,6 +78,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md --check
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md --check
 	$(BIN)/python -m twinform.profiles.page docs/reference/profiles.md --check
+	$(BIN)/python -m twinform.compiler.compare.page docs/reference/not_compared.md --check
 	$(BIN)/python -m twinform.cli.pages docs/reference/commands.md --check
 	$(BIN)/python -m twinform.server.mapping.pages urdf docs/reference/urdf.md --check
 	$(BIN)/python -m twinform.server.mapping.pages sdf docs/reference/sdf.md --check

@@ -132,7 +132,7 @@ def _accounted(
     """Whether the ledger has every difference, and the audit nothing that is not accounted for."""
     assert conversion.source is not None
     start = time.perf_counter()
-    found = twinform.diff(file.path, conversion.text.encode(), model=robot)
+    found = twinform.diff(file.path, conversion.text.encode(), model=robot, carriers=True)
     seconds = time.perf_counter() - start
     listed = [without_names(entry.location.path) for entry in conversion.ledger.entries]
     names = [name for entry in conversion.ledger.entries for name in _NAME.findall(entry.location.path)]
@@ -172,7 +172,7 @@ def _compared(
     file: CorpusFile, name: str, direction: Direction, text: str, robot: str | None, tolerance: float = 1e-9
 ) -> Outcome:
     start = time.perf_counter()
-    found = twinform.diff(file.path, text.encode(), model=robot, tolerance=tolerance)
+    found = twinform.diff(file.path, text.encode(), model=robot, tolerance=tolerance, carriers=True)
     seconds = time.perf_counter() - start
     kinds = tuple(dict.fromkeys(f"{each.group}: {_aspect(each.aspect)}" for each in found.differences))
     if found.same:

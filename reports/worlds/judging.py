@@ -158,7 +158,7 @@ def _changes(source: Path, world: Path, folders: tuple[Path, ...]) -> Iterator[s
     except twinform.CompileError as error:
         raise MissingError(error.diagnostics[0].message) from error
     after = _expanded(world, folders)
-    found = twinform.diff(before.text.encode(), after.text.encode())
+    found = twinform.diff(before.text.encode(), after.text.encode(), carriers=True)
     for each in found.differences:
         yield each.message.replace(found.a, "source").replace(found.b, "result")
     for one, other in zip(before.document.worlds, after.document.worlds, strict=True):

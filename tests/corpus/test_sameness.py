@@ -32,7 +32,7 @@ def _first_difference(file: CorpusFile) -> str:
             text = twinform.convert(file.path, to="sdf" if file.kind is Kind.URDF else "urdf", model=robot).text
         except twinform.CompileError:
             continue
-        found = twinform.diff(file.path, text.encode(), model=robot)
+        found = twinform.diff(file.path, text.encode(), model=robot, carriers=True)
         if not found.same:
             return found.differences[0].message
     return ""

@@ -35,14 +35,14 @@ def test_a_robot_is_itself_without_a_note(model: Document):
 @given(strategies.robots())
 def test_a_robot_and_its_sdf_are_the_same(robot: Document):
     text = _text(robot)
-    assert _messages(twinform.diff(text, twinform.convert(text, to="sdf").text.encode())) == []
+    assert _messages(twinform.diff(text, twinform.convert(text, to="sdf").text.encode(), carriers=True)) == []
 
 
 @_SETTINGS
 @given(strategies.sdf_models())
 def test_a_model_and_its_urdf_are_the_same(model: Document):
     text = _text(model)
-    assert _messages(twinform.diff(text, twinform.convert(text, to="urdf").text.encode())) == []
+    assert _messages(twinform.diff(text, twinform.convert(text, to="urdf").text.encode(), carriers=True)) == []
 
 
 @_SETTINGS

@@ -44,7 +44,7 @@ def text(document: Document) -> bytes:
 
 
 def differences(one: Document, other: Document) -> list[str]:
-    return [item.message for item in twinform.diff(text(one), text(other)).differences]
+    return [item.message for item in twinform.diff(text(one), text(other), carriers=True).differences]
 
 
 def weight(document: Document) -> npt.NDArray[np.float64]:

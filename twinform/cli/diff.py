@@ -5,32 +5,37 @@ from typing import Unpack
 import click
 
 from twinform.cli.command import Command
+from twinform.cli.comparison import ComparisonFlags, comparison_flags, comparison_options
 from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
 from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
 from twinform.cli.printing import Color, print_report, print_text, styled
-from twinform.cli.tolerance import tolerance_option
 from twinform.compiler import CompileError
 from twinform.compiler.compare import Severity, compare_files
 from twinform.compiler.compare.reporters import REPORTERS, summary, text
 from twinform.diagnostics.reporters import Findings
 
-_COLORS: dict[Severity, Color] = {Severity.DIFFERENCE: "red", Severity.NOTE: "cyan"}
+_COLORS: dict[Severity, Color] = {Severity.DIFFERENCE: "red", Severity.CARRIED: "yellow", Severity.NOTE: "cyan"}
 _PAIR = 2
 
 
 EXAMPLES = {
     "Is it the same robot?": "twinform diff robot.urdf robot.sdf",
+    "Count what only twinform reads as written": "twinform diff robot.urdf robot.sdf --carriers",
     "Allow for rounding": "twinform diff robot.urdf robot.sdf --tolerance 1e-6",
 }
+
+
+class _Options(InputOptions, ComparisonFlags):
+    """What the options shared with other commands give."""
 
 
 @click.command("diff", cls=Command, examples=EXAMPLES)
 @click.argument("words", metavar="A B [NAME:=VALUE...]", nargs=-1, required=True, shell_complete=files)
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print differences.")
 @click.option("--model", metavar="NAME", help="The model to compare, where a file has several.")
-@tolerance_option
+@comparison_flags
 @file_options
 @click.pass_context
 def command(
@@ -39,12 +44,12 @@ def command(
     style: str,
     *,
     model: str | None,
-    tolerance: float,
-    **input_options: Unpack[InputOptions],
+    **rest: Unpack[_Options],
 ) -> None:
     """Say whether two files describe the same robot.
 
-    Prints what differs, where and by how much, and notes on what is only written in another way. A and B are URDF, SDF,
+    Prints what differs, where and by how much; what is carried, which means that only a carrier or <gazebo> says it,
+    and other readers see two robots; and notes on what is only written in another way. A and B are URDF, SDF,
     xacro or JSON files, mixed as it comes; - is standard input. Arguments of xacro are written NAME:=VALUE. Exit code:
     0 the same robot, 1 another one, 2 where a file could not be read or has errors.
     """
@@ -53,8 +58,8 @@ def command(
         raise click.UsageError("diff compares two files")
     a, b = sources
     try:
-        load_options, names = load_options_of(arguments, input_options), (a.name, b.name)
-        found = compare_files(a.content, b.content, load_options, names=names, model=model, tolerance=tolerance)
+        load_options, names = load_options_of(arguments, rest), (a.name, b.name)
+        found = compare_files(a.content, b.content, load_options, comparison_options(rest), names=names, model=model)
     except CompileError as error:
         show(Findings(a.name, error.diagnostics), notes=False, on_stderr=True)
         ctx.exit(UNUSABLE)

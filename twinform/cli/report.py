@@ -6,12 +6,12 @@ from typing import Unpack
 import click
 
 from twinform.cli.command import Command
+from twinform.cli.comparison import ComparisonFlags, comparison_flags, comparison_options
 from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
 from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
 from twinform.cli.outputs import Outputs
-from twinform.cli.tolerance import tolerance_option
 from twinform.compiler import CompileError
 from twinform.diagnostics.reporters import Findings
 from twinform.report import WRITERS, build_report
@@ -24,6 +24,10 @@ EXAMPLES = {
     "Show what has changed between two files": "twinform report robot.urdf robot.sdf -o out/report.html",
     "Write a comment for a pull request": "twinform report robot.urdf robot.sdf -o out/report.md",
 }
+
+
+class _Options(InputOptions, ComparisonFlags):
+    """What the options shared with other commands give."""
 
 
 @click.command("report", cls=Command, examples=EXAMPLES)
@@ -40,7 +44,7 @@ EXAMPLES = {
 @click.option("--view/--no-view", default=True, help="Whether the 3D view is in it, about 0.8 MB.")
 @click.option("--meshes/--no-meshes", default=True, help="Whether to count the triangles of mesh files.")
 @click.option("--model", metavar="NAME", help="The model to convert and compare, where a file has several.")
-@tolerance_option
+@comparison_flags
 @file_options
 @click.pass_context
 def command(
@@ -52,8 +56,7 @@ def command(
     view: bool,
     meshes: bool,
     model: str | None,
-    tolerance: float,
-    **input_options: Unpack[InputOptions],
+    **rest: Unpack[_Options],
 ) -> None:
     """Write a report on a model, or on two, that opens offline.
 
@@ -71,10 +74,10 @@ def command(
         found = build_report(
             first.content,
             second.content if second else None,
-            load_options_of(arguments, input_options),
+            load_options_of(arguments, rest),
             names=(first.name, second.name if second else ""),
             model=model,
-            tolerance=tolerance,
+            options=comparison_options(rest),
             meshes=meshes,
             view=make_page if view and style == "html" else None,
         )

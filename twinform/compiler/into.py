@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from twinform.compiler.compare import Difference, compare_files
+from twinform.compiler.compare import ComparisonOptions, Difference, compare_files
 from twinform.compiler.driver import Conversion, run_conversion
 from twinform.compiler.errors import CompileError
 from twinform.compiler.in_place import Updated, file_bytes, updated
@@ -86,7 +86,8 @@ def _require_the_robot(made: Updated, before: Conversion, path: Path, load_optio
         return
     after, sink = made.conversion, DiagnosticSink(str(path), load_options.strict)
     name = next((each.name for each in after.document.models), None)
-    compared = partial(compare_files, load_options=load_options, names=(str(path), str(path)), model=name)
+    options, names = ComparisonOptions(carriers=True), (str(path), str(path))
+    compared = partial(compare_files, load_options=load_options, options=options, names=names, model=name)
     try:
         found = compared(made.data, after.text.encode()).differences
     except CompileError as error:

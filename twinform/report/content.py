@@ -4,8 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from twinform.compiler.compare import Comparison, compare_files
-from twinform.compiler.compare.driver import TOLERANCE
+from twinform.compiler.compare import USUAL, Comparison, ComparisonOptions, compare_files
 from twinform.compiler.driver import run_conversion
 from twinform.compiler.errors import CompileError
 from twinform.compiler.graph import Graph, build_graph
@@ -111,7 +110,7 @@ def build_report(
     *,
     names: tuple[str, str] = ("", ""),
     model: str | None = None,
-    tolerance: float = TOLERANCE,
+    options: ComparisonOptions = USUAL,
     meshes: bool = True,
     view: View | None = make_page,
 ) -> Report:
@@ -130,9 +129,7 @@ def build_report(
     comparison, problem = None, ""
     if second is not None and two is not None:
         try:
-            comparison = compare_files(
-                first, second, load_options, names=(one.name, two.name), model=model, tolerance=tolerance
-            )
+            comparison = compare_files(first, second, load_options, options, names=(one.name, two.name), model=model)
         except CompileError as error:
             if error.unreadable and not (one.loaded.unreadable or two.loaded.unreadable):
                 raise

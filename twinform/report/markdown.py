@@ -4,7 +4,6 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import islice
 
-from twinform.compiler.compare import Severity as Sameness
 from twinform.compiler.compare.reporters import amounts_of, heading_of, places_of, summary, what_differs
 from twinform.compiler.graph.mermaid import fits, mermaid
 from twinform.diagnostics import Diagnostic, Fate, Severity
@@ -67,8 +66,7 @@ def _differences(report: Report, most: int) -> Iterator[str]:
         return
     rows = [
         (heading_of(item), what_differs(item), ", ".join(amounts_of(item)), ", ".join(places_of(item, found)))
-        for item in found.items
-        if item.severity is Sameness.DIFFERENCE
+        for item in found.counted
     ]
     yield from _table("Differences", ("Part", "What", "By", "Where"), rows, most)
 

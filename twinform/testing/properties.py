@@ -58,7 +58,7 @@ def assert_round_trip(model: Model, *, via: Language | None = None, sdf_version:
 
 def assert_same_robot(one: Model, other: Model) -> None:
     """Two models describe the same robot, of whatever formats."""
-    found = diff(_text(one)[0], _text(other)[0]).differences
+    found = diff(_text(one)[0], _text(other)[0], carriers=True).differences
     assert not found, "they are not the same robot:\n" + "\n".join(each.message for each in found[:20])
 
 

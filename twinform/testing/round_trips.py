@@ -69,7 +69,7 @@ class RoundTrip:
 
     def mismatches(self, back: str) -> Iterator[Mismatch]:
         """What is not as it was: the robot, its first difference, or texts of the file."""
-        found = diff(self.text, back.encode()).differences
+        found = diff(self.text, back.encode(), carriers=True).differences
         if found:
             yield Mismatch(ANOTHER_ROBOT, found[0].a.location.path or found[0].b.location.path, found[0].message)
         source, again = normal_form(self.text, name="source"), normal_form(back.encode(), name="back")

@@ -17,7 +17,7 @@ def difference_colors(comparison: Comparison, subjects: Sequence[Subject]) -> di
     """The colors of links that differ."""
     first, second = (subject.links for subject in subjects)
     found: dict[str, Rgb] = {}
-    for link in (link for each in comparison.differences for link in links_of(each, subjects)):
+    for link in (link for each in comparison.counted for link in links_of(each, subjects)):
         found[link] = CHANGED if link in first and link in second else ONLY_A if link in first else ONLY_B
     return found
 

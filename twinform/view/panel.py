@@ -208,13 +208,13 @@ class Panel:
 
     def _differences(self, comparison: Comparison) -> None:
         self.gui.add_html(words.compared(comparison))
-        for found in comparison.differences[:_MOST_ROWS]:
+        for found in comparison.counted[:_MOST_ROWS]:
             label = shortened(f"{found.group} {found.name}: {found.aspect}".rstrip(": "))
             links = links_of(found, self.subjects)
             color = next((self._colors[link] for link in links if link in self._colors), words.QUIET)
             self._row(label, words.difference(found), links, color)
-        if len(comparison.differences) > _MOST_ROWS:
-            self.gui.add_html(words.more(len(comparison.differences) - _MOST_ROWS, "differences"))
+        if len(comparison.counted) > _MOST_ROWS:
+            self.gui.add_html(words.more(len(comparison.counted) - _MOST_ROWS, "differences"))
 
     def _row(self, label: str, text: str, links: Sequence[str], color: Rgb) -> None:
         if not links:

@@ -91,7 +91,7 @@ def compared(comparison: Comparison) -> str:
     if comparison.same:
         return paragraph("Both files describe the same robot.")
     legend = "".join(heading(f"\N{BLACK SQUARE} {text}", color) for text, color in MEANINGS.items())
-    return paragraph(f"{len(comparison.differences)} differences, on links of these colors:") + legend
+    return paragraph(f"{len(comparison.counted)} differences, on links of these colors:") + legend
 
 
 def difference(found: Difference) -> str:

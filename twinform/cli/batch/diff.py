@@ -8,8 +8,8 @@ import click
 from twinform.cli.batch.models import pair_options
 from twinform.cli.batch.running import RunOptions, run_and_end, run_options
 from twinform.cli.command import Command
+from twinform.cli.comparison import ComparisonFlags, comparison_flags, comparison_options
 from twinform.cli.inputs import InputOptions, file_options, load_options_of
-from twinform.cli.tolerance import tolerance_option
 from twinform.compiler.batch import Batch, Diff, FolderError, of_folder, pairs
 
 EXAMPLES = {
@@ -20,12 +20,12 @@ EXAMPLES = {
 @click.command("diff", cls=Command, examples=EXAMPLES)
 @click.argument("a", metavar="A", type=click.Path(path_type=Path))
 @click.argument("b", metavar="B", type=click.Path(path_type=Path))
-@tolerance_option
+@comparison_flags
 @pair_options
 @run_options
 @file_options
 @click.pass_context
-def command(ctx: click.Context, a: Path, b: Path, *, tolerance: float, patterns: tuple[str, ...], **rest: Any) -> None:
+def command(ctx: click.Context, a: Path, b: Path, *, patterns: tuple[str, ...], **rest: Any) -> None:
     """Say which models of two folders are the same robots.
 
     Models are compared that have the same name below A and B, but for the endings of formats: the sources of a
@@ -40,7 +40,7 @@ def command(ctx: click.Context, a: Path, b: Path, *, tolerance: float, patterns:
     whole = Batch(
         source=a,
         entries=entries,
-        job=Diff(other=b, tolerance=tolerance),
+        job=Diff(other=b, options=comparison_options(cast("ComparisonFlags", rest))),
         load_options=load_options_of({}, cast("InputOptions", rest)),
         shard=rest["shard"],
         seconds=options["timeout"],

@@ -18,7 +18,17 @@ if TYPE_CHECKING:
 Command = TypeVar("Command", bound=Callable[..., Any])
 _KEY = f"{__name__}.project"
 _TRUSTED = f"{__name__}.trusted"
-_DEFAULTS = ("sdf_version", "urdf_version", "strict", "carriers", "passes", "check_passes", "max_size", "max_tags")
+_DEFAULTS = (
+    "sdf_version",
+    "urdf_version",
+    "strict",
+    "carriers",
+    "read_carriers",
+    "passes",
+    "check_passes",
+    "max_size",
+    "max_tags",
+)
 """Settings that are what an option is where the command line has none."""
 
 

@@ -54,6 +54,7 @@ class Settings(BaseModel):
     urdf_version: UrdfVersion | None = None
     strict: bool | None = None
     carriers: bool | None = None
+    read_carriers: bool | None = None
     passes: str | None = None
     check_passes: str | None = None
     max_size: int | str | None = None

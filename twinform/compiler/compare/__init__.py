@@ -1,6 +1,24 @@
 """The comparison of robots: do two files, of either format, describe the same one?"""
 
-from twinform.compiler.compare.comparison import Comparison, Difference, Severity, Side
-from twinform.compiler.compare.driver import TOLERANCE, compare_files, diff
+from twinform.compiler.compare.comparison import (
+    TOLERANCE,
+    USUAL,
+    Comparison,
+    ComparisonOptions,
+    Difference,
+    Severity,
+    Side,
+)
+from twinform.compiler.compare.driver import compare_files, diff
 
-__all__ = ["TOLERANCE", "Comparison", "Difference", "Severity", "Side", "compare_files", "diff"]
+__all__ = [
+    "TOLERANCE",
+    "USUAL",
+    "Comparison",
+    "ComparisonOptions",
+    "Difference",
+    "Severity",
+    "Side",
+    "compare_files",
+    "diff",
+]

@@ -1,12 +1,14 @@
 """The robots of a URDF or SDF file in the syntax of the newest SDF version, in which they are compared."""
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from twinform.compiler.compare.readers import Reader, as_read_by
 from twinform.compiler.compare.robot import Robot
 from twinform.compiler.compare.robot_builder import build_robot
+from twinform.compiler.compare.surroundings import Surroundings, read_surroundings
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes.expanding import expand
 from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
@@ -28,15 +30,20 @@ from twinform.schemas import versions_of
 
 @dataclass(frozen=True, slots=True)
 class Robots:
-    """The robots of a file by their names."""
+    """The robots of a file by their names, and what is around them; nothing where one of them was chosen."""
 
     path: str
     format: Format
     by_name: dict[str, Robot]
+    around: dict[str, Surroundings]
 
 
-def read_robots(source: Input, load_options: LoadOptions, *, name: str, model: str | None) -> Robots:
-    """The robots of a file; where there are several and `model` names one, that one.
+def read_robots(
+    source: Input, load_options: LoadOptions, *, name: str, model: str | None, readers: Iterable[Reader]
+) -> dict[Reader, Robots]:
+    """The robots of a file as each reader sees them; where there are several and `model` names one, that one.
+
+    What two readers see alike is one object.
 
     Raises:
         CompileError: the file has an error, or no such model.
@@ -50,23 +57,36 @@ def read_robots(source: Input, load_options: LoadOptions, *, name: str, model: s
     if document is None or not loaded.accepted:
         raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
     sink = DiagnosticSink(loaded.path, load_options.strict, origins=dict(loaded.origins))
+    assets = LocalAssets(load_options.search, Path(loaded.path))
+    known: dict[int, Robots] = {}
+    found: dict[Reader, Robots] = {}
+    for reader, seen in [(reader, as_read_by(document, reader)) for reader in readers]:
+        if id(seen) not in known:
+            known[id(seen)] = _seen(loaded, seen, model, sink, assets)
+        found[reader] = known[id(seen)]
+    return found
+
+
+def _seen(loaded: LoadResult, document: Document, model: str | None, sink: DiagnosticSink, assets: Assets) -> Robots:
+    canonical = Pipeline(_to_newest_sdf(document)).with_files(assets).run(document, sink)
+    robots: dict[str, Robot] = {}
+    around: dict[str, Surroundings] = {}
     try:
-        robots = dict(_robots(loaded, document, model, sink, LocalAssets(load_options.search, Path(loaded.path))))
+        if not sink.has_errors:
+            robots |= _robots(loaded, document, canonical, model, sink)
+        if document.format is Format.SDF and model is None and not sink.has_errors:
+            around = read_surroundings(canonical, loaded.origins)
     except FrameError as error:
         error.report(sink)
-        robots = {}
     if sink.has_errors:
         raise CompileError(tuple(sink.diagnostics))
-    return Robots(loaded.path, document.format, robots)
+    return Robots(loaded.path, document.format, robots, around)
 
 
 def _robots(
-    loaded: LoadResult, document: Document, model: str | None, sink: DiagnosticSink, assets: Assets
+    loaded: LoadResult, document: Document, canonical: Document, model: str | None, sink: DiagnosticSink
 ) -> Iterator[tuple[str, Robot]]:
     """Each robot by its name, with its world's where several are called so."""
-    canonical = Pipeline(_to_newest_sdf(document)).with_files(assets).run(document, sink)
-    if sink.has_errors:
-        return
     if document.format is Format.SDF:  # names that a model of URDF had, as far as these are unlike others
         canonical = RestoreNames(to=Format.URDF, unique=True).run(canonical, DiagnosticSink())
     selector = Selector(canonical)

@@ -59,12 +59,20 @@ def _holder(element: XmlElement, path: str) -> XmlElement:
 
 
 def urdf_pieces(element: XmlElement) -> Iterator[tuple[str, XmlElement]]:
-    """What the carriers of URDF directly in an element hold: where in it, and the carrier or an element in it."""
-    for carrier in element.findall(_CARRIER["urdf"]):
-        at = carrier.get("at") or ""
+    """What the carriers of URDF in an element hold: where in it, and the carrier or an element in it."""
+    for carrier in element.iter(_CARRIER["urdf"]):
+        if _is_in_carrier(carrier):
+            continue
+        at = "/".join(filter(None, (*_steps(element, carrier), carrier.get("at"))))
         if carrier.get("attribute") is not None:
             yield at, carrier
         yield from ((at, child) for child in carrier if isinstance(child.tag, str))
+
+
+def _steps(element: XmlElement, carrier: XmlElement) -> list[str]:
+    """The tags between an element and a carrier in it."""
+    above = list(carrier.iterancestors())
+    return [str(each.tag) for each in reversed(above[: above.index(element)])]
 
 
 def definition(name: str) -> Fact:

@@ -5,17 +5,16 @@ from pathlib import Path
 
 from twinform.compiler.compare.canonical_sdf import Robots, read_robots
 from twinform.compiler.compare.compare_robots import compare_robots
-from twinform.compiler.compare.comparison import Comparison, Difference
+from twinform.compiler.compare.comparison import TOLERANCE, USUAL, Comparison, ComparisonOptions, Difference
 from twinform.compiler.compare.findings import Findings, Subject, Terms
+from twinform.compiler.compare.readers import Reader, reconcile
 from twinform.compiler.compare.robot import Robot
+from twinform.compiler.compare.surroundings import compare_surroundings
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits
 from twinform.compiler.input.loading import Input, LoadOptions, garbage_collection_paused, name_of_input
 from twinform.compiler.search.uris import SearchPath
 from twinform.schemas import Engine
-
-TOLERANCE = 1e-9
-"""The share of a value, or of a meter or radian where it is smaller than that, up to which a difference is rounding."""
 
 
 def diff(
@@ -24,6 +23,7 @@ def diff(
     *,
     model: str | None = None,
     tolerance: float = TOLERANCE,
+    carriers: bool = False,
     strict: bool = False,
     engine: Engine = "libxml2",
     paths: Iterable[str | Path] = (),
@@ -34,24 +34,25 @@ def diff(
 ) -> Comparison:
     """Compare the robots in two files or documents, of either format; `model` names one where a file has several.
 
-    Without it the models of two worlds are compared by their names. `paths`, `arguments`, `xacro`,
+    Without it the models of two worlds are compared by their names. What only a carrier or `<gazebo>` says is
+    `carried`; with `carriers` it counts as if it were written where every reader looks. `paths`, `arguments`, `xacro`,
     `max_size` and `max_tags` are those of `check`; includes are always expanded.
 
     Raises:
         CompileError: a file has an error; what was found is in its diagnostics.
     """
     load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro, Limits(max_size, max_tags))
-    return compare_files(a, b, load_options, model=model, tolerance=tolerance)
+    return compare_files(a, b, load_options, ComparisonOptions(tolerance, carriers), model=model)
 
 
 def compare_files(
     a: Input,
     b: Input,
     load_options: LoadOptions,
+    options: ComparisonOptions = USUAL,
     *,
     names: tuple[str, str] = ("", ""),
     model: str | None = None,
-    tolerance: float = TOLERANCE,
 ) -> Comparison:
     """`diff`, with all that it needs to know in one place.
 
@@ -60,18 +61,20 @@ def compare_files(
     """
     names = (names[0] or _name(a, "a"), names[1] or _name(b, "b"))
     with garbage_collection_paused():
-        robots: list[Robots] = []
+        readers = (Reader.TWINFORM,) if options.carriers else tuple(Reader)
+        robots: list[dict[Reader, Robots]] = []
         errors: list[CompileError] = []
         for source, name in zip((a, b), names, strict=True):
             try:
-                robots.append(read_robots(source, load_options, name=name, model=model))
+                robots.append(read_robots(source, load_options, name=name, model=model, readers=readers))
             except CompileError as error:
                 errors.append(error)
         if errors:
             found = tuple(diagnostic for error in errors for diagnostic in error.diagnostics)
             raise CompileError(found, unreadable=any(error.unreadable for error in errors))
         one, other = robots
-        return Comparison(one.path, other.path, tolerance, tuple(_compared(one, other, tolerance)))
+        names = (one[readers[0]].path, other[readers[0]].path)
+        return Comparison(*names, options.tolerance, tuple(_seen_by_all(one, other, options.tolerance)))
 
 
 def _name(source: Input, default: str) -> str:
@@ -79,8 +82,23 @@ def _name(source: Input, default: str) -> str:
     return f"<{default}>" if name in {"<bytes>", "<document>"} else name
 
 
+def _seen_by_all(a: Mapping[Reader, Robots], b: Mapping[Reader, Robots], tolerance: float) -> Iterable[Difference]:
+    """What every reader finds, and what only some of them do."""
+    first, *more = a
+    pair = a[first], b[first]
+    found = list(_compared(*pair, tolerance))
+    for reader in more:
+        seen = a[reader], b[reader]
+        if seen != pair:
+            files = pair[0].path, pair[1].path
+            found = reconcile(found, list(_compared(*seen, tolerance)), reader, files)
+        pair = seen
+    return found
+
+
 def _compared(a: Robots, b: Robots, tolerance: float) -> Iterator[Difference]:
     terms = Terms(a.path, b.path, a.format, b.format, tolerance)
+    yield from compare_surroundings(a.around, b.around, terms)
     if len(a.by_name) == len(b.by_name) == 1:
         (one,), (other,) = a.by_name.values(), b.by_name.values()
         yield from compare_robots(one, other, terms, several=False)

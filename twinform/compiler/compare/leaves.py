@@ -46,8 +46,9 @@ class Walk:
         here = self._pose(element, rows, holder, path, carried=carried)
         self._attributes(element, rows, path, carried=carried)
         for key, child in _keyed(element, rows):
-            if f"{path}{child.tag}" not in self.skipped and child.tag not in _WITHOUT_MEANING:
-                self._child(child, rows.get(str(child.tag)), here, f"{path}{key}", carried=carried)
+            row = rows.get(str(child.tag))
+            if f"{path}{child.tag}" not in self.skipped and (row is None or row.reference not in _WITHOUT_MEANING):
+                self._child(child, row, here, f"{path}{key}", carried=carried)
 
     def enter_free(self, element: XmlElement, path: str, *, carried: bool = False) -> None:
         """Take in content that no table describes."""
@@ -73,7 +74,7 @@ class Walk:
 
     def _attributes(self, element: XmlElement, rows: dict[str, Fact], path: str, *, carried: bool) -> None:
         for name, text in element.items():
-            if name == "name" or str(name).startswith(_OURS) or f"{path}@{name}" in self.skipped:
+            if str(name).startswith(_OURS) or f"{path}@{name}" in self.skipped:
                 continue
             row = rows.get(f"@{name}")
             self._put(f"{path}@{name}", _value(str(text), row), _default(row), carried=carried)
@@ -104,9 +105,10 @@ class Walk:
             self._put(path, THERE, None, carried=carried)
         if fact.any:
             self.enter_free(child, path, carried=carried)
-            self.found.pop(f"{path}/@name", None)  # it is in the path
         else:
             self.enter(child, fact, here, f"{path}/", carried=carried)
+        if row.repeats:
+            self.found.pop(f"{path}/@name", None)  # it is in the path
 
     def _put(self, path: str, value: Value, default: Value | None, *, carried: bool) -> None:
         """Of what is written twice, the first counts."""
@@ -131,14 +133,17 @@ def _rows(fact: Fact) -> dict[str, Fact]:
 
 
 def _keyed(element: XmlElement, rows: dict[str, Fact]) -> Iterator[tuple[str, XmlElement]]:
-    """The children, but for carriers, with what tells them from their like: a name, else a number."""
+    """The children, but for carriers, with what tells them from their like: a name, else a number.
+
+    A tag that may stand once gets a number too where it stands twice, as `<camera>` in a sensor of several.
+    """
     seen: dict[str, int] = {}
     for child in element:
         if not isinstance(child.tag, str) or child.tag.startswith(_OURS):
             continue
         row, name = rows.get(child.tag), child.get("name")
         if row is not None and not row.repeats:
-            yield child.tag, child
+            yield numbered(child.tag, seen), child
             continue
         if row is not None and not name and child.tag == "plugin":
             name = plugin_stem(child.get("filename"))

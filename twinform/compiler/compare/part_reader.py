@@ -10,11 +10,12 @@ from twinform.compiler.compare.leaves import CARRIED, Resolve, Walk, numbered
 from twinform.compiler.compare.robot import Leaf, Leaves, Part
 from twinform.compiler.compare.values import Text
 from twinform.diagnostics import NOWHERE, Location, Origins
-from twinform.ir import Element, Format, Frame, Joint, Link, Model, Node, Sensor, node_fields
+from twinform.ir import Document, Element, Format, Frame, Joint, Link, Model, Node, Sensor, World, node_fields
 from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, from_xml
+from twinform.passes.carriers.definitions import definition_of
 from twinform.passes.legalise.names import NAME
 from twinform.passes.legalise.to_sdf.joints import FLOATING
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS, WITHOUT_AXIS, joints_of
@@ -25,22 +26,30 @@ _PARTS: Mapping[type[Node], Mapping[str, str]] = {
     Link: {"visuals": "visual", "collisions": "collision", "sensors": "sensor", "lights": "light"},
     Joint: {"sensors": "sensor"},
     Model: {"plugins": "plugin"},
+    World: {"plugins": "plugin", "lights": "light"},
+    Document: {"lights": "light"},
 }
 """Fields that hold parts of their own, and what these are called in SDF."""
-_BODIES = ("links", "joints", "frames", "models", "includes")
-"""What a model is made of is read by itself."""
+_APART: Mapping[type[Node], tuple[str, ...]] = {
+    Model: ("links", "joints", "frames", "models", "includes"),
+    World: ("models", "joints", "frames", "includes"),
+    Document: ("worlds", "models", "includes"),
+}
+"""What a model, world or file is made of is read by itself."""
 _ALWAYS_TYPED = frozenset({"visual", "collision"})
 """What has no typed form of these came out of a carrier."""
 _RESOLVED: Mapping[type[Node], frozenset[str]] = {
-    Link: frozenset({"pose", "inertial"}),
+    Link: frozenset({"pose", *(f"inertial/{each}" for each in ("mass", "pose", "inertia", "@auto"))}),
     Joint: frozenset({"pose", "parent", "child", "@type", "axis/xyz", "axis2/xyz"}),
     Model: frozenset(
         {"pose", "@canonical_link", "@placement_frame", "link", "joint", "frame", "model", "include", "model_state"}
     ),
+    World: frozenset(),
+    Document: frozenset({"@version"}),
 }
 """What is compared in other terms than those in which it is written."""
 _NOTHING = Element(name="nothing")
-_NOT_OF_THE_ROBOT = frozenset({"material", "gazebo", "link", "inertial", "mass", "origin", "name", "type"})
+_NOT_OF_THE_ROBOT = frozenset({"material", "link", "inertial", "mass", "origin", "name", "type"})
 """What URDF's carriers hold that is about how the file is written, or that the model has in SDF syntax."""
 _NEW_NAMES = {**RENAMED_ELEMENTS, "gpu_ray": "gpu_lidar"}
 """Types of sensors, and elements with their parameters, that have two names; readers take one for the other."""
@@ -65,12 +74,12 @@ class PartReader:
         place = origins.place(location.line) if origins else None
         return place._replace(path=location.path) if place else location
 
-    def parts(self, node: Link | Joint | Model, frame: Transform) -> tuple[Leaves, tuple[Part, ...]]:
+    def parts(self, node: Link | Joint | Model | World | Document, frame: Transform) -> tuple[Leaves, tuple[Part, ...]]:
         """The values of a node itself, and the parts in it; poses are relative to its frame."""
         fields = _PARTS[type(node)]
-        tag = type(node).__name__.lower()
-        parts = [self._part(child, fields[name], frame) for name in fields for child in getattr(node, name)]
-        apart = (*fields, *_BODIES) if isinstance(node, Model) else fields
+        tag = definition_of(node) or ""
+        parts = [self.part(child, fields[name], frame) for name in fields for child in getattr(node, name)]
+        apart = (*fields, *_APART.get(type(node), ()))
         xml = _xml(node.model_copy(update=dict.fromkeys(apart, ())), tag)
         leaves, inner = self._own(xml, tag, self._places(node), frame, skipped=_RESOLVED[type(node)])
         expressed, carried = self._of_urdf(xml, node)
@@ -87,7 +96,8 @@ class PartReader:
         walk.found.pop("@name", None)
         return Part(tag, _name(xml), walk.found, where, carried=xml.get(CARRIED) is not None)
 
-    def _part(self, node: Node, tag: str, frame: Transform) -> Part:
+    def part(self, node: Node, tag: str, frame: Transform) -> Part:
+        """A part with a typed form; a pose in it that names no frame is relative to `frame`."""
         xml = _xml(node, tag)
         places = self._places(node)
         unpack_sdf(xml, definition(tag))
@@ -119,7 +129,7 @@ class PartReader:
                 xml.remove(child)
                 part = self.element(child, row.name, places(""), frame)
                 inner.append(replace(part, carried=True) if part.kind in _ALWAYS_TYPED else part)
-        walk = Walk(self.resolve, places, skipped)
+        walk = Walk(self.resolve, places, skipped | {"@name"})
         walk.enter(xml, definition(tag), frame)
         return walk.found, inner
 

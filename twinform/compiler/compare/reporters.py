@@ -27,8 +27,8 @@ def text(comparison: Comparison, paint: Paint = lambda word, _: word) -> str:
 def json(comparison: Comparison) -> str:
     """One object: `{"a", "b", "same", "tolerance", "items": [...]}`; every key is always there.
 
-    An item is `{"severity", "model", "group", "name", "aspect", "message", "a", "b", "absolute", "relative", "unit"}`,
-    and its sides are `{"value", "file", "line", "path"}`. Line 0 means unknown; a difference without end is null.
+    An item is `{"severity", "reader", "model", "group", "name", "aspect", "message", "a", "b", "absolute", "relative",
+    "unit"}`; its sides are `{"value", "file", "line", "path"}`. Line 0 means unknown; a difference without end is null.
     """
     whole = {
         "a": comparison.a,
@@ -47,7 +47,9 @@ REPORTERS: Mapping[str, Reporter] = MappingProxyType({"text": text, "json": json
 def summary(comparison: Comparison) -> str:
     """The verdict in one line."""
     verdict = "the same robot" if comparison.same else "different robots"
-    return f"{verdict}: {_count(comparison.differences, 'difference')}, {_count(comparison.notes, 'note')}"
+    carried = [f"{len(comparison.carried)} carried"] if comparison.carried else []
+    counts = (_count(comparison.differences, "difference"), *carried, _count(comparison.notes, "note"))
+    return f"{verdict}: {', '.join(counts)}"
 
 
 def _count(items: tuple[Difference, ...], word: str) -> str:
@@ -99,6 +101,7 @@ def amounts_of(item: Difference) -> Iterator[str]:
 def _row(item: Difference) -> dict[str, object]:
     return {
         "severity": str(item.severity),
+        "reader": item.reader,
         "model": item.model,
         "group": item.group,
         "name": item.name,

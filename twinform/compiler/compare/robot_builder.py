@@ -153,5 +153,5 @@ def _carried(node: Node) -> Iterator[Element]:
 
 
 def _is_made_for_static(joint: Joint, model: Model) -> bool:
-    """Whether it holds a link of a static model, which stands still anyway."""
-    return bool(model.static) and joint.type == "fixed" and is_synthesized(joint)
+    """Whether it holds a link of a static model to the world, where it stands anyway."""
+    return bool(model.static) and joint.type == "fixed" and WORLD in (joint.parent, joint.child)

@@ -2,9 +2,9 @@
 
 from typing import TypeVar
 
-from twinform.ir import OPAQUE, Element, Node, Opaque, node_fields, replace_fields, rewrite
+from twinform.ir import Element, Node, Opaque, node_fields, rewrite
+from twinform.passes.carriers.removal import without_parts
 from twinform.passes.carriers.sdf_versions import carried, is_version_carrier
-from twinform.passes.transforms.nodes import map_elements
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 _ABOUT = frozenset({"source", "spelling"})
@@ -12,17 +12,7 @@ _ABOUT = frozenset({"source", "spelling"})
 
 def without_carriers(node: AnyNode) -> AnyNode:
     """The node without carriers of other versions, all the way down."""
-    return rewrite(node, Node, _bare, having=OPAQUE)
-
-
-def _bare(node: Node) -> Node:
-    kept = (part for part in node.opaque if not is_version_carrier(part))
-    return replace_fields(node, opaque=map_elements(kept, _bare_element))
-
-
-def _bare_element(element: Element) -> Element:
-    kept = (child for child in element.children if not is_version_carrier(Opaque.unchecked(element=child)))
-    return replace_fields(element, children=tuple(map(_bare_element, kept)))
+    return without_parts(node, is_version_carrier)
 
 
 def comparable(node: AnyNode) -> AnyNode:

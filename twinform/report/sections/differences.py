@@ -13,7 +13,7 @@ _HEADS = ("Part", "What", "In A", "In B", "By", "Where")
 
 
 def differences(report: Report) -> Markup | None:
-    """The verdict, what makes the robots different, and, folded, what is only written in another way."""
+    """The verdict, what makes the robots different to all readers or to some, and, folded, what is the same."""
     if report.second is None:
         return None
     if report.comparison is None:
@@ -24,11 +24,13 @@ def differences(report: Report) -> Markup | None:
     )
     files = element("p", "A is ", element("code", found.a), ", B is ", element("code", found.b), ".")
     listed = table("What makes the robots different", _HEADS, _rows(found, Severity.DIFFERENCE))
+    carried = table("What only some readers see", _HEADS, _rows(found, Severity.CARRIED))
     notes = table("What is only written in another way", _HEADS, _rows(found, Severity.NOTE))
     return join((
         verdict,
         files,
         listed if found.differences else None,
+        carried if found.carried else None,
         folded(count(len(found.notes), "note"), notes) if found.notes else None,
     ))  # fmt: skip
 
@@ -47,6 +49,6 @@ def _rows(found: Comparison, severity: Severity) -> Iterator[tuple[Part, ...]]:
 
 def _values(item: Difference) -> tuple[str, str, str]:
     """What differs, and both values; a sentence where one side has none."""
-    if item.group == "kinematics" or item.a.text is None or item.b.text is None:
+    if item.group == "kinematics" or item.severity is Severity.CARRIED or item.a.text is None or item.b.text is None:
         return what_differs(item), item.a.text or "", item.b.text or ""
     return item.aspect, item.a.text, item.b.text

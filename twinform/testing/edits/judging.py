@@ -124,7 +124,8 @@ def _plainly(edits: Iterable[Edit]) -> Plainly:
 
 def _compared(file: EditedFile, result: str) -> tuple[tuple[Difference, ...], tuple[Difference, ...]]:
     made = result.encode()
-    return diff(file.text, made).differences, diff(etree.tostring(file.plain), made).differences
+    plain = etree.tostring(file.plain)
+    return diff(file.text, made, carriers=True).differences, diff(plain, made, carriers=True).differences
 
 
 def _refused(error: CompileError) -> Verdict:

@@ -1,13 +1,13 @@
 """Compares each model of a batch with the one of the same name in another folder."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from pathlib import Path
 
 from twinform.compiler.batch.jobs.findings import refused
 from twinform.compiler.batch.record import Outcome
 from twinform.compiler.batch.task import Done, Task
-from twinform.compiler.compare import TOLERANCE, compare_files
+from twinform.compiler.compare import USUAL, ComparisonOptions, compare_files
 from twinform.compiler.compare.reporters import REPORTERS, summary
 from twinform.compiler.errors import CompileError
 from twinform.diagnostics import Policy
@@ -18,19 +18,19 @@ class Diff:
     """Say whether two models are the same robot, as `twinform diff` does; the second one is in the folder `other`."""
 
     other: Path
-    tolerance: float = TOLERANCE
+    options: ComparisonOptions = USUAL
 
     @property
     def request(self) -> list[object]:
         """The options that the outcome depends on."""
-        return ["diff", str(self.other), self.tolerance]
+        return ["diff", str(self.other), *astuple(self.options)]
 
     def work(self, task: Task, content: bytes) -> Done:
         """Compare it."""
         del content  # it is read by its path
         a, b = task.path, self.other / task.entry.other
         try:
-            found = compare_files(a, b, task.load_options, names=(str(a), str(b)))
+            found = compare_files(a, b, task.load_options, self.options, names=(str(a), str(b)))
         except CompileError as error:
             return refused(error, Policy(), str(a))
         outcome = Outcome.SAME if found.same else Outcome.DIFFERENT

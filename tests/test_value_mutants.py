@@ -1,0 +1,24 @@
+"""A changed value anywhere is a difference or a note, or is in the list of what is not compared."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.profile import DEEP
+from tests.value_mutants import MISSED, mutants
+from twinform.compiler.compare.not_compared import NOT_COMPARED
+
+_CASES = Path(__file__).parent / "cases"
+_FILES = sorted(path for path in _CASES.rglob("*") if path.suffix in {".urdf", ".sdf"})
+_EVERY = 1 if DEEP else 25
+_EACH = 4
+
+
+@pytest.mark.parametrize("path", _FILES[::_EVERY], ids=lambda path: path.relative_to(_CASES).as_posix())
+def test_a_changed_value_is_found_or_documented(path: Path):
+    assert [each.name for each in mutants(path, _EACH, 1) if each.verdict == MISSED] == []
+
+
+def test_the_places_that_are_not_compared_are_told_apart():
+    names = [each.what for each in NOT_COMPARED]
+    assert len(set(names)) == len(names)

@@ -1,0 +1,79 @@
+"""What `twinform diff` does not compare: values that mean nothing where they stand, and spellings of the same thing.
+
+Everything else in a file is compared. The table is the one list of exceptions: the documentation is made from it, and a
+test changes values of real files to see that a change is found, or is at one of these places.
+"""
+
+from dataclasses import dataclass
+
+from twinform.passes.carriers.carriers import PREFIX
+
+_ISOTROPIC = (
+    "number(inertia/{0}ixx) = number(inertia/{0}iyy) and number(inertia/{0}iyy) = number(inertia/{0}izz)"
+    " and not(number(inertia/{0}ixy) or number(inertia/{0}ixz) or number(inertia/{0}iyz))"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class NotCompared:
+    """A place whose values make no difference; the XPath is that of elements, with all below them, or attributes."""
+
+    xpath: str
+    what: str
+    why: str
+
+
+NOT_COMPARED = (
+    NotCompared("/robot/@version | /sdf/@version", "the version of the format", "It says how the file is written."),
+    NotCompared(
+        f"//{PREFIX}:*[not(self::{PREFIX}:sdf or self::{PREFIX}:urdf or self::{PREFIX}:version)]",
+        "annotations of conversions",
+        "They say how the other file was written. What a carrier holds is compared.",
+    ),
+    NotCompared(
+        "//joint[@type='fixed' or @type='floating']/*[self::axis or self::limit or self::dynamics or self::mimic"
+        " or self::safety_controller or self::calibration] | //joint[@type='ball']/axis",
+        "the axis of a joint that has none",
+        "A fixed, floating or ball joint has no axis, and no reader uses what is said of it.",
+    ),
+    NotCompared(
+        "/robot/joint[@type='continuous']/limit/@*[name()='lower' or name()='upper']"
+        " | //joint[@type='continuous']/axis/limit/*[self::lower or self::upper]",
+        "the ends of a continuous joint",
+        "It turns without end.",
+    ),
+    NotCompared(
+        "//joint[@type='ball']/pose",
+        "how the frame of a ball joint is turned",
+        "It has no axis; its place is compared.",
+    ),
+    NotCompared(
+        f"//inertial[mass = 0 or mass/@value = 0 or ({_ISOTROPIC.format('@')}) or not(inertia)]/origin/@rpy"
+        f" | //inertial[mass = 0 or ({_ISOTROPIC.format('')}) or not(inertia)]/pose",
+        "how an inertia is turned that is the same in all directions",
+        "Turned, it is the same inertia; its center is compared.",
+    ),
+    NotCompared(
+        "//inertial[@auto='true' or @auto='1']/*[self::mass or self::inertia or self::pose]",
+        "mass and inertia of a link whose inertia is automatic",
+        "Readers compute them from the shapes.",
+    ),
+    NotCompared(
+        "/robot/material | //visual/material/@name",
+        "names of materials, and materials that no visual has",
+        "A name leads to a look, and the look of each visual is compared.",
+    ),
+    NotCompared("/robot/link/collision/material", "the material of a collision", "No reader of URDF looks at it."),
+    NotCompared(
+        "//link//frame | //joint//frame[not(ancestor::force_torque or ancestor::sensor/force_torque)]",
+        "frames in links and joints of SDF 1.5 and 1.6",
+        "No reader has ever used them.",
+    ),
+    NotCompared(
+        "//axis/use_parent_model_frame | //axis2/use_parent_model_frame",
+        "in which frame the direction of an axis is written",
+        "Its direction in the model is compared, which is another one only where the two frames are turned.",
+    ),
+    NotCompared("//gui//pose/@*", "the frame of a pose in the window", "Gazebo takes it as one in the world."),
+)
+"""Every place of which `diff` says nothing."""

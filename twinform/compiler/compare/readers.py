@@ -1,0 +1,77 @@
+"""What different readers see of one file: all of them, Gazebo alone, or twinform alone.
+
+A *carrier* is of our namespace, and no other reader knows it. Links, joints and frames in the `<gazebo>` elements of
+URDF are read by Gazebo. This is the only place that takes either away: the comparison itself does not know who reads.
+"""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from enum import StrEnum
+
+from twinform.compiler.compare.comparison import Difference, Severity
+from twinform.ir import Document
+from twinform.passes.carriers.removal import without_bodies_for_gazebo, without_ours
+
+
+class Reader(StrEnum):
+    """Who reads a file. Each one sees what the ones before it see, and more."""
+
+    ANY = "any"
+    GAZEBO = "gazebo"
+    TWINFORM = "twinform"
+
+
+_ALONE = {Reader.GAZEBO: "only Gazebo and twinform read", Reader.TWINFORM: "only twinform reads"}
+
+
+def as_read_by(document: Document, reader: Reader) -> Document:
+    """The document without what a reader skips; the same object where that is nothing."""
+    if reader is Reader.TWINFORM:
+        return document
+    seen = without_ours(document)
+    return seen if reader is Reader.GAZEBO else without_bodies_for_gazebo(seen)
+
+
+def reconcile(
+    found: Iterable[Difference], seen: Iterable[Difference], reader: Reader, files: tuple[str, str]
+) -> list[Difference]:
+    """What readers found, after one that sees more has compared the two files too.
+
+    A difference that only some of them see is `carried`.
+    """
+    known, found = {_key(each) for each in seen if _counts(each)}, list(found)
+    before = {_key(each) for each in found if _counts(each)}
+    items = [each if _key(each) in known else _seen_as_same(each, reader, files) for each in found]
+    items += [_seen_by_one(each, reader) for each in seen if _counts(each) and _key(each) not in before]
+    places = {heading: place for place, heading in reversed([*enumerate(map(_heading, items))])}
+    return sorted(items, key=lambda each: places[_heading(each)])
+
+
+def _counts(item: Difference) -> bool:
+    return item.severity is not Severity.NOTE
+
+
+def _heading(item: Difference) -> tuple[str, ...]:
+    return item.model, item.group, item.name
+
+
+def _key(item: Difference) -> tuple[str, ...]:
+    """What differs; in kinematics the link that is furthest away depends on what is compared."""
+    name = "" if item.group == "kinematics" else item.name
+    return item.model, item.group, name, item.aspect
+
+
+def _seen_as_same(item: Difference, reader: Reader, files: tuple[str, str]) -> Difference:
+    if item.severity is not Severity.DIFFERENCE:
+        return item
+    in_one = (item.a.text is None) != (item.b.text is None)
+    what = f"it in {files[item.a.text is not None]}" if in_one else "them as the same"
+    return _carried(item, reader, f"{item.message}: {_ALONE[reader]} {what}")
+
+
+def _seen_by_one(item: Difference, reader: Reader) -> Difference:
+    return _carried(item, reader, f"{item.message}: {_ALONE[reader]} this")
+
+
+def _carried(item: Difference, reader: Reader, message: str) -> Difference:
+    return replace(item, severity=Severity.CARRIED, reader=str(reader), message=message)

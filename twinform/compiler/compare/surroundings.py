@@ -1,0 +1,113 @@
+"""What is around the models of a file: the values and parts of its worlds, and what stands beside them."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+
+from twinform.compiler.compare.comparison import Difference
+from twinform.compiler.compare.findings import Base, Findings, Subject, Terms
+from twinform.compiler.compare.matching import compare_leaves, compare_parts
+from twinform.compiler.compare.part_reader import PartReader
+from twinform.compiler.compare.robot import Leaves, Part
+from twinform.diagnostics import Location, Origins
+from twinform.ir import Document, Frame, Joint, Pose, World
+from twinform.ir.frames import WORLD, FrameGraph
+from twinform.ir.transform import Transform
+
+_FILE = ""
+"""The name of what stands beside the worlds."""
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """A world without its models; one without a name is what a file has beside its worlds and models."""
+
+    name: str
+    leaves: Leaves
+    parts: tuple[Part, ...]
+    where: Location
+
+    @property
+    def subject(self) -> Subject:
+        """What findings are about."""
+        return Subject("world", self.name) if self.name else Subject("file", "")
+
+
+def read_surroundings(document: Document, origins: Mapping[str, Origins]) -> dict[str, Surroundings]:
+    """The worlds of a document by their names, and what stands beside them, of a document in the newest SDF version."""
+    found = {world.name: _of_world(world, origins) for world in document.worlds}
+    beside = _of_file(document, origins)
+    return {**found, _FILE: beside} if beside.parts or beside.leaves else found
+
+
+def _of_world(world: World, origins: Mapping[str, Origins]) -> Surroundings:
+    graph = FrameGraph(world)
+    reader = PartReader(partial(_resolve, graph), origins)
+    leaves, parts = reader.parts(world, Transform())
+    members = (*(_placed(reader, graph, each) for each in (*world.frames, *world.joints)),)
+    return Surroundings(world.name, leaves, (*parts, *members), reader.place(world))
+
+
+def _of_file(document: Document, origins: Mapping[str, Origins]) -> Surroundings:
+    reader = PartReader(lambda pose, holder: holder.compose(Transform.from_pose(pose)), origins)
+    leaves, parts = reader.parts(document, Transform())
+    return Surroundings(_FILE, leaves, parts, reader.place(document))
+
+
+def _placed(reader: PartReader, graph: FrameGraph, node: Frame | Joint) -> Part:
+    """A frame or joint of a world, posed in the world, whatever frame it was posed in."""
+    kind = "frame" if isinstance(node, Frame) else "joint"
+    there = graph.pose(node.name, WORLD, kind=kind, base="world")
+    return reader.part(node.model_copy(update={"pose": None}), kind, there)
+
+
+def _resolve(graph: FrameGraph, pose: Pose, holder: Transform) -> Transform:
+    if pose.relative_to:
+        holder = graph.pose(pose.relative_to, WORLD, kind="joint", base="world")
+    return holder.compose(Transform.from_pose(pose))
+
+
+def compare_surroundings(
+    a: Mapping[str, Surroundings], b: Mapping[str, Surroundings], terms: Terms
+) -> Iterator[Difference]:
+    """Everything in which the worlds of two files differ; a note where only one of them has any.
+
+    Two worlds that are the only ones of their files are compared whatever they are called.
+    """
+    findings = Findings(terms)
+    for one, other in _pairs(a, b):
+        if one is not None and other is not None:
+            _compare(findings, one, other)
+        elif (only := one or other) is not None:
+            _only_in_one(findings, only, in_a=one is not None, counts=bool(a and b))
+    yield from findings.items
+
+
+def _pairs(
+    a: Mapping[str, Surroundings], b: Mapping[str, Surroundings]
+) -> Iterable[tuple[Surroundings | None, Surroundings | None]]:
+    lone_a, lone_b = ([each for each in found.values() if each.name] for found in (a, b))
+    if len(lone_a) == len(lone_b) == 1:
+        yield lone_a[0], lone_b[0]
+        yield a.get(_FILE), b.get(_FILE)
+        return
+    for name in dict.fromkeys((*a, *b)):
+        yield a.get(name), b.get(name)
+
+
+def _compare(findings: Findings, a: Surroundings, b: Surroundings) -> None:
+    places, terms = (a.where, b.where), findings.terms
+    if a.name != b.name:
+        message = f"the world is called {a.name!r} in {terms.a}, and {b.name!r} in {terms.b}"
+        findings.note(a.subject, "name", message, places)
+    compare_leaves(findings, a.subject, a.leaves, b.leaves, Base(), places)
+    compare_parts(findings, a.subject, a.parts, b.parts, Base())
+
+
+def _only_in_one(findings: Findings, only: Surroundings, *, in_a: bool, counts: bool) -> None:
+    if counts:
+        findings.only_in_one(only.subject, "", "world", only.where, in_a=in_a)
+        return
+    file = findings.terms.a if in_a else findings.terms.b
+    what = f"world {only.name!r}" if only.name else "what stands beside the models"
+    findings.note(only.subject, "", f"{what} is only in {file}, and was not compared", (only.where, only.where))
