@@ -29,12 +29,12 @@ class DroppedParameter:
 class Moved:
     """What the parameters made: the element that they went into, and what went nowhere.
 
-    Where a name `repeats`, values stand beside each other; else the first one stays. `is_valid` is whether the
+    Where a path `repeats`, values stand beside each other; else the first one stays. `is_valid` is whether the
     element can be as it is; a parameter after which it cannot goes nowhere.
     """
 
     element: Element
-    repeats: bool
+    repeats: Callable[[str], bool] = lambda _: False
     is_valid: Callable[[Element], bool] = lambda _: True
     moved: set[str] = field(default_factory=set[str])
     lost: list[DroppedParameter] = field(default_factory=list[DroppedParameter])
@@ -93,7 +93,7 @@ class Moved:
             many = numbers if len(numbers) == len(move.each) else numbers[:1] * len(move.each)
             yield from zip(move.each, many, strict=False)
             return
-        value = self._scaled(text, move)
+        value = text.strip("/") if move.bare else self._scaled(text, move)
         for path in (move.to or "", *move.same):
             yield path, value
         if move.mirror and (number := _number(value)) is not None:
@@ -115,12 +115,12 @@ class Moved:
         old = text_at(self.element, path)
         if move.least and old is not None:
             value = _least(old, value)
-        elif self.repeats and old is not None:
+        elif old is not None and self.repeats(path):
             self.element = added(self.element, Element(name=path, text=value))
             return
-        elif old is not None and not self.repeats:
+        elif old is not None:
             if not _same(old, value):
-                self.lost.append(DroppedParameter(parameter, f"the sensor itself has {path} {old}"))
+                self.lost.append(DroppedParameter(parameter, f"the {self.element.name} itself has {path} {old}"))
             return
         self.element = with_text(self.element, path, value)
         if move.noise:

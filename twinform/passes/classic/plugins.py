@@ -11,6 +11,7 @@ from twinform.passes.classic.deferred_edits import DeferredEdits
 from twinform.passes.classic.ignition import modern_plugin
 from twinform.passes.classic.link_pose import OtherQuantityError, offset_of
 from twinform.passes.classic.moving import DroppedParameter, Moved
+from twinform.passes.classic.reading import as_read
 from twinform.passes.classic.reporting import Report, accept, reasons_to_look, scratch
 from twinform.passes.classic.sensors import SensorMigration
 from twinform.passes.classic.systems import made_systems, unused
@@ -41,8 +42,8 @@ class PluginMigration:
 
     def __call__(self, plugin: Plugin, site: Site) -> Iterable[Plugin]:
         """The plugins that take the place of one."""
-        filename, report = plugin.filename or "", Report(self.sink, plugin, site)
-        migration = migration_of(filename, plugin.content)
+        read, report = as_read(plugin), Report(self.sink, plugin, site)
+        migration = migration_of(plugin.filename or "", read.content)
         if migration is None:
             return self._of_no_table(plugin, site, report)
         if self.release.name in migration.native:
@@ -78,14 +79,14 @@ class PluginMigration:
 
     def _systems(self, plugin: Plugin, site: Site, migration: Migration, report: Report) -> Iterable[Plugin]:
         try:
-            offset = offset_of(plugin, migration.body, site.model, self.format) if migration.body else ()
+            offset = offset_of(as_read(plugin), migration.body, site.model, self.format) if migration.body else ()
             made, lost = made_systems(plugin, migration, site, self.release.name)
         except (LookupError, OtherQuantityError) as error:
             return self._without(plugin, report, str(error))
         if any(row.scope == "world" for _, row in made) and site.world is None:
             return self._without(plugin, report, f"{made[0][0].name} has to be in a world, and there is none here")
         report.migrated(" and ".join(each.name or "" for each, _ in made), lost)
-        for reason in reasons_to_look(migration, plugin):
+        for reason in reasons_to_look(migration, as_read(plugin)):
             report.missing(reason)
         here: list[Plugin] = []
         for each, row in made:
@@ -115,7 +116,7 @@ class PluginMigration:
     def _make(self, plugin: Plugin, site: Site, migration: Migration, report: Report) -> Iterable[Plugin]:
         """A sensor on the link or joint that the plugin names."""
         make = migration.make or MakeRow(type="", on="link", of=())
-        holder = _scoped(next((child.text or "" for child in plugin.content if child.name in make.of), ""))
+        holder = _scoped(next((child.text or "" for child in as_read(plugin).content if child.name in make.of), ""))
         if site.model is None or holder not in _names(site.model, make.on):
             return self._without(plugin, report, f"there is no {make.on} {holder!r} to put the sensor on")
         element = Element(name="sensor", attributes=(("name", plugin.name or make.type), ("type", make.type)))
@@ -128,7 +129,7 @@ class PluginMigration:
         return ()
 
     def _mimic(self, plugin: Plugin, site: Site, migration: Migration, report: Report) -> Iterable[Plugin]:
-        moved = Moved(Element(name="mimic"), repeats=False)
+        moved = Moved(Element(name="mimic"))
         moved.apply(plugin.content, {**migration.shared, **migration.moves})
         parameters = {child.name: child.text or "" for child in moved.element.children}
         joints = {joint.name: joint for joint in site.model.joints} if site.model else {}

@@ -1,7 +1,7 @@
 """Migration of Gazebo Classic sensors, and of the plugins in them."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 from twinform.diagnostics import DiagnosticSink, Fate, Location
@@ -10,6 +10,7 @@ from twinform.ir import Element, Plugin, Sensor
 from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.passes.classic.element_edits import text_at, with_text
 from twinform.passes.classic.moving import DroppedParameter, Moved, camera_height, camera_width, focal_length
+from twinform.passes.classic.reading import as_read, ros2_kind
 from twinform.passes.classic.reporting import Report, accept, reasons_to_look, scratch
 from twinform.passes.classic.systems import unused
 from twinform.passes.classic.tables import Migration, SensorRow, migration_of, unread_parts
@@ -50,7 +51,7 @@ class SensorMigration:
         element = with_frame(_bare(sensor, type_), self.release)
         trial = SensorMigration(self.release, scratch(self.sink))
         for plugin, migration in found:
-            element = trial.move(plugin, migration, element, Site("sensor", sensor.name or "", sensor=sensor))
+            element = trial.move(plugin, migration, element, _inside(sensor, site))
         trial.say_type(sensor, type_, site)
         gone = {id(plugin) for plugin, _ in found}
         rest = tuple(plugin for plugin in sensor.plugins if id(plugin) not in gone)
@@ -72,10 +73,11 @@ class SensorMigration:
         self, plugin: Plugin, migration: Migration, element: Element, site: Site, camera: str | None = None
     ) -> Element:
         """The sensor with the parameters of a plugin in it; `camera` is the name of one of several."""
-        row = migration.sensor or SensorRow()
-        names = RosNames(plugin, sensor=element.get("name"), camera=camera)
-        moved = Moved(element, repeats=False, is_valid=_is_sensor)
-        moved.apply(plugin.content, {**migration.shared, **row.moves})
+        row, read = migration.sensor or SensorRow(), as_read(plugin)
+        names = RosNames(read, sensor=element.get("name") if camera is None else site.holder, camera=camera)
+        moved = Moved(element, is_valid=_is_sensor)
+        moved.apply(read.content, {**migration.shared, **row.moves})
+        moved.frame = moved.frame or _usual_frame(plugin, site)
         element = _with_sets(_placed(moved, self.release), migration, row, moved.moved)
         for path, pattern in row.topics_of.get(element.get("type") or "", row.topics).items():
             topic = names.topic(pattern)
@@ -88,7 +90,7 @@ class SensorMigration:
             report.needless(migration.nothing, lost)
         else:
             report.migrated(f"a part of the {element.get('type')} {element.get('name')!r}", lost)
-            for reason in reasons_to_look(migration, plugin, element.get("type")):
+            for reason in reasons_to_look(migration, read, element.get("type")):
                 report.missing(reason)
         return element
 
@@ -123,8 +125,8 @@ class SensorMigration:
             element = _one_camera(whole, name, camera, shared)
             for plugin, migration in found:
                 teller = self if number == 0 else quiet  # what is lost is lost once
-                here = Site("sensor", sensor.name or "", sensor=sensor)
-                element = teller.move(plugin, migration, element, here, camera.get("name") or str(number))
+                here, called = _inside(sensor, site), camera.get("name") or str(number)
+                element = teller.move(plugin, migration, element, here, called)
             made = sensor_of(complete_lens(with_frame(element, self.release)))
             if made is not None:
                 yield made.model_copy(update={"plugins": rest if number == 0 else (), "source": sensor.source})
@@ -135,6 +137,18 @@ class SensorMigration:
         for part in sensor.opaque:
             if part.element is not None and part.element.name == "camera" and not part.at:
                 self.sink.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, part.location.at("@name"))
+
+
+def _inside(sensor: Sensor, site: Site) -> Site:
+    """Where a plugin of a sensor is."""
+    return replace(site, scope="sensor", holder=sensor.name or "", sensor=sensor)
+
+
+def _usual_frame(plugin: Plugin, site: Site) -> str | None:
+    """The frame of a plugin for ROS 2 that names none: the link of its sensor (utils.cpp, SensorFrameID)."""
+    kind = ros2_kind(plugin)
+    reads_one = kind is not None and kind.parameter("frame_name") is not None and site.scope == "sensor"
+    return site.link_or_joint if reads_one else None
 
 
 def with_frame(element: Element, release: Release) -> Element:

@@ -1,10 +1,11 @@
 """Gazebo Classic plugins replaced by systems of gz-sim."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from twinform.ir import Element, Plugin
 from twinform.passes.classic.element_edits import added
 from twinform.passes.classic.moving import DroppedParameter, Moved, truth_of
+from twinform.passes.classic.reading import as_read
 from twinform.passes.classic.tables import Migration, SystemRow
 from twinform.passes.classic.topics import RosNames, is_namespace
 from twinform.passes.plugins.catalog import system
@@ -14,6 +15,7 @@ from twinform.passes.plugins.sites import Site
 _ON, _OFF = "{=/tf}", "=odom_transform"
 """The topics of transforms that ROS is to have, and of those that it is not: the bridge takes the first for `/tf`."""
 _UNREAD = "the plugin of Gazebo Classic does not read it either"
+_UNREAD_BY_ROS2 = "the plugin for ROS 2 does not read it either"
 
 
 def made_systems(
@@ -24,22 +26,23 @@ def made_systems(
     Raises:
         LookupError: the release has no such system; the error names it.
     """
-    names, lost, taken = RosNames(plugin), list[DroppedParameter](), set[str]()
+    read = as_read(plugin)
+    names, lost, taken = RosNames(read), list[DroppedParameter](), set[str]()
     made: list[tuple[Plugin, SystemRow]] = []
     for row in migration.systems:
         kind = _kind(row, release)
-        moved = Moved(Element(name="plugin"), repeats=True)
-        moved.apply(plugin.content, {**migration.shared, **row.moves})
+        moved = Moved(Element(name="plugin"), repeats=_repeats(kind))
+        moved.apply(read.content, {**migration.shared, **row.moves})
         for each in _sets(row, site, moved.element):
             moved.element = added(moved.element, each)
         content = [*moved.element.children]
         content += [Element(name=path, text=names.topic(pattern)) for path, pattern in row.topics.items()]
-        content += _transforms(row, plugin, names)
+        content += _transforms(row, read, names)
         kept, unread = _read_by(kind, content, release)
         lost += [each for each in moved.lost if each.parameter.name not in taken]
         lost += [
             DroppedParameter(parameter, f"{kind.class_name} of {release} does not read <{name}>")
-            for parameter, name in _origins(plugin, row, unread)
+            for parameter, name in _origins(read, row, unread)
         ]
         taken |= moved.moved
         made.append((_plugin(plugin, kind, kept, alone=len(migration.systems) == 1), row))
@@ -49,13 +52,24 @@ def made_systems(
 
 def unused(plugin: Plugin, taken: set[str], names: RosNames) -> Iterator[DroppedParameter]:
     """The parameters that nothing has taken."""
+    read = {id(parameter) for parameter in names.plugin.content}
     for parameter in plugin.content:
-        if parameter.name == "ros" and "ros" not in taken:
+        if id(parameter) not in read:
+            yield DroppedParameter(parameter, _UNREAD_BY_ROS2)
+        elif parameter.name == "ros" and "ros" not in taken:
             yield from (DroppedParameter(part, reason) for part, reason in names.leftovers())
         elif parameter.name not in taken | names.used and not is_namespace(parameter.name):
             yield DroppedParameter(parameter, _UNREAD)
         elif is_namespace(parameter.name) and parameter.name not in taken | names.used:
             yield DroppedParameter(parameter, "nothing is published below a namespace", harmless=True)
+
+
+def _repeats(kind: PluginKind) -> Callable[[str], bool]:
+    def repeats(path: str) -> bool:
+        row = kind.parameter(*path.split("/"))
+        return row is not None and row.is_many
+
+    return repeats
 
 
 def _kind(row: SystemRow, release: str) -> PluginKind:

@@ -42,7 +42,8 @@ class Move(_Row):
     (`negative_times`). `each` takes the numbers of a vector apart; `same` are more places
     for the value, `mirror` one for the value with the other sign, `also` what is written beside it. `noise` makes the
     noise around it Gaussian and `drifts` lets its bias wander. `split` divides a list, `first` takes one of several,
-    `least` the smaller of the old value and the new. `choose` gives what to write for each value.
+    `least` the smaller of the old value and the new; `bare` is a topic without the slashes around it. `choose` gives
+    what to write for each value.
 
     Without any of that, `drop` is the reason why it goes nowhere; it is only reported where its value is not one of
     the `harmless` values.
@@ -60,6 +61,7 @@ class Move(_Row):
     split: str | None = None
     first: bool = False
     least: bool = False
+    bare: bool = False
     noise: bool = False
     drifts: bool = False
     harmless: tuple[str, ...] = ()

@@ -2,11 +2,11 @@
 
 A pattern has pieces between slashes; each is a name behind `=`, or in braces a choice between parameters, `$plugin`,
 `$sensor` and `$camera`, and such a name: `{cameraName|$sensor}/{imageTopicName|=image_raw}`. In a name, `$plugin` is
-that of the plugin. A piece that begins with a slash is absolute, as in ROS.
+that of the node, which is the plugin's. A piece that begins with a slash is absolute, as in ROS.
 """
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from twinform.ir import Element, Plugin
@@ -30,15 +30,9 @@ class RosNames:
     def topic(self, pattern: str) -> str:
         """The name that a pattern stands for here, without the slash that it begins with."""
         pieces = [self._piece(piece) for piece in _BETWEEN.split(pattern)]
-        name = "/".join(pieces)
         last = next((at for at in reversed(range(len(pieces))) if pieces[at].startswith("/")), None)
-        absolute = "/".join(pieces[last:]) if last is not None else None
-        renamed = self._renamed(name)
-        if renamed is not None:
-            absolute, name = (renamed, renamed) if renamed.startswith("/") else (None, renamed)
-        if absolute is not None:
-            return _clean(absolute)
-        return _clean(f"{self.namespace}/{name}")
+        name = "/".join(pieces) if last is None else "/".join(pieces[last:])
+        return self._remapped(name if last is not None else f"{self.namespace}/{name}")
 
     @property
     def namespace(self) -> str:
@@ -47,11 +41,23 @@ class RosNames:
             if child.name in _NAMESPACES:
                 self.used.add(child.name)
                 return child.text or ""
-        for ros in self._ros():
-            inside = ros.find("namespace")
-            if inside is not None:
-                return inside.text or ""
-        return ""
+        given = self._setting("__ns")
+        if given is not None:
+            return given
+        inside = (ros.find("namespace") for ros in self._ros())
+        return next((each.text or "" for each in inside if each is not None), "")
+
+    @property
+    def node(self) -> str:
+        """The name of its node."""
+        return self._setting("__node") or self._setting("__name") or self.plugin.name or ""
+
+    def _setting(self, name: str) -> str | None:
+        """What a remapping of the node itself has."""
+        found = next((new for old, new in self._remappings() if old == name), None)
+        if found is not None:
+            self.remapped.add(name)
+        return found
 
     def _ros(self) -> Iterator[Element]:
         return (child for child in self.plugin.content if child.name == "ros")
@@ -59,9 +65,9 @@ class RosNames:
     def _piece(self, piece: str) -> str:
         for word in piece.strip("{}").split("|"):
             if word.startswith("="):
-                return word[1:].replace("$plugin", self.plugin.name or "")
+                return word[1:].replace("$plugin", self.node)
             if word.startswith("$"):
-                value = {"$sensor": self.sensor, "$camera": self.camera}.get(word, self.plugin.name)
+                value = {"$sensor": self.sensor, "$camera": self.camera}.get(word, self.node)
             else:
                 value = self._parameter(word)
             if value:
@@ -75,24 +81,31 @@ class RosNames:
         self.used.add(name)
         return found.text
 
-    def _renamed(self, name: str) -> str | None:
-        for old, new in self.remappings.items():
-            bare = old.removeprefix("~").strip("/")
-            if bare and (name.strip("/") == bare or name.endswith(f"/{bare}")):
+    def _remapped(self, name: str) -> str:
+        """A name as the first rule about it has it; rules are about whole names (rcl, remap.c)."""
+        for old, new in self._remappings():
+            if _clean(name) == self._expanded(old):
                 self.remapped.add(old)
-                return f"{self.plugin.name}/{new[2:]}" if new.startswith("~/") else new
-        return None
+                return self._expanded(new)
+        return _clean(name)
 
-    @property
-    def remappings(self) -> Mapping[str, str]:
-        """What is to be called otherwise; older versions have remappings in `<argument>`."""
-        found: dict[str, str] = {}
+    def _expanded(self, name: str) -> str:
+        """A name in a rule, with the namespace and the name of the node that it is relative to."""
+        name = name.removeprefix("rostopic://")
+        node, colon, rest = name.partition(":")
+        if colon:
+            return self._expanded(rest) if node == self.node else ""
+        if name.startswith("/"):
+            return _clean(name)
+        return _clean("/".join((self.namespace, self.node if name.startswith("~") else "", name)))
+
+    def _remappings(self) -> Iterator[tuple[str, str]]:
+        """What is to be called otherwise, in order; older versions have remappings in `<argument>`."""
         for ros in self._ros():
             for child in ros.children:
                 old, arrow, new = (child.text or "").partition(":=")
-                if child.name in _REMAPPINGS and arrow and not old.startswith("__"):
-                    found[old.strip()] = new.strip()
-        return found
+                if child.name in _REMAPPINGS and arrow:
+                    yield old.strip(), new.strip()
 
     def leftovers(self) -> Iterator[tuple[Element, str]]:
         """The parts of `<ros>` that no topic has used, with the reason why they go nowhere."""
