@@ -73,6 +73,11 @@ _URDF = _Format(
             '<actuator name="a%"/></transmission>'
         ),
         "transmissions without anything": "<transmission/>",
+        "joints with transmissions": (
+            '<link name="l%"/>'
+            + _JOINT.format(kind="fixed", child="l%", inside="")
+            + '<transmission name="t%"><joint name="j%"/></transmission>'
+        ),
         "ros2_control": '<ros2_control name="c%" type="system"><joint name="ab"/></ros2_control>',
         "ros2_control without anything": "<ros2_control/>",
     },

@@ -154,6 +154,9 @@ def placed(one: Solid, at: Transform) -> Solid:
 
 def turned(inertia: Symmetric, at: Transform) -> Symmetric:
     """An inertia in the axes of the frame that `at` turns its own in: R I R^T."""
+    if at.is_unturned:
+        xx, yy, zz, xy, xz, yz = inertia
+        return xx + 0.0, yy + 0.0, zz + 0.0, xy + 0.0, xz + 0.0, yz + 0.0
     exponent = common_exponent(inertia)
     rows = (at.rotation[0:3], at.rotation[3:6], at.rotation[6:9])
     xx, yy, zz, xy, xz, yz = times_each(inertia, -exponent)

@@ -54,7 +54,12 @@ class Transform:
     @property
     def is_identity(self) -> bool:
         """Whether it is exactly the identity."""
-        return self.rotation == _UNTURNED and self.translation == _ORIGIN
+        return self.is_unturned and self.translation == _ORIGIN
+
+    @property
+    def is_unturned(self) -> bool:
+        """Whether its axes are exactly those of the frame that it is in."""
+        return self.rotation == _UNTURNED
 
     def compose(self, inner: "Transform") -> "Transform":
         """The transform of `inner`, which is in the frame that this one places, to the frame that this one is in."""

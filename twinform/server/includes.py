@@ -4,6 +4,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 from twinform.compiler.search.uris import SearchPath
@@ -18,6 +19,8 @@ _DIRNAME = re.compile(r"\$\(dirname\)/?")
 ENDINGS = (".urdf", ".xacro", ".sdf", ".world", ".gazebo")
 """The names of files that are looked through for includes."""
 _MOST_FILES = 500
+_MOST_INCLUDES = 2_000
+"""Includes of one document that are followed: each that leads nowhere is looked for in every folder."""
 _MOST_FOLDERS = 2_000
 _SKIPPED = frozenset({"node_modules", "build", "install", "log", "__pycache__"})
 
@@ -63,7 +66,7 @@ def resolved(uri: str, document: Document, search: SearchPath) -> Path | None:
 
 
 def _includes(document: Document) -> tuple[Include, ...]:
-    return tuple(_found(document))
+    return tuple(islice(_found(document), _MOST_INCLUDES))
 
 
 def _found(document: Document) -> Iterator[Include]:

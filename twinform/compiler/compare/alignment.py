@@ -17,6 +17,8 @@ from twinform.compiler.compare.values import Point, PoseValue, Tensor
 from twinform.ir.frames import WORLD
 from twinform.ir.motion import spanning_tree
 
+_NO_MISFIT = (0, False)
+
 
 @dataclass(frozen=True, slots=True)
 class Alignment:
@@ -91,7 +93,16 @@ class _Work:
             self.placed.add(name)
 
     def _best(self, name: str, candidates: list[Base]) -> Base:
-        return min(candidates, key=lambda base: self._misfit(name, base))
+        """The first of the bases that leave the fewest differences."""
+        best, *others = dict.fromkeys(candidates)
+        least = self._misfit(name, best)
+        for base in others:
+            if least == _NO_MISFIT:  # most links have not moved
+                break
+            misfit = self._misfit(name, base)
+            if misfit < least:
+                best, least = base, misfit
+        return best
 
     def _misfit(self, name: str, base: Base) -> tuple[int, int]:
         """How many of the contents are elsewhere, and whether the frame itself is."""

@@ -46,6 +46,8 @@ class Terms:
 
     def worst(self, a: Value, b: Value, base: Base | None = None) -> list[Delta]:
         """The gaps between two values that are more than rounding."""
+        if a == b and (base is None or base.a == base.b):
+            return []
         if base is not None:
             a, b = a.seen_from(base.a), b.seen_from(base.b)
         return [gap for gap in gaps(a, b) if self.differs(gap)]

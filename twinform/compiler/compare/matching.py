@@ -1,17 +1,23 @@
 """Matches the parts of two robots: by name, and shapes, whose names mean little, by their geometry."""
 
-from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections import defaultdict, deque
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sized
+from functools import partial
+from operator import attrgetter
 
 from twinform.compiler.compare.findings import Base, Findings, Subject, Terms
 from twinform.compiler.compare.robot import Leaf, Leaves, Part
-from twinform.compiler.compare.values import PoseValue
+from twinform.compiler.compare.values import PoseValue, show
 from twinform.diagnostics import NOWHERE, Location
+from twinform.ir.transform import Transform
 
 _BY_CONTENT = frozenset({"visual", "collision"})
 """Parts that converters rename, and that nothing but a name tells apart."""
 _NOT_COMPARED_IN_CARRIERS = frozenset({"pose"})
 """A carried shape is posed in the frame that its link had in the other file."""
+
+_MOST_PAIRS = 100
+"""Of more shapes, not each is held against each: a link may have thousands."""
 
 Pair = tuple[Part, Part]
 Fits = Callable[[Part, Part], bool]
@@ -30,17 +36,20 @@ def compare_leaves(
 ) -> None:
     """Compare all values; below one that names the kind of a thing, nothing is compared when the kinds differ."""
     closed: list[str] = []
-    for path in sorted(a.keys() | b.keys()):
+    for path, pair in _pairs_of_leaves(a, b, carried=carried):
         if any(path.startswith(f"{above}/") for above in closed):
-            continue
-        if carried and path in _NOT_COMPARED_IN_CARRIERS:
-            continue
-        pair = (a.get(path), b.get(path))
-        if _is_absent_pose(pair):
             continue
         name = f"{aspect}/{path}" if aspect else path
         if findings.leaf(subject, name, pair, base, places):
             closed.append(path)
+
+
+def _pairs_of_leaves(a: Leaves, b: Leaves, *, carried: bool) -> Iterator[tuple[str, tuple[Leaf | None, Leaf | None]]]:
+    """The values that are compared, by their paths."""
+    for path in sorted(a.keys() | b.keys()):
+        pair = (a.get(path), b.get(path))
+        if not (carried and path in _NOT_COMPARED_IN_CARRIERS) and not _is_absent_pose(pair):
+            yield path, pair
 
 
 def _is_absent_pose(pair: tuple[Leaf | None, Leaf | None]) -> bool:
@@ -82,11 +91,54 @@ def _by_kind(parts: Iterable[Part]) -> dict[str, list[Part]]:
 def match(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
     """Pairs of parts of one kind, and those of each robot that are left over."""
     if not any(part.kind in _BY_CONTENT for part in (*a, *b)):
-        return _paired(a, b, _has_name)
-    pairs, left_a, left_b = _paired(a, b, lambda one, other: _has_name(one, other) and is_same(one, other, terms, base))
-    same, left_a, left_b = _paired(left_a, left_b, lambda one, other: is_same(one, other, terms, base))
-    alike = _most_alike(left_a, left_b, terms, base)
-    return [*pairs, *same, *alike], _rest(left_a, (one for one, _ in alike)), _rest(left_b, (one for _, one in alike))
+        return _paired_by(a, b, attrgetter("name"), attrgetter("name"))
+    pairs, left_a, left_b = _same(a, b, terms, base)
+    if _are_few(left_a, left_b):
+        alike = _most_alike(left_a, left_b, terms, base)
+        left_a, left_b = _rest(left_a, (one for one, _ in alike)), _rest(left_b, (one for _, one in alike))
+        return [*pairs, *alike], left_a, left_b
+    named, left_a, left_b = _paired_by(left_a, left_b, attrgetter("name"), attrgetter("name"))
+    alike, left_a, left_b = _paired_by(left_a, left_b, _shape, _shape)
+    return [*pairs, *named, *alike], left_a, left_b
+
+
+def _same(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
+    """Pairs of shapes that are equal, those of one name first, and the shapes that are left over.
+
+    Of many shapes, those of one content are paired at once, and the rest is looked through where that leaves few.
+    """
+    exact: list[Pair] = []
+    if not _are_few(a, b):
+        of_a, of_b = partial(_content, base=base.a), partial(_content, base=base.b)
+        named, a, b = _paired_by(a, b, lambda one: (one.name, of_a(one)), lambda one: (one.name, of_b(one)))
+        renamed, a, b = _paired_by(a, b, of_a, of_b)
+        exact = [*named, *renamed]
+        if not _are_few(a, b):
+            return exact, a, b
+    pairs, a, b = _paired(a, b, lambda one, other: _has_name(one, other) and is_same(one, other, terms, base))
+    same, a, b = _paired(a, b, lambda one, other: is_same(one, other, terms, base))
+    return [*exact, *pairs, *same], a, b
+
+
+def _are_few(a: Sized, b: Sized) -> bool:
+    return len(a) * len(b) <= _MOST_PAIRS
+
+
+def _content(part: Part, base: Transform) -> Hashable:
+    """What a shape is but for its name and rounding, seen from a frame."""
+    written = ((path, leaf) for path, leaf in part.leaves.items() if leaf.value != leaf.default)
+    return frozenset((path, show(leaf.value.seen_from(base))) for path, leaf in written)
+
+
+def _paired_by(
+    a: list[Part], b: list[Part], key_a: Callable[[Part], Hashable], key_b: Callable[[Part], Hashable]
+) -> tuple[list[Pair], list[Part], list[Part]]:
+    """Each part with the first one of its key that is still free."""
+    free = defaultdict[Hashable, deque[Part]](deque)
+    for other in b:
+        free[key_b(other)].append(other)
+    pairs = [(one, same.popleft()) for one in a if (same := free.get(key_a(one)))]
+    return pairs, _rest(a, (one for one, _ in pairs)), _rest(b, (other for _, other in pairs))
 
 
 def _paired(a: list[Part], b: list[Part], fits: Fits) -> tuple[list[Pair], list[Part], list[Part]]:
@@ -138,15 +190,16 @@ def _shape(part: Part) -> object:
 
 def is_same(a: Part, b: Part, terms: Terms, base: Base) -> bool:
     """Whether two parts are equal but for their names."""
-    found = Findings(terms)
-    compare_leaves(found, Subject("", ""), a.leaves, b.leaves, base, carried=a.carried or b.carried)
-    return not found.items
+    found, nothing = Findings(terms), Subject("", "")
+    pairs = _pairs_of_leaves(a.leaves, b.leaves, carried=a.carried or b.carried)
+    return not any(found.leaf(nothing, path, pair, base, (NOWHERE, NOWHERE)) for path, pair in pairs)
 
 
 def unmatched(a: Iterable[Part], b: Iterable[Part], terms: Terms, base: Base) -> Iterator[Part]:
     """The parts for which the other robot has none that is the same."""
     groups_b = _by_kind(b)
     for kind, parts in _by_kind(a).items():
-        pairs, only, _ = match(parts, groups_b.get(kind, []), terms, base)
+        others = groups_b.get(kind, [])
+        pairs, only, _ = _same(parts, others, terms, base) if kind in _BY_CONTENT else match(parts, others, terms, base)
         yield from only
         yield from (one for one, other in pairs if not is_same(one, other, terms, base))

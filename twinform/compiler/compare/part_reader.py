@@ -1,7 +1,8 @@
 """Reads nodes of the IR as parts: every value in them with its kind, its line in the file and its default."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cache
 
 from lxml import etree
 
@@ -20,7 +21,7 @@ from twinform.passes.legalise.names import NAME
 from twinform.passes.legalise.to_sdf.joints import FLOATING
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS, WITHOUT_AXIS, joints_of
 from twinform.passes.sdf_versions.name_the_nameless import plugin_stem
-from twinform.schemas import XmlElement, table, writer
+from twinform.schemas import Fact, XmlElement, table, writer
 
 _PARTS: Mapping[type[Node], Mapping[str, str]] = {
     Link: {"visuals": "visual", "collisions": "collision", "sensors": "sensor", "lights": "light"},
@@ -121,7 +122,7 @@ class PartReader:
     ) -> tuple[Leaves, list[Part]]:
         """The leaves of an element itself, and its named children as parts."""
         unpack_sdf(xml, definition(tag))
-        rows = {row.name: row for row in definition(tag).children}
+        rows = _child_rows(tag)
         inner: list[Part] = []
         for child in [one for one in xml if isinstance(one.tag, str)]:
             row = rows.get(str(child.tag))
@@ -139,7 +140,9 @@ class PartReader:
         leaves: dict[str, Leaf] = {}
         parts: list[Part] = []
         seen: dict[str, int] = {}
-        for at, piece in urdf_pieces(xml):
+        pieces = [*urdf_pieces(xml)]
+        known = _names_of_joints(node) if pieces and isinstance(node, Model) else frozenset[str | None]()
+        for at, piece in pieces:
             name = piece.get("attribute")
             if name is not None:
                 walk = Walk(self.resolve, lambda _: where)
@@ -152,7 +155,7 @@ class PartReader:
             ):
                 walk = Walk(self.resolve, lambda _: where)
                 named = isinstance(node, Model) and not _is_foreign(piece)
-                if isinstance(node, Model) and _is_about_nothing(piece, node):
+                if isinstance(node, Model) and _is_about_nothing(piece, known):
                     continue
                 walk.enter_free(piece, "" if named else numbered(str(piece.tag), seen))
                 if named:
@@ -177,6 +180,12 @@ class PartReader:
         return where
 
 
+@cache
+def _child_rows(tag: str) -> Mapping[str, Fact]:
+    """The rows of the child elements of an element, by their names."""
+    return {row.name: row for row in definition(tag).children}
+
+
 def _is_foreign(element: XmlElement) -> bool:
     """Whether it is of a namespace, which either format may hold."""
     return str(element.tag).startswith("{")
@@ -186,15 +195,19 @@ def _only_urdf(leaf: Leaf) -> Leaf:
     return Leaf(leaf.value, leaf.default, leaf.where, Format.URDF)
 
 
-def _is_about_nothing(piece: XmlElement, model: Model) -> bool:
-    """Whether it names a joint that is gone: then it does not go back to URDF either."""
+def _is_about_nothing(piece: XmlElement, known: Collection[str | None]) -> bool:
+    """Whether it names a joint that is gone, unlike those that are `known`: then it does not go back to URDF either."""
     carrier = piece.getparent()
     if carrier is not None and carrier.get("dangling"):
         return False
-    names = {name for joint in model.joints for name in (joint.name, _old_name(joint))}
+    return any(name not in known for name in joints_of(from_xml(piece)))
+
+
+def _names_of_joints(model: Model) -> Collection[str | None]:
+    """What joints of the model, and what became of joints in it, are called or were called before."""
+    names: set[str | None] = {name for joint in model.joints for name in (joint.name, _old_name(joint))}
     names |= {name for frame in model.frames for name in (frame.name, _old_name(frame))}
-    names |= {(find_annotation(link, FLOATING) or _NOTHING).get("joint") for link in model.links}
-    return any(name not in names for name in joints_of(from_xml(piece)))
+    return names | {(find_annotation(link, FLOATING) or _NOTHING).get("joint") for link in model.links}
 
 
 def _old_name(node: Joint | Frame) -> str | None:

@@ -22,11 +22,6 @@ _MOST = 2000
 _SKIPPED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 
 
-def is_package(folder: Path, name: str) -> bool:
-    """Whether a folder is the package of this name."""
-    return package_name(folder) == name
-
-
 def package_name(folder: Path) -> str | None:
     """What the package in a folder calls itself; None where there is none."""
     root = read_manifest(folder / MANIFEST)
@@ -53,6 +48,13 @@ class PackageIndex:
 
     found: dict[Path, dict[str, Path]] = field(default_factory=dict[Path, dict[str, Path]])
     inside: dict[Path, dict[str, Path]] = field(default_factory=dict[Path, dict[str, Path]])
+    names: dict[Path, str | None] = field(default_factory=dict[Path, str | None])
+
+    def name_of(self, folder: Path) -> str | None:
+        """What the package in a folder calls itself; None where there is none."""
+        if folder not in self.names:
+            self.names[folder] = package_name(folder)
+        return self.names[folder]
 
     def named(self, name: str, root: Path) -> Iterator[Path]:
         """The package of this name below a folder, if there is one."""

@@ -5,11 +5,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from posixpath import normpath
-from typing import Literal, Self
+from typing import Literal, NamedTuple, Self
 from urllib.parse import unquote, urlsplit
 
 from twinform.compiler.search import fuel
-from twinform.compiler.search.packages import MODEL_CONFIG, PackageIndex, is_package, package_name
+from twinform.compiler.search.packages import MODEL_CONFIG, PackageIndex, package_name
 from twinform.diagnostics.rules import files as rules
 from twinform.file_access import OutsideError, Readable
 from twinform.file_access.roots import folders_around, neighborhood
@@ -21,6 +21,13 @@ _MOST_SHOWN = 6
 
 class UriError(AssetError):
     """A URI that leads nowhere, or where it must not lead."""
+
+
+class Surroundings(NamedTuple):
+    """The folders that are searched because of where a file lies: those around it, and one beside them."""
+
+    folders: tuple[Path, ...]
+    neighbors: Path | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +49,7 @@ class SearchPath:
     seen: set[Path] = field(default_factory=set[Path], compare=False, repr=False)
     unsaved: Mapping[str, bytes] = field(default_factory=dict[str, bytes], compare=False, repr=False)
     _readable: dict[Path, Readable] = field(default_factory=dict[Path, Readable], compare=False, repr=False)
+    _around: dict[Path, Surroundings] = field(default_factory=dict[Path, Surroundings], compare=False, repr=False)
 
     @classmethod
     def of(cls, own: Iterable[str | Path] = (), environment: Mapping[str, str] = os.environ) -> Self:
@@ -85,6 +93,12 @@ class SearchPath:
             self._readable[file] = Readable.of(file, (*self._roots(), *self.fuel), self._of_environment())
         return self._readable[file]
 
+    def _surroundings(self, file: Path) -> Surroundings:
+        """The folders around a file, asked for once: a world may have a URI in each of its lines."""
+        if file not in self._around:
+            self._around[file] = Surroundings(folders_around(file), neighborhood(file))
+        return self._around[file]
+
     def unsaved_of(self, path: str | Path) -> bytes | None:
         """What an editor has of a file; None where none does."""
         return self.unsaved.get(os.path.realpath(path)) if self.unsaved else None
@@ -104,8 +118,7 @@ class SearchPath:
             raise UriError(rules.UNRESOLVED_URI, f"{uri!r} names no model or package")
         if name == "..":
             raise UriError(rules.URI_LEAVES_FOLDER, f"{uri!r} leads out of the folders of models and packages")
-        around = folders_around(beside)
-        neighbors = neighborhood(beside)
+        around, neighbors = self._surroundings(beside)
         candidates = self._candidates(name, (*around, neighbors) if neighbors else around)
         found = self._first_readable(uri, (folder / inner for folder in candidates), beside)
         if found is None:
@@ -117,10 +130,10 @@ class SearchPath:
         for root in self._roots():
             yield root / name
         for root in (*self.own, *self.workspaces):
-            if root.name == name or is_package(root, name):
+            if root.name == name or self.index.name_of(root) == name:
                 yield root
         for folder in around:
-            if folder.name == name or is_package(folder, name):
+            if folder.name == name or self.index.name_of(folder) == name:
                 yield folder
             yield folder / name
             yield folder / "models" / name
@@ -158,7 +171,7 @@ class SearchPath:
 
     def _plain(self, path: str, beside: Path, uri: str | None = None) -> Path:
         """A path: absolute, beside the file, or in one of the folders."""
-        around = folders_around(beside)
+        around = self._surroundings(beside).folders
         roots = (beside.parent, *self._roots(), *around, *(folder / "models" for folder in around))
         found = self._first_readable(uri or path, (root / path for root in roots), beside) if path else None
         if found is None:

@@ -94,9 +94,10 @@ class CarryUrdf(ModelPass):
         if not self.carriers:
             return node
         once = OF_AN_AXIS if isinstance(node, Joint) else ()  # a second one means nothing, and no edit has made it so
-        again = [piece for piece in pieces if piece.element and piece.element.name in once]
-        node = carry(node, [piece for piece in pieces if piece not in again], "urdf")
-        return carry(node, again, "urdf", DANGLING)
+        first, again = list[Opaque](), list[Opaque]()
+        for piece in pieces:
+            (again if piece.element and piece.element.name in once else first).append(piece)
+        return carry(carry(node, first, "urdf"), again, "urdf", DANGLING)
 
 
 def _is_foreign(part: Opaque) -> bool:
@@ -106,7 +107,7 @@ def _is_foreign(part: Opaque) -> bool:
 
 def _with_doubt(part: Opaque, joints: Container[str]) -> Opaque:
     """A carrier that states it, if what it holds is about a joint that the robot never had."""
-    if not is_carrier(part, "urdf") or part.element is None:
+    if not is_carrier(part, "urdf") or part.element is None or not part.element.children:
         return part
     named = [name for piece in unpack(part) if piece.element for name in joints_of(piece.element)]
     if all(name in joints for name in named):
