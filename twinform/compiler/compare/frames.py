@@ -4,8 +4,11 @@ from collections.abc import Mapping
 
 from twinform.compiler.compare.findings import Base, Findings, Subject
 from twinform.compiler.compare.robot import NamedFrame, Robot
-from twinform.compiler.compare.values import PoseValue, Text
+from twinform.compiler.compare.values import PoseValue, Text, show
 from twinform.ir import Format
+
+_MOST_PAIRS = 2_500
+"""Of more frames, not each is held against each."""
 
 
 def compare_frames(findings: Findings, a: Robot, b: Robot, bases: Mapping[str, Base]) -> None:
@@ -88,14 +91,23 @@ def _report(
 
 def _twins(findings: Findings, only_in_one: list[NamedFrame], robot: Robot, other: Robot) -> dict[str, str]:
     """For frames that one robot has: another one at the same place that both have, as fixed joints of URDF do."""
+    shared = [frame for name, frame in robot.frames.items() if name in other.frames or name in other.bodies]
+    if len(only_in_one) * len(shared) > _MOST_PAIRS:
+        first = {_place(frame): frame.name for frame in reversed(shared)}
+        return {frame.name: first[_place(frame)] for frame in only_in_one if _place(frame) in first}
     found: dict[str, str] = {}
     for frame in only_in_one:
-        for name, like in robot.frames.items():
-            shared = name != frame.name and like.body == frame.body and (name in other.frames or name in other.bodies)
-            if shared and not findings.terms.worst(PoseValue(frame.pose), PoseValue(like.pose)):
-                found[frame.name] = name
+        for like in shared:
+            is_there = like.body == frame.body
+            if is_there and not findings.terms.worst(PoseValue(frame.pose), PoseValue(like.pose)):
+                found[frame.name] = like.name
                 break
     return found
+
+
+def _place(frame: NamedFrame) -> tuple[str, str]:
+    """Where a frame is, to ten digits."""
+    return frame.body, show(PoseValue(frame.pose))
 
 
 def _is_lumped(robot: Robot, other: Robot) -> bool:
