@@ -20,6 +20,10 @@ MOST_TAGS = 1_000_000
 MOST_CHILDREN = 50_000
 """The most elements in one, unless more tags are allowed: each is read as a part of the model. A chain of 10,000 links
 has 20,000."""
+MOST_STRAY_TEXTS = 10_000
+"""The most texts between elements, unless more tags are allowed: each is a part that no format has, and is carried."""
+MOST_REPAIRS = 10_000
+"""The most names with two colons that are repaired. Of what libxml2 recovers, lxml lists a hundred places at most."""
 MOST_ATTRIBUTES = 256
 """The most attributes of one element, since libxml2 looks each of them up among all. The most in a real file is 12."""
 MOST_LOOKUPS = 250_000_000
@@ -38,6 +42,7 @@ _LONG_TAG = re.compile(rb"<[^<]{%d}" % min(MOST_ATTRIBUTES * _SHORTEST_ATTRIBUTE
 """A tag that might hold too much, or one that long text follows; few files have any."""
 _CROWDED = etree.XPath(f"/descendant::*[@*[{MOST_ATTRIBUTES + 1}]]")
 _POPULOUS = etree.XPath(f"(/descendant::*[*[{MOST_CHILDREN + 1}]])[1]")
+_STRAY_TEXTS = etree.XPath("count(/descendant::*[*]/text()[normalize-space()])")
 _LONG_NAMED = etree.XPath(f"/descendant::*[string-length(@name) > {LONGEST_NAME}]")
 _DEEP_MODEL = etree.XPath(
     f"(/descendant::*[local-name() = 'model'][count(ancestor::*[local-name() = 'model']) >= {DEEPEST_MODELS}])[1]"
@@ -126,14 +131,10 @@ def excess_of_tree(root: XmlElement, text: bytes, limits: Limits = USUAL_LIMITS)
             where = Location(line=deep[0].sourceline or 0, path=f"/{root.tag}")
             return Excess(f"models are in each other more than {DEEPEST_MODELS} deep", where)
     # a robot that needs more tags than usual has more links, all of which are in one element
-    if limits.tags <= MOST_TAGS and text.count(b"<") > MOST_CHILDREN:
-        populous = cast("list[XmlElement]", _POPULOUS(root))
-        if populous:
-            element = populous[0]
-            count = sum(1 for _ in element.iterchildren("*"))
-            message = f"<{element.tag}> has {count:,} elements in it; the limit is {MOST_CHILDREN:,}"
-            where = Location(line=element.sourceline or 0, path=path_of(element))
-            return Excess(message, where, LIFTED_BY_TAGS)
+    if limits.tags <= MOST_TAGS and text.count(b"<") > MOST_STRAY_TEXTS:
+        excess = _excess_of_parts(root)
+        if excess is not None:
+            return excess
     if not _LONG_TAG.search(text):
         return None
     for find, what in ((_CROWDED, f"attributes; the limit is {MOST_ATTRIBUTES}"), (_LONG_NAMED, "")):
@@ -147,6 +148,29 @@ def excess_of_tree(root: XmlElement, text: bytes, limits: Limits = USUAL_LIMITS)
             where = Location(line=element.sourceline or 0, path=path)
             return Excess(f"<{element.tag}> has {count:,} {words}", where)
     return None
+
+
+def _excess_of_parts(root: XmlElement) -> Excess | None:
+    """Why so many elements or texts in a tree are too much, each of which becomes a part of the model."""
+    populous = cast("list[XmlElement]", _POPULOUS(root))
+    if populous:
+        element = populous[0]
+        count = sum(1 for _ in element.iterchildren("*"))
+        message = f"<{element.tag}> has {count:,} elements in it; the limit is {MOST_CHILDREN:,}"
+        where = Location(line=element.sourceline or 0, path=path_of(element))
+        return Excess(message, where, LIFTED_BY_TAGS)
+    texts = int(cast("float", _STRAY_TEXTS(root)))
+    if texts <= MOST_STRAY_TEXTS:
+        return None
+    message = f"the file has {texts:,} texts between its elements; the limit is {MOST_STRAY_TEXTS:,}"
+    return Excess(message, Location(line=root.sourceline or 0, path=f"/{root.tag}"), LIFTED_BY_TAGS)
+
+
+def excess_of_colons(count: int) -> Excess | None:
+    """Why a file with so many names that have two colons is not repaired."""
+    if count <= MOST_REPAIRS:
+        return None
+    return Excess(f"{count:,} names of the file have two colons behind their prefix; the limit is {MOST_REPAIRS:,}")
 
 
 def excess_of_namespaces(root: XmlElement, text: bytes, *, repaired: bool) -> Excess | None:

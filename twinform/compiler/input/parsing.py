@@ -16,6 +16,7 @@ from twinform.compiler.input.limits import (
     Excess,
     Limits,
     excess_of_bytes,
+    excess_of_colons,
     excess_of_namespaces,
     excess_of_tree,
     uncountable_encoding,
@@ -25,9 +26,11 @@ from twinform.compiler.input.xml_recovery import (
     LOST_BRACKET,
     XmlError,
     first_fatal,
+    is_full,
     repaired,
     with_bracket,
     with_single_colons,
+    without_hyphens,
 )
 from twinform.compiler.observing import note_failure
 from twinform.diagnostics import DiagnosticSink, Location
@@ -135,13 +138,14 @@ def _recover(
         sink.report(reading.REPAIRED_XML, message, Location(line=line, path="/"), help=LOST_BRACKET)
         text = whole
     text, flaws = with_single_colons(text)
+    refuse_excess(excess_of_colons(len(flaws)), sink)
     parser = _parser(recover=True, keep_comments=keep_comments)
     try:
         root = cast("XmlElement | None", etree.fromstring(text, parser))  # None for what has no element at all
     except etree.XMLSyntaxError:  # what begins with a zero byte is no text to libxml2, and nothing is recovered
         root = None
     log = list(parser.error_log)
-    flaw = first_fatal(log, text)
+    flaw = first_fatal(log, text) or (_unlisted_flaw(text) if is_full(log) else None)
     if root is None or flaw is not None:
         flaw = flaw or XmlError(error.position[0], error.position[1], error.msg or "not XML", None)
         if any(entry.type_name == "ERR_RESOURCE_LIMIT" for entry in log):
@@ -159,6 +163,18 @@ def _recover(
         sink.report(reading.REPAIRED_XML, words, where, help=flaw.help)
     _declare_prefixes(root)
     return root
+
+
+def _unlisted_flaw(text: bytes) -> XmlError | None:
+    """What leaves doubt about a tree behind so many harmless errors that libxml2 lists no more of them.
+
+    In real files these are lines of hyphens in comments. Others are not told apart: after a hundred, the last is named.
+    """
+    parser = _parser(recover=True, keep_comments=False)
+    etree.fromstring(without_hyphens(text), parser)
+    log = list(parser.error_log)
+    flaw = first_fatal(log, text)
+    return flaw or (repaired(log)[-1] if is_full(log) else None)
 
 
 def _declare_prefixes(root: XmlElement) -> None:

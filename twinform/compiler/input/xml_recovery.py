@@ -4,6 +4,8 @@ import re
 from collections.abc import Iterable
 from typing import NamedTuple, Protocol
 
+from lxml import etree
+
 REPAIRS = {
     "ERR_UNKNOWN_VERSION": "write <?xml version='1.0'?>",
     "ERR_VERSION_MISSING": "write <?xml version='1.0'?>",
@@ -44,6 +46,9 @@ _COLONS = re.compile(
     rb"<!--(?:.*?-->|.*)|<!\[CDATA\[(?:.*?\]\]>|.*)|(?P<start></?[A-Za-z_][\w.-]*)::(?=[A-Za-z_])", re.DOTALL
 )
 """Two colons in a tag; comments and sections are passed over, and those that do not end to the end of the text."""
+_COMMENT = re.compile(rb"<!\[CDATA\[(?:.*?\]\]>|.*)|<!--(?P<content>.*?)-->", re.DOTALL)
+_MOST_LOGGED = 100
+"""How many errors libxml2 lists; it keeps still about those after that, unless they are of a graver level."""
 _MISMATCH = re.compile(r"Opening and ending tag mismatch: (?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)")
 
 
@@ -58,6 +63,8 @@ class Entry(Protocol):
     def message(self) -> str: ...  # noqa: D102 - as above
     @property
     def type_name(self) -> str: ...  # noqa: D102 - as above
+    @property
+    def level(self) -> int: ...  # noqa: D102 - as above
 
 
 class XmlError(NamedTuple):
@@ -93,6 +100,20 @@ def with_single_colons(text: bytes) -> tuple[bytes, list[XmlError]]:
             words = f"two colons behind the prefix {name}"
             flaws.append(XmlError(line, column, words, _HELP["NS_ERR_QNAME"], "NS_ERR_QNAME"))
     return b"".join((*pieces, text[copied:])), flaws
+
+
+def is_full(log: Iterable[Entry]) -> bool:
+    """Whether there may be more that is not XML than libxml2 lists."""
+    return sum(entry.level == etree.ErrorLevels.FATAL for entry in log) >= _MOST_LOGGED
+
+
+def without_hyphens(text: bytes) -> bytes:
+    """The text with blanks for the hyphens inside of comments, which leaves all else where it is."""
+    return _COMMENT.sub(lambda found: found[0] if found["content"] is None else _blanked(found["content"]), text)
+
+
+def _blanked(content: bytes) -> bytes:
+    return b"<!--" + content.replace(b"-", b" ") + b"-->"
 
 
 def first_fatal(log: Iterable[Entry], text: bytes) -> XmlError | None:

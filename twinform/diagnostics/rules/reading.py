@@ -18,12 +18,13 @@ OVERSIZED_FILE = Rule(
     severity=Severity.ERROR,
     fatal=True,
     finds="A file beyond the limits: 64 MB, a million tags, elements 256 deep, 50,000 elements and "
-    "256 attributes in one element, names of 1,024 characters, 10 MB in one text; entities that unfold into more.",
+    "256 attributes in one element, 10,000 texts between elements, 10,000 names with two colons, names of 1,024 "
+    "characters, 10 MB in one text; entities that unfold into more.",
     matters="A hostile file could fill the memory, or keep the machine busy for hours. Robots stay far below: a chain "
     "of 10,000 links has 280,000 tags.",
     example="A million `<x/>`; a link in a link in a link, a thousand deep.",
     better="Split the world into files, and include them. For a file that is your own, `--max-size` and `--max-tags` "
-    "lift the first two limits; more than a million tags also mean any number of elements in one.",
+    "lift the first two limits; more than a million tags also mean any number of elements in one, and of texts.",
 )
 NOT_WELL_FORMED = Rule(
     name="not-well-formed",

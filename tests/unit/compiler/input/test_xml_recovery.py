@@ -219,3 +219,17 @@ def test_what_is_repaired_is_all_that_can_be() -> None:
         XmlError(1, 6, "reason", "move <?xml ...?> to the very beginning of the file", "ERR_RESERVED_XML_NAME"),
         XmlError(1, 7, "reason", "write <?xml version='1.0'?>", "ERR_VERSION_MISSING"),
     ]
+
+
+@pytest.mark.parametrize("harmless", ["<!-- -- -->\n", "<!-- ------------ -->\n", "<k:x a='1'/>\n", "<!-- a --->\n"])
+@pytest.mark.parametrize("wrong", ["", "<link name='b'></joint>\n"])
+def test_what_is_wrong_is_found_behind_any_number_of_harmless_errors(harmless: str, wrong: str) -> None:
+    """libxml2 lists a hundred errors: a wrong end tag behind a hundred hyphens in comments was accepted."""
+    checked = twinform.check(f"{HEAD}<link name='a'/>\n{harmless * 101}{wrong}</robot>".encode())
+    found = [(each.rule.name, each.location.line) for each in checked.diagnostics if each.rule.name == "not-well-formed"]
+    assert found == ([("not-well-formed", 104)] if wrong else [])
+
+
+def test_more_late_declarations_than_are_listed_are_refused() -> None:
+    checked = twinform.check((HEAD + "<?xml version='1.0'?>" * 101 + "</robot>").encode())
+    assert [each.rule.name for each in checked.diagnostics] == ["not-well-formed"]
