@@ -129,9 +129,7 @@ def run(words: Sequence[str], folder: Path, environment: Mapping[str, str] | Non
     finally:
         timer.cancel()
         process.kill()
-    # a viewer that has just said where it listens may not be waiting yet
-    code = 0 if words[0] == "view" and process.returncode == 128 + signal.SIGTERM else process.returncode
-    return Printed(code, before + output, errors)
+    return Printed(process.returncode, before + output, errors)
 
 
 def _look(process: subprocess.Popen[bytes]) -> bytes:

@@ -95,9 +95,9 @@ class _Session:
 
     def run(self) -> int:
         """Show the files until Ctrl-C."""
-        if not self.show():
-            return UNUSABLE
         with _until_stopped():
+            if not self.show():
+                return UNUSABLE
             threading.Event().wait()
         return 0
 

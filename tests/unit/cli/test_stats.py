@@ -179,7 +179,7 @@ def test_without_trimesh_the_bytes_are_known(run: Run, monkeypatch: pytest.Monke
         del job
         return Result({}, trouble="missing", message="trimesh")
 
-    monkeypatch.setattr("twinform.compiler.statistics.meshes.do", do)
+    monkeypatch.setattr("twinform.passes.mesh_jobs.child_process.do", do)
     costs = stats(run, _EXAMPLES / "arm.urdf")["models"][0]["meshes"]
     assert all(each["bytes"] and each["triangles"] is None for each in costs)
     assert "twinform[meshes]" in costs[0]["problem"]

@@ -11,7 +11,6 @@ from typing import NamedTuple, cast
 
 from twinform.compiler.search.uris import SearchPath, UriError
 from twinform.ir import Collision, Mesh, Model, Visual, walk
-from twinform.passes.mesh_jobs.child_process import do
 from twinform.passes.mesh_jobs.job import Job
 from twinform.passes.mesh_jobs.mesh_files import EXTRA, READ, RefusedMeshError, content_of, kind_of
 
@@ -88,6 +87,8 @@ def _looked_at(path: Path) -> _File:
 
 
 def _counted(path: Path, size: int) -> _File:
+    from twinform.passes.mesh_jobs.child_process import do  # noqa: PLC0415 - most models have no meshes to read
+
     try:
         result = do(Job("count", {}, kind_of(path), content_of(path)))
     except RefusedMeshError as error:
