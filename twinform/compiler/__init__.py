@@ -12,9 +12,10 @@ if TYPE_CHECKING:
     from twinform.compiler.includes.expanding import expand
     from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, load, loads, read
     from twinform.compiler.inspection import inspect
-    from twinform.compiler.request import DEFAULT_SDF_VERSION, URDF_VERSIONS, ConversionRequest, Language, UrdfVersion
+    from twinform.compiler.request import URDF_VERSIONS, ConversionRequest, Language, UrdfVersion
     from twinform.compiler.search.uris import SearchPath, UriError
     from twinform.compiler.splitting import Split, split
+    from twinform.schemas import DEFAULT_SDF_VERSION
     from twinform.storage.writing import write_all_atomically, write_atomically
 else:
     __getattr__ = lazy_attributes(
@@ -27,8 +28,9 @@ else:
             "twinform.compiler.includes.expanding": "expand",
             "twinform.compiler.input.loading": "Input LoadOptions LoadResult load loads read",
             "twinform.compiler.inspection": "inspect",
+            "twinform.schemas": "DEFAULT_SDF_VERSION",
             "twinform.storage.writing": "write_all_atomically write_atomically",
-            "twinform.compiler.request": "DEFAULT_SDF_VERSION URDF_VERSIONS ConversionRequest Language UrdfVersion",
+            "twinform.compiler.request": "URDF_VERSIONS ConversionRequest Language UrdfVersion",
             "twinform.compiler.search.uris": "SearchPath UriError",
             "twinform.compiler.splitting": "Split split",
         },

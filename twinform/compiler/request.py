@@ -7,13 +7,11 @@ from twinform.ir import Document, Format
 from twinform.passes import NO_ASSETS, Assets, Pipeline
 from twinform.passes.carriers.provenance import has_mixed_words, source_version
 from twinform.passes.legalise import Target, legalisation
-from twinform.schemas import versions_of
+from twinform.schemas import DEFAULT_SDF_VERSION, versions_of
 
 Language = Literal["sdf", "urdf", "json"]
 UrdfVersion = Literal["1.0", "1.1", "1.2"]
 URDF_VERSIONS: tuple[UrdfVersion, ...] = get_args(UrdfVersion)
-DEFAULT_SDF_VERSION = "1.11"
-"""The version of Gazebo Harmonic, the newest long-term release, and the first that has `mimic`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

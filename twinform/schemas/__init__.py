@@ -1,7 +1,17 @@
 """Facts tables of both formats, and what is made from them: readers, writers, XSDs and validators."""
 
 from twinform.schemas.element_reader import ElementReader
-from twinform.schemas.facts import Fact, Table, Version, parse_version, print_version, rows_by_name, table, versions_of
+from twinform.schemas.facts import (
+    DEFAULT_SDF_VERSION,
+    Fact,
+    Table,
+    Version,
+    parse_version,
+    print_version,
+    rows_by_name,
+    table,
+    versions_of,
+)
 from twinform.schemas.messages import Context
 from twinform.schemas.packaged import json_schema_text, schema_text
 from twinform.schemas.reader import Reader, reader
@@ -32,6 +42,7 @@ from twinform.schemas.xml import (
 )
 
 __all__ = [
+    "DEFAULT_SDF_VERSION",
     "LAST_LINE",
     "VALUE_TYPES",
     "Context",

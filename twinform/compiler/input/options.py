@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 
 from twinform.compiler.input.allowances import Allowances
 from twinform.compiler.input.limits import USUAL_LIMITS, Limits
-from twinform.compiler.request import DEFAULT_SDF_VERSION
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Entry, Origins
 from twinform.ir import Document, count_parts
-from twinform.schemas import Engine, XmlElement
+from twinform.schemas import DEFAULT_SDF_VERSION, Engine, XmlElement
 
 if TYPE_CHECKING:
     from twinform.profiles import Profile

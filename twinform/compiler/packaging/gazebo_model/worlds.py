@@ -17,12 +17,12 @@ from twinform.compiler.packaging.gazebo_model.folder import folder_files, reserv
 from twinform.compiler.packaging.layout import Layout
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
-from twinform.compiler.request import DEFAULT_SDF_VERSION
 from twinform.compiler.search.uris import LocalAssets
 from twinform.compiler.splitting import Placement, split
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger
 from twinform.diagnostics.rules.packaging import UNPACKAGED_INCLUDE
 from twinform.ir import Document
+from twinform.schemas import DEFAULT_SDF_VERSION
 
 _SCHEME = "model://"
 
