@@ -1,5 +1,6 @@
 """Leave out elements of URDF that are there a second time where readers read one."""
 
+from functools import cache, partial
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
@@ -7,19 +8,17 @@ from twinform.diagnostics.rules.structure import REPEATED_ELEMENT
 from twinform.ir import Document, Format, Inertial, Joint, Link, Node, Opaque, replace_fields, rewrite
 from twinform.ir.visual import Collision, Material, Visual
 from twinform.passes.framework.base import Pass
+from twinform.schemas import Fact, table
 
-_SINGLE: dict[type[Node], frozenset[str]] = {
-    Link: frozenset({"inertial"}),
-    Inertial: frozenset({"origin", "mass", "inertia"}),
-    Visual: frozenset({"origin", "geometry", "material"}),
-    Collision: frozenset({"origin", "geometry"}),
-    Material: frozenset({"color", "texture"}),
-    Joint: frozenset({
-        "origin", "parent", "child", "axis", "limit", "dynamics", "mimic", "safety_controller", "calibration",
-    }),
-}  # fmt: skip
-_FIELDS = {"origin": "pose", "texture": "texture", "parent": "parent", "child": "child"}
-"""The fields of elements that are called otherwise."""
+_HOLDERS: dict[type[Node], tuple[str, ...]] = {
+    Link: ("link",),
+    Inertial: ("link", "inertial"),
+    Visual: ("link", "visual"),
+    Collision: ("link", "collision"),
+    Material: ("material",),
+    Joint: ("joint",),
+}
+"""The rows of the facts table whose elements are left out where they repeat: a definition, and the way on from it."""
 
 
 class DropRepeats(Pass):
@@ -39,22 +38,45 @@ class DropRepeats(Pass):
         """The document without repeated elements."""
         if document.format is not Format.URDF:
             return document
-        for kind, names in _SINGLE.items():
-            document = rewrite(document, kind, lambda node, names=names: _thinned(node, names, sink))
+        for kind, way in _HOLDERS.items():
+            document = rewrite(document, kind, lambda node, way=way: _without_repeats(node, _fields(way), sink))
         return document
 
 
-def _thinned(node: Node, names: frozenset[str], sink: DiagnosticSink) -> Node:
-    kept = tuple(part for part in node.opaque if not _is_repeated(node, part, names))
+@cache
+def _fields(way: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
+    """For each element that may stand once in an element of URDF, the fields of the IR that hold its values, if any."""
+    definition, *steps = way
+    holder = table("urdf").definitions[definition]
+    for step in steps:
+        holder = next(row for row in holder.children if row.name == step)
+    single = (row for row in holder.children if not row.repeats and row.dialect is None)
+    return {row.name: tuple(_places(row)) for row in single}
+
+
+def _places(row: Fact) -> list[str]:
+    if row.place == ".":
+        return [inner.place for inner in row.rows if inner.place]
+    return [row.place] if row.place else []
+
+
+def _without_repeats(node: Node, fields: dict[str, tuple[str, ...]], sink: DiagnosticSink) -> Node:
+    kept: list[Opaque] = []
+    seen = {name for name, places in fields.items() if any(map(partial(_has_value, node), places))}
     for part in node.opaque:
-        if part not in kept and part.element is not None:
-            message = f"a second <{part.element.name}> is left out: readers take the first"
+        name = part.element.name if part.element and not part.at else None
+        if name in seen:
+            message = f"a second <{name}> is left out: readers take the first"
             sink.account(Fate.DROPPED, REPEATED_ELEMENT, message, part.location if part.source else node.location)
-    return replace_fields(node, opaque=kept)
+            continue
+        kept.append(part)
+        if name in fields:
+            seen.add(name)
+    return replace_fields(node, opaque=tuple(kept)) if len(kept) < len(node.opaque) else node
 
 
-def _is_repeated(node: Node, part: Opaque, names: frozenset[str]) -> bool:
-    element = part.element
-    if element is None or part.at or element.name not in names:
-        return False
-    return getattr(node, _FIELDS.get(element.name, element.name), True) is not None
+def _has_value(node: Node, place: str) -> bool:
+    value: object = node
+    for step in place.split("."):
+        value = getattr(value, step) if value is not None else None
+    return value is not None

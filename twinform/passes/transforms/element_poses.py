@@ -23,7 +23,8 @@ Keep = Callable[[str, Pose], tuple[Element, ...]]
 """What is written beside the moved pose for the one that stood there: (a message, that pose)"""
 
 
-_ANNOTATION = f"{{{NAMESPACE}}}{POSE}"
+POSE_ANNOTATION = f"{{{NAMESPACE}}}{POSE}"
+"""The element in an untyped element whose pose the source wrote in another frame or notation."""
 
 
 def _as_named(name: str) -> tuple[str, Kind]:
@@ -71,7 +72,7 @@ class ElementPoses:
             child if child.name == "pose" or child.name[0] == "{" else self._move(child, holder, moves=False)
             for child in element.children
         )
-        pose, annotation = element.find("pose"), element.find(_ANNOTATION)
+        pose, annotation = element.find("pose"), element.find(POSE_ANNOTATION)
         if annotation is not None:
             return self._as_annotated(element, children, annotation, holder, pose, moves=moves)
         if pose is not None and not moves and _frame_of(pose) in _own_frames(element):  # of SDF 1.5 and 1.6
@@ -143,7 +144,7 @@ def _names_frame(element: Element) -> bool:
 
 
 def _is_annotated(element: Element) -> bool:
-    return any(each.name == _ANNOTATION for each in element.walk())
+    return any(each.name == POSE_ANNOTATION for each in element.walk())
 
 
 def read_pose(element: Element) -> Pose:

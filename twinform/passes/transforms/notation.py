@@ -59,7 +59,7 @@ NESTED = "nested"
 LINK = "link"
 """The annotation on a frame of SDF that is a link in URDF; the frame that it is attached to is its joint."""
 OFFSET = "offset"
-"""The annotation on a link or model whose frame in SDF is another one than in URDF: the one of SDF in that of URDF."""
+"""The annotation on a link, fixed joint or model whose frame in SDF is elsewhere: the one of SDF in that of URDF."""
 
 
 def offset_attributes(offset: Transform) -> dict[str, str | None]:

@@ -2,7 +2,8 @@
 
 A converted file is edited and converted on. The robot of the edited file and that of the result have to be the same
 twice: as `twinform diff` reads the edited file, and as somebody reads it who does not know our carriers, since nothing
-that travels along may overrule what a person wrote. What already differs before the edit is not the edit's doing.
+that travels along may overrule what a person wrote. And the result is converted back once more, which has to give the
+edited file's robot again. What already differs before the edit is not the edit's doing.
 """
 
 from collections.abc import Iterable
@@ -64,6 +65,7 @@ class Converted:
     result: str
     differing: frozenset[Key] = frozenset()
     differing_plainly: frozenset[Key] = frozenset()
+    differing_when_back: frozenset[Key] = frozenset()
     warnings: frozenset[str] = field(default=frozenset())
 
 
@@ -75,9 +77,16 @@ def unedited(text: bytes) -> Converted:
     """
     to: Language = "sdf" if etree.fromstring(text).tag == "robot" else "urdf"
     made = convert(text, to=to)
-    found, plainly = _compared(EditedFile(text), made.text)
-    differing, differing_plainly = frozenset(map(_key, found)), frozenset(map(plain_key, plainly))
-    return Converted(text, to, made.text, differing, differing_plainly, _warnings(made.diagnostics))
+    found, plainly, back = _compared(EditedFile(text), made.text)
+    return Converted(
+        text,
+        to,
+        made.text,
+        frozenset(map(_key, found)),
+        frozenset(map(plain_key, plainly)),
+        frozenset(map(_key, back)),
+        _warnings(made.diagnostics),
+    )
 
 
 def judge(
@@ -97,12 +106,13 @@ def judge(
         return Verdict(fault, ("it is not refused",), warned, made.text)
     file = EditedFile(edited)
     try:
-        compared, read = _compared(file, made.text)
+        compared, read, back = _compared(file, made.text)
     except Exception as error:  # noqa: BLE001 - a result that cannot be read is no result
         return Verdict(fault, (f"not compared: {type(error).__name__}: {error}",), warned, made.text)
     found = [each.message for each in compared if _key(each) not in before.differing]
     news_plainly = [each for each in read if plain_key(each) not in before.differing_plainly]
     reasons = [explained(each, plainly, file) for each in news_plainly]
+    found += [f"when it is back: {each.message}" for each in back if _key(each) not in before.differing_when_back]
     found += [f"plainly: {each.message}" for each, reason in zip(news_plainly, reasons, strict=True) if reason is None]
     outcome = fault if found else Outcome.WARNED if news else Outcome.SAME
     return Verdict(outcome, tuple(found), warned, made.text, tuple(sorted({reason for reason in reasons if reason})))
@@ -122,10 +132,12 @@ def _plainly(edits: Iterable[Edit]) -> Plainly:
     return Plainly.ADDITIONS_TOO if any(kind.startswith("delete ") for kind in kinds) else Plainly.ALL
 
 
-def _compared(file: EditedFile, result: str) -> tuple[tuple[Difference, ...], tuple[Difference, ...]]:
-    made = result.encode()
-    plain = etree.tostring(file.plain)
-    return diff(file.text, made, carriers=True).differences, diff(plain, made, carriers=True).differences
+def _compared(file: EditedFile, result: str) -> tuple[tuple[Difference, ...], ...]:
+    """The differences between a file and its result; those without its carriers; those to the result converted back."""
+    made, language = result.encode(), "urdf" if file.root.tag == "robot" else "sdf"
+    back = convert(made, to=language).text.encode()
+    others = ((file.text, made), (etree.tostring(file.plain), made), (file.text, back))
+    return tuple(diff(one, other, carriers=True).differences for one, other in others)
 
 
 def _refused(error: CompileError) -> Verdict:

@@ -18,7 +18,7 @@ from twinform.passes.carriers.carriers import carry, is_ours, to_element
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
-from twinform.passes.transforms.notation import FRAME, LINK, OFFSET, read_offset
+from twinform.passes.transforms.notation import FRAME, LINK
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
 
@@ -93,9 +93,7 @@ class FrameLinks(ModelPass):
         mount = Frame(
             name=joint.name, attached_to=joint.parent, pose=pose, opaque=_carriers(joint), source=joint.source
         )
-        bare, offset = _offset(link)
-        opaque = _carriers(bare)
-        body = Frame(name=link.name, attached_to=joint.name, pose=offset, source=link.source, opaque=opaque)
+        body = Frame(name=link.name, attached_to=joint.name, source=link.source, opaque=_carriers(link))
         if self.carriers:
             body = with_annotation(body, LINK)
         return self._rest_of_joint(mount, joint, sink), self._rest_of_link(body, link, sink)
@@ -191,15 +189,6 @@ def _as_before(joint: Joint, link: Link, annotation: Element, pose: Pose | None)
     opaque = without_annotation(link, FRAME).opaque
     attached = None if holder == MODEL else holder or joint.parent
     return Frame(name=link.name, attached_to=attached, pose=pose, opaque=opaque, source=link.source)
-
-
-def _offset(link: Link) -> tuple[Link, Pose | None]:
-    """The link without the annotation on its frame in SDF, and where that is in its joint."""
-    found = find_annotation(link, OFFSET)
-    try:
-        return without_annotation(link, OFFSET), read_offset(found).to_pose() if found else None
-    except ValueError:  # which `restore-frames` would have reported
-        return without_annotation(link, OFFSET), None
 
 
 def is_massless(link: Link) -> bool:

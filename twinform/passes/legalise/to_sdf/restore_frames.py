@@ -6,19 +6,27 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import to_urdf as rules
-from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Pose, rewrite
+from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Pose, replace_fields, rewrite
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph, Kind
 from twinform.ir.transform import Transform, rounded
-from twinform.passes.carriers.annotations import SYNTHESIZED, find_annotation, is_synthesized, without_annotation
+from twinform.passes.carriers.annotations import (
+    SYNTHESIZED,
+    find_annotation,
+    is_synthesized,
+    with_annotation,
+    without_annotation,
+)
 from twinform.passes.carriers.carriers import bits_of_ours
 from twinform.passes.carriers.joint_words import OLD_NAME
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.carriers.token_mass import has_token_mass
 from twinform.passes.framework.base import ModelPass
-from twinform.passes.transforms.element_poses import ElementPoses
+from twinform.passes.sdf_versions.base import is_foreign
+from twinform.passes.transforms.element_poses import POSE_ANNOTATION, ElementPoses
 from twinform.passes.transforms.joint_ends import ENDS
-from twinform.passes.transforms.notation import NESTED, OFFSET, POSE, as_annotated, read_offset
+from twinform.passes.transforms.nodes import map_elements
+from twinform.passes.transforms.notation import NESTED, OFFSET, POSE, as_annotated, pose_attributes, read_offset
 from twinform.passes.transforms.rebasing import AnyPosed, Base, Posed, Rebasing
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -62,10 +70,10 @@ class RestoreFrames(ModelPass):
 
     def _with_offsets(self, model: Model, sink: DiagnosticSink) -> Model:
         """A model of URDF whose links have other frames in the SDF file that it came back from."""
-        if all(find_annotation(link, OFFSET) is None for link in model.links):
+        if all(find_annotation(each, OFFSET) is None for each in _framed(model)):
             return model
         try:
-            return _Restoring(model, sink, as_urdf=True).run()
+            return _Restoring(_with_noted_frames(model), sink).run()
         except FrameError as error:
             error.report(sink)
             return model
@@ -73,14 +81,10 @@ class RestoreFrames(ModelPass):
 
 @dataclass(slots=True)
 class _Restoring:
-    """One run over one model. `frames` are the names by which the graph knows the frames that SDF has.
-
-    With `as_urdf`, poses stay in the frames in which a conversion from URDF writes them.
-    """
+    """One run over one model. `frames` are the names by which the graph knows the frames that SDF has."""
 
     model: Model
     sink: DiagnosticSink
-    as_urdf: bool = False
     old_words: bool = False
     frames: dict[str, Base] = field(default_factory=dict[str, Base])
 
@@ -119,14 +123,17 @@ class _Restoring:
         own = self._offset(self.model)
         if own is not None:  # as yet the model is where its root is
             yield Frame(name=_BASE, pose=own.to_pose())
-        for link in self.model.links:
-            offset = self._offset(link)
+        for each in _framed(self.model):
+            offset = self._offset(each)
             if offset is not None:
-                yield Frame(name=link.name + _BASE, attached_to=link.name, pose=offset.to_pose())
+                yield Frame(name=each.name + _BASE, attached_to=each.name, pose=offset.to_pose())
 
-    def _offset(self, node: Link | Model) -> Transform | None:
+    def _offset(self, node: Link | Joint | Frame | Model) -> Transform | None:
         found = find_annotation(node, OFFSET)
         if found is None:
+            return None
+        if isinstance(node, Joint) and node.type != "fixed":  # its motion is about the frame that it has here
+            self._stale(f"joint {node.name!r} was fixed when its frame was kept", node)
             return None
         try:
             return read_offset(found)
@@ -165,8 +172,6 @@ class _Restoring:
         base = self._base(link.name, "link")
         inside = self._rebasing(graph, link.name, "link", base).link(link)
         usual = around(link.name, graph)
-        if self.as_urdf:
-            usual = (link.pose and link.pose.relative_to) or MODEL
         pose = self._own_pose(link, "link", usual, graph)
         if usual != MODEL and not (pose and pose.relative_to):  # until it stands in that model, if it is in one
             pose = (pose or Pose()).model_copy(update={"relative_to": usual})
@@ -189,19 +194,15 @@ class _Restoring:
         return without_annotation(holder.model_copy(update={"pose": pose}), POSE)
 
     def _joint(self, joint: Joint, graph: FrameGraph) -> Joint:
-        base: Base = (joint.name, "joint")
+        base = self._base(joint.name, "joint")
         inside = self._rebasing(graph, joint.name, "joint", base).joint(joint)
         ends = self._ends(joint, graph)
         usual = str(ends.get("child", joint.child or WORLD))
-        if self.as_urdf and joint.pose and joint.pose.relative_to:
-            usual = joint.pose.relative_to
         pose = self._own_pose(joint, "joint", usual, graph)
-        if self.as_urdf and not (pose and pose.relative_to):
-            pose = (pose or Pose()).model_copy(update={"relative_to": usual})
         update: dict[str, object] = {**ends, "pose": pose}
         for name in _AXES:
             update[name] = self._axis(joint, name, graph)
-        return without_annotation(inside.model_copy(update=update), POSE, ENDS, *_AXES)
+        return without_annotation(inside.model_copy(update=update), OFFSET, POSE, ENDS, *_AXES)
 
     def _ends(self, joint: Joint, graph: FrameGraph) -> dict[str, object]:
         """The frames at the ends of a joint, as far as they still move with its links."""
@@ -239,7 +240,12 @@ class _Restoring:
             usual = around(frame.name.removesuffix(f"{SCOPE}{MODEL}"), graph)
             pose = self._own_pose(frame, "frame", usual, graph) or Pose()
             pose = pose.model_copy(update={"relative_to": pose.relative_to or usual})
-        return without_annotation(frame.model_copy(update={"pose": pose}), POSE)
+        return without_annotation(frame.model_copy(update={"pose": pose}), OFFSET, POSE)
+
+
+def _framed(model: Model) -> tuple[Link | Joint | Frame, ...]:
+    """All that has a frame in the model."""
+    return (*model.links, *model.joints, *model.frames)
 
 
 def around(name: str, graph: FrameGraph) -> str:
@@ -279,6 +285,28 @@ def _off_root(frame: Frame, root: str) -> Frame:
     return frame.model_copy(
         update={"attached_to": None if frame.attached_to == root else frame.attached_to, "pose": pose}
     )
+
+
+def _with_noted_frames(model: Model) -> Model:
+    """The model with an annotation on all that is posed in a frame that it names: there its pose is to be written."""
+
+    def note(node: Node) -> Node:
+        pose: Pose | None = node.__dict__.get("pose")
+        noted = replace_fields(node, opaque=map_elements(node.opaque, note_element))
+        if pose is None or not pose.relative_to or find_annotation(node, POSE) is not None:
+            return noted
+        return with_annotation(noted, POSE, attributes=pose_attributes(pose))
+
+    def note_element(element: Element) -> Element:
+        if is_foreign(element):
+            return element
+        children = tuple(map(note_element, element.children))
+        pose = element.find("pose")
+        if pose and pose.get("relative_to"):
+            children = (*children, Element.unchecked(name=POSE_ANNOTATION, attributes=pose.attributes))
+        return replace_fields(element, children=children)
+
+    return rewrite(model, Node, note)
 
 
 def _without_frames(node: AnyNode) -> AnyNode:

@@ -1,6 +1,6 @@
 """Moving each link frame to the frame of its joint, as URDF requires."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, TypeVar
 
@@ -39,11 +39,12 @@ _MOVED = PLAIN | bits_of(Pose, "relative_to", "degrees", "quat_xyzw", "rotation_
 class RebaseLinks(ToUrdfPass):
     """Move every link's frame onto the joint that carries it; nothing in the robot moves.
 
-    Changes: 1. a joint's pose is relative to its parent link, a link's to its joint, with no offset; 2. the poses in a
-    link, of sensors and lights too, are relative to the moved frame, in radians where URDF writes them, but in a model
-    that came from URDF those of sensors and lights go on naming links; 3. the root link is the model's frame: the
-    model's pose is the root's, or none where the root is `world`. Numbers stay as they are where nothing moves.
-    Annotations record where the frames of links and model were, and in which frames poses were written.
+    Changes: 1. a joint's pose is relative to its parent link, a link's to its joint, with no offset: in a model that
+    came from URDF a fixed joint moves to its link; 2. the poses in a link, of sensors and lights too, are relative to
+    the moved frame, in radians where URDF writes them, but in a model that came from URDF those of sensors and lights
+    go on naming links; 3. the root link is the model's frame: the model's pose is the root's, or none where the root is
+    `world`. Numbers stay as they are where nothing moves. Annotations record where the frames of links, fixed joints
+    and model were, and in which frames poses were written.
     Diagnostics: in the ledger `moved-frame` for every pose that is written in another way than it was.
     """
 
@@ -52,18 +53,21 @@ class RebaseLinks(ToUrdfPass):
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with each link in the frame of its joint."""
         graph = FrameGraph(model)
-        carried_by = {joint.child or "": joint.name for joint in model.joints}
+        carried_by = {joint.child or "": joint for joint in model.joints}
         bases: dict[str, Base] = {WORLD: (WORLD, "world")}
         for link in model.links:
             joint = carried_by.get(link.name)
-            bases[link.name] = (link.name, "link") if joint is None else (joint, "joint")
+            stays = joint is None or (keeper.back and joint.type == "fixed")
+            bases[link.name] = (link.name, "link") if joint is None or stays else (joint.name, "joint")
         framed = frozenset(joint.child or "" for joint in model.joints if _is_of_frame(joint))
         named = _unmoved(model, graph, bases) if keeper.back else frozenset[str]()
         links = tuple(
-            _Rebase(graph, link.name, bases[link.name], keeper, framed=framed, named=named).link(link)
+            _Rebase(graph, link.name, bases[link.name], keeper, framed=framed, named=named).link(
+                link, carried_by.get(link.name)
+            )
             for link in model.links
         )
-        joints = tuple(_place_joint(joint, graph, bases[joint.parent or WORLD], keeper) for joint in model.joints)
+        joints = tuple(_place_joint(joint, graph, bases, keeper) for joint in model.joints)
         roots = [link.name for link in model.links if link.name not in carried_by]
         model = model.model_copy(update={"links": links, "joints": joints})
         return _place_model(model, graph, roots, keeper)
@@ -93,16 +97,15 @@ class _Rebase:
         named = holder.pose.relative_to if holder.pose and isinstance(holder, Sensor | Light) else None
         return _is_plain(holder) or named in self.named
 
-    def link(self, link: Link) -> Link:
-        """The link and all in it in the frame of its joint."""
+    def link(self, link: Link, joint: Joint | None) -> Link:
+        """The link that a joint carries, if any does, and all in it in the frame that it has in URDF."""
         offset = self.graph.pose(link.name, self.base[0], base=self.base[1])
         if not offset.is_identity or link.opaque or any(map(_may_move, _parts(link))):
             link = self.poses.link(link)
-        return self._own_pose(link, offset)
+        return self._own_pose(link, joint, offset)
 
-    def _own_pose(self, link: Link, offset: Transform) -> Link:
-        name, kind = self.base
-        written, made = link.pose, Pose.unchecked(relative_to=name) if kind == "joint" else None
+    def _own_pose(self, link: Link, joint: Joint | None, offset: Transform) -> Link:
+        written, made = link.pose, Pose.unchecked(relative_to=joint.name) if joint else None
         moved = link.model_copy(update={"pose": made})
         if is_synthesized(link) or part_of(link) is not None:
             return moved
@@ -111,9 +114,9 @@ class _Rebase:
         if find_annotation(link, FRAME) is None:
             moved = self._annotated(moved, written)
         if written is not None and written != made and _is_written(written, link) and link.name not in self.framed:
-            message = f"the frame of link {link.name!r} is that of its joint {name!r}"
-            if kind != "joint":
-                message = f"link {link.name!r} is the root, whose frame is that of the robot"
+            message = f"link {link.name!r} is the root, whose frame is that of the robot"
+            if joint is not None:
+                message = f"the frame of link {link.name!r} is that of its joint {joint.name!r}"
             self._account(written, message)
         return moved
 
@@ -194,11 +197,15 @@ def _is_plain(holder: Posed) -> bool:
     )
 
 
-def _place_joint(joint: Joint, graph: FrameGraph, base: Base, keeper: Keeper) -> Joint:
+def _place_joint(joint: Joint, graph: FrameGraph, bases: Mapping[str, Base], keeper: Keeper) -> Joint:
     written = joint.pose
-    made = in_radians(graph.pose(joint.name, base[0], kind="joint", base=base[1]), joint.parent)
-    rebase = _Rebase(graph, joint.name, (joint.name, "joint"), keeper, "joint")
+    (name, kind), (parent, held) = bases.get(joint.child or "", (joint.name, "joint")), bases[joint.parent or WORLD]
+    made = in_radians(graph.pose(name, parent, kind=kind, base=held), joint.parent)
+    rebase = _Rebase(graph, joint.name, (name, kind), keeper, "joint")
     placed = rebase.poses.joint(joint).model_copy(update={"pose": made})
+    offset = graph.pose(joint.name, name, kind="joint", base=kind)
+    if not offset.is_identity:
+        placed = keeper.annotate(placed, OFFSET, attributes=offset_attributes(offset), always=True)
     if written is None or is_synthesized(joint):
         return placed
     if written != made and _is_written(written, joint):
