@@ -165,6 +165,7 @@ BUILT_IN: Mapping[str, str] = {
     "replaced-controllers-file": "ros2",
     "replaced-shape": "appearance",
     "reserved-name": "model",
+    "reversed-joint": "to_urdf",
     "schema-disagreement": "structure",
     "scoped-element": "to_sdf",
     "sdf-only": "to_urdf",

@@ -120,11 +120,21 @@ MOVED_FRAME = Rule(
 CUT_LOOP = Rule(
     name="cut-loop",
     severity=Severity.WARNING,
-    finds="A joint that closes a loop, or gives a link a second parent.",
+    finds="A joint that closes a loop, or gives a link a second parent where neither it nor what holds the link is "
+    "reversible.",
     matters="URDF describes a tree. Gazebo closes the loop again by the `<joint>` in a `<gazebo>` element; to all "
     "other readers it is open.",
     example="The last joint of a four-bar linkage.",
     better="Close it in the other tools by their own means, such as a constraint.",
+)
+REVERSED_JOINT = Rule(
+    name="reversed-joint",
+    severity=Severity.INFO,
+    finds="A joint whose parent and child are exchanged, since another joint has its child as the child too.",
+    matters="In URDF a link hangs from one joint. The axis of the reversed joint points the other way, so that its "
+    "positions, limits and motion are the same; the conversion back exchanges them again.",
+    example="`base` is fixed to the world, and a joint with the parent `arm` has `base` as its child.",
+    better="Write the joint with the link as its child that nothing else holds.",
 )
 HUNG_ROOT = Rule(
     name="hung-root",

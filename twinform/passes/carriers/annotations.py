@@ -9,6 +9,7 @@ edited:
     <tf:pose relative_to="base"/>                the frame, and the notation, in which the source wrote this pose
     <tf:axis expressed_in="base"/>               the frame in which the source wrote this axis
     <tf:extension/>                              the source has this joint in a `<gazebo>` element
+    <tf:reversed/>                               parent and child of this joint were exchanged, and its axis turned
 
 Other annotations stand beside what uses them: `joint_chains.py`, `to_sdf/shared_materials.py` and so on. They are
 elements and never attributes: other readers skip foreign elements, and some fail on foreign attributes.
@@ -24,6 +25,8 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 EXTENSION = "extension"
 """The annotation on a joint of SDF that URDF has in a `<gazebo>` element."""
+REVERSED = "reversed"
+"""The annotation on a joint of URDF whose parent is its child in SDF."""
 SYNTHESIZED = "made"
 """The annotation on a link, joint or frame that was not in the source."""
 

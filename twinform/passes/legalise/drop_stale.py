@@ -16,7 +16,7 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 _IN_URDF = frozenset(
     {
         "sdf", "offset", "pose", "frame", "axis", "axis2", "ends", "colors", "scripts", "mimic", "continuous", "geared",
-        "chain", "part", "computed-mass", "nested", "mixed", "scoped-name",
+        "chain", "part", "computed-mass", "nested", "mixed", "scoped-name", "reversed",
     }
 )  # fmt: skip
 """What a URDF holds for the reverse conversion; none of it means anything in SDF."""

@@ -47,6 +47,12 @@ def with_old_names(model: Model, names: Names) -> Model:
     return model.model_copy(update=update)
 
 
+def scoped_name(node: Link | Joint | Frame) -> str:
+    """What a link, joint or frame of URDF is called in SDF: its name, or the one in an annotation about that."""
+    found = find_annotation(node, SCOPED_NAME)
+    return found.text or "" if found and found.get("instead_of") == node.name else node.name
+
+
 class RestoreNames(ModelPass):
     """Give links, joints and frames the names that they had in the source.
 

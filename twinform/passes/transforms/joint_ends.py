@@ -6,7 +6,9 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import model as rules
 from twinform.ir import Joint, Opaque, Pose
 from twinform.ir.frames import FrameGraph
+from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.transforms.nodes import text_piece
+from twinform.passes.transforms.notation import pose_attributes
 
 ENDS = "ends"
 """The annotation on a joint whose ends were frames: `<tf:ends parent="mount" child="flange"/>`."""
@@ -32,6 +34,15 @@ def resolve_ends(joint: Joint, links: Container[str], graph: FrameGraph) -> tupl
     if "child" in changed and not (joint.pose and joint.pose.relative_to):
         changed["pose"] = (joint.pose or Pose()).model_copy(update={"relative_to": joint.child})
     return (joint.model_copy(update=changed) if changed else joint), pieces
+
+
+def joint_pose_attributes(joint: Joint) -> dict[str, str | None]:
+    """The attributes of the annotation on the pose of a joint whose ends may have been resolved."""
+    attributes = pose_attributes(joint.pose)
+    ends = find_annotation(joint, ENDS)
+    if ends is not None and attributes.get("relative_to") == ends.get("child"):
+        del attributes["relative_to"]  # which goes without saying
+    return attributes
 
 
 def report_self_joint(joint: Joint, resolved: Joint, sink: DiagnosticSink) -> None:

@@ -18,6 +18,7 @@ from twinform.passes.carriers.carriers import carry, is_ours, to_element
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
+from twinform.passes.legalise.to_sdf.reversals import without_reversals
 from twinform.passes.transforms.notation import FRAME, LINK
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
@@ -156,7 +157,7 @@ class FrameLinks(ModelPass):
 
 def _attached(model: Model, parents: dict[str, str], sink: DiagnosticSink) -> Model:
     """The model with every frame attached to the link that its joint had as the parent, if that is another one."""
-    graph = FrameGraph(model)
+    graph = FrameGraph(without_reversals(model))  # a frame on a joint moves with its child in SDF
     frames: list[Frame] = []
     for frame in model.frames:
         parent, holder = parents.get(frame.name, ""), frame.attached_to or MODEL

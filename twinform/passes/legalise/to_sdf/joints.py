@@ -7,12 +7,12 @@ from twinform.diagnostics import DiagnosticSink, Fate, Rule
 from twinform.diagnostics.rules import to_sdf
 from twinform.ir import Axis, Element, Format, Joint, Limit, Link, Mimic, Model, Opaque, count_parts
 from twinform.ir.defaults import AXIS, with_range
-from twinform.ir.frames import WORLD
 from twinform.ir.verify.joints import useless_leader
 from twinform.passes.carriers.annotations import annotate_synthesized, is_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, carry, to_element
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
+from twinform.passes.legalise.to_sdf.free_links import links_in_static_models, needs_no_joint
 from twinform.passes.legalise.to_sdf.planar import planar_chain
 from twinform.passes.legalise.to_sdf.unique_names import free_name
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS
@@ -31,10 +31,10 @@ class UrdfJoints(ModelPass):
     `revolute` without limits, as no engine of Gazebo knows the other, and loses lower and upper, which URDF ignores; 3.
     a joint that moves gets its axis written, 1 0 0 where URDF leaves it out; 4. a revolute or prismatic joint gets its
     limits written, 0 where URDF leaves them out; 5. a `floating` joint goes, and so does one synthesized to fix a
-    static model to the world; its child link is posed where it was; 6. limits of acceleration and jerk, which SDF
-    lacks, are carried; 7. a `planar` joint becomes two sliding joints and a turning one, with two links without mass
-    between them, all of them annotated so that they become one again; 8. a `mimic` of what has no axis, which
-    libsdformat refuses, is carried.
+    static model, or one in the model, to the world; its child link is posed where it was; 6. limits of acceleration and
+    jerk, which SDF lacks, are carried; 7. a `planar` joint becomes two sliding joints and a turning one, with two links
+    without mass between them, all of them annotated so that they become one again; 8. a `mimic` of what has no axis,
+    which libsdformat refuses, is carried.
     Never touches: names, origins, parents, children.
     Diagnostics: `joint-chain`; ledger entries under `urdf-only` and `no-joint`.
     """
@@ -44,9 +44,10 @@ class UrdfJoints(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with joints of SDF."""
-        free = {joint.child: joint for joint in model.joints if _is_free(joint, model)}
+        held = links_in_static_models(model)
+        free = {joint.child: joint for joint in model.joints if needs_no_joint(joint, held)}
         mimicking = self._without_useless_mimics(model, sink) if any(map(_mimic_of, model.joints)) else model.joints
-        joints = tuple(self._joint(joint, sink) for joint in mimicking if not _is_free(joint, model))
+        joints = tuple(self._joint(joint, sink) for joint in mimicking if not needs_no_joint(joint, held))
         links = model.links
         if free:
             links = tuple(self._free(link, free[link.name], sink) if link.name in free else link for link in links)
@@ -189,13 +190,6 @@ def _limit(joint: Joint, limit: Limit | None) -> tuple[Limit | None, list[Opaque
 
 def _mimic_of(joint: Joint) -> Mimic | None:
     return joint.axis.mimic if joint.axis else None
-
-
-def _is_free(joint: Joint, model: Model) -> bool:
-    """Whether SDF needs no joint here: a static model is where it is, fixed to the world or not."""
-    if joint.type == "floating":
-        return True
-    return joint.type == "fixed" and joint.parent == WORLD and bool(model.static) and is_synthesized(joint)
 
 
 def _without(limit: Limit, names: tuple[str, ...]) -> tuple[Limit, list[Opaque]]:

@@ -11,6 +11,7 @@ from twinform.passes.carriers.joint_words import CONTINUOUS, MIMIC
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.mimic_references import with_reference
+from twinform.passes.legalise.to_sdf.reversals import without_reversals
 
 _AXES = ("axis", "axis2")
 _NUMBERS = ("lower", "upper", "effort", "velocity")
@@ -19,9 +20,10 @@ _NUMBERS = ("lower", "upper", "effort", "velocity")
 class RestoreJoints(ModelPass):
     """Write joints as SDF wrote them, in a model that came from there.
 
-    Changes: 1. limits of 1e16 and beyond, which stand for none, go; 2. a joint without limits that an annotation calls
-    `continuous` is so; 3. the offset of a mimic is shared with the `reference` in an annotation.
-    Never touches: models that did not come from SDF.
+    Changes: 1. a joint that an annotation calls reversed is reversed again, wherever its model came from; 2. limits of
+    1e16 and beyond, which stand for none, go; 3. a joint without limits that an annotation calls `continuous` is so; 4.
+    the offset of a mimic is shared with the `reference` in an annotation.
+    Never touches: else, models that did not come from SDF.
     Diagnostics: `stale-carrier`.
     """
 
@@ -29,6 +31,7 @@ class RestoreJoints(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with joints of its SDF file."""
+        model = without_reversals(model)
         if not came_from(model, Format.SDF):
             return model
         return model.model_copy(update={"joints": tuple(_restored(joint, sink) for joint in model.joints)})

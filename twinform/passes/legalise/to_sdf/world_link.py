@@ -8,6 +8,7 @@ from twinform.ir import Joint, Link, Model, Opaque, count_parts
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import carry, is_carrier, to_element, unpack
 from twinform.passes.framework.base import ModelPass
+from twinform.passes.legalise.to_sdf.free_links import links_in_static_models, needs_no_joint
 from twinform.passes.transforms.notation import BODY
 
 
@@ -36,7 +37,8 @@ class WorldLink(ModelPass):
         links = tuple(link for link in model.links if link is not world)
         joints = tuple(_on_model(joint) for joint in model.joints)
         model = model.model_copy(update={"links": links, "joints": joints})
-        if not any(joint.parent == "world" and joint.type != "floating" for joint in joints):
+        held = links_in_static_models(model)
+        if not any(joint.parent == "world" and not needs_no_joint(joint, held) for joint in joints):
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
             message = "nothing is fixed to the link 'world', and SDF always has a world"
             sink.account(fate, to_sdf.URDF_ONLY, message, world.location, count_parts(world))

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule
-from twinform.ir import Document, Format, Model, Node, Opaque, replace_fields
-from twinform.ir.frames import FrameError
+from twinform.ir import Document, Format, Joint, Model, Node, Opaque, replace_fields
+from twinform.ir.frames import FrameError, Kind
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.carriers import Attributes, carry
 from twinform.passes.carriers.provenance import came_from
@@ -60,6 +60,15 @@ class Keeper:
     ) -> AnyNode:
         """The node with an annotation on how SDF wrote it; if it came from URDF, only with what is more (`always`)."""
         return with_annotation(node, kind, text, attributes) if self.carriers and (always or not self.back) else node
+
+    def frame_of(self, link: str, joint: Joint | None) -> tuple[str, Kind]:
+        """The frame of SDF that URDF has a link in: that of the joint which holds it, unless the link has none.
+
+        In a model that came from URDF a fixed joint goes to its link: all readers have links, and nothing turns there.
+        """
+        if joint is None or (self.back and joint.type == "fixed"):
+            return link, "link"
+        return joint.name, "joint"
 
 
 class ToUrdfPass(Pass):

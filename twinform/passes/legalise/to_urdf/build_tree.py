@@ -6,79 +6,87 @@ from twinform.diagnostics import Fate
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Joint, Link, Model, count_parts
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
-from twinform.passes.carriers.annotations import EXTENSION, annotate_synthesized, find_annotation, without_annotation
+from twinform.passes.carriers.annotations import (
+    EXTENSION,
+    REVERSED,
+    annotate_synthesized,
+    find_annotation,
+    without_annotation,
+)
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
+from twinform.passes.legalise.to_urdf.joint_tree import JointTree
+from twinform.passes.structure.reroot_sdf import reroot_sdf
+from twinform.passes.transforms.joint_ends import joint_pose_attributes
 from twinform.passes.transforms.nodes import unique_name
+from twinform.passes.transforms.notation import POSE
 
 
 class BuildTree(ToUrdfPass):
     """Cut loops and connect what is not connected.
 
-    Changes: 1. of several joints with one child, and of joints that close a circle, the first ones in the file stay;
-    each of the others becomes a `<joint>` in a `<gazebo>` element, with its pose in the child's frame of URDF, and so
-    does one that a conversion from URDF found there, if it is not all that holds a link; a floating one goes; 2. a
-    root beside the first one hangs from it by a `floating` joint. The first root is `world` where a joint has it as its
-    parent, else the one that the canonical link hangs from; 3. in a static model every root is fixed to `world`, but
-    not the first one of a model that came from URDF, where `<static>` is set.
+    Changes: 1. where a second joint has a link as its child and closes no circle, as few joints as possible are
+    reversed, exactly, so that each link hangs from one; 2. of joints that close a circle, or cannot be reversed, the
+    first ones in the file stay; each of the others becomes a `<joint>` in a `<gazebo>` element, with its pose in the
+    child's frame of URDF, and so does one that a conversion from URDF found there, if it is not all that holds a link;
+    a floating one goes; 3. a root beside the first one hangs from it by a `floating` joint. The first root is `world`
+    where a joint has it as its parent, else the one that the canonical link hangs from; 4. in a static model every root
+    is fixed to `world`, but not the first one of a model that came from URDF, where `<static>` is set.
     Never touches: gearboxes, which hold no link.
-    Diagnostics: `cut-loop`; in the ledger `cut-loop` and `hung-root`.
+    Diagnostics: `cut-loop`; in the ledger `cut-loop`, `reversed-joint` and `hung-root`.
     """
 
     name: ClassVar[str] = "build-tree"
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with its joints in a tree."""
-        tree = Tree([link.name for link in model.links])
-        kept: list[Joint] = []
-        cut: list[Joint] = []
-        extensions: list[Joint] = []
+        tree = JointTree([link.name for link in model.links])
+        kept: list[str] = []
+        cut: list[str] = []
+        extensions: list[str] = []
         annotated = [joint for joint in model.joints if find_annotation(joint, EXTENSION)]
+        geared = any(joint.type == "gearbox" for joint in model.joints)  # gearboxes know the joints by their ends
+        take_in = tree.add if geared else tree.join
         for joint in model.joints:
             if find_annotation(joint, EXTENSION) is None:
-                (kept if joint.type == "gearbox" or tree.add(joint) else cut).append(joint)
-        for joint in (without_annotation(joint, EXTENSION) for joint in annotated):  # what nothing else holds needs it
-            (kept if joint.parent != WORLD and tree.add(joint) else extensions).append(joint)
-        for joint in cut:
-            _report_cut(joint, tree.parent_joint.get(joint.child or ""), keeper)
+                (kept if joint.type == "gearbox" or take_in(joint) else cut).append(joint.name)
+        for joint in annotated:  # what nothing else holds needs it
+            (kept if joint.parent != WORLD and tree.add(joint) else extensions).append(joint.name)
+        model = _reversed(model, tree.turned, keeper)
+        joints = {joint.name: without_annotation(joint, EXTENSION) for joint in model.joints}
+        holding = {joint.child or "": joint for joint in map(joints.__getitem__, kept) if joint.type != "gearbox"}
+        for name in cut:
+            _report_cut(joints[name], holding.get(joints[name].child or ""), keeper)
         if cut or extensions:
-            model = cut_joints(model, kept, [*extensions, *cut], tree.parent_joint)
-        roots = [link for link in model.links if link.name not in tree.parent_joint]
+            out = [joints[name] for name in (*extensions, *cut)]
+            model = cut_joints(model, [joints[name] for name in kept], out, holding, keeper)
+        roots = [link for link in model.links if link.name not in holding]
         first = _first_root(model, tree, keeper)
         return _hang(model, [link for link in roots if link.name != first], first, keeper)
 
 
-class Tree:
-    """The joints that make a forest, as far as they were added; `parent_joint` is by the name of the child."""
-
-    def __init__(self, links: list[str]) -> None:
-        self.parent_joint: dict[str, Joint] = {}
-        self._group = {name: name for name in (*links, WORLD)}
-
-    def add(self, joint: Joint) -> bool:
-        """Take a joint in, unless it closes a loop."""
-        parent, child = joint.parent or WORLD, joint.child or ""
-        if child in self.parent_joint or self._find(parent) == self._find(child):
-            return False
-        self.parent_joint[child] = joint
-        self._group[self._find(child)] = self._find(parent)
-        return True
-
-    def root(self, link: str) -> str:
-        """The link, or `world`, that a link hangs from in the end."""
-        while link in self.parent_joint:
-            link = self.parent_joint[link].parent or WORLD
-        return link
-
-    def _find(self, name: str) -> str:
-        group = self._group
-        while group[name] != name:
-            group[name] = name = group[group[name]]
-        return name
+def _reversed(model: Model, names: set[str], keeper: Keeper) -> Model:
+    """The model with these joints reversed, each of which has an annotation that says so."""
+    turned = [joint for joint in model.joints if joint.name in names]
+    if not turned:
+        return model
+    model = reroot_sdf(model, turned)
+    for joint in turned:
+        message = f"joint {joint.name!r} is reversed: link {joint.child!r} hangs from another joint in URDF"
+        keeper.account(rules.REVERSED_JOINT, message, joint.location, 2)
+    before = {joint.name: joint for joint in turned}
+    joints = (_annotated(each, before[each.name], keeper) if each.name in names else each for each in model.joints)
+    return model.model_copy(update={"joints": tuple(joints)})
 
 
-def _first_root(model: Model, tree: Tree, keeper: Keeper) -> str:
-    if (model.static and not keeper.back) or any(joint.parent == WORLD for joint in tree.parent_joint.values()):
+def _annotated(joint: Joint, before: Joint, keeper: Keeper) -> Joint:
+    joint = keeper.annotate(joint, REVERSED, always=True)
+    attributes = joint_pose_attributes(before)
+    return keeper.annotate(joint, POSE, attributes=attributes) if attributes else joint
+
+
+def _first_root(model: Model, tree: JointTree, keeper: Keeper) -> str:
+    if (model.static and not keeper.back) or tree.holds_any(WORLD):
         return WORLD
     return tree.root(FrameGraph(model).body(MODEL, kind="model"))
 

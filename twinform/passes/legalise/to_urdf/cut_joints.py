@@ -7,21 +7,24 @@ from twinform.ir import GazeboExtension, Joint, Model, Pose, rewrite
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
+from twinform.passes.legalise.to_urdf.base import Keeper
 
 
-def cut_joints(model: Model, kept: Sequence[Joint], cut: Sequence[Joint], parent_joint: Mapping[str, Joint]) -> Model:
+def cut_joints(
+    model: Model, kept: Sequence[Joint], cut: Sequence[Joint], parent_joint: Mapping[str, Joint], keeper: Keeper
+) -> Model:
     """The model with only the joints that are kept, and each of the others in a `<gazebo>` element.
 
-    `parent_joint` has the joint of the tree that holds a link: in URDF its frame is the link's, and the pose of what is
-    cut is in there. Poses relative to a joint that is cut become relative to the model.
+    `parent_joint` has the joint of the tree that holds a link: the pose of what is cut is in the frame that this link
+    has in URDF. Poses relative to a joint that is cut become relative to the model.
     """
     graph = FrameGraph(model)
     extensions = list(model.extensions)
     for joint in cut:
         child = joint.child or ""
-        held = parent_joint.get(child)
-        base = graph.pose(joint.name, held.name if held else child, kind="joint", base="joint" if held else "link")
-        blob = to_element(joint.model_copy(update={"pose": base.to_pose()}), "joint", "sdf")
+        base, kind = keeper.frame_of(child, parent_joint.get(child))
+        placed = graph.pose(joint.name, base, kind="joint", base=kind)
+        blob = to_element(joint.model_copy(update={"pose": placed.to_pose()}), "joint", "sdf")
         extensions.append(GazeboExtension(content=(blob,), source=joint.source))
     model = model.model_copy(update={"joints": tuple(kept), "extensions": tuple(extensions)})
     names = frozenset(joint.name for joint in cut)

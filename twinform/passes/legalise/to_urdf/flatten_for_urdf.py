@@ -12,6 +12,7 @@ from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.nodes import unique_name
 from twinform.passes.transforms.notation import NESTED, POSE, pose_attributes
+from twinform.passes.transforms.static_models import with_static_models_fixed
 
 _SCOPE = "::"
 
@@ -21,8 +22,8 @@ class FlattenForUrdf(ToUrdfPass):
 
     Changes: 1. they are called `inner__name`, and what names them does so too, also where a file before 1.8 calls its
     parts `inner::name` without a model of that name; 2. a frame called `inner` stands for the
-    nested model's own frame, and poses that were relative to it name it; 3. all else that the nested model has is
-    carried on that frame.
+    nested model's own frame, and poses that were relative to it name it; 3. the roots in a static one are fixed to the
+    world; 4. all else that the nested model has is carried on that frame.
     Diagnostics: `include-not-expanded` for includes in any of the models; in the ledger `nested-model`.
     """
 
@@ -33,7 +34,7 @@ class FlattenForUrdf(ToUrdfPass):
         _refuse_includes(model, keeper)
         if keeper.sink.has_errors:
             return model
-        flat = flatten(model, partial(_keep, keeper)) if model.models else model
+        flat = flatten(with_static_models_fixed(model), partial(_keep, keeper)) if model.models else model
         names = _legal_names(flat)
         if not names:
             return flat

@@ -22,12 +22,12 @@ from twinform.ir import (
 )
 from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.annotations import annotation, find_annotation, is_synthesized
+from twinform.passes.carriers.annotations import REVERSED, annotation, find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import part_of
 from twinform.passes.legalise.names import NAME, SCOPED_NAME
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.transforms.element_poses import ElementPoses
-from twinform.passes.transforms.joint_ends import ENDS
+from twinform.passes.transforms.joint_ends import joint_pose_attributes
 from twinform.passes.transforms.notation import FRAME, OFFSET, POSE, in_radians, offset_attributes, pose_attributes
 from twinform.passes.transforms.rebasing import AnyPosed, Base, Posed, Rebasing
 
@@ -55,10 +55,7 @@ class RebaseLinks(ToUrdfPass):
         graph = FrameGraph(model)
         carried_by = {joint.child or "": joint for joint in model.joints}
         bases: dict[str, Base] = {WORLD: (WORLD, "world")}
-        for link in model.links:
-            joint = carried_by.get(link.name)
-            stays = joint is None or (keeper.back and joint.type == "fixed")
-            bases[link.name] = (link.name, "link") if joint is None or stays else (joint.name, "joint")
+        bases |= {link.name: keeper.frame_of(link.name, carried_by.get(link.name)) for link in model.links}
         framed = frozenset(joint.child or "" for joint in model.joints if _is_of_frame(joint))
         named = _unmoved(model, graph, bases) if keeper.back else frozenset[str]()
         links = tuple(
@@ -211,10 +208,7 @@ def _place_joint(joint: Joint, graph: FrameGraph, bases: Mapping[str, Base], kee
     if written != made and _is_written(written, joint):
         message = f"the pose of joint {joint.name!r} is relative to its parent link"
         keeper.account(rules.MOVED_FRAME, message, written.location, count_parts(written))
-    attributes = pose_attributes(written)
-    ends = find_annotation(joint, ENDS)
-    if ends is not None and attributes.get("relative_to") == ends.get("child"):
-        del attributes["relative_to"]  # which goes without saying
+    attributes = {} if find_annotation(joint, REVERSED) else joint_pose_attributes(joint)
     return keeper.annotate(placed, POSE, attributes=attributes) if attributes else placed
 
 

@@ -40,7 +40,7 @@ class RelateGearboxes(ToUrdfPass):
             message = f"gearbox {gearbox.name!r}: joint {found.follower!r} mimics {found.leader!r}"
             _report(gearbox, message, Severity.INFO, keeper)
         holding = {joint.child or "": joint for joint in joints.values()}
-        return cut_joints(model, tuple(joints.values()), gearboxes, holding)
+        return cut_joints(model, tuple(joints.values()), gearboxes, holding, keeper)
 
 
 def _follower(joint: Joint, found: Relation) -> Joint:
