@@ -28,6 +28,7 @@ WITHOUT_CASE = {
     "unread-format": "unit/cli/test_consumers.py",
     "foreign-hardware": "unit/compiler/packaging/ros2/test_gazebo_control.py",
     "flat-collision": "portability/gazebo.toml",
+    "frame-elsewhere": "unit/compiler/packaging/ros2/test_packages.py",
     "frame-not-in-tf": "unit/compiler/packaging/ros2/test_packages.py",
     "joint-type-unsupported": "unit/passes/legalise/to_urdf/test_refusals.py",
     "kept-as-sdf": "unit/compiler/splitting/test_worlds.py",

@@ -53,6 +53,7 @@ BUILT_IN: Mapping[str, str] = {
     "foreign-hardware-interface": "control",
     "foreign-transmission": "control",
     "frame-cycle": "frames",
+    "frame-elsewhere": "ros2",
     "frame-link": "to_sdf",
     "frame-made-link": "to_urdf",
     "frame-not-in-tf": "ros2",

@@ -58,13 +58,23 @@ NO_JOINT_STATES = Rule(
 FRAME_NOT_IN_TF = Rule(
     name="frame-not-in-tf",
     severity=Severity.WARNING,
-    finds="A sensor in a package of ROS 2 that does not say which frame its messages are in. Gazebo takes the names of "
-    "model, link and sensor for one.",
+    finds="A sensor on a joint, in a package of ROS 2, that does not say which frame its messages are in. Gazebo takes "
+    "the names of model, joint and sensor for one. Sensors on links get a frame from the package.",
     matters="tf has no such frame, so RViz and navigation drop the messages: they know no place for them.",
-    example="`<sensor name='lidar' type='gpu_lidar'>` without a frame publishes in `rover/laser_link/lidar`.",
-    better="Write the link that the sensor is on: `<gz_frame_id>laser_link</gz_frame_id>`, or with Fortress "
-    "`<ignition_frame_id>`. A sensor with a pose of its own needs a link at its place, as `frame-id` of `add-sensor`.",
+    example="`<sensor name='wrist' type='force_torque'>` without a frame publishes in `arm/wrist_joint/wrist`.",
+    better="Write the link that it measures in: `<gz_frame_id>hand</gz_frame_id>`, or with Fortress "
+    "`<ignition_frame_id>`, and from Ionic on `<frame_id>`.",
     references="gz-sensors, `Sensor.cc`; ros_gz_bridge.",
+)
+FRAME_ELSEWHERE = Rule(
+    name="frame-elsewhere",
+    severity=Severity.WARNING,
+    finds="A sensor with a pose of its own, in a package of ROS 2, that names its link as the frame of its messages.",
+    matters="ROS takes what it measures for measured at the origin of the link: a scan is shifted and turned.",
+    example="`<pose>0.3 0 0.1 0 0 0</pose><gz_frame_id>base_link</gz_frame_id>` on `base_link`.",
+    better="Leave the frame out: `package --kind ros2` and `add-sensor` make a link where the sensor is, and for "
+    "cameras one that looks along z. Or put the sensor on a link that is there, without a pose.",
+    references="gz-sensors, `Sensor.cc`; REP 103.",
 )
 PACKAGE_NAME = Rule(
     name="package-name",

@@ -10,11 +10,12 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import plugins as rules
 from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor, replace_node
 from twinform.ir.frames import WORLD
-from twinform.passes.plugins.catalog import release, releases, sensor
+from twinform.passes.plugins.catalog import releases, sensor
 from twinform.passes.plugins.editing import add_sensor
 from twinform.passes.plugins.parts import SensorKind
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.selecting import Fields, SelectingPass
+from twinform.passes.plugins.sensor_frames import named_frame, own_frame, with_own_frame
 from twinform.passes.plugins.sensor_settings import addable, element_of, fields_of, settings_of
 from twinform.passes.plugins.sites import sensors_of
 from twinform.passes.plugins.targets import find_model, missing, world_of
@@ -38,7 +39,9 @@ class AddSensor(SelectingPass):
 
     1. the link, or for `force_torque` the joint, that gets the sensor; in URDF it stands in a `<gazebo>` element, and a
        fixed joint that is measured is kept from being lumped;
-    2. the world around the model, which gets the system that the sensor needs, if it has none; and if it had no plugin
+    2. the model, which gets a frame where the sensor is, in URDF a link: `NAME_frame` with `xyz` or `rpy`, and
+       `NAME_optical_frame`, which looks along z, for cameras without clouds; none where `frame-id` names another;
+    3. the world around the model, which gets the system that the sensor needs, if it has none; and if it had no plugin
        at all, those that gz-sim adds only to such worlds.
 
     For a file without a world it reports what the world has to have; `convert --world FILE` writes such a world.
@@ -61,7 +64,8 @@ class AddSensor(SelectingPass):
     )
     frame_id: Word | None = Field(
         default=None,
-        description="The frame of its messages, for ROS; by default the link, if it has no `xyz` or `rpy`.",
+        description="The frame of its messages, for ROS; by default the link, and a frame of its own with `xyz` or "
+        "`rpy`, or for a camera.",
     )
     xyz: Finite | None = Field(default=None, description="Where it is on its holder, in m.")
     rpy: Finite | None = Field(default=None, description="Its rotation on its holder: roll, pitch and yaw, in rad.")
@@ -106,6 +110,8 @@ class AddSensor(SelectingPass):
         if is_new:
             kept = isinstance(holder, Joint) and holder.type == "fixed"
             new = add_sensor(model, holder.name, made, document.format, kept=kept)
+            if self.frame_id is None and self.link is not None:
+                new = with_own_frame(new, made, sensor(self.type).type, self.link, document.format)
             document = replace_node(document, model, new)
         if world is None:
             self._say_what_is_needed(made, holder, sink)
@@ -138,26 +144,17 @@ class AddSensor(SelectingPass):
             return None
         return found
 
-    @property
-    def _frame(self) -> str | None:
-        """The frame of its messages: that of the link, unless the sensor has a place of its own on it."""
-        return self.frame_id or (None if self.xyz or self.rpy else self.link)
-
     def _content(self, model: Model, holder: Link | Joint, format_: Format, sink: DiagnosticSink) -> tuple[Opaque, ...]:
         """The elements in the sensor that have no typed form."""
         values = {option: getattr(self, option.replace("-", "_"), None) for option in self.fields_for(self.type)}
         is_contact = sensor(self.type).type == "contact"
         element = self._contact(model, holder, format_, sink) if is_contact else element_of(self.type, values)
-        frame = release(self.release).frame_element
-        own = self._frame is not None and frame is not None and frame != "frame_id"
-        written = (Element(name=frame, text=self._frame),) if own and frame else ()
-        return tuple(Opaque(element=each) for each in (*written, element) if each is not None)
+        return (Opaque(element=element),) if element is not None else ()
 
     def _sensor(self, name: str, content: tuple[Opaque, ...]) -> Sensor:
         kind, settings = sensor(self.type), settings_of(self.type)
-        typed = release(self.release).frame_element == "frame_id"
         topic, is_contact = self.topic or usual_topic(kind, name, settings.name), kind.type == "contact"
-        return Sensor(
+        made = Sensor(
             name=name,
             type=kind.type,
             pose=Pose(xyz=self.xyz, rpy=self.rpy) if self.xyz or self.rpy else None,
@@ -165,9 +162,10 @@ class AddSensor(SelectingPass):
             update_rate=self.rate or float(settings.rate),
             visualize=self.visualize or None,
             topic=None if is_contact else topic,
-            frame_id=self._frame if typed else None,
             opaque=tuple(map(_named_inside(topic), content)) if is_contact else content,
         )
+        frame = self.frame_id or (self.link and own_frame(made, kind.type)) or self.link
+        return named_frame(made, frame, self.release) if frame else made
 
     def _contact(self, model: Model, holder: Link | Joint, format_: Format, sink: DiagnosticSink) -> Element | None:
         names = list(_collisions(holder, format_))

@@ -163,8 +163,10 @@ def test_a_contact_sensor_looks_at_the_collisions_by_the_names_that_gazebo_gives
     assert [each.name for each in converted.models[0].links[0].collisions] == ["base_collision", "base_collision_1"]
 
 
-@pytest.mark.parametrize(("more", "frame"), [("", "base"), ("frame-id=f", "f"), ("xyz=[0,0,1]", None)])
-def test_the_frame_is_that_of_the_link_unless_the_sensor_is_elsewhere(more: str, frame: str | None) -> None:
+@pytest.mark.parametrize(("more", "frame"), [("", "base"), ("frame-id=f", "f"), ("xyz=[0,0,1]", "imu_frame")])
+def test_the_frame_is_that_of_the_link_or_one_of_its_own_where_the_sensor_is_elsewhere(
+    more: str, frame: str | None
+) -> None:
     [(made, _)] = sensors_of(run(f"add-sensor{{type=imu link=base release=jetty {more}}}", twinform.loads(URDF))[0])
     assert made.frame_id == frame
 

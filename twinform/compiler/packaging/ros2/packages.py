@@ -13,7 +13,7 @@ from twinform.compiler.packaging.package import Content, Package
 from twinform.compiler.packaging.ros2.contents import Contents
 from twinform.compiler.packaging.ros2.controllers import controllers_in_gazebo, controllers_of
 from twinform.compiler.packaging.ros2.gazebo_control import CONTROLLERS, ConnectControllers, has_gazebo_control
-from twinform.compiler.packaging.ros2.sensor_frames import report_frames
+from twinform.compiler.packaging.ros2.sensor_frames import NameSensorFrames, report_frames
 from twinform.compiler.packaging.ros2.texts import generated_files
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import ros2 as rules
@@ -55,7 +55,8 @@ def build(order: Order, collection: Collection) -> Built:
 
 def _converted(order: Order, collection: Collection) -> Conversion:
     connect = ConnectControllers.unchecked(package=order.name, release=order.release)
-    passes = Pipeline((*order.conversion.passes, connect))
+    frames = NameSensorFrames.unchecked(release=order.release)
+    passes = Pipeline((*order.conversion.passes, connect, frames))
     ordered = replace(order, conversion=replace(order.conversion, passes=passes))
     return ordered.convert(collection, "urdf")
 

@@ -1,27 +1,76 @@
-"""The frames of sensors: whether tf knows those that their messages are in."""
+"""The frames of sensors in a package: those that they lack are made, and those that tf does not have are reported."""
+
+from collections import defaultdict
+from collections.abc import Iterable
+from typing import ClassVar
+
+from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import ros2 as rules
-from twinform.ir import Document, Sensor
+from twinform.ir import Document, Model, Sensor, rewrite
+from twinform.passes.framework.base import Pass
 from twinform.passes.plugins.catalog import release
-from twinform.passes.plugins.sites import sensors_of
+from twinform.passes.plugins.release_names import ReleaseName
+from twinform.passes.plugins.sensor_frames import frames_of, is_placed, named_frame, own_frame, with_own_frame
+from twinform.passes.plugins.sites import Site, map_sensors, sensors_of
 from twinform.passes.plugins.worlds import kind_of_sensor
 
-_PLACED = ", or another link that is where the sensor is"
-_FRAMES = frozenset({"frame_id", "gz_frame_id", "ignition_frame_id"})
+
+class NameSensorFrames(Pass):
+    """Give each sensor that names no frame the one of its link, or a frame where it is.
+
+    Changes: sensors on links that Gazebo simulates; the model gets a frame, in URDF a link, for those with a pose of
+    their own, and for cameras one that looks along z as images of ROS do.
+    Never touches: frames that a sensor names, and sensors on joints.
+    """
+
+    name: ClassVar[str] = "name-sensor-frames"
+
+    release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that runs the model.")
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document with frames for all sensors on links."""
+        added: dict[str, list[tuple[Sensor, str, str]]] = defaultdict(list)
+
+        def change(sensor: Sensor, site: Site) -> Iterable[Sensor]:
+            kind = kind_of_sensor(sensor, self.release)
+            link = site.link_or_joint
+            if kind is None or site.scope != "link" or link is None or site.model is None or any(frames_of(sensor)):
+                return (sensor,)
+            own = own_frame(sensor, kind.type)
+            if own is not None:
+                added[site.model.name].append((sensor, kind.type, link))
+            return (named_frame(sensor, own or link, self.release),)
+
+        def with_frames(model: Model) -> Model:
+            for sensor, type_, link in added.get(model.name, ()):
+                model = with_own_frame(model, sensor, type_, link, document.format)
+            return model
+
+        named = map_sensors(document, change)
+        return rewrite(named, Model, with_frames) if added else named
 
 
 def report_frames(document: Document, gazebo: str, sink: DiagnosticSink) -> None:
-    """Report each sensor that Gazebo simulates and that names no frame."""
+    """Report each sensor that Gazebo simulates and that names no frame, or that of its link and is elsewhere."""
     for sensor, site in sensors_of(document):
-        if kind_of_sensor(sensor, gazebo) is None or _has_frame(sensor) or site.model is None:
+        if kind_of_sensor(sensor, gazebo) is None or site.model is None:
             continue
-        frame = "/".join(filter(None, (site.model.name, site.link_or_joint, sensor.name)))
-        message = f"messages of sensor {sensor.name!r} are in the frame {frame!r}, which tf does not have"
-        element = release(gazebo).frame_element
-        help_ = f"write <{element}>{site.link_or_joint}</{element}> into it{_PLACED if sensor.pose else ''}"
-        sink.report(rules.FRAME_NOT_IN_TF, message, sensor.location, found=frame, help=help_)
+        named = list(frames_of(sensor))
+        if not named:
+            _report_nameless(sensor, site, gazebo, sink)
+        elif site.scope == "link" and site.link_or_joint in named and is_placed(sensor):
+            message = f"messages of sensor {sensor.name!r} are in the frame of link {site.link_or_joint!r}, "
+            message += "and the sensor has a pose of its own on it"
+            help_ = "leave the frame out, and the package has a link where the sensor is"
+            sink.report(rules.FRAME_ELSEWHERE, message, sensor.location, found=site.link_or_joint, help=help_)
 
 
-def _has_frame(sensor: Sensor) -> bool:
-    return bool(sensor.frame_id) or any(part.element and part.element.name in _FRAMES for part in sensor.opaque)
+def _report_nameless(sensor: Sensor, site: Site, gazebo: str, sink: DiagnosticSink) -> None:
+    model = site.model.name if site.model else None
+    frame = "/".join(filter(None, (model, site.link_or_joint, sensor.name)))
+    message = f"messages of sensor {sensor.name!r} are in the frame {frame!r}, which tf does not have"
+    element = release(gazebo).frame_element
+    help_ = f"write the link that it measures in into it: <{element}>LINK</{element}>"
+    sink.report(rules.FRAME_NOT_IN_TF, message, sensor.location, found=frame, help=help_)

@@ -1,12 +1,17 @@
-"""Rules: frame-not-in-tf, no-joint-states, package-name."""
+"""Rules: frame-elsewhere, frame-not-in-tf, no-joint-states, package-name."""
+
+import math
 
 import pytest
 
+import twinform
 from twinform.compiler import CompileError
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.packaging.kinds import build
 from twinform.compiler.packaging.order import Built, Details, Order
 from twinform.compiler.request import ConversionRequest
+from twinform.ir.frames import FrameGraph
+from twinform.ir.node import Vector3
 from twinform.passes.framework.text import parse_pipeline
 
 from .robots import interfaces, joint, link, system
@@ -25,6 +30,12 @@ def packaged(name: str = "robot", passes: str = "", text: str = ROBOT) -> Built:
         details=Details(description="A robot", maintainer="Ann", email="ann@example.org", license="MIT"),
     )
     return build(order, ("ros2",))
+
+
+def urdf_of(built: Built) -> str:
+    content = built.package.files["urdf/robot.urdf"]
+    assert isinstance(content, bytes)
+    return content.decode()
 
 
 def rules(built: Built) -> list[str]:
@@ -63,21 +74,47 @@ def test_a_robot_whose_joints_nobody_publishes_is_reported() -> None:
     assert rules(packaged(passes="add-plugin{system=joint-state-publisher}")) == []
 
 
-@pytest.mark.parametrize(("frame", "found"), [("", ["frame-not-in-tf"]), (" frame-id=base", [])])
-def test_a_sensor_without_a_frame_is_reported(frame: str, found: list[str]) -> None:
-    text = f'<robot name="r">{link("base")}</robot>'
-    built = packaged(passes=f"add-sensor{{type=imu link=base xyz=[0,0,1]{frame}}}", text=text)
-    assert [each for each in rules(built) if each == "frame-not-in-tf"] == found
+SENSOR = '<gazebo reference="base"><sensor name="eye" type="{}"><pose>{}</pose>{}</sensor></gazebo>'
+FRAMES: dict[str, tuple[str, str, str, Vector3 | None]] = {
+    "a sensor where its link is": ("imu", "0 0 0 0 0 0", "base", None),
+    "a sensor elsewhere": ("gpu_lidar", "0.1 0 0.2 0 0 0", "eye_frame", (0.1, 0.0, 0.2)),
+    "a camera": ("camera", "0 0 0 0 0 0", "eye_optical_frame", (0.0, 0.0, 0.0)),
+    "a camera elsewhere": ("camera", "0.1 0 0.2 0 0.5 0", "eye_optical_frame", (0.1, 0.0, 0.2)),
+    "a camera with clouds": ("rgbd_camera", "0.1 0 0.2 0 0.5 0", "eye_frame", (0.1, 0.0, 0.2)),
+}
 
 
-def test_the_frame_of_a_sensor_is_shown() -> None:
-    built = packaged(
-        passes="add-sensor{type=imu link=base xyz=[0,0,1]}", text=f'<robot name="r">{link("base")}</robot>'
-    )
+@pytest.mark.parametrize("case", FRAMES.values(), ids=FRAMES)
+def test_a_sensor_without_a_frame_gets_one_where_it_is(case: tuple[str, str, str, Vector3 | None]) -> None:
+    type_, pose, frame, at = case
+    built = packaged(text=f'<robot name="r">{link("base")}{SENSOR.format(type_, pose, "")}</robot>')
+    assert not [each for each in rules(built) if each.startswith("frame-")]
+    urdf = twinform.loads(urdf_of(built)).models[0]
+    assert f"<gz_frame_id>{frame}</gz_frame_id>" in urdf_of(built)
+    assert [each.name for each in urdf.links] == ["base", *([frame] if at else [])]
+    if at is not None:
+        place = FrameGraph(urdf).pose(frame, "base")
+        assert place.translation == pytest.approx(at)
+        looks = place.rotate((0.0, 0.0, 1.0) if "optical" in frame else (1.0, 0.0, 0.0))
+        pitch = float(pose.split()[4])
+        assert looks == pytest.approx((math.cos(pitch), 0.0, -math.sin(pitch)))
+
+
+def test_the_frame_that_a_sensor_names_stays_and_is_reported_where_the_sensor_is_elsewhere() -> None:
+    named = "<gz_frame_id>base</gz_frame_id>"
+    for pose, found in (("0 0 0 0 0 0", []), ("0 0 0 0 0 0.1", ["frame-elsewhere"])):
+        built = packaged(text=f'<robot name="r">{link("base")}{SENSOR.format("imu", pose, named)}</robot>')
+        assert [each for each in rules(built) if each.startswith("frame-")] == found
+        assert named in urdf_of(built)
+
+
+def test_a_sensor_on_a_joint_has_to_name_its_frame() -> None:
+    joint = '<joint name="j" type="continuous"><parent link="base"/><child link="tip"/></joint>'
+    sensor = '<gazebo reference="j"><sensor name="wrist" type="force_torque"><topic>f</topic></sensor></gazebo>'
+    built = packaged(text=f'<robot name="r">{link("base")}{link("tip")}{joint}{sensor}</robot>')
     (report,) = [each for each in built.diagnostics if each.rule.name == "frame-not-in-tf"]
-    assert report.message == "messages of sensor 'imu' are in the frame 'r/base/imu', which tf does not have"
-    where = "or another link that is where the sensor is"
-    assert report.help == f"write <gz_frame_id>base</gz_frame_id> into it, {where}"
+    assert report.message == "messages of sensor 'wrist' are in the frame 'r/j/wrist', which tf does not have"
+    assert report.help == "write the link that it measures in into it: <gz_frame_id>LINK</gz_frame_id>"
 
 
 def test_a_robot_that_does_not_move_needs_no_sliders() -> None:

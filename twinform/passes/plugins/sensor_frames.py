@@ -1,0 +1,63 @@
+"""Frames of sensors: what their messages name, and links at their places for the tree of transforms in ROS."""
+
+import math
+from collections.abc import Iterator
+
+from twinform.ir import Element, Format, Frame, Joint, Link, Model, Opaque, Pose, Sensor
+from twinform.ir.transform import Transform
+from twinform.passes.plugins.catalog import release
+from twinform.passes.transforms.notation import in_radians
+
+_ELEMENTS = frozenset({"frame_id", "gz_frame_id", "ignition_frame_id"})
+_IMAGES = frozenset({"camera", "thermal_camera", "segmentation_camera"})
+"""Cameras with nothing but images. Those with clouds stamp both with one frame, and a cloud of Gazebo looks along x."""
+_OPTICAL = Transform.from_pose(Pose(rpy=(-math.pi / 2, 0.0, -math.pi / 2)))
+"""How the frame of an image stands in that of its camera: it looks along z, with x to the right (REP 103)."""
+
+
+def frames_of(sensor: Sensor) -> Iterator[str]:
+    """The frames that a sensor names, for whatever release."""
+    if sensor.frame_id:
+        yield sensor.frame_id
+    for part in sensor.opaque:
+        if part.element is not None and part.element.name in _ELEMENTS and not part.at:
+            yield (part.element.text or "").strip()
+
+
+def named_frame(sensor: Sensor, frame: str, gazebo: str) -> Sensor:
+    """The sensor with the frame of its messages, as a release reads it."""
+    element = release(gazebo).frame_element
+    if element is None or element == "frame_id":
+        return sensor.model_copy(update={"frame_id": frame if element else None})
+    written = Opaque(element=Element(name=element, text=frame))
+    return sensor.model_copy(update={"opaque": (written, *sensor.opaque)})
+
+
+def own_frame(sensor: Sensor, type_: str) -> str | None:
+    """The name for a frame of its own, which a sensor needs that is not where its link is, or makes images."""
+    if type_ in _IMAGES:
+        return f"{sensor.name}_optical_frame"
+    return f"{sensor.name}_frame" if is_placed(sensor) else None
+
+
+def is_placed(sensor: Sensor) -> bool:
+    """Whether a sensor is elsewhere than its link, or given relative to something else."""
+    return bool(sensor.pose and sensor.pose.relative_to) or not Transform.from_pose(sensor.pose).is_identity
+
+
+def with_own_frame(model: Model, sensor: Sensor, type_: str, link: str, format_: Format) -> Model:
+    """The model with the frame of a sensor on a link, unless it has something of that name; in URDF it is a link."""
+    name = own_frame(sensor, type_)
+    taken = {each.name for each in (*model.links, *model.joints, *model.frames)}
+    if name is None or name in taken:
+        return model
+    written = Transform.from_pose(sensor.pose)
+    at = written.compose(_OPTICAL) if type_ in _IMAGES else written
+    if format_ is Format.SDF:
+        pose = at.to_pose(sensor.pose.relative_to if sensor.pose else None)
+        return model.model_copy(update={"frames": (*model.frames, Frame(name=name, attached_to=link, pose=pose))})
+    joint = f"{name}_joint"
+    while joint in taken:
+        joint += "_"
+    mount = Joint(name=joint, type="fixed", parent=link, child=name, pose=in_radians(at))
+    return model.model_copy(update={"links": (*model.links, Link(name=name)), "joints": (*model.joints, mount)})
