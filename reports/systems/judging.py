@@ -1,5 +1,6 @@
 """What differs between the catalog of systems and sensors and the sources of a release of Gazebo."""
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
@@ -13,6 +14,7 @@ _AS_READ = {"topic": "text", "joint": "text", "link": "text", "collision": "text
 """The kind of value that a type of the catalog is read as, where it has another name."""
 _ZEROS = {"bool": {"false"}, "number": {"0"}, "integer": {"0"}, "vector": {"0 0 0"}}
 """What is read where an element lacks and no default is given."""
+_PLACE = re.compile(r"\{[^{}]*\}")
 _STRUCTURE = frozenset({"model", "world", "joint", "link", "sensor"})
 """Parts of topics that only give where in the simulation something is."""
 
@@ -107,7 +109,10 @@ def _topic_parts(kind: PluginKind, release: str) -> set[str]:
             patterns += [channel.pattern, *(each.pattern for each in _alternatives(kind, channel, release))]
     patterns += [each.suffix for each in sensors().values() if kind.name in each.systems and kind.name != "sensors"]
     return {
-        part for pattern in patterns for part in without_parentheses(pattern).split("/") if part and "{" not in part
+        part
+        for pattern in patterns
+        for part in _PLACE.sub("{}", without_parentheses(pattern)).split("/")
+        if part and "{" not in part
     } - _STRUCTURE
 
 
@@ -146,7 +151,7 @@ def _of_sensor(kind: SensorKind, source: SensorSource, release: str) -> Iterator
     if source.suffix is not None:
         yield from _compared(owner, "suffix", {kind.suffix}, {source.suffix})
     published = [each for each in kind.publishes if release in each.releases]
-    ends = {each.pattern.rpartition("}")[2].rpartition("/")[2] for each in published}
+    ends = {without_parentheses(each.pattern).rpartition("}")[2].rpartition("/")[2] for each in published}
     yield from _compared(owner, "topic", ends - {""}, source.topics)
     messages = {part for each in published for part in (each.message, each.instead) if part}
     yield from _compared(owner, "message", {each.rpartition(".")[2] for each in messages}, source.messages)
