@@ -45,14 +45,15 @@ class Readable:
         Its own folder is known by the name that was given: a link in it that leads out of its root is not followed.
         """
         own = own_folder(file)
-        root, real = os.path.realpath(find_root(file)), os.path.realpath(own)
+        top = find_root(file)
+        root, real = os.path.realpath(top), os.path.realpath(own)
         if own.parent == own:  # the root of the file system holds all that there is
             return cls((), tuple(named), tuple(installed), frozenset({os.path.join(real, file.name)}))
         is_inside = _is_below(real, root)
         # a file in a hidden folder, which was named itself, still has its neighbors
         around = (root, real) if is_inside and real != root else (root,)
         single = frozenset({os.path.join(real, file.name)} if is_inside else ())
-        neighbors = neighborhood(file)
+        neighbors = neighborhood(top)
         beside = os.path.realpath(neighbors) if neighbors else ""
         return cls(around, tuple(named), tuple(installed), single, beside)
 

@@ -63,10 +63,10 @@ def test_folders_have_the_names_that_were_given(tree: Path, monkeypatch: pytest.
 
 
 def test_packages_lie_beside_a_package_that_is_in_no_repository(tree: Path) -> None:
-    assert neighborhood(tree / FILE) is None
+    assert neighborhood(find_root(tree / FILE)) is None
     _put(tree / "home/ws/src/a/package.xml")
-    assert neighborhood(tree / FILE) == tree / "home/ws/src"
+    assert neighborhood(find_root(tree / FILE)) == tree / "home/ws/src"
     _put(tree / "home/ws/src/a/.git/HEAD")
-    assert neighborhood(tree / FILE) is None
+    assert neighborhood(find_root(tree / FILE)) is None
     _put(tree / "home/b/package.xml")
-    assert neighborhood(tree / "home/b/r.urdf") is None  # the home folder is no workspace
+    assert neighborhood(find_root(tree / "home/b/r.urdf")) is None  # the home folder is no workspace

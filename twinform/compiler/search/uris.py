@@ -12,7 +12,7 @@ from twinform.compiler.search import fuel
 from twinform.compiler.search.packages import MODEL_CONFIG, PackageIndex, package_name
 from twinform.diagnostics.rules import files as rules
 from twinform.file_access import OutsideError, Readable
-from twinform.file_access.roots import folders_around, neighborhood
+from twinform.file_access.roots import find_root, folders_around, neighborhood
 from twinform.passes import AssetError
 
 _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH", "GAZEBO_MODEL_PATH")
@@ -96,7 +96,7 @@ class SearchPath:
     def _surroundings(self, file: Path) -> Surroundings:
         """The folders around a file, asked for once: a world may have a URI in each of its lines."""
         if file not in self._around:
-            self._around[file] = Surroundings(folders_around(file), neighborhood(file))
+            self._around[file] = Surroundings(folders_around(file), neighborhood(find_root(file)))
         return self._around[file]
 
     def unsaved_of(self, path: str | Path) -> bytes | None:
