@@ -10,8 +10,8 @@ from twinform.ir.changes import changes
 Part = Link | Joint
 _NO_PHYSICS = frozenset({"name", "visuals", "sensors", "lights", "opaque", "plugins"})
 """Fields of links and joints that no engine computes with."""
-_FILE = "/shape/uri"
-"""Where a mesh lies: a pass for a consumer writes the same surface in another format."""
+_NO_VALUES = ("/shape/uri", "]/name")
+"""Where a mesh lies: a pass for a consumer writes the same surface in another format; and what a shape is called."""
 _Key = tuple[str, str]
 
 
@@ -53,7 +53,7 @@ def _values(old: Part | None, new: Part | None) -> Iterator[ValueChange]:
     for each in changes(old, new):
         path = each.path.removeprefix("/")
         field = path.partition("/")[0].partition("[")[0]
-        if not (each.is_node or field in _NO_PHYSICS or path.endswith(_FILE)):
+        if not (each.is_node or field in _NO_PHYSICS or path.endswith(_NO_VALUES)):
             yield ValueChange(path, each.old, each.new)
 
 

@@ -19,6 +19,7 @@ REMEDIES = (
     Remedy("drop-repeats", physics=False),
     Remedy("tidy-materials", physics=False),
     Remedy("tidy-shapes", physics=True),
+    Remedy("tag-shapes", physics=False),
     Remedy("tidy-transmissions", physics=False),
     Remedy("replace-continuous", physics=False),
     Remedy("drop-bare-scripts", physics=False),

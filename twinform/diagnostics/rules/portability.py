@@ -82,6 +82,29 @@ UNREAD_TEXT = Rule(
     example="`<!-- made by hand --><?xml version='1.0'?><robot name='arm'/>` under `--for pinocchio`.",
     better="`twinform convert --to urdf` writes plain XML that all of them read.",
 )
+UNTAGGED_SHAPE = Rule(
+    name="untagged-shape",
+    severity=Severity.INFO,
+    finds="A shape of URDF with a name under which Gazebo does not apply the `<gazebo>` tags of its link.",
+    matters=(
+        "Gazebo goes by names: a shape gets the tags of its link if its name begins with the link's, or if it has "
+        "none. Any other one has no friction, contact or material of the tags, without a message. Where a link is "
+        "lumped into another, only a shape without a name, or one called `LINK_collision...`, gets those of its link."
+    ),
+    example='`<collision name="ball">` in link `caster`, with `<gazebo reference="caster"><mu1>0</mu1></gazebo>`.',
+    better="Leave out the name, or call it `caster_ball`; the pass `tag-shapes` does so.",
+    references="sdformat, parser_urdf.cc, CreateCollision and InsertSDFExtensionCollision.",
+)
+RENAMED_COLLISION = Rule(
+    name="renamed-collision",
+    severity=Severity.INFO,
+    finds="A contact sensor of URDF that names a collision by its name in the file, which is not that in Gazebo.",
+    matters="Gazebo adds `_collision` and a number to names of URDF; the sensor finds no such collision and is silent.",
+    example='`<collision>ball</collision>`, where `<collision name="ball">` of link `base` is '
+    "`base_fixed_joint_lump__ball_collision` in Gazebo.",
+    better="Write the name that Gazebo gives it; the pass `tag-shapes` does so.",
+    references="sdformat, parser_urdf.cc, CreateCollisions.",
+)
 SHORTFALLS = {
     "value": UNREAD_VALUE,
     "absent": UNWRITTEN_PART,

@@ -37,6 +37,7 @@ BUILT_IN: Mapping[str, str] = {
     "set-surface": "appearance.set_surface:SetSurface",
     "simplify-collisions": "meshes.simplify_collisions:SimplifyCollisions",
     "split-massless": "inertia.split_massless:SplitMassless",
+    "tag-shapes": "structure.tag_shapes:TagShapes",
     "tidy-materials": "appearance.tidy_materials:TidyMaterials",
     "tidy-shapes": "appearance.tidy_shapes:TidyShapes",
     "tidy-transmissions": "control.tidy_transmissions:TidyTransmissions",

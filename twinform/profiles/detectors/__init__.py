@@ -8,6 +8,7 @@ from twinform.diagnostics.rules import portability, portability_engines
 from twinform.profiles.detectors.attributes import find_empty_attributes
 from twinform.profiles.detectors.engines import find_engine_faults
 from twinform.profiles.detectors.meshes import find_mesh_formats
+from twinform.profiles.detectors.tags import find_lost_tags
 from twinform.profiles.subject import Subject
 
 __all__ = ["DETECTORS", "Detector"]
@@ -23,6 +24,7 @@ class Detector(NamedTuple):
 DETECTORS = (
     Detector(find_mesh_formats, (portability.COLLADA_MESH,)),
     Detector(find_empty_attributes, (portability_engines.EMPTY_ATTRIBUTE,)),
+    Detector(find_lost_tags, (portability.RENAMED_COLLISION, portability.UNTAGGED_SHAPE)),
     Detector(
         find_engine_faults,
         (

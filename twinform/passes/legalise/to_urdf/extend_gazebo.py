@@ -187,11 +187,11 @@ def _take_tags(element: Element, path: str, tags: list[Element]) -> Element | No
 
 
 def _model_extensions(model: Model) -> Iterator[GazeboExtension]:
-    written = {field: getattr(model, field) for field in _MODEL_FIELDS}
-    flags = to_element(Model.unchecked(name=model.name, spelling=model.spelling, **written), "model", "sdf").children
-    if flags:
-        yield GazeboExtension(content=flags)
     for plugin in model.plugins:
         yield GazeboExtension(content=(to_element(plugin, "plugin", "sdf"),), source=plugin.source)
     for element in _verbatim(model.opaque, "model"):
         yield GazeboExtension(content=(element,))
+    written = {field: getattr(model, field) for field in _MODEL_FIELDS}
+    flags = to_element(Model.unchecked(name=model.name, spelling=model.spelling, **written), "model", "sdf").children
+    if flags:  # the last one decides about `static` in libsdformat 12, also by its silence: InsertSDFExtensionRobot
+        yield GazeboExtension(content=flags)
