@@ -15,6 +15,7 @@ from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.gazebo_content import read_content, with_axis, with_mass
 from twinform.passes.legalise.to_sdf.gazebo_fields import (
+    old_values,
     set_collision,
     set_joint_fields,
     set_link_fields,
@@ -22,7 +23,14 @@ from twinform.passes.legalise.to_sdf.gazebo_fields import (
     set_visual,
 )
 from twinform.passes.legalise.to_sdf.gazebo_merging import merge, written
-from twinform.passes.legalise.to_sdf.gazebo_sorting import Blob, Sorter, is_part_of_axis, lacks_shapes, place_of
+from twinform.passes.legalise.to_sdf.gazebo_sorting import (
+    Blob,
+    Sorter,
+    TagValue,
+    is_part_of_axis,
+    lacks_shapes,
+    place_of,
+)
 from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -33,7 +41,8 @@ class FoldGazebo(ModelPass):
 
     Changes: 1. tags with a meaning of their own (`mu1`, `material`, `turnGravityOff`, ...) set the field that they
     mean, in every visual or collision of the link where they are about shapes; 2. `<visual>` and `<collision>` put
-    their children into every visual or collision of the link, and so does a `<material>` with elements in it; 3. all
+    their children into every visual or collision of the link, and so does a `<material>` with elements in it; a tag
+    counts beside them, and a later `<gazebo>` overrules an earlier one, of which a `<surface>` leaves nothing; 3. all
     else is read as SDF at the place of the reference: sensors, plugins, lights, joints, poses; an `<axis>` or
     `<physics>` adds to what is there; 4. what means nothing where it stands is carried, or dropped with `carriers`
     false.
@@ -108,11 +117,12 @@ class _Fold:
         if link.name in self.joints:
             sorter.forget(JOINT_TAGS)
         link = set_link_fields(link, sorter.values)
-        visuals = tuple(set_visual(visual, sorter.values) for visual in link.visuals)
-        collisions = tuple(set_collision(collision, sorter.values) for collision in link.collisions)
-        link = link.model_copy(update={"visuals": visuals, "collisions": collisions})
-        for blob in sorter.blobs:
-            link = self._into_shapes(link, blob)
+        before: list[Blob] = []
+        for blobs, tags in sorter.in_order():
+            for blob in blobs:
+                link = self._into_shapes(link, blob)
+            before += blobs
+            link = self._with_tags(link, tags, before)
         return self._merge(link, "link", sorter.rest)
 
     def _joint(self, joint: Joint, extensions: list[GazeboExtension]) -> Joint:
@@ -199,6 +209,18 @@ class _Fold:
             for part in content or (element,):
                 self.sink.account(fate, rule, message, place_of(part, extension), part.weight)
         self.kept += pack([Opaque.unchecked(element=element)], "urdf", about)
+
+    def _with_tags(self, link: Link, tags: list[TagValue], before: list[Blob]) -> Link:
+        """The link whose shapes have the values of tags, whatever they have of the elements before these."""
+        for each in tags:
+            if any(old not in {None, each.value} for old in old_values(each.tag, link)):
+                message = self._conflict(link, each.tag.field, f"<{each.element.name}>", each.where, accounted=False)
+                where = next(filter(None, (blob.place_of(each.tag.field) for blob in reversed(before))), each.where)
+                self.sink.account(Fate.DROPPED, to_sdf.GAZEBO_CONFLICT, message, where)
+        values = [(each.tag, each.value) for each in tags]
+        visuals = tuple(set_visual(visual, values) for visual in link.visuals)
+        collisions = tuple(set_collision(collision, values) for collision in link.collisions)
+        return link.model_copy(update={"visuals": visuals, "collisions": collisions})
 
     def _into_shapes(self, link: Link, blob: Blob) -> Link:
         """Each child of the blob goes into every shape of its kind, in place of what is there."""

@@ -1,6 +1,6 @@
 """Assigning the values of `<gazebo>` tags to the SDF fields that they set."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from lxml import etree
@@ -44,6 +44,14 @@ def set_link_fields(link: Link, values: Values) -> Link:
             Opaque.unchecked(element=Element.unchecked(name="velocity_decay", children=parts)),
         )
     return link.model_copy(update=update) if update else link
+
+
+def old_values(tag: Tag, link: Link) -> Iterator[object]:
+    """What the collisions of a link have where a tag sets something; nothing for a tag about something else."""
+    if tag.target == "surface":
+        yield from (getattr(collision.surface, tag.field) for collision in link.collisions if collision.surface)
+    elif tag.target == "collision":
+        yield from (getattr(collision, tag.field) for collision in link.collisions)
 
 
 def set_visual(visual: Visual, values: Values) -> Visual:

@@ -9,7 +9,7 @@ from twinform.ir.tree import node_fields
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 _ABOUT = frozenset({"source", "spelling"})
-_WHOLE = frozenset({"inertial", "geometry", "pose"})
+_WHOLE = frozenset({"inertial", "geometry", "pose", "surface"})
 """What makes sense only as it was written."""
 _ONCE = frozenset({"physics"})
 """Elements without a typed form that may stand once."""

@@ -1,5 +1,6 @@
 """Sorting the content of `<gazebo>` elements by how it is converted."""
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
@@ -12,23 +13,38 @@ _TOUCHED = frozenset({"surface", "collision"})
 _OF_AXES = frozenset({"axis", "axis2", "springReference", "springStiffness"})
 
 
+def place_of(element: Element, extension: GazeboExtension) -> Location:
+    """Where an element of an extension stands; where the extension does, if a pass has made the element."""
+    return element.location if element.source else extension.location
+
+
 class Blob(NamedTuple):
-    """What goes into every visual or collision of a link."""
+    """What goes into every visual or collision of a link, from the extension of this number."""
 
     kind: str
     content: tuple[Element, ...]
     extension: GazeboExtension
     where: Location
+    number: int
+
+    def place_of(self, name: str) -> Location | None:
+        """Where the last element of this name stands in it; None where there is none."""
+        found = [each for part in self.content for each in part.walk() if each.name == name]
+        return place_of(found[-1], self.extension) if found else None
 
 
-class _Value(NamedTuple):
+class TagValue(NamedTuple):
+    """The value of a tag, from the extension of this number."""
+
     tag: Tag
-    value: object
+    value: Any
     element: Element
     extension: GazeboExtension
+    number: int
 
     @property
     def where(self) -> Location:
+        """Where the tag stands."""
         return place_of(self.element, self.extension)
 
 
@@ -38,11 +54,6 @@ class OverriddenTag(NamedTuple):
     element: Element
     extension: GazeboExtension
     message: str
-
-
-def place_of(element: Element, extension: GazeboExtension) -> Location:
-    """Where an element of an extension stands; where the extension does, if a pass has made the element."""
-    return element.location if element.source else extension.location
 
 
 def is_part_of_axis(element: Element) -> bool:
@@ -83,7 +94,7 @@ class Sorter:
         self._shapes = shapes
         self._unfit = unfit
         self._idle = idle
-        self._read: dict[tuple[str, str], _Value] = {}
+        self._read: dict[tuple[str, str], TagValue] = {}
         self.overruled: list[OverriddenTag] = []
         self.blobs: list[Blob] = []
         self.rest: list[GazeboExtension] = []
@@ -95,6 +106,19 @@ class Sorter:
     def values(self) -> list[tuple[Tag, Any]]:
         """The tags that were there and their values."""
         return [(read.tag, read.value) for read in self._read.values()]
+
+    def in_order(self) -> list[tuple[list[Blob], list[TagValue]]]:
+        """What sets something of shapes, one extension after the other: what goes into shapes, and then the tags.
+
+        So libsdformat applies them, and a later one overrules an earlier one (parser_urdf.cc,
+        InsertSDFExtensionCollision).
+        """
+        found: defaultdict[int, tuple[list[Blob], list[TagValue]]] = defaultdict(lambda: ([], []))
+        for blob in self.blobs:
+            found[blob.number][0].append(blob)
+        for read in self._read.values():
+            found[read.number][1].append(read)
+        return [found[number] for number in sorted(found)]
 
     def forget(self, names: Iterable[str]) -> None:
         """Leave out of the rest what somebody else takes."""
@@ -135,7 +159,7 @@ class Sorter:
     def _blob(self, element: Element, extension: GazeboExtension) -> None:
         where = place_of(element, extension)
         if element.name == "material":
-            self.blobs.append(Blob("visual", (element,), extension, where))
+            self.blobs.append(Blob("visual", (element,), extension, where, len(self.rest)))
             return
         self._extra_attributes(element, where, ())
         if element.text:
@@ -144,7 +168,8 @@ class Sorter:
             self._notes.account(Fate.DROPPED, structure.STRAY_TEXT, message, where)
         above = extension.source
         source = above and Source(above.file, where.line, above, element.name)
-        self.blobs.append(Blob(element.name, element.children, extension.model_copy(update={"source": source}), where))
+        inside = extension.model_copy(update={"source": source})
+        self.blobs.append(Blob(element.name, element.children, inside, where, len(self.rest)))
 
     def _value(self, tag: Tag, element: Element, extension: GazeboExtension) -> None:
         where = place_of(element, extension)
@@ -161,9 +186,9 @@ class Sorter:
             expected = "true or false"
             warning = Severity.ERROR if self._notes.strict else Severity.WARNING
             self._notes.report(structure.INVALID_VALUE, message, where, found=text, expected=expected, severity=warning)
-        self._set(_Value(tag, value, element, extension))
+        self._set(TagValue(tag, value, element, extension, len(self.rest)))
 
-    def _set(self, read: _Value) -> None:
+    def _set(self, read: TagValue) -> None:
         """The last one counts, as in libsdformat."""
         key = (read.tag.target, read.tag.field)
         before = self._read.get(key)
