@@ -141,6 +141,37 @@ LUMPED_NAME = Rule(
     better="Nothing needs doing.",
     references="sdformat, parser_urdf.cc, ReduceCollisionToParent.",
 )
+LUMPED_FLAG = Rule(
+    name="lumped-flag",
+    severity=Severity.WARNING,
+    finds="A `<gazebo>` flag, such as `turnGravityOff`, of one of several links that are fixed to each other.",
+    matters="Gazebo makes one body of links that fixed joints hold together when it reads URDF, and such a flag is "
+    "about all of it. In SDF the links stay, and the flag is about the one that it is written for.",
+    example="`<turnGravityOff>` for a sensor on the robot's base lets the whole base float in Gazebo, and in SDF the "
+    "sensor alone.",
+    better="Set the flag for all links that are fixed to each other, or for none of them.",
+    references="sdformat, parser_urdf.cc, ReduceSDFExtensionToParent and InsertSDFExtensionLink.",
+)
+UNREACHED_SHAPE = Rule(
+    name="unreached-shape",
+    severity=Severity.WARNING,
+    finds="A visual or collision that Gazebo applies other `<gazebo>` tags to than those of its link.",
+    matters="When Gazebo reads URDF, a shape whose name does not begin with that of its link gets no `mu1`, `kp`, "
+    "`material`, ... In SDF it has them, as the author wrote it, so that the two differ in Gazebo.",
+    example='`<collision name="ball">` of link `caster`, for which `<gazebo reference="caster">` sets `mu1`.',
+    better="Begin the names of shapes with that of their link, or leave them out: then Gazebo does as the tag says.",
+    references="sdformat, parser_urdf.cc, CreateCollision and InsertSDFExtensionCollision.",
+)
+SHARED_INERTIA = Rule(
+    name="shared-inertia",
+    severity=Severity.WARNING,
+    finds="A link with an inertia that no body has, in a body of fixed links that is possible as a whole.",
+    matters="Gazebo puts fixed links together before it looks at their inertia when it reads URDF; it refuses an SDF "
+    "file with such a link. The link gets the nearest inertia that a body can have, and another link of the same body "
+    "gives it what is missing, so that the body moves as before.",
+    example="A root of 1e-6 kg in which all nine elements of the inertia are 1e-6.",
+    better="Correct the inertia, or let `--passes balance-inertia` do it.",
+)
 UNSEEN_COLLISION = Rule(
     name="unseen-collision",
     severity=Severity.WARNING,

@@ -39,7 +39,7 @@ def verify_inertial(link: Link, default: float | None, sink: DiagnosticSink) -> 
     if inertial.auto and not link.collisions:
         message = f"the inertia of link {link.name!r} is to come from its collisions, and it has none"
         sink.report(rules.INERTIA_FROM_NOTHING, message, inertial.location, expected="<collision>")
-    if matrix is not None and not inertial.auto and not _is_plain(matrix):
+    if matrix is not None and not inertial.auto and not is_plain(matrix):
         report_moments(link, inertial, matrix, _ROUNDING, sink)
 
 
@@ -50,7 +50,7 @@ def inertia_matrix(inertia: Inertia | None, default: float | None) -> Symmetric 
     return tensor(inertia, default or 0.0)
 
 
-def _is_plain(matrix: Symmetric) -> bool:
+def is_plain(matrix: Symmetric) -> bool:
     """Whether there is a body with this inertia, without any doubt: a cheap question before the expensive one.
 
     The second moments of the mass about the three planes are J = trace/2 - I; a body has positive ones in every

@@ -24,6 +24,8 @@ _OF_BODY = {
     "enable_wind": "enable_wind", "inertial": "inertial", "pose": "pose",
 }  # fmt: skip
 """Elements that are about the body of a link, and their values something of."""
+FLAGS: Mapping[str, str] = {name: field for name, field in _OF_BODY.items() if field not in {"inertial", "pose"}}
+"""The fields of a body that these elements set, each for the whole link."""
 _DISABLE = "disableFixedJointLumping"
 _PRESERVE = ("preserveFixedJoint", _DISABLE)
 _TYPED = frozenset({"sensor", "light"})

@@ -17,11 +17,13 @@ from twinform.passes.legalise.to_sdf.joints import UrdfJoints
 from twinform.passes.legalise.to_sdf.leave_inertias import LeaveInertias
 from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris
 from twinform.passes.legalise.to_sdf.name_shapes import NameShapes
+from twinform.passes.legalise.to_sdf.note_lumping import NoteLumping
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.legalise.to_sdf.restore_joints import RestoreJoints
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.legalise.to_sdf.restore_shape_names import RestoreShapeNames
 from twinform.passes.legalise.to_sdf.retarget import RetargetSdf
+from twinform.passes.legalise.to_sdf.share_inertias import ShareInertias
 from twinform.passes.legalise.to_sdf.shared_materials import SharedMaterials
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_sdf.unpack_sdf import UnpackSdf
@@ -50,6 +52,8 @@ def to_sdf(
         CarryUrdf.unchecked(carriers=carriers),  # before anything of SDF comes in
         RestoreShapeNames.unchecked(),
         FollowLumpedNames.unchecked(carriers=carriers),
+        ShareInertias.unchecked(carriers=carriers),
+        NoteLumping.unchecked(),
         FoldGazebo.unchecked(carriers=carriers),
         *raise_unversioned(carriers=carriers),
         UnpackSdf.unchecked(of="bodies"),

@@ -20,6 +20,7 @@ from twinform.passes.legalise.to_urdf.name_shapes_for_gazebo import NameShapesFo
 from twinform.passes.legalise.to_urdf.rebase_links import RebaseLinks
 from twinform.passes.legalise.to_urdf.relate_gearboxes import RelateGearboxes
 from twinform.passes.legalise.to_urdf.resolve_joint_ends import ResolveJointEnds
+from twinform.passes.legalise.to_urdf.restore_inertias import RestoreInertias
 from twinform.passes.legalise.to_urdf.restore_links import RestoreLinks
 from twinform.passes.legalise.to_urdf.restore_lumped_names import RestoreLumpedNames
 from twinform.passes.legalise.to_urdf.restore_materials import RestoreMaterials
@@ -80,5 +81,6 @@ def to_urdf(
         RestoreNames.unchecked(to=Format.URDF),
         RestoreLumpedNames.unchecked(),
         UnpackUrdf.unchecked(),
+        RestoreInertias.unchecked(),
         DropStale.unchecked(to=Format.URDF),
     )

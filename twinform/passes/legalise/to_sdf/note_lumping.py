@@ -1,0 +1,106 @@
+"""Where Gazebo does something else with the `<gazebo>` tags of a URDF than with the SDF made of it."""
+
+from collections import defaultdict
+from typing import ClassVar
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules import to_sdf as rules
+from twinform.ir import Element, Format, Model
+from twinform.passes.carriers.provenance import came_from
+from twinform.passes.framework.base import ModelPass
+from twinform.passes.legalise.to_sdf.frame_links import is_massless
+from twinform.passes.legalise.to_sdf.gazebo_sorting import place_of
+from twinform.passes.structure.gazebo_blocks import FLAGS, of_body, of_shapes
+from twinform.passes.structure.tagged_shapes import KINDS, hosts_of, seen_shapes, tagging
+from twinform.passes.transforms.gazebo_tags import FALSE
+
+_USUAL = FALSE | {"0.0"}
+"""What says no more than a flag that is not there."""
+
+
+class NoteLumping(ModelPass):
+    """Report `<gazebo>` tags that Gazebo applies to more, or to less, where it reads the URDF itself.
+
+    1. It makes one body of links that are fixed to each other, and a flag of one of them, such as `turnGravityOff`,
+    is one of the body; in SDF it is one of the link. Links without mass do not count. 2. It applies tags about shapes
+    to those alone whose names begin with that of their link; in SDF all shapes have them.
+    Changes: nothing.
+    Diagnostics: `lumped-flag`, `unreached-shape`.
+    """
+
+    name: ClassVar[str] = "note-lumping"
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The same model."""
+        if model.extensions and not came_from(model, Format.SDF):
+            _report_flags(model, sink)
+            for field in KINDS:
+                _report_shapes(model, field, sink)
+        return model
+
+
+def _report_flags(model: Model, sink: DiagnosticSink) -> None:
+    """Report flags that are not those of the whole body that Gazebo makes."""
+    own = _settings(model)
+    if not own:
+        return
+    hosts = hosts_of(model)
+    alike = defaultdict[tuple[str, str], dict[str, list[str]]](dict)
+    for link in model.links:
+        if is_massless(link):
+            continue
+        for flag in set(FLAGS.values()):
+            alike[hosts[link.name], flag].setdefault(own.get(link.name, {}).get(flag, ""), []).append(link.name)
+    for extension in model.extensions:
+        name = extension.reference or ""
+        for element in extension.content:
+            flag = FLAGS.get(element.name, "")
+            mine = own.get(name, {}).get(flag)
+            others = [names[0] for value, names in alike[hosts.get(name, ""), flag].items() if value != mine]
+            if others and mine is not None:
+                message = (
+                    f"<{element.name}> is about link {name!r} alone in SDF; where Gazebo reads the URDF, "
+                    f"it is also about what is fixed to it, such as {others[0]!r}"
+                )
+                sink.report(rules.LUMPED_FLAG, message, place_of(element, extension), found=element.name)
+
+
+def _settings(model: Model) -> dict[str, dict[str, str]]:
+    """The flags of each link that are not the usual ones, as text."""
+    links = {link.name for link in model.links}
+    found = defaultdict[str, list[Element]](list)
+    for extension in model.extensions:
+        flags = [element for element in extension.content if element.name in FLAGS]
+        if flags and extension.reference in links:
+            found[extension.reference] += flags
+    return {name: {flag: _text(value) for flag, value in of_body(elements).items()} for name, elements in found.items()}
+
+
+def _text(value: object) -> str:
+    if isinstance(value, Element):
+        return " ".join(f"{each.name} {each.text or ''}" for each in value.walk())
+    return str(value)
+
+
+def _report_shapes(model: Model, field: str, sink: DiagnosticSink) -> None:
+    """Report shapes to which Gazebo applies other tags than those of their link."""
+    tags = defaultdict[str, dict[str, None]](dict)
+    for extension in model.extensions:
+        if extension.reference and (about := of_shapes(extension.content, field)):
+            tags[extension.reference].update(dict.fromkeys(f"<{element.name}>" for element in about))
+    if not tags:
+        return
+    hosts = hosts_of(model)
+    for seen in seen_shapes(model, field):
+        seen_by = tagging(seen, KINDS[field], hosts) & tags.keys()
+        own = {seen.link} & tags.keys()
+        if seen_by == own:
+            continue
+        shape = f"the {KINDS[field]} {seen.shape.name!r}" if seen.shape.name else f"a {KINDS[field]} without a name"
+        if own:
+            words = ", ".join(tags[seen.link])
+            message = f"Gazebo does not apply {words} to {shape} of link {seen.link!r}; in SDF it has them"
+        else:
+            words = f"{', '.join(tags[min(seen_by)])} of link {min(seen_by)!r}"
+            message = f"Gazebo applies {words} to {shape} of link {seen.link!r}; in SDF it has none"
+        sink.report(rules.UNREACHED_SHAPE, message, seen.shape.location, found=seen.shape.name)

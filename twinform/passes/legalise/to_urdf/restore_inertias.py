@@ -1,0 +1,66 @@
+"""Reverse conversion of inertias that a URDF has for links, and SDF for what is fixed together."""
+
+import math
+from typing import ClassVar
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.ir import Inertial, Model
+from twinform.ir.principal_moments import Symmetric
+from twinform.ir.solids import tensor
+from twinform.passes.carriers.annotations import without_annotation
+from twinform.passes.carriers.shared_inertia import SHARED, without_share
+from twinform.passes.framework.base import ModelPass
+from twinform.passes.legalise.shared_inertias import shared_inertias
+
+_CLOSE = 1e-9
+"""How far elements may be apart that were computed from one inertia, relative to the largest."""
+
+
+class RestoreInertias(ModelPass):
+    """Give links the inertias that they had before they were shared with links that are fixed to them.
+
+    Changes: all annotated inertias, if the old ones would be shared again just so.
+    Never touches: any of them once masses, places or joints were edited so that another share would come out.
+    Diagnostics: `stale-carrier` for these.
+    """
+
+    name: ClassVar[str] = "restore-inertias"
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model with its old inertias."""
+        old = {
+            link.name: inertial
+            for link in model.links
+            if link.inertial is not None and (inertial := without_share(link.inertial)) is not None
+        }
+        if not old:
+            return model
+        restored = _with(model, old)
+        shared = shared_inertias(restored)
+        now = {link.name: tensor(link.inertial.inertia) for link in model.links if link.inertial and link.name in old}
+        if shared.keys() == old.keys() and all(_are_close(shared[name], now[name]) for name in old):
+            return restored
+        for link in model.links:
+            if link.name in old and link.inertial:
+                message = f"the inertia of link {link.name!r} stays: the body that it is a part of was edited"
+                sink.report(STALE_CARRIER, message, link.inertial.location, found=link.name)
+        bare = {
+            link.name: without_annotation(link.inertial, SHARED)
+            for link in model.links
+            if link.inertial and link.name in old
+        }
+        return _with(model, bare)
+
+
+def _with(model: Model, inertials: dict[str, Inertial]) -> Model:
+    links = (
+        link.model_copy(update={"inertial": inertials[link.name]}) if link.name in inertials else link
+        for link in model.links
+    )
+    return model.model_copy(update={"links": tuple(links)})
+
+
+def _are_close(one: Symmetric, other: Symmetric) -> bool:
+    size = max(map(abs, one))
+    return all(math.isclose(a, b, rel_tol=0, abs_tol=_CLOSE * size) for a, b in zip(one, other, strict=True))
