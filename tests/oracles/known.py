@@ -1,7 +1,6 @@
 """URDF files of the corpus that libsdformat takes, though it does not take SDF that means the same, and why."""
 
-_WEIGHED_TOGETHER = "links with impossible inertia, which it lumps into their parents when it reads URDF itself"
+_WEIGHED_TOGETHER = "links with impossible inertia that no other link of the body they are lumped into can make up for"
 LIBSDFORMAT = {
     "Gepetto+example-robot-data/robots/alex_description/urdf/alex_psyonic_hands.urdf": _WEIGHED_TOGETHER,
-    "Gepetto+example-robot-data/robots/hyq_description/robots/hyq_no_sensors.urdf": _WEIGHED_TOGETHER,
 }
