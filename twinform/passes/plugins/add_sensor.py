@@ -110,8 +110,10 @@ class AddSensor(SelectingPass):
         if is_new:
             kept = isinstance(holder, Joint) and holder.type == "fixed"
             new = add_sensor(model, holder.name, made, document.format, kept=kept)
-            if self.frame_id is None and self.link is not None:
-                new = with_own_frame(new, made, sensor(self.type).type, self.link, document.format)
+            type_ = sensor(self.type).type
+            own = own_frame(model, made, type_) if self.frame_id is None and self.link else None
+            if own is not None:
+                new = with_own_frame(new, own, made, type_, self.link or "", document.format)
             document = replace_node(document, model, new)
         if world is None:
             self._say_what_is_needed(made, holder, sink)
@@ -126,7 +128,7 @@ class AddSensor(SelectingPass):
         here = [each for each, site in everywhere if site.model is model and site.link_or_joint == holder.name]
         taken, first = {each.name for each, _ in everywhere}, self.sensor_name or settings_of(self.type).name
         for number in count():
-            made = self._sensor(f"{first}_{number}" if number else first, content)
+            made = self._sensor(f"{first}_{number}" if number else first, content, model)
             same = next((each for each in here if _plain(each) == _plain(made)), None)
             if same is not None or made.name not in taken:
                 return made, same is None
@@ -151,7 +153,7 @@ class AddSensor(SelectingPass):
         element = self._contact(model, holder, format_, sink) if is_contact else element_of(self.type, values)
         return (Opaque(element=element),) if element is not None else ()
 
-    def _sensor(self, name: str, content: tuple[Opaque, ...]) -> Sensor:
+    def _sensor(self, name: str, content: tuple[Opaque, ...], model: Model) -> Sensor:
         kind, settings = sensor(self.type), settings_of(self.type)
         topic, is_contact = self.topic or usual_topic(kind, name, settings.name), kind.type == "contact"
         made = Sensor(
@@ -164,7 +166,7 @@ class AddSensor(SelectingPass):
             topic=None if is_contact else topic,
             opaque=tuple(map(_named_inside(topic), content)) if is_contact else content,
         )
-        frame = self.frame_id or (self.link and own_frame(made, kind.type)) or self.link
+        frame = self.frame_id or (self.link and own_frame(model, made, kind.type)) or self.link
         return named_frame(made, frame, self.release) if frame else made
 
     def _contact(self, model: Model, holder: Link | Joint, format_: Format, sink: DiagnosticSink) -> Element | None:

@@ -33,11 +33,12 @@ def named_frame(sensor: Sensor, frame: str, gazebo: str) -> Sensor:
     return sensor.model_copy(update={"opaque": (written, *sensor.opaque)})
 
 
-def own_frame(sensor: Sensor, type_: str) -> str | None:
+def own_frame(model: Model, sensor: Sensor, type_: str) -> str | None:
     """The name for a frame of its own, which a sensor needs that is not where its link is, or makes images."""
-    if type_ in _IMAGES:
-        return f"{sensor.name}_optical_frame"
-    return f"{sensor.name}_frame" if is_placed(sensor) else None
+    if type_ not in _IMAGES and not is_placed(sensor):
+        return None
+    name = f"{sensor.name}_optical_frame" if type_ in _IMAGES else f"{sensor.name}_frame"
+    return _unused(name, model)
 
 
 def is_placed(sensor: Sensor) -> bool:
@@ -45,19 +46,23 @@ def is_placed(sensor: Sensor) -> bool:
     return bool(sensor.pose and sensor.pose.relative_to) or not Transform.from_pose(sensor.pose).is_identity
 
 
-def with_own_frame(model: Model, sensor: Sensor, type_: str, link: str, format_: Format) -> Model:
+def with_own_frame(model: Model, name: str, sensor: Sensor, type_: str, link: str, format_: Format) -> Model:
     """The model with the frame of a sensor on a link, unless it has something of that name; in URDF it is a link."""
-    name = own_frame(sensor, type_)
-    taken = {each.name for each in (*model.links, *model.joints, *model.frames)}
-    if name is None or name in taken:
+    if any(each.name == name for each in (*model.links, *model.frames)):
         return model
     written = Transform.from_pose(sensor.pose)
     at = written.compose(_OPTICAL) if type_ in _IMAGES else written
     if format_ is Format.SDF:
         pose = at.to_pose(sensor.pose.relative_to if sensor.pose else None)
         return model.model_copy(update={"frames": (*model.frames, Frame(name=name, attached_to=link, pose=pose))})
-    joint = f"{name}_joint"
-    while joint in taken:
-        joint += "_"
-    mount = Joint(name=joint, type="fixed", parent=link, child=name, pose=in_radians(at))
-    return model.model_copy(update={"links": (*model.links, Link(name=name)), "joints": (*model.joints, mount)})
+    joint = _unused(f"{name}_joint", model)
+    mount = Joint(name=joint, type="fixed", parent=link, child=name, pose=in_radians(at, link))
+    held = Link(name=name, pose=Pose(relative_to=joint))
+    return model.model_copy(update={"links": (*model.links, held), "joints": (*model.joints, mount)})
+
+
+def _unused(name: str, model: Model) -> str:
+    """The name, or a longer one where a joint has it."""
+    while any(joint.name == name for joint in model.joints):
+        name += "_"
+    return name

@@ -1,16 +1,20 @@
 """Rules: nothing-to-add-to, missing-world-system, world-system-needed, added-world-system."""
 
+import math
 from pathlib import Path
 
 import pytest
 
 import twinform
+from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Sensor
+from twinform.ir.frames import FrameGraph
 from twinform.passes import PipelineError, parse_pipeline
 from twinform.passes.plugins.add_sensor import AddSensor
 from twinform.passes.plugins.catalog import sensor, sensors
 from twinform.passes.plugins.check_plugins import CheckPlugins
+from twinform.passes.plugins.sensor_frames import frames_of
 from twinform.passes.plugins.sensor_settings import addable, settings_of
 from twinform.passes.plugins.sites import plugins_of, sensors_of
 from twinform.passes.plugins.topics import topics_of
@@ -169,6 +173,31 @@ def test_the_frame_is_that_of_the_link_or_one_of_its_own_where_the_sensor_is_els
 ) -> None:
     [(made, _)] = sensors_of(run(f"add-sensor{{type=imu link=base release=jetty {more}}}", twinform.loads(URDF))[0])
     assert made.frame_id == frame
+
+
+@pytest.mark.parametrize("model", ["urdf", "sdf"])
+def test_the_frame_of_a_camera_looks_along_z_where_the_camera_looks(model: str) -> None:
+    document = twinform.loads(URDF if model == "urdf" else WORLD.format(""))
+    made = run(pipeline("camera", "xyz=[1,2,3] rpy=[0,0,1.5]"), document)[0]
+    [(camera, site)] = sensors_of(made)
+    assert site.model
+    place = FrameGraph(site.model).pose("camera_optical_frame", "base")
+    assert place.translation == pytest.approx((1, 2, 3))
+    assert place.rotate((0.0, 0.0, 1.0)) == pytest.approx((math.cos(1.5), math.sin(1.5), 0))
+    assert place.rotate((0.0, 1.0, 0.0)) == pytest.approx((0, 0, -1))
+    assert list(frames_of(camera)) == ["camera_optical_frame"]
+    sdf = twinform.convert(emit(made, DiagnosticSink()).encode(), to="sdf", sdf_version="1.11").document
+    [(_, there)] = sensors_of(sdf)
+    assert there.model
+    assert FrameGraph(there.model).pose("camera_optical_frame", "base").translation == pytest.approx((1, 2, 3))
+
+
+def test_a_frame_that_is_there_is_taken_and_a_joint_of_its_name_is_none() -> None:
+    once = run(pipeline("camera"), twinform.loads(URDF.replace('"hand"', '"camera_optical_frame"')))[0]
+    assert [link.name for link in once.models[0].links] == ["base", "camera_optical_frame"]
+    again = run(pipeline("camera"), twinform.loads(URDF.replace('"wrist"', '"camera_optical_frame"')))[0]
+    assert again.models[0].links[-1].name == "camera_optical_frame_"
+    assert again.models[0].joints[-1].name == "camera_optical_frame__joint"
 
 
 @pytest.mark.parametrize("more", ["", "topic=bump"])

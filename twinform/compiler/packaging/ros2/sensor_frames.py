@@ -1,6 +1,6 @@
 """The frames of sensors in a package: those that they lack are made, and those that tf does not have are reported."""
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable
 from typing import ClassVar
 
@@ -31,21 +31,23 @@ class NameSensorFrames(Pass):
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with frames for all sensors on links."""
-        added: dict[str, list[tuple[Sensor, str, str]]] = defaultdict(list)
+        added: dict[str, list[tuple[str, Sensor, str, str]]] = defaultdict(list)
+        often = Counter(sensor.name for sensor, _ in sensors_of(document))
 
         def change(sensor: Sensor, site: Site) -> Iterable[Sensor]:
             kind = kind_of_sensor(sensor, self.release)
             link = site.link_or_joint
             if kind is None or site.scope != "link" or link is None or site.model is None or any(frames_of(sensor)):
                 return (sensor,)
-            own = own_frame(sensor, kind.type)
+            own = own_frame(site.model, sensor, kind.type)
             if own is not None:
-                added[site.model.name].append((sensor, kind.type, link))
+                own = f"{link}_{own}" if often[sensor.name] > 1 else own
+                added[site.model.name].append((own, sensor, kind.type, link))
             return (named_frame(sensor, own or link, self.release),)
 
         def with_frames(model: Model) -> Model:
-            for sensor, type_, link in added.get(model.name, ()):
-                model = with_own_frame(model, sensor, type_, link, document.format)
+            for own, sensor, type_, link in added.get(model.name, ()):
+                model = with_own_frame(model, own, sensor, type_, link, document.format)
             return model
 
         named = map_sensors(document, change)

@@ -100,6 +100,15 @@ def test_a_sensor_without_a_frame_gets_one_where_it_is(case: tuple[str, str, str
         assert looks == pytest.approx((math.cos(pitch), 0.0, -math.sin(pitch)))
 
 
+def test_sensors_of_one_name_have_frames_of_their_own() -> None:
+    eyes = "".join(SENSOR.format("camera", "0 0 0 0 0 0", "").replace('"base"', f'"{each}"') for each in ("base", "a"))
+    links = f"{link('base')}{link('a')}{joint('j', 'a')}"
+    urdf = twinform.loads(urdf_of(packaged(text=f'<robot name="r">{links}{eyes}</robot>'))).models[0]
+    frames = FrameGraph(urdf)
+    for each in ("base", "a"):
+        assert frames.pose(f"{each}_eye_optical_frame", each).translation == pytest.approx((0, 0, 0))
+
+
 def test_the_frame_that_a_sensor_names_stays_and_is_reported_where_the_sensor_is_elsewhere() -> None:
     named = "<gz_frame_id>base</gz_frame_id>"
     for pose, found in (("0 0 0 0 0 0", []), ("0 0 0 0 0 0.1", ["frame-elsewhere"])):
