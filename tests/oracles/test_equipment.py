@@ -76,3 +76,28 @@ def test_gazebo_finds_what_a_model_of_the_corpus_has(corpus: Path, chunk: str) -
     assert corpus.is_dir()
     found = [one for file in _SDF[chunk] if is_good(file) for one in judge(file) if one.verdict is Verdict.DIFFERENT]
     assert [f"{one.name}: {one.cause}" for one in found if not KNOWN.why("known", one.name)] == []
+
+
+def test_gazebo_finds_the_values_of_links_that_it_lumps(tmp_path: Path) -> None:
+    """Links without mass on fixed joints become a part of the base, whose name one of theirs begins with."""
+    links = "".join(
+        f"<link name='{name}'><inertial><mass>{mass}</mass></inertial>{_lumped(number)}</link>"
+        for number, (name, mass) in enumerate((("base", 1), ("base_tool", 0), ("arm", 0)), start=1)
+    )
+    joints = "".join(
+        f"<joint name='{name}_joint' type='fixed'><parent>base</parent><child>{name}</child></joint>"
+        for name in ("base_tool", "arm")
+    )
+    found = _judged(f"<sdf version='1.9'><model name='m'>{links}{joints}</model></sdf>", tmp_path)
+    assert [each for each in found.found if each.path != "parent"] == []
+    assert found.parts == len("ccv" + "s") * len(("base", "base_tool", "arm"))
+
+
+def _lumped(number: int) -> str:
+    """Shapes with values at places of their own, and a contact sensor for one of them."""
+    friction = _FRICTION.format(f"<mu>0.{number}</mu>")
+    places = {name: f"<pose>{number} {y} 0 0 0 0</pose>{_GEOMETRY.format(1)}" for y, name in enumerate("cdv")}
+    shapes = "".join(f"<collision name='{name}'>{places[name]}{friction}</collision>" for name in "cd")
+    visual = f"<visual name='v'>{places['v']}<transparency>0.{number}</transparency></visual>"
+    sensor = f"<sensor name='s{number}' type='contact'><contact><collision>d</collision></contact></sensor>"
+    return shapes + visual + sensor
