@@ -93,8 +93,8 @@ def fates(source: XmlElement, result: str, ledger: Ledger) -> Iterator[Met]:
     inside, outside = _words_of(made)
     folded = Folded.of(source, made)
     outside |= folded.parts
-    listed = {(entry.location.line, bare_path(entry.location.path)): entry.fate for entry in reversed(ledger.entries)}
-    for part in _parts(source, listed):
+    listed, noted = _places(ledger, counted=True), _places(ledger, counted=False)
+    for part, note in zip(_parts(source, listed), _parts(source, noted), strict=True):
         if part.fate is not None:
             yield Met(part.element, part.attribute, part.fate)
         elif (
@@ -105,8 +105,16 @@ def fates(source: XmlElement, result: str, ledger: Ledger) -> Iterator[Met]:
             yield Met(part.element, part.attribute, None)
         elif part.words <= inside | outside:
             yield Met(part.element, part.attribute, Fate.CARRIED)
+        elif note.fate is not None:
+            yield Met(part.element, part.attribute, note.fate)
         else:
             yield Met(part.element, part.attribute, None, tuple(sorted(part.words - inside - outside)))
+
+
+def _places(ledger: Ledger, *, counted: bool) -> dict[_Place, Fate]:
+    """The fates by the places of entries; one that counts no part is about its place only where nothing has that."""
+    entries = (entry for entry in reversed(ledger.entries) if bool(entry.weight) is counted)
+    return {(entry.location.line, bare_path(entry.location.path)): entry.fate for entry in entries}
 
 
 @dataclass(frozen=True, slots=True)

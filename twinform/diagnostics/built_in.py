@@ -249,6 +249,7 @@ BUILT_IN: Mapping[str, str] = {
     "unsayable-shape": "to_urdf",
     "unseen-collision": "to_sdf",
     "unset-surface": "appearance",
+    "unshared-surface": "to_urdf",
     "unsupported-sensor": "plugins",
     "untagged-shape": "portability",
     "untaken-tree": "portability",

@@ -191,6 +191,18 @@ GAZEBO_MATERIAL = Rule(
     better="Load the SDF in Gazebo; other readers of the URDF, and a conversion back, have the material as it was.",
     references="sdformat, parser_urdf.cc, CreateVisual.",
 )
+UNSHARED_SURFACE = Rule(
+    name="unshared-surface",
+    severity=Severity.WARNING,
+    finds="A surface, `<max_contacts>` or `<laser_retro>` of SDF that other collisions of the link do not have.",
+    matters=(
+        "A `<gazebo>` element is about all collisions of a link, so there is none for one of them: where Gazebo reads "
+        "the URDF, they all have the usual friction. It is kept in a carrier, and a conversion back to SDF has it."
+    ),
+    example="A chassis with a caster of `<mu>0</mu>` among its collisions.",
+    better="Give Gazebo the SDF, or move the caster to a link of its own that is fixed to the chassis.",
+    references="sdformat, parser_urdf.cc, InsertSDFExtensionCollision.",
+)
 GAZEBO_SHAPE_NAME = Rule(
     name="gazebo-shape-name",
     severity=Severity.INFO,

@@ -2,7 +2,8 @@
 
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics import DiagnosticSink, Fate
+from twinform.diagnostics.rules.to_sdf import LUMPED_NAME
 from twinform.ir import Collision, Format, Link, Model, Visual, replace_fields
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions
@@ -20,7 +21,7 @@ class RestoreShapeNames(ModelPass):
     Changes: 1. a name behind which an annotation stands becomes the one that the annotation gives; 2. contact sensors,
     which have the names of libsdformat, name the collisions by these.
     Never touches: names that were edited since; a model that did not come from SDF.
-    Diagnostics: none.
+    Diagnostics: none; the ledger has `lumped-name` for each name in a sensor.
     """
 
     name: ClassVar[str] = "restore-shape-names"
@@ -30,7 +31,7 @@ class RestoreShapeNames(ModelPass):
         if not came_from(model, Format.SDF):
             return model
         restored = replace_fields(model, links=tuple(map(_restored, model.links)))
-        return _sensing(model, restored) if mentions_collisions(model) else restored
+        return _sensing(model, restored, sink) if mentions_collisions(model) else restored
 
 
 def _restored(link: Link) -> Link:
@@ -46,7 +47,7 @@ def _by_its_name(shape: Shape) -> Shape:
     return without_annotation(shape, NAME).model_copy(update={"name": name})
 
 
-def _sensing(before: Model, after: Model) -> Model:
+def _sensing(before: Model, after: Model, sink: DiagnosticSink) -> Model:
     """The model with the own names of collisions in place of those that libsdformat gives them."""
     own = {
         id(old): Followed(new.name or "", one.name)
@@ -55,6 +56,11 @@ def _sensing(before: Model, after: Model) -> Model:
         if new.name
     }
     names = {seen.name: own[id(seen.shape)] for seen in seen_shapes(before, "collisions") if id(seen.shape) in own}
+    for element in (one for each in before.extensions for part in each.content for one in part.walk()):
+        text = (element.text or "").strip()
+        if text in names:
+            message = f"{text!r} is called {names[text].name!r} in SDF"
+            sink.account(Fate.CARRIED, LUMPED_NAME, message, element.location.at("text()"), weight=0)
     extensions = tuple(
         extension.model_copy(
             update={"content": tuple(followed(part, names, carriers=False) for part in extension.content)}

@@ -2,6 +2,7 @@
 
 from typing import ClassVar
 
+from twinform.diagnostics.rules.to_urdf import UNSHARED_SURFACE
 from twinform.ir import Collision, Element, GazeboExtension, Link, Model, Surface
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
@@ -17,6 +18,7 @@ _TAGS = {
     "min_depth": "minDepth",
 }
 _NOT_FIELDS = frozenset({"source", "spelling", "opaque"})
+_FIELDS = ("surface", "max_contacts", "laser_retro")
 
 
 class MapSurfaces(ToUrdfPass):
@@ -25,6 +27,7 @@ class MapSurfaces(ToUrdfPass):
     Changes: 1. a surface of which there are tags for every part becomes these tags, any other a `<collision>` with the
     `<surface>` in it; 2. `max_contacts` and `laser_retro` become tags.
     Never touches: what differs between the collisions of a link; the last pass carries it.
+    Diagnostics: `unshared-surface` for a link with such collisions.
     """
 
     name: ClassVar[str] = "map-surfaces"
@@ -36,6 +39,7 @@ class MapSurfaces(ToUrdfPass):
         for link in model.links:
             content, fields = _shared(link.collisions)
             links.append(_without(link, fields))
+            _note_unshared(links[-1], keeper)
             if content:
                 extensions.append(GazeboExtension(reference=link.name, content=tuple(content), source=link.source))
         return model.model_copy(update={"links": tuple(links), "extensions": tuple(extensions)})
@@ -46,7 +50,7 @@ def _shared(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]
     if not collisions:
         return [], []
     first, content, fields = collisions[0], list[Element](), list[str]()
-    for field in ("surface", "max_contacts", "laser_retro"):
+    for field in _FIELDS:
         value = getattr(first, field)
         if value is None or any(getattr(other, field) != value for other in collisions[1:]):
             continue
@@ -57,6 +61,17 @@ def _shared(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]
             tag = "maxContacts" if field == "max_contacts" else "laserRetro"
             content.append(Element.unchecked(name=tag, text=format_value(value)))
     return content, fields
+
+
+def _note_unshared(link: Link, keeper: Keeper) -> None:
+    """A warning where collisions keep something for themselves, which is lost to Gazebo."""
+    left = [(field, one) for field in _FIELDS for one in link.collisions if getattr(one, field) is not None]
+    if left:
+        names = ", ".join(repr(name) for name in dict.fromkeys(one.name for _, one in left))
+        what = " and ".join(dict.fromkeys(field for field, _ in left))
+        message = f"{what} of {names} of link {link.name!r} is not that of all its collisions: Gazebo gets none of it"
+        hint = "give Gazebo the SDF, or move such collisions to links of their own that are fixed to this one"
+        keeper.sink.report(UNSHARED_SURFACE, message, left[0][1].location, found=left[0][1].name, help=hint)
 
 
 def _surface(surface: Surface) -> list[Element]:
