@@ -59,8 +59,9 @@ class Ledger:
     entries: tuple[Entry, ...] = ()
 
     def count(self, fate: Fate) -> int:
-        """How many elements and attributes met this fate."""
-        return sum(entry.weight for entry in self.entries if entry.fate is fate)
+        """How many elements and attributes met this fate; an approximation that stands for none was made up: one."""
+        least = int(fate is Fate.APPROXIMATED)
+        return sum(max(entry.weight, least) for entry in self.entries if entry.fate is fate)
 
     def to_json(self) -> str:
         """The ledger as `--ledger` writes it."""

@@ -22,10 +22,13 @@ from twinform.diagnostics import Diagnostic, Ledger, Severity
 from twinform.diagnostics.reporters import Findings
 from twinform.ir import Document, Format
 from twinform.passes import PassError
-from twinform.view import ViewError, standalone_page
+from twinform.view import NotDrawn, StandaloneView, ViewError, standalone_view
 
-View = Callable[[Document, Document | None, Comparison | None, SearchPath], str]
+View = Callable[[Document, Document | None, Comparison | None, SearchPath], StandaloneView]
 """Makes the page of the 3D view."""
+
+
+_NO_VIEW = StandaloneView("")
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +83,7 @@ class Report:
     without_comparison: str = ""
     converted: Converted | None = None
     view: str = field(default="", repr=False)
+    not_drawn: tuple[NotDrawn, ...] = ()
     without_view: str = ""
 
     @property
@@ -98,9 +102,11 @@ class Report:
         return all(each.loaded.accepted for each in self.subjects)
 
 
-def make_page(first: Document, second: Document | None, comparison: Comparison | None, search: SearchPath) -> str:
+def make_page(
+    first: Document, second: Document | None, comparison: Comparison | None, search: SearchPath
+) -> StandaloneView:
     """The 3D view, by `twinform.view`."""
-    return standalone_page(first, second, comparison, search=search)
+    return standalone_view(first, second, comparison, search=search)
 
 
 def build_report(
@@ -135,8 +141,8 @@ def build_report(
                 raise
             problem = str(error)
     converted = _converted(first, one, load_options, model)
-    page, reason = _view(one, two, comparison, load_options.search, view)
-    return Report(one, two, comparison, problem, converted, page, reason)
+    made, reason = _view(one, two, comparison, load_options.search, view)
+    return Report(one, two, comparison, problem, converted, made.page, made.not_drawn, reason)
 
 
 def _subject(source: Input, name: str, load_options: LoadOptions, *, meshes: bool) -> Subject:
@@ -168,13 +174,13 @@ def _converted(source: Input, subject: Subject, load_options: LoadOptions, model
 
 def _view(
     one: Subject, two: Subject | None, comparison: Comparison | None, search: SearchPath, view: View | None
-) -> tuple[str, str]:
+) -> tuple[StandaloneView, str]:
     if view is None:
-        return "", "it was not asked for"
+        return _NO_VIEW, "it was not asked for"
     if one.document is None or not one.loaded.accepted:
-        return "", "the file has errors"
+        return _NO_VIEW, "the file has errors"
     other = two.document if two and two.loaded.accepted else None
     try:
         return view(one.document, other, comparison, search), ""
     except (ViewError, PassError) as error:
-        return "", str(error)
+        return _NO_VIEW, str(error)

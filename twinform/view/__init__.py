@@ -1,16 +1,19 @@
 """The 3D view of robots in a browser, on viser: `twinform view`, and pages that open without a server."""
 
 from twinform.view.errors import PortTakenError, ViewerMissingError, ViewError
-from twinform.view.pages import new_viewer, standalone_page
+from twinform.view.pages import NotDrawn, StandaloneView, new_viewer, standalone_page, standalone_view
 from twinform.view.reading import read_subject
 from twinform.view.subject import Subject
 
 __all__ = [
+    "NotDrawn",
     "PortTakenError",
+    "StandaloneView",
     "Subject",
     "ViewError",
     "ViewerMissingError",
     "new_viewer",
     "read_subject",
     "standalone_page",
+    "standalone_view",
 ]

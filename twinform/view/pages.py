@@ -1,9 +1,11 @@
 """Pages with a 3D view that open without a server and ask for nothing: for reports and notebooks."""
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from twinform.compiler.compare.comparison import Comparison
+from twinform.compiler.input.options import unexpanded_name
 from twinform.compiler.scene import build_scene
 from twinform.compiler.search.uris import SearchPath
 from twinform.ir import Document
@@ -12,6 +14,23 @@ from twinform.view.subject import Subject
 
 if TYPE_CHECKING:
     from twinform.view.viewer import Viewer
+
+
+class NotDrawn(NamedTuple):
+    """A shape for which a box of wire stands, and why."""
+
+    link: str
+    role: str
+    name: str
+    problem: str
+
+
+@dataclass(frozen=True, slots=True)
+class StandaloneView:
+    """A page with a 3D view, and what is not drawn in it."""
+
+    page: str
+    not_drawn: tuple[NotDrawn, ...] = ()
 
 
 def new_viewer(port: int = 0) -> "Viewer":
@@ -46,15 +65,33 @@ def standalone_page(
     Raises:
         ViewerMissingError: the libraries are not installed.
     """
+    return standalone_view(first, second, comparison, dark=dark, search=search).page
+
+
+def standalone_view(
+    first: Document,
+    second: Document | None = None,
+    comparison: Comparison | None = None,
+    *,
+    dark: bool = False,
+    search: SearchPath | None = None,
+) -> StandaloneView:
+    """The same page, with what is not drawn in it.
+
+    Raises:
+        ViewerMissingError: the libraries are not installed.
+    """
     viewer = new_viewer()
     try:
         folders = search or SearchPath.of()
         viewer.show([_subject(each, folders) for each in (first, second) if each is not None], comparison)
-        return viewer.page(dark=dark)
+        found = (problem for figure in viewer.figures for problem in figure.problems())
+        not_drawn = tuple(NotDrawn(link, shape.role, shape.name, problem) for link, shape, problem in found)
+        return StandaloneView(viewer.page(dark=dark), not_drawn)
     finally:
         viewer.stop()
 
 
 def _subject(document: Document, search: SearchPath) -> Subject:
-    file = document.location.file
+    file = unexpanded_name(document.location.file)
     return Subject(document, build_scene(document), file if file and Path(file).is_file() else "", search)

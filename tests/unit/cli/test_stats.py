@@ -221,3 +221,10 @@ def test_the_cost_of_sensors_comes_with_what_to_do(run: Run, tmp_path: Path) -> 
 def test_a_model_that_costs_little_needs_no_advice(run: Run, tmp_path: Path) -> None:
     (tmp_path / "r.urdf").write_text('<robot name="r"><link name="base"/></robot>')
     assert "cheaper" not in run("stats", tmp_path / "r.urdf").output
+
+
+def test_a_mimic_of_a_fixed_joint_takes_nothing_away(run: Run) -> None:
+    joint = '<joint name="{0}" type="{1}"><parent link="a"/><child link="{0}_link"/>{2}</joint>'
+    joints = joint.format("turn", "continuous", "") + joint.format("rigid", "fixed", '<mimic joint="turn"/>')
+    links = "".join(f'<link name="{name}"/>' for name in ("a", "turn_link", "rigid_link"))
+    assert stats(run, "-", text=f'<robot name="r">{links}{joints}</robot>')["models"][0]["dof"] == 1

@@ -4,6 +4,7 @@ from pathlib import Path
 from xml.sax.saxutils import quoteattr
 
 from twinform.ir import Document
+from twinform.view import StandaloneView
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 PAGE = (
@@ -13,12 +14,12 @@ PAGE = (
 EVIL = '<script>alert(1)</script>\'"onclick="alert(2)</style>'
 
 
-def stand_in(*_: object) -> str:
+def stand_in(*_: object) -> StandaloneView:
     """Instead of the page of the view."""
-    return PAGE
+    return StandaloneView(PAGE)
 
 
-def no_page(first: Document, *_: object) -> str:
+def no_page(first: Document, *_: object) -> StandaloneView:
     """Instead of the page of the view, where one must not be made."""
     raise AssertionError(first.format)
 

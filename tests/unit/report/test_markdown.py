@@ -57,7 +57,7 @@ def test_the_verdict_comes_first_and_losses_are_listed() -> None:
     lines = markdown(build_report(EXAMPLES / "rover.urdf", EXAMPLES / "arm.urdf", view=None)).splitlines()
     assert lines[0] == "## rover and arm"
     assert "* different robots: 55 differences, 1 note" in lines
-    assert "* in SDF: 478 expressed, 40 carried, 0 approximated, 0 dropped" in lines
+    assert "* in SDF: 478 expressed, 40 carried, 1 approximated, 0 dropped" in lines
     assert "<details><summary>Differences: 55</summary>" in lines
     assert "```mermaid" in lines
     assert "rover: 9 links, 8 joints, 4 degrees of freedom, 10.44 kg" in lines

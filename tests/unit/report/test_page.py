@@ -16,9 +16,9 @@ from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Fate
 from twinform.ir import Document
 from twinform.report import build_report, html
-from twinform.view import ViewerMissingError
+from twinform.view import NotDrawn, StandaloneView, ViewerMissingError
 
-from .models import EVIL, EXAMPLES, WRONG, hostile, no_page, stand_in
+from .models import EVIL, EXAMPLES, PAGE, WRONG, hostile, no_page, stand_in
 
 
 class _Page(HTMLParser):
@@ -124,7 +124,7 @@ def test_a_world_says_why_no_urdf_can_be_made_of_it() -> None:
 
 
 def test_without_the_library_the_report_says_what_to_install() -> None:
-    def missing(*_: object) -> str:
+    def missing(*_: object) -> StandaloneView:
         raise ViewerMissingError("viser")
 
     report = build_report(EXAMPLES / "rover.urdf", view=missing)
@@ -183,9 +183,9 @@ def test_documents_in_memory_have_a_report() -> None:
 def test_the_view_looks_for_meshes_in_the_folders_of_the_call(tmp_path: Path) -> None:
     seen: list[object] = []
 
-    def look(_: Document, __: Document | None, ___: Comparison | None, search: SearchPath) -> str:
+    def look(_: Document, __: Document | None, ___: Comparison | None, search: SearchPath) -> StandaloneView:
         seen.append(search)
-        return "<html></html>"
+        return StandaloneView("<html></html>")
 
     options = LoadOptions(search=SearchPath.of([tmp_path]))
     build_report(EXAMPLES / "gripper.urdf", None, options, view=look)
@@ -219,7 +219,7 @@ def test_numbers_are_those_of_stats() -> None:
 def test_the_view_gets_what_differs():
     seen: list[object] = []
 
-    def page(first: Document, second: Document | None, comparison: Comparison | None, _: SearchPath) -> str:
+    def page(first: Document, second: Document | None, comparison: Comparison | None, _: SearchPath) -> StandaloneView:
         seen.extend((first.models[0].name, second and second.models[0].name, comparison and comparison.same))
         return stand_in()
 
@@ -246,12 +246,27 @@ def test_findings_of_two_files_have_anchors_of_their_own() -> None:
     assert len(anchors) == len(set(anchors))
 
 
-def test_boxes_for_meshes_that_are_not_there_are_explained(tmp_path: Path) -> None:
-    robot = '<robot name="r"><link name="l"><visual><geometry><mesh filename="{}"/></geometry></visual></link></robot>'
-    page = _page(robot.format("gone.stl").encode())
-    assert "Wire boxes stand for 1 mesh file that could not be read: why." in page.text
-    assert "#meshes" in {found.get("href") for found in page.all("a")}
+def test_shapes_that_are_not_drawn_are_listed_with_the_reason() -> None:
+    missing = NotDrawn("hand", "visual", "palm", "there is no 'gone.stl'")
+
+    def view(*_: object) -> StandaloneView:
+        return StandaloneView(PAGE, (missing,))
+
+    page = _Page(html(build_report(EXAMPLES / "arm.urdf", view=view)))
+    assert "Wire boxes stand for 1 shape that could not be drawn:" in page.text
+    assert "visual palm" in page.text
+    assert "there is no 'gone.stl'" in page.text
+    assert "Wire boxes" not in _page(EXAMPLES / "arm.urdf").text
+
+
+@pytest.mark.parametrize("name", ["robot.urdf", "robot.urdf.xacro"])
+def test_meshes_are_found_from_the_file_or_what_xacro_makes_of_it(name: str, tmp_path: Path) -> None:
+    pytest.importorskip("viser")
+    mesh = '<visual name="{0}"><geometry><mesh filename="{0}.stl"/></geometry></visual>'
     facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet"
     (tmp_path / "here.stl").write_text(f"solid a\n{facet}\nendsolid a\n")
-    (tmp_path / "robot.urdf").write_text(robot.format("here.stl"))
-    assert "Wire boxes" not in _page(tmp_path / "robot.urdf").text
+    (tmp_path / name).write_text(
+        f'<robot name="r"><link name="l">{mesh.format("here")}{mesh.format("gone")}</link></robot>'
+    )
+    report = build_report(tmp_path / name)
+    assert [each.name for each in report.not_drawn] == ["gone"]

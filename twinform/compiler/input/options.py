@@ -106,6 +106,11 @@ def expanded_name(file: str) -> str:
     return f"{file} (expanded)"
 
 
+def unexpanded_name(name: str) -> str:
+    """The file that a text with such a name is of: the xacro file that expanded to it, or itself."""
+    return name.removesuffix(expanded_name(""))
+
+
 def parts_of(tree: XmlElement) -> int:
     """How many elements and attributes a tree has."""
     return sum(1 + len(element.keys()) for element in tree.iter())

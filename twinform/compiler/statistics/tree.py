@@ -33,9 +33,9 @@ def _with_scopes(model: Model, scope: str) -> Iterator[tuple[str, Model]]:
 
 
 def freedom(joint: Joint) -> int:
-    """In how many ways a joint moves by itself: an axis that follows another joint does not."""
+    """In how many ways a joint moves by itself: an axis that follows another joint does not, nor a fixed one."""
     followed = sum(axis is not None and axis.mimic is not None for axis in (joint.axis, joint.axis2))
-    return FREEDOMS[joint.type] - followed
+    return max(0, FREEDOMS[joint.type] - followed)
 
 
 def shape(model: Model) -> Shape:

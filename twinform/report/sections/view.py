@@ -3,7 +3,7 @@
 from twinform.report.content import Report
 from twinform.report.frame import framed
 from twinform.report.markup import Markup, element, join
-from twinform.report.parts import count
+from twinform.report.parts import count, table
 
 
 def view(report: Report) -> Markup | None:
@@ -23,12 +23,14 @@ def view(report: Report) -> Markup | None:
 
 
 def _boxes(report: Report) -> Markup | None:
-    """That boxes stand for meshes, which would else be taken for the robot."""
-    missing = sum(bool(each.problem and each.visuals) for each in report.first.meshes)
+    """What is not drawn and why, since boxes would else be taken for the robot."""
+    missing = report.not_drawn
     if not missing:
         return None
-    words = f"Wire boxes stand for {count(missing, 'mesh file')} that could not be read: "
-    return element("p", words, element("a", "why", href="#meshes"), ".", class_="warning")
+    words = f"Wire boxes stand for {count(len(missing), 'shape')} that could not be drawn:"
+    rows = ((each.link, f"{each.role} {each.name}".rstrip(), each.problem) for each in missing)
+    listed = table("Shapes that are not drawn", ("Link", "Shape", "Reason"), rows)
+    return join((element("p", words, class_="warning"), listed))
 
 
 def _words(report: Report) -> Markup:
