@@ -41,7 +41,7 @@ def joint_pose_attributes(joint: Joint) -> dict[str, str | None]:
     attributes = pose_attributes(joint.pose)
     ends = find_annotation(joint, ENDS)
     if ends is not None and attributes.get("relative_to") == ends.get("child"):
-        del attributes["relative_to"]  # which goes without saying
+        attributes.pop("relative_to", None)  # which goes without saying
     return attributes
 
 
