@@ -36,7 +36,7 @@ def measure(sample: Sample) -> Findings:
     files = [file for file in sample.models(Kind.SDF) if is_good(file)]
     found, failures = sample.lists(_judged, files, seconds=_SECONDS)
     outcomes = sorted((one for one in found if one.parts or one.found), key=lambda one: one.name)
-    reasons = {one.name: KNOWN.why("known", one.name) for one in outcomes if one.verdict in _FAULTS}
+    reasons = {one.name: KNOWN.why("known", one.name, cause=one.cause) for one in outcomes if one.verdict in _FAULTS}
     bad = [one for one in outcomes if one.verdict in _FAULTS and not reasons[one.name]]
     faults = [*failures, *(f"{one.name}: {one.verdict}: {one.cause}" for one in bad)]
     sections = list(_sections(outcomes, reasons))

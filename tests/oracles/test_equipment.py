@@ -75,7 +75,7 @@ def test_gazebo_finds_what_the_case_has(path: Path) -> None:
 def test_gazebo_finds_what_a_model_of_the_corpus_has(corpus: Path, chunk: str) -> None:
     assert corpus.is_dir()
     found = [one for file in _SDF[chunk] if is_good(file) for one in judge(file) if one.verdict is Verdict.DIFFERENT]
-    assert [f"{one.name}: {one.cause}" for one in found if not KNOWN.why("known", one.name)] == []
+    assert [f"{one.name}: {one.cause}" for one in found if not KNOWN.why("known", one.name, cause=one.cause)] == []
 
 
 def test_gazebo_finds_the_values_of_links_that_it_lumps(tmp_path: Path) -> None:
