@@ -1,10 +1,11 @@
-"""A changed value anywhere is a difference or a note, or is in the list of what is not compared."""
+"""A changed value is a difference or a note, or in the list of what is not compared; another spelling is nothing."""
 
 from pathlib import Path
 
 import pytest
 
 from tests.profile import DEEP
+from tests.respellings import KINDS, respellings
 from tests.value_mutants import MISSED, mutants
 from twinform.compiler.compare.not_compared import NOT_COMPARED
 
@@ -17,6 +18,11 @@ _EACH = 4
 @pytest.mark.parametrize("path", _FILES[::_EVERY], ids=lambda path: path.relative_to(_CASES).as_posix())
 def test_a_changed_value_is_found_or_documented(path: Path):
     assert [each.name for each in mutants(path, _EACH, 1) if each.verdict == MISSED] == []
+
+
+@pytest.mark.parametrize("path", _FILES[1::_EVERY], ids=lambda path: path.relative_to(_CASES).as_posix())
+def test_another_spelling_is_not_found(path: Path):
+    assert [each.name for each in respellings(path, len(KINDS), 1) if each.found] == []
 
 
 def test_the_places_that_are_not_compared_are_told_apart():

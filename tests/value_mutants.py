@@ -1,7 +1,7 @@
 """Changes of one value in a file, each to another one that is as good: what a comparison has to notice."""
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
@@ -23,6 +23,8 @@ from twinform.schemas import Fact, Version, XmlElement, rows_by_name, table
 _FORMATS = {"robot": "urdf", "sdf": "sdf"}
 _NOT_VALUES = frozenset({("sdf", "version"), ("robot", "version")})
 """Attributes that say how a file is written."""
+_ROUNDING = 1e-9
+"""Less than this is no more than what rounding leaves."""
 _SHARES = frozenset({"color", "color4"})
 _SWITCHES = {"true": "false", "false": "true", "1": "0", "0": "1"}
 
@@ -61,25 +63,44 @@ class Spot:
 
 def spots(root: XmlElement) -> list[Spot]:
     """Every value in the tree of a file that `check` has read."""
+    return [spot for each in described(root) for spot in _spots(each)]
+
+
+@dataclass(frozen=True, slots=True)
+class Described:
+    """An element with what the tables say of it: its own fact, and the rows of its attributes and children."""
+
+    element: XmlElement
+    fact: Fact | None
+    rows: Mapping[str, Fact]
+
+
+def described(root: XmlElement) -> Iterator[Described]:
+    """Every element of a file, the free content of plugins too."""
     format = _FORMATS[str(root.tag)]
     version = declared_version(root, format, DiagnosticSink())
     facts = table(format)
-    return list(_spots(root, facts.definitions[facts.root], format, version))
+    return _described(root, facts.definitions[facts.root], format, version)
 
 
-def _spots(element: XmlElement, row: Fact | None, format: str, version: Version) -> Iterator[Spot]:
+def _described(element: XmlElement, row: Fact | None, format: str, version: Version) -> Iterator[Described]:
     fact = table(format).resolve(row) if row else None
     rows = rows_by_name(fact.rows, version) if fact else {}
     if fact is not None and fact.name == "gazebo":
         format, version, rows = "sdf", table("sdf").newest, rows | extension_rows()
-    for name in element.attrib:
-        if (element.tag, name) not in _NOT_VALUES:
-            yield Spot(element, str(name), rows.get(f"@{name}"))
-    if not len(element) and (element.text or "").strip():
-        yield Spot(element, "", fact)
+    yield Described(element, fact, rows)
     for child in element:
         if isinstance(child.tag, str):
-            yield from _spots(child, rows.get(child.tag), format, version)
+            yield from _described(child, rows.get(child.tag), format, version)
+
+
+def _spots(each: Described) -> Iterator[Spot]:
+    element = each.element
+    for name in element.attrib:
+        if (element.tag, name) not in _NOT_VALUES:
+            yield Spot(element, str(name), each.rows.get(f"@{name}"))
+    if not len(element) and (element.text or "").strip():
+        yield Spot(element, "", each.fact)
 
 
 def others(spot: Spot, random: Random) -> Iterator[str]:
@@ -89,9 +110,9 @@ def others(spot: Spot, random: Random) -> Iterator[str]:
         yield from (each for each in row.enum if each != spot.value.strip())
     if len(words) == 1 and words[0] in _SWITCHES and (row is None or row.type == "bool"):
         yield _SWITCHES[words[0]]
-    elif words and all(map(_is_number, words)) and spot.is_direction:
+    elif words and all(map(is_number, words)) and spot.is_direction:
         yield from ("0 0 1", "0 1 0") if words[0] != "0" else ("1 0 0", "0.6 0 0.8")
-    elif words and all(map(_is_number, words)):
+    elif words and all(map(is_number, words)):
         place = random.randrange(len(words))
         for other in _other_numbers(float(words[place]), share=row is not None and row.type in _SHARES):
             yield " ".join([*words[:place], other, *words[place + 1 :]])
@@ -104,12 +125,15 @@ def _other_numbers(number: float, *, share: bool) -> Iterator[str]:
         yield f"{number - 0.25 if number >= 0.5 else number + 0.25:.9g}"
     if abs(number) >= UNLIMITED:
         yield "7"
+    if 0 < abs(number) < _ROUNDING:
+        yield from ("0.1", "-0.1")
     if number.is_integer() and abs(number) < 1e6:
         yield from (f"{number + step:.0f}" for step in (2, 1, -1))
     yield from (f"{number * 1.1 or 0.1:.9g}", f"{number * 0.9 or -0.1:.9g}", f"{number + 0.1:.9g}")
 
 
-def _is_number(word: str) -> bool:
+def is_number(word: str) -> bool:
+    """Whether a word is a number, as Python reads it."""
     try:
         float(word)
     except ValueError:
@@ -147,18 +171,20 @@ class Mutant:
 
 
 MISSED = "missed"
+_TRIES = 4
+"""Places for each change that is wanted: readers refuse some changes of all kinds, such as of names."""
 
 
 def mutants(path: Path, size: int, seed: int, paths: Iterable[Path] = ()) -> Iterator[Mutant]:
     """So many values of a file changed, one at a time, each at another kind of place, and compared with the file."""
-    root = tree_of(path)
+    root = tree_of(path, paths)
     if root is None:
         return
     random, kinds = Random(f"{path.name}{seed}"), defaultdict[str, list[Spot]](list)
     for spot in spots(root):
         kinds[spot.path].append(spot)
     tried = (_tried(path, root, random.choice(kinds[kind]), random, paths) for kind in shuffled(sorted(kinds), random))
-    yield from islice((each for each in tried if each is not None), size)
+    yield from islice((each for each in islice(tried, size * _TRIES) if each is not None), size)
 
 
 def _tried(path: Path, root: XmlElement, spot: Spot, random: Random, paths: Iterable[Path]) -> Mutant | None:
@@ -182,10 +208,15 @@ def shuffled(items: Sequence[str], random: Random) -> list[str]:
     return random.sample(items, len(items))
 
 
-def tree_of(path: Path) -> XmlElement | None:
-    """The tree of a file that has no error, as it is after repairs."""
-    checked = read(path, LoadOptions())
-    return checked.tree if checked.accepted and checked.tree is not None else None
+def tree_of(path: Path, paths: Iterable[Path]) -> XmlElement | None:
+    """The tree of a file that can be compared, with all that it includes, as it is after repairs."""
+    try:
+        tree = read(path, LoadOptions()).tree
+        if tree is not None:
+            diff(text_of(tree), text_of(tree), paths=paths)
+    except CompileError:
+        return None
+    return tree
 
 
 def text_of(root: XmlElement) -> bytes:

@@ -53,6 +53,23 @@ def test_what_is_within_the_tolerance_is_the_same(run: Run, heavier: Path):
     assert run("diff", "--tolerance", "0.3", _ARM, heavier).exit_code == 0
 
 
+_CARRIED = Path(__file__).parents[2] / "cases/diff/carried_closed_loop"
+
+
+def test_what_others_skip_counts_unless_the_option_or_the_project_says_no(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.chdir(tmp_path)
+    files = _CARRIED / "a.sdf", _CARRIED / "b.urdf"
+    assert run("diff", *files).stderr == "different robots: 0 differences, 1 carried, 0 notes\n"
+    assert run("diff", *files, "--carriers").exit_code == 0
+    (tmp_path / "twinform.toml").write_text("carriers = true\n")  # which is about conversions
+    assert run("diff", *files).exit_code == 1
+    (tmp_path / "twinform.toml").write_text("read-carriers = true\n")
+    assert run("diff", *files).exit_code == 0
+    assert run("diff", *files, "--no-carriers").exit_code == 1
+
+
 def test_errors_of_both_files_are_reported_on_stderr(run: Run, folder: Path):
     done = run("diff", folder / "wrong.urdf", folder / "broken.urdf")
     assert done.exit_code == 2

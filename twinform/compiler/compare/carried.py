@@ -10,6 +10,7 @@ from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.schemas import Fact, XmlElement, table
 
 _CARRIER = {name: f"{{{NAMESPACE}}}{name}" for name in ("sdf", "urdf", "version")}
+CARRIER_OF_URDF = _CARRIER["urdf"]
 _OF_THE_FILE = frozenset({"pose", "version"})
 """How the other file spelled a value, which is not the value."""
 
@@ -64,7 +65,7 @@ def urdf_pieces(element: XmlElement) -> Iterator[tuple[str, XmlElement]]:
         if _is_in_carrier(carrier):
             continue
         at = "/".join(filter(None, (*_steps(element, carrier), carrier.get("at"))))
-        if carrier.get("attribute") is not None:
+        if carrier.get("attribute") is not None or carrier.get("text") is not None:
             yield at, carrier
         yield from ((at, child) for child in carrier if isinstance(child.tag, str))
 

@@ -79,9 +79,9 @@ class _Comparer:
 
     def _placement(self) -> None:
         """Where the model stands in the world, as far as its links kept their places in the model."""
-        roots = [name for name, base in self.alignment.bases.items() if name != WORLD and base == Base()]
+        bases = [base for name, base in self.alignment.bases.items() if name != WORLD]
         away = self.terms.worst(PoseValue(self.a.world.inverse()), PoseValue(self.b.world.inverse()))
-        if not roots or not away:
+        if not away or (bases and Base() not in bases):
             return
         counts = self.several or _stands(self.a) or _stands(self.b)
         severity = Severity.DIFFERENCE if counts else Severity.NOTE
@@ -109,6 +109,7 @@ class _Comparer:
         self.found.values(subject, "inertial/mass", Numbers((one.mass,), "kg"), Numbers((other.mass,), "kg"), places)
         if one.mass or other.mass:
             self.found.values(subject, "inertial/center", Point(one.center), Point(other.center), places, base)
+        if any((*one.inertia, *other.inertia)):  # also of what weighs nothing
             self.found.values(subject, "inertial/inertia", Tensor(one.inertia), Tensor(other.inertia), places, base)
 
     def _joint(self, a: JointView, b: JointView) -> None:

@@ -63,9 +63,9 @@ def _read(path: str, leaf: Leaf, type: str) -> Leaf:
 
 
 def _number(key: str, value: Value | None, unit: str) -> Value | None:
-    if not isinstance(value, Numbers):
+    if not isinstance(value, Numbers) or len(value.values) != 1:
         return value
-    (number,) = value.values[:1]
+    (number,) = value.values
     if key in _ENDS and abs(number) >= UNLIMITED:
         number = math.copysign(math.inf, number)
     if key in _STRENGTHS and (number < 0 or number >= UNLIMITED):

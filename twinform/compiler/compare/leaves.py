@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from twinform.compiler.compare.robot import Leaf
-from twinform.compiler.compare.values import Numbers, PoseValue, Text, Value, typed_value
+from twinform.compiler.compare.values import Flag, Numbers, PoseValue, Text, Value, typed_value
 from twinform.diagnostics import Location
 from twinform.ir import Pose
 from twinform.ir.transform import Transform
@@ -21,6 +21,7 @@ _MEANINGFUL_WHEN_EMPTY = frozenset({"geometry", "material", "mimic"})
 """Containers that mean something when they are empty; which shape is in a geometry is a value of it."""
 _WITHOUT_MEANING = frozenset({"frame"})
 """Elements of older versions that no reader uses."""
+_TRUTHS = frozenset({"true", "false"})
 _POSES = frozenset({"pose", "inertial_pose"})
 THERE = Text("there")
 """The value that states that a thing is there at all."""
@@ -43,6 +44,8 @@ class Walk:
     ) -> None:
         """Take in an element whose rows are those of `fact`; poses in it are relative to `holder`."""
         rows = _rows(fact)
+        if text := (element.text or "").strip():  # which the table has no place for
+            self._put(f"{path}text()", text_value(" ".join(text.split())), None, carried=carried)
         here = self._pose(element, rows, holder, path, carried=carried)
         self._attributes(element, rows, path, carried=carried)
         for key, child in _keyed(element, rows):
@@ -172,7 +175,9 @@ def _default(row: Fact | None) -> Value | None:
 
 
 def _guess(text: str) -> Value:
-    """Numbers where all pieces are, else the text with single blanks."""
+    """A truth, numbers where all pieces are, else the text with single blanks."""
+    if text.strip() in _TRUTHS:
+        return Flag(text.strip() == "true")
     try:
         numbers = tuple(map(float, text.split()))
     except ValueError:

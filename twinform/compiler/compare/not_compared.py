@@ -26,15 +26,33 @@ class NotCompared:
 NOT_COMPARED = (
     NotCompared("/robot/@version | /sdf/@version", "the version of the format", "It says how the file is written."),
     NotCompared(
-        f"//{PREFIX}:*[not(self::{PREFIX}:sdf or self::{PREFIX}:urdf or self::{PREFIX}:version)]",
-        "annotations of conversions",
-        "They say how the other file was written. What a carrier holds is compared.",
+        f"//{PREFIX}:*",
+        "carriers and annotations as such",
+        "What one of them means for the part around it is compared. Without effect, or where the file contradicts it,"
+        " it means nothing.",
     ),
     NotCompared(
-        "//joint[@type='fixed' or @type='floating']/*[self::axis or self::limit or self::dynamics or self::mimic"
+        "//joint[@type='fixed' or @type='floating' or @type='spherical']"
+        "/*[self::axis or self::limit or self::dynamics or self::mimic"
         " or self::safety_controller or self::calibration] | //joint[@type='ball']/axis",
         "the axis of a joint that has none",
         "A fixed, floating or ball joint has no axis, and no reader uses what is said of it.",
+    ),
+    NotCompared(
+        "/robot/joint[@type='planar']/*[self::limit or self::dynamics or self::mimic]",
+        "limits of a planar joint",
+        "It has three axes, and no reader says which of them a limit is about.",
+    ),
+    NotCompared(
+        "/robot/joint/limit[preceding-sibling::limit] | /robot/joint/dynamics[preceding-sibling::dynamics]"
+        " | /robot/joint/axis[preceding-sibling::axis] | /robot/joint/mimic[preceding-sibling::mimic]",
+        "what stands a second time in a joint",
+        "Readers of URDF take the first.",
+    ),
+    NotCompared(
+        "/robot/joint/mimic[not(@joint = //joint/@name) or @joint = //joint[@type = 'fixed']/@name]",
+        "a mimic of what does not move",
+        "No joint of that name moves, so readers have nothing to follow.",
     ),
     NotCompared(
         "/robot/joint[@type='continuous']/limit/@*[name()='lower' or name()='upper']"
@@ -57,6 +75,11 @@ NOT_COMPARED = (
         "//inertial[@auto='true' or @auto='1']/*[self::mass or self::inertia or self::pose]",
         "mass and inertia of a link whose inertia is automatic",
         "Readers compute them from the shapes.",
+    ),
+    NotCompared(
+        "/robot/link/inertial[mass/@value = 0]/*[self::inertia or self::origin]",
+        "center and inertia of a link without mass",
+        "On a fixed joint such a link is a frame.",
     ),
     NotCompared(
         "/robot/material | //visual/material/@name",

@@ -6,7 +6,7 @@ from functools import cache
 
 from lxml import etree
 
-from twinform.compiler.compare.carried import definition, unpack_sdf, urdf_pieces
+from twinform.compiler.compare.carried import CARRIER_OF_URDF, definition, unpack_sdf, urdf_pieces
 from twinform.compiler.compare.leaves import CARRIED, Resolve, Walk, numbered
 from twinform.compiler.compare.robot import Leaf, Leaves, Part
 from twinform.compiler.compare.values import Text
@@ -52,6 +52,8 @@ _RESOLVED: Mapping[type[Node], frozenset[str]] = {
 _NOTHING = Element(name="nothing")
 _NOT_OF_THE_ROBOT = frozenset({"material", "link", "inertial", "mass", "origin", "name", "type"})
 """What URDF's carriers hold that is about how the file is written, or that the model has in SDF syntax."""
+_IDLE = "gazebo"
+"""Of `<gazebo>`, carriers hold the tags that set nothing."""
 _NEW_NAMES = {**RENAMED_ELEMENTS, "gpu_ray": "gpu_lidar"}
 """Types of sensors, and elements with their parameters, that have two names; readers take one for the other."""
 _IGNORED_LIMITS = frozenset({"limit/@lower", "limit/@upper"})
@@ -60,10 +62,16 @@ _IGNORED_LIMITS = frozenset({"limit/@lower", "limit/@upper"})
 
 @dataclass(frozen=True, slots=True)
 class PartReader:
-    """How the nodes of one model are read: which frames there are, and where in which file a line was written."""
+    """How the nodes of one model are read: which frames there are, and in what format and where a line was written."""
 
     resolve: Resolve
     origins: Mapping[str, Origins] = field(default_factory=dict[str, Origins])
+    format: Format = Format.SDF
+
+    @property
+    def _not_of_the_robot(self) -> frozenset[str]:
+        """Tags of `<gazebo>` without effect count in the file that has them, and mean nothing in a carrier."""
+        return _NOT_OF_THE_ROBOT if self.format is Format.URDF else _NOT_OF_THE_ROBOT | {_IDLE}
 
     def place(self, node: Node | None) -> Location:
         """Where a node was written."""
@@ -144,13 +152,15 @@ class PartReader:
         known = _names_of_joints(node) if pieces and isinstance(node, Model) else frozenset[str | None]()
         for at, piece in pieces:
             name = piece.get("attribute")
-            if name is not None:
+            if piece.tag == CARRIER_OF_URDF and name is None:
+                leaves[f"{at}/text()" if at else "text()"] = Leaf(Text(piece.get("text") or ""), None, where)
+            elif name is not None:
                 walk = Walk(self.resolve, lambda _: where)
                 path = f"{at}/@{name}" if at else f"@{name}"
                 if name not in _NOT_OF_THE_ROBOT and path not in _IGNORED_LIMITS:
                     walk.enter_free(_text_element(piece.get("value") or ""), path)
                 leaves |= walk.found
-            elif str(piece.tag) not in _NOT_OF_THE_ROBOT and not (
+            elif str(piece.tag) not in self._not_of_the_robot and not (
                 isinstance(node, Joint) and _is_idle(at, piece, node)
             ):
                 walk = Walk(self.resolve, lambda _: where)
@@ -160,7 +170,15 @@ class PartReader:
                 walk.enter_free(piece, "" if named else numbered(str(piece.tag), seen))
                 if named:
                     walk.found.pop("@name", None)
-                    parts.append(Part(str(piece.tag), piece.get("name") or "", walk.found, where, only=Format.URDF))
+                    parts.append(
+                        Part(
+                            str(piece.tag),
+                            piece.get("name") or piece.get("reference") or "",
+                            walk.found,
+                            where,
+                            only=Format.URDF,
+                        )
+                    )
                 else:
                     leaves |= walk.found
         floating = find_annotation(node, FLOATING) if isinstance(node, Link) else None

@@ -52,7 +52,7 @@ class _RobotBuilder:
         self.model = model
         self.format = format
         self.graph = FrameGraph(model)
-        self.reader = PartReader(partial(_resolve, self.graph), origins)
+        self.reader = PartReader(partial(_resolve, self.graph), origins, format)
 
     def robot(self, source: Model, shells: Iterable[tuple[Frame, Model]]) -> Robot:
         """All of it."""

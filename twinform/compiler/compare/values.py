@@ -122,6 +122,8 @@ def gaps(a: Value, b: Value) -> Iterator[Delta]:
     if a == b:
         return
     match a, b:
+        case (Flag(), Numbers()) | (Numbers(), Flag()) if _number_of(a) == _number_of(b):
+            return  # free content has no types, and 1 is as good as true
         case Numbers(), Numbers() if len(a.values) == len(b.values):
             yield from _numbers(a, b)
         case PoseValue(), PoseValue():
@@ -134,6 +136,10 @@ def gaps(a: Value, b: Value) -> Iterator[Delta]:
             yield from _tensors(a, b)
         case _:
             yield Delta(math.inf, 1.0, show(a), show(b))
+
+
+def _number_of(value: Flag | Numbers) -> tuple[float, ...]:
+    return (float(value.on),) if isinstance(value, Flag) else value.values
 
 
 def show(value: Value) -> str:

@@ -1,0 +1,1 @@
+"""Does `twinform diff` see every changed value, and no other spelling?"""

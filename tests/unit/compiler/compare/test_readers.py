@@ -1,0 +1,66 @@
+"""What other readers get: the same as in files from which something else has taken the carriers."""
+
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+import twinform
+from twinform import Comparison
+from twinform.compiler.compare import Difference, Severity
+from twinform.compiler.compare.readers import Reader, reconcile
+from twinform.testing.oracles.readers.judging import without_carriers
+
+_CASES = Path(__file__).parents[3] / "cases/convert"
+_RESULTS = sorted(each for each in _CASES.glob("*.expected.*") if b"urn:twinform:1" in each.read_bytes())
+_FOR_GAZEBO = ("link", "joint", "frame", "model")
+
+
+def _source(result: Path) -> Path:
+    name = result.name.partition(".")[0]
+    return _CASES / f"{name}{'.urdf' if result.suffix == '.sdf' else '.sdf'}"
+
+
+def _without_what_others_skip(path: Path, folder: Path) -> bytes:
+    bare = without_carriers(path, folder / path.name)
+    tree = etree.parse(bare)
+    for extension in tree.findall("gazebo"):
+        for body in [each for each in extension if each.tag in _FOR_GAZEBO and not extension.get("reference")]:
+            extension.remove(body)
+            if not len(extension):
+                tree.getroot().remove(extension)
+    return etree.tostring(tree)
+
+
+def _seen(found: Comparison) -> set[tuple[str, str, str]]:
+    return {(each.group, each.name, each.aspect) for each in found.counted if not each.message.endswith("this")}
+
+
+@pytest.mark.parametrize("result", _RESULTS, ids=lambda path: path.name)
+def test_what_others_see_is_what_is_left_without_carriers(result: Path, tmp_path: Path):
+    files = _source(result), result
+    others = twinform.diff(*(_without_what_others_skip(each, tmp_path) for each in files), carriers=True)
+    assert _seen(twinform.diff(*files)) == _seen(others)
+
+
+def _item(aspect: str, severity: Severity = Severity.DIFFERENCE) -> Difference:
+    return Difference(severity=severity, group="link", name="a", aspect=aspect, message=f"{aspect} differs")
+
+
+def test_what_only_some_readers_find_is_carried():
+    found = reconcile([_item("mass"), _item("pose")], [_item("mass"), _item("inertia")], Reader.TWINFORM, ("a", "b"))
+    assert [(each.aspect, str(each.severity), each.reader, each.message) for each in found] == [
+        ("mass", "difference", "", "mass differs"),
+        ("pose", "carried", "twinform", "pose differs: only twinform reads them as the same"),
+        ("inertia", "carried", "twinform", "inertia differs: only twinform reads this"),
+    ]
+
+
+def test_what_gazebo_alone_sees_stays_carried_for_it():
+    before = reconcile([_item("mass")], [], Reader.GAZEBO, ("a", "b"))
+    assert reconcile(before, [], Reader.TWINFORM, ("a", "b")) == before
+
+
+def test_notes_of_the_other_readers_stay():
+    notes = [_item("frame", Severity.NOTE)]
+    assert reconcile(notes, [_item("name", Severity.NOTE)], Reader.TWINFORM, ("a", "b")) == notes
