@@ -16,7 +16,7 @@ import twinform
 from reports.edits.jobs import MOST_BYTES, Job
 from tests.corpus.examine import rules_of
 from twinform.compiler import ConversionRequest, Language, LoadOptions, SearchPath
-from twinform.compiler.compare import compare_files
+from twinform.compiler.compare import ComparisonOptions, compare_files
 from twinform.compiler.in_place import Updated
 from twinform.compiler.into import convert_into
 from twinform.schemas import XmlElement, versions_of
@@ -142,7 +142,13 @@ def _judged(job: Job, kind: str, states: _States) -> Followed:
 def _differences(job: Job, states: _States) -> list[str]:
     """What differs between the edited file and the one that follows it, and would not if that were written anew."""
     options, names = LoadOptions(search=SearchPath.of(job.paths)), (str(job.path), str(job.path))
-    compared = partial(compare_files, load_options=options, names=names, model=_robot(states.made))
+    compared = partial(
+        compare_files,
+        load_options=options,
+        options=ComparisonOptions(carriers=True),
+        names=names,
+        model=_robot(states.made),
+    )
     try:
         found = compared(states.edited, states.after).differences
         pairs = ((states.made, states.own), (states.edited, states.whole.encode())) if found else ()
