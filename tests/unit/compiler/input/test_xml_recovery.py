@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 import pytest
+from lxml import etree
 
 import twinform
 from twinform.compiler import LoadResult
@@ -142,6 +143,7 @@ class Logged(NamedTuple):
     line: int = 1
     column: int = 1
     message: str = " reason \n"
+    level: int = etree.ErrorLevels.FATAL
 
 
 LATE = Logged("ERR_RESERVED_XML_NAME", 1, 6)
