@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Literal
 
 import pytest
 
@@ -34,6 +35,12 @@ def test_an_sdf_model_that_libsdformat_takes_is_read_when_written_again(corpus: 
     assert _errors((file for file in _good(SDF[chunk]) if _is_model_alone(file)), tmp_path) == {}
 
 
+@pytest.mark.parametrize("chunk", SDF)
+def test_urdf_made_from_a_model_that_libsdformat_takes_is_read(corpus: Path, chunk: str, tmp_path: Path):
+    assert corpus.is_dir()
+    assert _errors((file for file in _good(SDF[chunk]) if _is_model_alone(file)), tmp_path, to="urdf") == {}
+
+
 def _is_model_alone(file: CorpusFile) -> bool:
     # what an include names is found from the place of the file, which is not where the result lies
     return file.row["format"] == "sdf" and not file.row["uses_include"]
@@ -43,17 +50,19 @@ def _good(files: tuple[CorpusFile, ...]) -> Iterator[CorpusFile]:
     return (file for file in files if file.row.get("libsdformat12") == "ok" and file.name not in known.LIBSDFORMAT)
 
 
-def _errors(files: Iterator[CorpusFile], folder: Path) -> dict[str, tuple[str, ...]]:
-    outputs = dict(_converted(files, folder))
+def _errors(
+    files: Iterator[CorpusFile], folder: Path, to: Literal["sdf", "urdf"] = "sdf"
+) -> dict[str, tuple[str, ...]]:
+    outputs = dict(_converted(files, folder, to))
     return {outputs[path]: verdict.errors for path, verdict in libsdformat.judge(outputs).items() if not verdict.ok}
 
 
-def _converted(files: Iterator[CorpusFile], folder: Path) -> Iterator[tuple[Path, str]]:
+def _converted(files: Iterator[CorpusFile], folder: Path, to: Literal["sdf", "urdf"]) -> Iterator[tuple[Path, str]]:
     for number, file in enumerate(files):
-        path = folder.resolve() / f"{number}.sdf"
+        path = folder.resolve() / f"{number}.{to}"
         version = SDF_VERSION if file.kind is Kind.URDF else None
         try:
-            path.write_text(twinform.convert(file.path, to="sdf", sdf_version=version).text, encoding="utf-8")
+            path.write_text(twinform.convert(file.path, to=to, sdf_version=version).text, encoding="utf-8")
         except twinform.CompileError:
             continue  # what is refused, and why, is the corpus report's business
         yield path, file.name

@@ -7,8 +7,8 @@ from typing import Any, ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, Severity
 from twinform.diagnostics.rules import structure, to_sdf
-from twinform.ir import Element, Format, GazeboExtension, Joint, Link, Model, Node, Opaque
-from twinform.passes.carriers.annotations import EXTENSION, with_annotation
+from twinform.ir import Element, Format, Frame, GazeboExtension, Joint, Link, Model, Node, Opaque
+from twinform.passes.carriers.annotations import EXTENSION, is_synthesized, with_annotation
 from twinform.passes.carriers.carriers import DANGLING, OVERRULED, Attributes, pack
 from twinform.passes.carriers.material_annotations import with_look
 from twinform.passes.carriers.provenance import came_from
@@ -74,6 +74,7 @@ class _Fold:
         self.annotations = carriers and not came_from(model, Format.SDF)  # SDF does not need them back
         self.links = {link.name for link in model.links}
         self.joints = {joint.name for joint in model.joints}
+        self.floating = {joint.name for joint in model.joints if joint.type == "floating"}
         self.kept: list[Opaque] = []
 
     def run(self) -> Model:
@@ -139,14 +140,19 @@ class _Fold:
 
     def _model(self, model: Model, extensions: list[GazeboExtension]) -> Model:
         sorter = self._sort(extensions, MODEL_TAGS, {**LINK_TAGS, **JOINT_TAGS})
-        links, joints = len(model.links), len(model.joints)
+        links, joints, frames = len(model.links), len(model.joints), len(model.frames)
         model = self._merge(set_model_fields(model, sorter.values), "model", sorter.rest)
         return model.model_copy(
             update={
                 "links": (*model.links[:links], *map(with_mass, model.links[links:])),
                 "joints": (*model.joints[:joints], *map(self._extension, model.joints[joints:])),
+                "frames": (*model.frames[:frames], *filter(self._is_kept, model.frames[frames:])),
             }
         )
+
+    def _is_kept(self, frame: Frame) -> bool:
+        """Whether it is more than what says to libsdformat where a floating joint leaves a link."""
+        return not is_synthesized(frame) or frame.name not in self.floating
 
     def _extension(self, joint: Joint) -> Joint:
         return with_annotation(with_axis(joint), EXTENSION) if self.annotations else with_axis(joint)

@@ -16,7 +16,9 @@ from twinform.passes.legalise.to_urdf.map_geometry import MapGeometry, UrdfVersi
 from twinform.passes.legalise.to_urdf.map_joints import MapJoints
 from twinform.passes.legalise.to_urdf.map_materials import MapMaterials
 from twinform.passes.legalise.to_urdf.map_surfaces import MapSurfaces
+from twinform.passes.legalise.to_urdf.name_joints_apart import NameJointsApart
 from twinform.passes.legalise.to_urdf.name_shapes_for_gazebo import NameShapesForGazebo
+from twinform.passes.legalise.to_urdf.place_free_links import PlaceFreeLinks
 from twinform.passes.legalise.to_urdf.rebase_links import RebaseLinks
 from twinform.passes.legalise.to_urdf.relate_gearboxes import RelateGearboxes
 from twinform.passes.legalise.to_urdf.resolve_joint_ends import ResolveJointEnds
@@ -79,8 +81,10 @@ def to_urdf(
         RestoreMaterials.unchecked(),
         RestoreShapes.unchecked(),
         RestoreNames.unchecked(to=Format.URDF),
+        NameJointsApart.unchecked(carriers=carriers),
         RestoreLumpedNames.unchecked(),
         UnpackUrdf.unchecked(),
         RestoreInertias.unchecked(),
+        PlaceFreeLinks.unchecked(carriers=carriers),
         DropStale.unchecked(to=Format.URDF),
     )
