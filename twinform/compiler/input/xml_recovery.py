@@ -46,7 +46,8 @@ _COLONS = re.compile(
     rb"<!--(?:.*?-->|.*)|<!\[CDATA\[(?:.*?\]\]>|.*)|(?P<start></?[A-Za-z_][\w.-]*)::(?=[A-Za-z_])", re.DOTALL
 )
 """Two colons in a tag; comments and sections are passed over, and those that do not end to the end of the text."""
-_COMMENT = re.compile(rb"<!\[CDATA\[(?:.*?\]\]>|.*)|<!--(?P<content>.*?)-->", re.DOTALL)
+_COMMENT = re.compile(rb"<!\[CDATA\[(?:.*?\]\]>|.*)|<!--(?:(?P<content>.*?)-->|.*)", re.DOTALL)
+"""A section, or a comment with its content; of what does not end, there is one to the end of the text."""
 _MOST_LOGGED = 100
 """How many errors libxml2 lists; it keeps still about those after that, unless they are of a graver level."""
 _MISMATCH = re.compile(r"Opening and ending tag mismatch: (?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)")
