@@ -1,13 +1,13 @@
 """Folding chains of URDF joints back into one multi-axis SDF joint."""
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Axis, Joint, Link, Model
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
-from twinform.passes.carriers.joint_chains import CHAIN, PART, TWO_AXES, chain_type
+from twinform.passes.carriers.joint_chains import CHAIN, PART, TWO_AXES, chain_type, part_of
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.chains import Chain, Neighbors, StaleChainError, find_chain, folded
 
@@ -20,7 +20,8 @@ class FoldJoints(ModelPass):
     Changes: 1. the last joint of a chain has its type, parent and place again, and the axes as the chain has them now;
     2. the other joints and the links between go; 3. what mimics the first joint of two mimics `axis` of the one, what
     mimics the last `axis2`.
-    Never touches: chains that were edited so that they are not such a joint any more; their annotations go.
+    Never touches: chains that were edited so that they are not such a joint any more; their annotations go, and
+    so does the mimic of a slide that has nothing to follow any more.
     Diagnostics: `stale-carrier`, also for parts whose own names get lost.
     """
 
@@ -39,7 +40,10 @@ class FoldJoints(ModelPass):
             gone |= {part.name for part in (*chain.above, *chain.between)}
             if joint.type in TWO_AXES:
                 first[chain.above[0].name] = chain.last.name
-        joints = (made.get(joint.name) or _unmarked(joint) for joint in model.joints if joint.name not in gone)
+        names = {joint.name for joint in model.joints}
+        joints = (
+            made.get(joint.name) or _unmarked(_alone(joint, names)) for joint in model.joints if joint.name not in gone
+        )
         links = (_unmarked(link) for link in model.links if link.name not in gone)
         second = frozenset(first.values())
         followed = tuple(_follow(joint, first, second) for joint in joints)
@@ -79,6 +83,14 @@ def _is_annotated(node: Joint | Link) -> bool:
 def _unmarked(node: AnyPart) -> AnyPart:
     """A part of a chain that stays: it was synthesized, and stands for itself now."""
     return without_annotation(node, CHAIN, PART)
+
+
+def _alone(joint: Joint, names: Container[str]) -> Joint:
+    """The slide of a screw without the mimic that was synthesized for it, where what it mimics is gone."""
+    mimic = joint.axis.mimic if joint.axis and part_of(joint) else None
+    if joint.axis is None or mimic is None or (mimic.joint or "") in names:
+        return joint
+    return joint.model_copy(update={"axis": joint.axis.model_copy(update={"mimic": None})})
 
 
 def _follow(joint: Joint, first: dict[str, str], second: frozenset[str]) -> Joint:
