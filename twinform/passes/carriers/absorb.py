@@ -8,7 +8,7 @@ from pydantic import ValidationError
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Model, Node, Opaque
-from twinform.passes.carriers.definitions import definition_of
+from twinform.passes.carriers.definitions import definition_of, is_repeated
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.schemas import Context, Version, XmlElement, element_xml, reader
 
@@ -68,6 +68,8 @@ def _without_scope(model: Model, prefix: str) -> dict[str, object]:
 
 def _absorb(node: AnyNode, piece: Opaque, condition: VersionCondition, version: Version) -> AnyNode:
     data = _read(piece, definition_of(node) or "", version)
+    if condition.index and is_repeated(piece, node):
+        return node.model_copy(update={"opaque": (*node.opaque, piece)})
     if piece.element is not None and piece.element.name == "pose" and not piece.at:
         node = node.model_copy(update={"pose": None})  # one pose stands for another
     return _merged(node, data, condition.index)

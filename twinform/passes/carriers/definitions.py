@@ -1,5 +1,8 @@
 """The definition in the SDF facts table that applies to the children of a node's element."""
 
+from collections.abc import Mapping
+from functools import cache
+
 from twinform.ir import (
     Collision,
     Document,
@@ -14,6 +17,7 @@ from twinform.ir import (
     Material,
     Model,
     Node,
+    Opaque,
     Plugin,
     Pose,
     Sensor,
@@ -21,6 +25,7 @@ from twinform.ir import (
     Visual,
     World,
 )
+from twinform.schemas import table
 
 _DEFINITIONS: dict[type[Node], str] = {
     Document: "sdf",
@@ -40,3 +45,26 @@ def definition_of(node: Node) -> str | None:
     if kind is not None:
         return None if isinstance(node, Empty) else f"{kind}_shape"
     return _DEFINITIONS.get(type(node))
+
+
+def is_repeated(part: Opaque, node: Node) -> bool:
+    """Whether a part repeats an element that may stand once, of which readers take the first."""
+    element = part.element
+    if element is None or part.at or not (element.children or element.attributes or element.text):
+        return False
+    return element.name in _single(definition_of(node))
+
+
+def has_first(node: Node, name: str) -> bool:
+    """Whether a node has the element that another one of this name repeats."""
+    place = _single(definition_of(node)).get(name)
+    if place:
+        return node.__dict__.get(place) is not None
+    return any(part.element.name == name for part in node.opaque if part.element)
+
+
+@cache
+def _single(definition: str | None) -> Mapping[str, str]:
+    """The children of a definition that may stand once and have a typed form, with the fields that hold them."""
+    rows = table("sdf").definitions[definition].children if definition else ()
+    return {row.name: row.place.partition(".")[0] for row in rows if row.place and not row.repeats}

@@ -254,13 +254,15 @@ class _Fold:
         if again:  # a reader takes the first
             merged = merged.model_copy(update={"opaque": tuple(part for part in merged.opaque if part not in again)})
             conflicts.append("pose")
-        for field in conflicts:
+        for field in dict.fromkeys(conflicts):
             self._again(node, field, content)
         return merged
 
     def _again(self, node: Node, field: str, extensions: list[GazeboExtension]) -> None:
         """Report what is repeated, and carry the elements that repeat it."""
         again = [(extension, each) for extension in extensions for each in extension.content if each.name == field]
+        if again and node.__dict__.get(field) is None:  # of what the node itself does not have, the first one is used
+            again = again[1:]
         if not again:
             # it is deeper inside, beside what was merged
             self._conflict(node, field, "the first one", extensions[0].location)

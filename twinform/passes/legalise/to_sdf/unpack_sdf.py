@@ -21,6 +21,7 @@ from twinform.ir import (
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, is_memory, unpack
+from twinform.passes.carriers.definitions import has_first, is_repeated
 from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.base import ModelPass
@@ -93,10 +94,11 @@ def _is_overruled(carrier: Opaque, node: Node) -> bool:
     Limits of a joint that turns, a whole material, or the first of two things, of which the carrier has the second.
     """
     at = (carrier.element.get("at") or "") if carrier.element else ""
+    named = {piece.element.name for piece in unpack(carrier) if piece.element}
+    if carrier.element and carrier.element.get("index") is not None:
+        again = isinstance(node, Joint) or any(is_repeated(piece, node) for piece in unpack(carrier))
+        return again and not all(has_first(node, name) for name in named)
     if isinstance(node, Joint):
-        named = {piece.element.name for piece in unpack(carrier) if piece.element}
-        if carrier.element and carrier.element.get("index") is not None:
-            return not named <= {part.element.name for part in node.opaque if part.element}
         return at == "axis/limit" and node.type != "continuous" and bool(named & _ENDS)
     return isinstance(node, Visual) and at.startswith("material") and not _has_look(node.material)
 

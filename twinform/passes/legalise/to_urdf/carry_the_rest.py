@@ -7,7 +7,8 @@ from twinform.diagnostics.rules import to_urdf as rules
 from twinform.ir import Document, Format, Joint, Link, Model, Node, replace_fields
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import without_synthesized
-from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, has_ours
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SECOND, has_ours
+from twinform.passes.carriers.definitions import is_repeated
 from twinform.passes.carriers.provenance import came_from, with_provenance, without_provenance
 from twinform.passes.framework.base import Pass
 from twinform.passes.legalise.to_urdf.base import Keeper
@@ -25,8 +26,8 @@ class CarryTheRest(Pass):
     """Carry every part that URDF cannot express, and call the document URDF.
 
     Changes: 1. typed fields and opaque parts that the table of URDF has no row for go into carriers on the nearest
-    element that URDF has; 2. `world` becomes a link where a joint hangs from it; 3. the document is URDF of the version
-    asked for; 1.0, which every reader takes, goes without saying.
+    element that URDF has, where a repeated element is marked as such; 2. `world` becomes a link where a joint hangs
+    from it; 3. the document is URDF of the version asked for; 1.0, which every reader takes, goes without saying.
     Diagnostics: `unsayable-number`; in the ledger `sdf-only`.
     """
 
@@ -109,6 +110,12 @@ class _RemainderCarrier:
         return self.take(joint, "joint", self.fixed_fields if joint.type == "fixed" else self.joint_fields)
 
     def take(self, node: AnyNode, tag: str, known: KnownFields) -> AnyNode:
+        again = [part for part in node.opaque if is_repeated(part, node)]
+        if again:  # they are no rest of what they repeat
+            node = node.model_copy(update={"opaque": tuple(part for part in node.opaque if part not in again)})
+            for part in again:
+                message = f"<{part.name}> occurs more than once"
+                node = self.keeper.keep(node, [part], rules.SDF_ONLY, message, part.location_in(node), about=SECOND)
         kept, pieces, endless = take_remainder(node, tag, known)
         if not (pieces or endless):
             return kept
