@@ -5,6 +5,7 @@ import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from functools import partial
 from pathlib import Path
 from random import Random
 from typing import Literal
@@ -20,12 +21,14 @@ from twinform.testing.edits import Edit, apply_all, draw_edits
 from twinform.testing.edits.judging import Converted, Outcome, Verdict, judge, judge_edits, unedited
 from twinform.testing.edits.mistakes import KIND as MISTAKE
 from twinform.testing.edits.plainly import Plainly
+from twinform.testing.edits.trips import TRIPS, Draw, trips
 
 OUT = files.OUT / "edits"
 MOST_BYTES = 400_000
 """Converted files that are larger are not edited: it would take longer than all others together."""
 SEVERAL = "two or three of these"
 PASS = "pass: "
+TRIP = "trip "
 NO_ROUND_TRIP = "no round trip without an edit"
 _USUAL_BYTES = 60_000
 _PASSES = 2
@@ -98,7 +101,7 @@ class Robot:
     def tried(self, kind: str, verdict: Verdict, what: str) -> Tried:
         """The verdict on an edit or pass."""
         replay = json.dumps([self.job.name, self.robot, self.version, what], ensure_ascii=False)
-        return Tried(Direction.TO_SDF if self.job.is_urdf else Direction.TO_URDF, kind, verdict, replay)
+        return Tried(Direction.TO_SDF if self.formats[0] == "sdf" else Direction.TO_URDF, kind, verdict, replay)
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +109,11 @@ class Model(Robot):
     """A robot on the other side."""
 
     before: Converted
+
+    @property
+    def formats(self) -> tuple[Literal["sdf", "urdf"], Literal["sdf", "urdf"]]:
+        """The same, which turn around with each trip."""
+        return ("sdf", "urdf") if self.before.to == "urdf" else ("urdf", "sdf")
 
 
 def corpus_jobs(seed: int, edits: dict[bool, int]) -> Iterator[Job]:
@@ -139,7 +147,7 @@ def _worked(job: Job, robot: str | None, edits: int, random: Random) -> Done:
         lost = subject.tried(NO_ROUND_TRIP, Verdict(Outcome.SILENT, (model,)), "[]")
         return Done(subject.name, model, tried=(lost,) if model.startswith(NO_ROUND_TRIP) else ())
     count = edits if len(model.before.text) < _USUAL_BYTES else max(1, edits // 4)
-    tried = [*_edits(model, count, random), *_passes(model, random)]
+    tried = [*_edits(model, count, random), *_passes(model, random), *_trips(model, random)]
     differing = tuple(sorted(": ".join(filter(None, key)) for key in model.before.differing))
     return Done(model.name, "", differing, tuple(tried))
 
@@ -168,7 +176,11 @@ def again(model: Model, what: str) -> tuple[bytes, Tried]:
     if what.startswith(PASS):
         pipeline = what.removeprefix(PASS)
         return _passed(model, pipeline.partition("{")[0], pipeline)
-    edits = tuple(Edit.from_text(json.dumps(each)) for each in json.loads(what))
+    if what.startswith(TRIP):
+        made = [tuple(map(_edit, each)) for each in json.loads(what.removeprefix(TRIP))]
+        *_, (_, text, tried) = _traveled(model, [partial(_applied, edits) for edits in made])
+        return text, tried
+    edits = tuple(map(_edit, json.loads(what)))
     return _edited(model, edits, apply_all(edits, model.before.text))
 
 
@@ -185,6 +197,28 @@ def _edited(model: Model, edits: tuple[Edit, ...], text: bytes) -> tuple[bytes, 
     kind = edits[0].kind if len(edits) == 1 else MISTAKE if is_mistake else SEVERAL
     replay = "[" + ", ".join(map(str, edits)) + "]"
     return text, model.tried(kind, verdict, replay)
+
+
+def _trips(model: Model, random: Random) -> Iterator[Tried]:
+    """Trips in a row, with edits before each one."""
+    for here, text, tried in _traveled(model, [partial(draw_edits, random=random)] * TRIPS):
+        yield _kept(here, text, tried, random)
+
+
+def _traveled(model: Model, draws: list[Draw]) -> Iterator[tuple[Model, bytes, Tried]]:
+    steps: list[str] = []
+    for number, trip in enumerate(trips(model.before, draws), start=1):
+        steps.append(f"[{', '.join(map(str, trip.edits))}]")
+        here = replace(model, before=trip.before)
+        yield here, trip.edited, here.tried(f"{TRIP}{number}", trip.verdict, f"{TRIP}[{', '.join(steps)}]")
+
+
+def _edit(found: object) -> Edit:
+    return Edit.from_text(json.dumps(found))
+
+
+def _applied(edits: tuple[Edit, ...], text: bytes) -> tuple[tuple[Edit, ...], bytes]:
+    return edits, apply_all(edits, text)
 
 
 def _passes(model: Model, random: Random) -> Iterator[Tried]:

@@ -29,8 +29,9 @@ Every model of the corpus that is accepted, and models that Hypothesis makes up,
 edited as people edit files, or a built-in pass runs on it; and it is converted on, to the format that it came from. The
 robot of the edited file and that of the result have to be the same, by `twinform diff`: once as the edited file is, and
 once as those read it who do not know the carriers (the differences found so begin with *plainly*). An edit may instead
-be refused, by an error with a line. *Wrong* is everything else, *silent* what is wrong without so much as a warning.
-One in twenty of those that are the same is shown to Drake as well."""
+be refused, by an error with a line. *Trip 1* to *trip 3* are edits in a row, each of what came of the one before, where
+only what differed before the first may differ later. *Wrong* is everything else, *silent* what is wrong without so much
+as a warning. One in twenty of those that are the same is shown to Drake as well."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,11 +1,17 @@
 """What stands in a file is what counts: edits of converted files, on models that Hypothesis makes up."""
 
+from functools import partial
+from random import Random
+
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.profile import examples
 from twinform.testing import Edit, assert_edits_of_a_file_win, strategies
-from twinform.testing.edits import apply_all
+from twinform.testing.edits import apply_all, draw_edits
+from twinform.testing.edits.judging import unedited
+from twinform.testing.edits.trips import TRIPS, trips
 
 _SETTINGS = examples(2)
 _FEW = examples(0.4)
@@ -40,3 +46,10 @@ def test_an_edit_that_is_printed_and_read_is_itself(edited: tuple[bytes, tuple[E
     again = [Edit.from_text(str(edit)) for edit in edits]
     assert again == list(edits)
     assert apply_all(again, text) == apply_all(edits, text)
+
+
+@_FEW
+@given(strategies.edited_files(), st.randoms(use_true_random=False))
+def test_edits_between_trips_win(edited: tuple[bytes, tuple[Edit, ...]], random: Random) -> None:
+    made = list(trips(unedited(edited[0]), [partial(draw_edits, random=random)] * TRIPS))
+    assert made[-1].verdict.differences == (), "\n".join(str(edit) for trip in made for edit in trip.edits)

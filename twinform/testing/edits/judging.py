@@ -125,6 +125,11 @@ def judge_edits(before: Converted, edits: Iterable[Edit], edited: bytes) -> Verd
     return judge(before, edited, must_be_refused=must, plainly=_plainly(every))
 
 
+def edits_carriers(edits: Iterable[Edit]) -> bool:
+    """Whether any of the edits changes what only we read."""
+    return any(edit.kind.startswith("carrier: ") for edit in edits)
+
+
 def _plainly(edits: Iterable[Edit]) -> Plainly:
     kinds = {edit.kind for edit in edits}
     if any(kind.startswith("carrier: ") for kind in kinds - {"carrier: delete one", "carrier: delete all"}):
