@@ -1,1 +1,1 @@
-"""Are sensors and plugins of SDF still there when Gazebo reads the URDF?"""
+"""Does Gazebo find surfaces, materials, sensors, plugins and flags of SDF in our URDF, and of URDF in our SDF?"""

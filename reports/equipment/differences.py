@@ -1,7 +1,7 @@
 """What two robots of libsdformat differ in beside bodies and joints: surfaces, materials, sensors, plugins, flags."""
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +17,7 @@ CUT_OFF = 1e-5
 """The tolerance for poses, in m and as entries of a rotation: libsdformat keeps six digits where it lumps links."""
 _STEEP = 5e-3
 """The tolerance for entries of rotations of shapes: urdfdom turns what points straight up or down by up to this."""
-_FIXED = 4
+_FIXED = 3
 """The number that libsdformat has for a fixed joint."""
 
 
@@ -53,12 +53,10 @@ def differences(before: RobotRow, after: RobotRow) -> Iterator[Difference]:
     yield from _values("model", (), before["values"], after["values"])
     yield from _of_links(before, after)
     for one, other in pairs:
-        names = one.link, one.row["name"]
-        if other is None:
-            yield Difference(one.row["kind"], names, "", "there", "missing")
-        else:
-            yield from _values(one.row["kind"], names, one.row["values"], other.row["values"])
-    names = {other.row["name"]: one.row["name"] for one, other in pairs if other and one.row["kind"] == "collision"}
+        yield from _values(one.row["kind"], (one.link, one.row["name"]), one.row["values"], other.row["values"])
+    yield from _unpaired(_shapes(before), [one for one, _ in pairs], "there", "missing")
+    yield from _unpaired(_shapes(after), [other for _, other in pairs], "missing", "there")
+    names = {other.row["name"]: one.row["name"] for one, other in pairs if one.row["kind"] == "collision"}
     yield from _of_sensors(before, after, names)
     yield from _only("plugin", Counter(_plugins(before)), Counter(_plugins(after)))
 
@@ -75,16 +73,33 @@ def _values(
 def _of_links(before: RobotRow, after: RobotRow) -> Iterator[Difference]:
     """Values of links; those of a link that was lumped are the ones of the link that it is part of now."""
     links = {row["name"]: row for row in after["links"]}
-    above = {row["child"]: row["parent"] for row in before["joints"] if row["kind"] == _FIXED}
+    hosts = _hosts(before, after)
     for row in before["links"]:
-        name = row["name"]
-        while name not in links and above.get(name, WORLD) != WORLD:
-            name = above[name]
-        if name in links:
-            yield from _values("link", (row["name"],), row["values"], links[name]["values"])
+        if (host := hosts[row["name"]]) in links:
+            yield from _values("link", (row["name"],), row["values"], links[host]["values"])
 
 
-def _pairs(before: RobotRow, after: RobotRow) -> Iterator[tuple[_Placed, _Placed | None]]:
+def _hosts(before: RobotRow, after: RobotRow) -> dict[str, str]:
+    """The link that each one is a part of afterwards."""
+    links = {row["name"] for row in after["links"]}
+    above = {row["child"]: row["parent"] for row in before["joints"] if row["kind"] == _FIXED}
+    hosts = dict[str, str]()
+    for row in before["links"]:
+        host = row["name"]
+        while host not in links and above.get(host, WORLD) != WORLD:
+            host = above[host]
+        hosts[row["name"]] = host
+    return hosts
+
+
+def _unpaired(shapes: Iterable[_Placed], paired: Iterable[_Placed], there: str, here: str) -> Iterator[Difference]:
+    known = {id(each.row) for each in paired}
+    for one in shapes:
+        if id(one.row) not in known:
+            yield Difference(one.row["kind"], (one.link, one.row["name"]), "", there, here)
+
+
+def _pairs(before: RobotRow, after: RobotRow) -> Iterator[tuple[_Placed, _Placed]]:
     """Each shape, and the one that it is afterwards: at one place, that with its name in it, or its values."""
     waiting, rest = list(_shapes(before)), list(_shapes(after))
     for is_it in (_is_named_after, _has_values_of, _is_at_place_of):
@@ -94,7 +109,6 @@ def _pairs(before: RobotRow, after: RobotRow) -> Iterator[tuple[_Placed, _Placed
                 yield one, found
                 waiting = [each for each in waiting if each is not one]
                 rest = [each for each in rest if each is not found]
-    yield from ((one, None) for one in waiting)
 
 
 def _is_named_after(one: _Placed, other: _Placed) -> bool:
@@ -123,6 +137,7 @@ def _is_at_place_of(one: _Placed, other: _Placed) -> bool:
 def _of_sensors(before: RobotRow, after: RobotRow, names: Mapping[str, str]) -> Iterator[Difference]:
     there = [(row, _content(row["text"], names)) for row in after["sensors"]]
     frames = pose_matrix(before["pose"]), pose_matrix(after["pose"])
+    hosts = _hosts(before, after)
     for row in before["sensors"]:
         named = [pair for pair in there if (pair[0]["name"], pair[0]["kind"]) == (row["name"], row["kind"])]
         if not named:
@@ -130,7 +145,9 @@ def _of_sensors(before: RobotRow, after: RobotRow, names: Mapping[str, str]) -> 
             continue
         content = _content(row["text"], {})
         found = next((pair for pair in named if pair[1] == content), named[0])
-        yield from _of_sensor(row, content, *found)
+        yield from _of_sensor(row, content, found[1])
+        if found[0]["inside"] not in {row["inside"], hosts.get(row["inside"])}:
+            yield Difference("sensor", (row["inside"], row["name"]), "parent", row["inside"], found[0]["inside"])
         poses = [frame @ pose_matrix(each["pose"]) for frame, each in zip(frames, (row, found[0]), strict=True)]
         if (far := float(np.abs(poses[0] - poses[1]).max())) > CUT_OFF:
             yield Difference("sensor", (row["inside"], row["name"]), "pose", "", f"moved by {far:.2g}")
@@ -138,13 +155,11 @@ def _of_sensors(before: RobotRow, after: RobotRow, names: Mapping[str, str]) -> 
     yield from (Difference("sensor", (row["inside"], row["name"]), "", "missing", "there") for row, _ in there)
 
 
-def _of_sensor(row: SensorRow, content: list[str], other: SensorRow, seen: list[str]) -> Iterator[Difference]:
+def _of_sensor(row: SensorRow, content: list[str], seen: list[str]) -> Iterator[Difference]:
     parts = row["inside"], row["name"]
     for only, here in ((sorted({*content} - {*seen}), False), (sorted({*seen} - {*content}), True)):
         for path, _, text in (each.partition("=") for each in only):
             yield Difference("sensor", parts, path, "" if here else text, text if here else "")
-    if row["inside"] != other["inside"]:
-        yield Difference("sensor", parts, "parent", row["inside"], other["inside"])
 
 
 def _only(kind: str, here: Counter[tuple[str, ...]], there: Counter[tuple[str, ...]]) -> Iterator[Difference]:

@@ -1,6 +1,7 @@
-"""One robot of an SDF file, the URDF made of it, and what libsdformat 12 makes of both."""
+"""One robot, what it is converted to, and what libsdformat 12 makes of both."""
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -8,10 +9,11 @@ from tempfile import TemporaryDirectory
 
 import twinform
 from reports.equipment.differences import Difference, differences
+from reports.equipment.saying import Said
 from reports.harness.pages import without_names
 from tests.corpus.examine import rules_of
-from tests.corpus.files import CorpusFile
-from tests.corpus.there_and_back import robots
+from tests.corpus.files import CorpusFile, Kind
+from tests.corpus.there_and_back import SDF_VERSION, robots
 from twinform.diagnostics import Ledger
 from twinform.testing.oracles.libsdformat.library import RobotRow, describe, models_of
 
@@ -22,7 +24,7 @@ class Verdict(StrEnum):
     """What became of the equipment of a robot."""
 
     SAME = "same"
-    LEDGER = "as in the ledger"
+    SAID = "as the conversion says"
     DIFFERENT = "different"
     RESULT = "result not readable"
     REFUSED = "not converted"
@@ -30,7 +32,7 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """A robot, how many parts of it were compared, and what differs; `silent` is what the ledger says nothing about."""
+    """A robot, how many parts of it were compared, and what differs; `silent` is what the conversion does not say."""
 
     name: str
     verdict: Verdict
@@ -45,6 +47,8 @@ def judge(file: CorpusFile) -> tuple[Outcome, ...]:
     checked = twinform.check(file.path)
     if checked.document is None or not checked.accepted:
         return ()
+    if file.kind is Kind.URDF:
+        return (_judged_urdf(file),)
     _, rows = models_of(file.path, file.paths)
     among = {row["name"]: row for row in rows}
     named = (
@@ -57,19 +61,39 @@ def _judged(file: CorpusFile, robot: str | None, before: RobotRow) -> Outcome:
     name, parts = f"{file.name} {robot or ''}".strip(), _parts(before)
     try:
         conversion = twinform.convert(file.path, to="urdf", model=robot, paths=file.paths)
+        after = _result(conversion, "robot.urdf")
     except twinform.CompileError as error:
         return Outcome(name, Verdict.REFUSED, parts, ", ".join(rules_of(error.diagnostics)))
+    except RuntimeError as error:
+        return Outcome(name, Verdict.RESULT, parts, str(error)[:200])
+    return _outcome(name, before, after, lambda found: _is_listed(found, conversion.ledger))
+
+
+def _judged_urdf(file: CorpusFile) -> Outcome:
+    """The URDF is the robot afterwards, as libsdformat lumps links there."""
+    before = describe(file.path)
+    try:
+        conversion = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION)
+        after = _result(conversion, "robot.sdf")
+    except twinform.CompileError as error:
+        return Outcome(file.name, Verdict.REFUSED, _parts(before), ", ".join(rules_of(error.diagnostics)))
+    except RuntimeError as error:
+        return Outcome(file.name, Verdict.RESULT, _parts(before), str(error)[:200])
+    return _outcome(file.name, after, before, Said.by(conversion).explains)
+
+
+def _result(conversion: twinform.Conversion, name: str) -> RobotRow:
     with TemporaryDirectory() as folder:
-        output = Path(folder, "robot.urdf")
+        output = Path(folder, name)
         output.write_text(conversion.text, encoding="utf-8")
-        try:
-            after = describe(output)
-        except RuntimeError as error:
-            return Outcome(name, Verdict.RESULT, parts, str(error)[:200])
+        return describe(output)
+
+
+def _outcome(name: str, before: RobotRow, after: RobotRow, is_said: Callable[[Difference], bool]) -> Outcome:
     found = tuple(differences(before, after))
-    silent = tuple(each for each in found if not _is_listed(each, conversion.ledger))
-    verdict = Verdict.DIFFERENT if silent else Verdict.LEDGER if found else Verdict.SAME
-    return Outcome(name, verdict, parts, str(silent[0]) if silent else "", found, silent)
+    silent = tuple(each for each in found if not is_said(each))
+    verdict = Verdict.DIFFERENT if silent else Verdict.SAID if found else Verdict.SAME
+    return Outcome(name, verdict, _parts(before), str(silent[0]) if silent else "", found, silent)
 
 
 def _parts(robot: RobotRow) -> int:

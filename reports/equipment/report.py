@@ -1,7 +1,7 @@
-"""Surfaces, materials, sensors, plugins and flags as libsdformat 12 finds them in SDF, and in the URDF made of it.
+"""Surfaces, materials, sensors, plugins and flags as libsdformat 12 finds them in a robot, and in what we make of it.
 
-It reads a robot in SDF, and the URDF that we make of it, which it turns into SDF as Gazebo does: its own descriptions
-of both are compared.
+It reads a robot in SDF, and the URDF that we make of it, which it turns into SDF as Gazebo does, or the other way
+around: its own descriptions of both are compared.
 """
 
 from collections import Counter
@@ -15,32 +15,44 @@ from reports.harness.pages import section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample, is_good
 from tests.corpus.files import CorpusFile, Kind
+from tests.corpus.there_and_back import SDF_VERSION
 
 KNOWN = Known.beside(__file__)
 _SECONDS = 600
 _ABOUT = f"""\
 Every robot of every SDF file of the corpus that libsdformat 12 takes without an error (of a file with several models
-the first three) is converted to URDF. libsdformat 12 reads both, and turns the URDF into SDF as Gazebo does, `<gazebo>`
-tags and all. Each shape has to be there again, at the same place and with the same values: friction, contact, material,
-laser_retro and so on; whatever its name is. A sensor has to be there again with its name, type, parent and content, at
+the first three) is converted to URDF, and every URDF to SDF {SDF_VERSION}. libsdformat 12 reads both, and turns the
+URDF into SDF as Gazebo does, `<gazebo>` tags and all; a link that it lumps there is the one that it becomes a part of.
+Each shape has to be there again, at the same place and with the same values: friction, contact, material, laser_retro
+and so on; whatever its name is. A sensor has to be there again with its name, type, parent and content, at
 the same place (robot at its zero position; tolerance {CUT_OFF:g}, as libsdformat writes six digits of a pose where it
 lumps links), and a contact sensor with the names of its collisions there; a plugin with its content, in the same kind
 of element; flags of the model and its links with their values. Numbers are compared as numbers, what is a default is
 what is not written, the order of elements does not count, nor do carriers of our own namespace.
 
-*As in the ledger* is a robot all of whose differences are in parts that the ledger lists."""
+*As the conversion says* is a robot all of whose differences are in parts that the ledger lists; on the way to SDF, a
+finding such as `unreached-shape` may say it too: the SDF has what stands in the URDF, and Gazebo makes something else
+of that. Colors have to differ as `gazebo-material` says, by the factor of 0.8."""
 
 
 def measure(sample: Sample) -> Findings:
     """Convert, read, and compare."""
-    files = [file for file in sample.models(Kind.SDF) if is_good(file)]
-    found, failures = sample.lists(_judged, files, seconds=_SECONDS)
-    outcomes = sorted((one for one in found if one.parts or one.found), key=lambda one: one.name)
-    reasons = {one.name: KNOWN.why("known", one.name, cause=one.cause) for one in outcomes if one.verdict in _FAULTS}
-    bad = [one for one in outcomes if one.verdict in _FAULTS and not reasons[one.name]]
-    faults = [*failures, *(f"{one.name}: {one.verdict}: {one.cause}" for one in bad)]
-    sections = list(_sections(outcomes, reasons))
+    sections, faults = list[str](), list[str]()
+    for way, kind in (("from SDF to URDF", Kind.SDF), ("from URDF to SDF", Kind.URDF)):
+        files = [file for file in sample.models(kind) if is_good(file)]
+        found, failures = sample.lists(_judged, files, seconds=_SECONDS)
+        outcomes = sorted((one for one in found if one.parts or one.found), key=lambda one: one.name)
+        reasons = {one.name: reason(one) for one in outcomes if one.verdict in _FAULTS}
+        bad = [one for one in outcomes if one.verdict in _FAULTS and not reasons[one.name]]
+        faults += [*failures, *(f"{one.name}: {one.verdict}: {one.cause}" for one in bad)]
+        sections += _sections(way, outcomes, reasons)
     return Findings(sections, sections[0], faults)
+
+
+def reason(one: Outcome) -> str:
+    """Why all of what the conversion does not say is right; empty where that is not known of a part of it."""
+    whys = [KNOWN.why("known", one.name, cause=cause) for cause in map(str, one.silent or (one.cause,))]
+    return "; ".join(dict.fromkeys(whys)) if all(whys) else ""
 
 
 _FAULTS = frozenset({Verdict.DIFFERENT, Verdict.RESULT})
@@ -50,7 +62,7 @@ def _judged(file: CorpusFile) -> list[Outcome]:
     return list(judge(file))
 
 
-def _sections(outcomes: list[Outcome], reasons: dict[str, str]) -> Iterator[str]:
+def _sections(way: str, outcomes: list[Outcome], reasons: dict[str, str]) -> Iterator[str]:
     rows = [
         (
             verdict,
@@ -62,12 +74,12 @@ def _sections(outcomes: list[Outcome], reasons: dict[str, str]) -> Iterator[str]
         for verdict in Verdict
         if (one := [each for each in outcomes if each.verdict is verdict])
     ]
-    yield table(["verdict", "robots", "parts", "differences", "not in the ledger"], rows)
-    yield section("What differs", table(["what", "in the ledger", "not in the ledger"], _kinds(outcomes)))
-    others = [one for one in outcomes if one.verdict not in {Verdict.SAME, Verdict.LEDGER}]
+    yield section(f"Robots {way}", table(["verdict", "robots", "parts", "differences", "not said"], rows))
+    yield section(f"What differs {way}", table(["what", "said", "not said"], _kinds(outcomes)))
+    others = [one for one in outcomes if one.verdict not in {Verdict.SAME, Verdict.SAID}]
     if others:
         why = ((one.name, one.verdict, reasons.get(one.name) or one.cause) for one in others)
-        yield section("What is not the same, and why", table(["robot", "verdict", "why"], why))
+        yield section(f"What is not the same {way}, and why", table(["robot", "verdict", "why"], why))
 
 
 def _kinds(outcomes: list[Outcome]) -> Iterator[tuple[object, ...]]:
@@ -77,5 +89,5 @@ def _kinds(outcomes: list[Outcome]) -> Iterator[tuple[object, ...]]:
         yield kind, number - silent[kind], silent[kind]
 
 
-_TITLE = "What Gazebo finds in our URDF"
+_TITLE = "What Gazebo finds in our URDF and SDF"
 REPORT = Report("equipment", _TITLE, _ABOUT, measure, (corpus, libsdformat), KNOWN)

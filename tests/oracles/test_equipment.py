@@ -1,17 +1,23 @@
-"""What libsdformat makes of our URDF, `<gazebo>` tags and all, is what it makes of the SDF that this was made of."""
+"""What libsdformat makes of a URDF, `<gazebo>` tags and all, is what it makes of the SDF of the same robot."""
 
 from pathlib import Path
 
 import pytest
 
+import twinform
 from reports.equipment.judging import Outcome, Verdict, judge
-from reports.equipment.report import KNOWN
+from reports.equipment.report import reason
 from reports.harness.sample import is_good
 from tests.corpus.files import ROOT, CorpusFile, Kind, chunks
 from twinform.testing.oracles import libsdformat
 
-_SDF = chunks(Kind.SDF)
+_MODELS = chunks(Kind.SDF) | {f"{chunk}-urdf": files for chunk, files in chunks(Kind.URDF).items()}
 _CASES = sorted(path for path in (ROOT / "tests/cases/convert").glob("*.sdf") if ".expected" not in path.name)
+_ROBOT = """<robot name='m'><link name='base'>
+  <inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>
+  <visual><geometry><sphere radius='1'/></geometry><material name='m'>{}</material></visual>
+  <collision name='{}'><geometry><sphere radius='1'/></geometry></collision>
+</link><gazebo reference='base'>{}</gazebo></robot>"""
 _MODEL = "<sdf version='1.9'><model name='m'><link name='base'>{}</link></model></sdf>"
 _GEOMETRY = "<geometry><sphere><radius>{}</radius></sphere></geometry>"
 _FRICTION = "<surface><friction><ode>{}</ode></friction></surface>"
@@ -65,17 +71,39 @@ def test_contact_sensors_name_collisions_as_gazebo_does(names: tuple[str, str], 
     assert (found.found, found.parts) == ((), 1)
 
 
+@pytest.mark.parametrize(
+    ("robot", "rules"),
+    [
+        (("<color rgba='0.4 0 1 1'/>", "base", ""), {"gazebo-material"}),
+        (("<texture filename='a.png'/>", "base", ""), {"gazebo-material"}),
+        (("<color rgba='0 1 0 1'/>", "ball", "<mu1>0.1</mu1>"), {"unreached-shape"}),
+        (("<color rgba='0 1 0 1'/>", "base", "<mu1>0.1</mu1><selfCollide>true</selfCollide>"), set[str]()),
+    ],
+)
+def test_a_conversion_says_what_gazebo_makes_else_of_urdf(
+    robot: tuple[str, str, str], rules: set[str], tmp_path: Path
+) -> None:
+    path = tmp_path / "robot.urdf"
+    path.write_text(_ROBOT.format(*robot))
+    (found,) = judge(CorpusFile(str(path), Kind.URDF, {}))
+    said = {each.rule.name for each in twinform.convert(path, to="sdf").diagnostics}
+    assert (found.verdict, said & {"gazebo-material", "unreached-shape"}) == (
+        Verdict.SAID if rules else Verdict.SAME,
+        rules,
+    )
+
+
 @pytest.mark.parametrize("path", _CASES, ids=lambda path: path.stem)
 def test_gazebo_finds_what_the_case_has(path: Path) -> None:
     found = judge(CorpusFile(str(path), Kind.SDF, {}))
     assert [each for one in found for each in one.silent] == []
 
 
-@pytest.mark.parametrize("chunk", _SDF)
+@pytest.mark.parametrize("chunk", _MODELS)
 def test_gazebo_finds_what_a_model_of_the_corpus_has(corpus: Path, chunk: str) -> None:
     assert corpus.is_dir()
-    found = [one for file in _SDF[chunk] if is_good(file) for one in judge(file) if one.verdict is Verdict.DIFFERENT]
-    assert [f"{one.name}: {one.cause}" for one in found if not KNOWN.why("known", one.name, cause=one.cause)] == []
+    found = [one for file in _MODELS[chunk] if is_good(file) for one in judge(file) if one.verdict is Verdict.DIFFERENT]
+    assert [f"{one.name}: {one.cause}" for one in found if not reason(one)] == []
 
 
 def test_gazebo_finds_the_values_of_links_that_it_lumps(tmp_path: Path) -> None:
@@ -89,7 +117,7 @@ def test_gazebo_finds_the_values_of_links_that_it_lumps(tmp_path: Path) -> None:
         for name in ("base_tool", "arm")
     )
     found = _judged(f"<sdf version='1.9'><model name='m'>{links}{joints}</model></sdf>", tmp_path)
-    assert [each for each in found.found if each.path != "parent"] == []
+    assert found.found == ()
     assert found.parts == len("ccv" + "s") * len(("base", "base_tool", "arm"))
 
 

@@ -182,9 +182,10 @@ COLORS = Rule(
 GAZEBO_MATERIAL = Rule(
     name="gazebo-material",
     severity=Severity.INFO,
-    finds="A color or texture of SDF that becomes one of URDF, and another one where Gazebo reads that.",
+    finds="A color or texture that Gazebo shows in another way where it reads the URDF, not the SDF: for a conversion "
+    "to SDF, the first one of the robot.",
     matters=(
-        "Gazebo divides the color of a URDF material by 0.8, so that it is brighter there than the SDF was, and makes "
+        "Gazebo divides the color of a URDF material by 0.8, so that it is brighter there than in the SDF, and makes "
         "a material black that has a texture alone."
     ),
     example="`<diffuse>0.4 0.4 0.4 1</diffuse>` is 0.4 in URDF, and 0.5 where Gazebo reads that.",

@@ -1,15 +1,18 @@
 """Inlining the named materials of URDF into visuals."""
 
+from collections.abc import Iterable
 from functools import lru_cache
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import to_sdf
+from twinform.diagnostics.rules.to_urdf import GAZEBO_MATERIAL
 from twinform.ir import Link, Material, Model, Opaque, Visual, count_parts
 from twinform.passes.carriers.annotations import annotation
 from twinform.passes.carriers.carriers import pack, to_element
 from twinform.passes.carriers.material_annotations import MATERIAL, SHARED_MATERIAL, material_name
 from twinform.passes.framework.base import ModelPass
+from twinform.passes.transforms.urdf_color import seen_by_gazebo
 
 
 class SharedMaterials(ModelPass):
@@ -20,7 +23,7 @@ class SharedMaterials(ModelPass):
     has more. The name is an annotation on the visual, and which materials the robot defines are annotations on the
     model; only a definition that no visual uses as it stands is carried whole.
     Never touches: the appearance that a `<gazebo>` element sets.
-    Diagnostics: none; ledger entries under `material-name`.
+    Diagnostics: `gazebo-material`, once; ledger entries under `material-name`.
     """
 
     name: ClassVar[str] = "shared-materials"
@@ -37,6 +40,7 @@ class SharedMaterials(ModelPass):
         for material in model.materials:
             self._account(material, count_parts(material), sink)
         links = tuple(self._link(link, shared, defined, sink) for link in model.links)
+        _note_gazebo((*model.materials, *materials), sink)
         named = {each.name for each in materials if not (each.color or each.texture)}
         annotations = tuple(_definition(material, named) for material in model.materials) if self.carriers else ()
         return model.model_copy(update={"links": links, "materials": (), "opaque": (*model.opaque, *annotations)})
@@ -77,6 +81,15 @@ class SharedMaterials(ModelPass):
         named = f"SDF has no name for the material {material.name!r}"
         message = named if material.name else "SDF has no shared materials"
         sink.account(fate, to_sdf.MATERIAL_NAME, message, material.location, weight)
+
+
+def _note_gazebo(materials: Iterable[Material], sink: DiagnosticSink) -> None:
+    """Report the first material that Gazebo shows in another way when it reads the URDF."""
+    for material in materials:
+        if what := seen_by_gazebo(material.color or (), material.texture):
+            message = f"in SDF materials are as they are written; where Gazebo reads the URDF, it shows this one {what}"
+            sink.report(GAZEBO_MATERIAL, message, material.location)
+            return
 
 
 def _name(material: Material, shared: dict[str | None, Material]) -> Opaque:

@@ -10,7 +10,7 @@ from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
 from twinform.passes.transforms.gazebo_tags import SCRIPT_URI
 from twinform.passes.transforms.nodes import unique_name
-from twinform.passes.transforms.urdf_color import urdf_color, with_alpha
+from twinform.passes.transforms.urdf_color import seen_by_gazebo, urdf_color, with_alpha
 from twinform.passes.transforms.uri_schemes import TEXTURE_SCHEME
 from twinform.schemas import format_value
 
@@ -81,11 +81,7 @@ def _keep_colors(visual: Visual, material: Material, keeper: Keeper) -> Visual:
 
 def _note_gazebo(visual: Visual, material: Material, keeper: Keeper) -> None:
     """An entry in the ledger where Gazebo makes another material of that of URDF."""
-    parts = urdf_color(material.diffuse or material.ambient or ())[:3]
-    # it divides all by 0.8 and cuts off at 1, and reads no textures: parser_urdf.cc, CreateVisual
-    brighter = "brighter, as it divides colors by 0.8" if any(0 < part < 1 for part in parts) else ""
-    bare = "without its texture" if material.albedo_map is not None else ""
-    if what := " and ".join(filter(None, (bare, brighter))):
+    if what := seen_by_gazebo(urdf_color(material.diffuse or material.ambient or ()), material.albedo_map):
         message = f"Gazebo shows visual {visual.name!r} {what} when it reads URDF"
         keeper.sink.account(Fate.APPROXIMATED, rules.GAZEBO_MATERIAL, message, material.location, weight=0)
 

@@ -197,14 +197,14 @@ void describe_sensors(const sdf::Model &model, const std::string &scope, const P
   }
 }
 
-// plugins at any depth, with the kind of element that they are in
+// plugins at any depth, with the kind of element that they are in; those in an extension are its own
 void describe_plugins(const sdf::ElementPtr &element, const char *&separator) {
   for (sdf::ElementPtr child = element->GetFirstElement(); child; child = child->GetNextElement()) {
     if (child->GetName() == "plugin") {
       std::cout << separator << "{\"inside\": " << json::quoted(element->GetName())
                 << ", \"text\": " << json::quoted(child->ToString("")) << "}";
       separator = ", ";
-    } else {
+    } else if (child->GetName().find(':') == std::string::npos) {
       describe_plugins(child, separator);
     }
   }
