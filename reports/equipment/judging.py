@@ -14,9 +14,10 @@ from reports.harness.pages import without_names
 from tests.corpus.examine import rules_of
 from tests.corpus.files import CorpusFile, Kind
 from tests.corpus.there_and_back import SDF_VERSION, robots
-from twinform.diagnostics import Ledger
+from twinform.diagnostics import Entry, Ledger
 from twinform.testing.oracles.libsdformat.library import RobotRow, describe, models_of
 
+_QUOTED = re.compile(r"'([^']*)'")
 _NAMED = re.compile(r"\[@name='([^']*)'\]")
 
 
@@ -105,7 +106,14 @@ def _parts(robot: RobotRow) -> int:
 
 def _is_listed(found: Difference, ledger: Ledger) -> bool:
     """Whether an entry of the ledger is about the value, about something in it, or about the part around it."""
-    return any(_covers(entry.location.path, found) for entry in ledger.entries)
+    return any(_covers(entry.location.path, found) or _is_followed(entry, found) for entry in ledger.entries)
+
+
+def _is_followed(entry: Entry, found: Difference) -> bool:
+    """Whether a plugin names what has another name in URDF, which it follows."""
+    if entry.rule.name != "renamed" or found.kind != "plugin":
+        return False
+    return any(f"={name} " in f"{found.path} " for name in _QUOTED.findall(entry.message))
 
 
 def _covers(path: str, found: Difference) -> bool:
