@@ -147,7 +147,7 @@ def why_not_compared(spot: Spot) -> str:
     for entry in NOT_COMPARED:
         for found in cast("list[Any]", root.xpath(entry.xpath, namespaces={PREFIX: NAMESPACE})):
             if isinstance(found, str):
-                if found.getparent() is spot.element and found.attrname == spot.name:  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] - what lxml makes of an attribute
+                if found.getparent() is spot.element and (found.attrname or "") == spot.name:  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] - what lxml makes of an attribute
                     return entry.what
             elif any(found is each for each in around):
                 return entry.what

@@ -71,7 +71,7 @@ def editor_protocol(data: bytes) -> None:
 
 def fixers(data: bytes) -> None:
     """Fixes of any file, safe ones and all, add no finding, change nothing outside of their edits, and end."""
-    # stray text in parts that are broken anyway counts as a difference to diff, and fixes take it away
+    # an element that stands a second time counts as a difference to diff, and safe fixes take it away
     faults = [each for each in mended_file("", data).faults if each != ANOTHER_ROBOT]
     assert not faults, faults
 

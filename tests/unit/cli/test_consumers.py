@@ -85,7 +85,7 @@ def test_the_passes_are_those_that_are_needed(run: Run, robot: Path) -> None:
 def test_every_part_is_still_accounted_for(run: Run, robot: Path, tmp_path: Path) -> None:
     done = run("convert", robot, "-o", tmp_path / "out.sdf", "--for", "drake", "--audit")
     assert "0 unaccounted" in done.output
-    assert "approximated 3" in done.output
+    assert "approximated 4" in done.output
 
 
 def test_physics_that_is_to_be_kept_is_an_error(run: Run, robot: Path, tmp_path: Path) -> None:

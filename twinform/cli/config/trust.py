@@ -44,6 +44,7 @@ HELD: Mapping[str, Hold] = {
     "passes": "known passes",
     "paths": "inside its folder",
     "pipelines": "known passes",
+    "read-carriers": "nothing to hold",
     "sdf-version": "nothing to hold",
     "strict": "nothing to hold",
     "urdf-version": "nothing to hold",

@@ -44,8 +44,6 @@ class Walk:
     ) -> None:
         """Take in an element whose rows are those of `fact`; poses in it are relative to `holder`."""
         rows = _rows(fact)
-        if text := (element.text or "").strip():  # which the table has no place for
-            self._put(f"{path}text()", text_value(" ".join(text.split())), None, carried=carried)
         here = self._pose(element, rows, holder, path, carried=carried)
         self._attributes(element, rows, path, carried=carried)
         for key, child in _keyed(element, rows):

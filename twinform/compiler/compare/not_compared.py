@@ -26,6 +26,11 @@ class NotCompared:
 NOT_COMPARED = (
     NotCompared("/robot/@version | /sdf/@version", "the version of the format", "It says how the file is written."),
     NotCompared(
+        "//*[*]/text() | //link/text() | //joint/text() | //visual/text() | //collision/text()",
+        "text between elements",
+        "No reader looks at it, and a safe fix makes a comment of it.",
+    ),
+    NotCompared(
         f"//{PREFIX}:*",
         "carriers and annotations as such",
         "What one of them means for the part around it is compared. Without effect, or where the file contradicts it,"

@@ -153,8 +153,8 @@ class PartReader:
         for at, piece in pieces:
             name = piece.get("attribute")
             if piece.tag == CARRIER_OF_URDF and name is None:
-                leaves[f"{at}/text()" if at else "text()"] = Leaf(Text(piece.get("text") or ""), None, where)
-            elif name is not None:
+                continue  # text between elements, which no reader looks at
+            if name is not None:
                 walk = Walk(self.resolve, lambda _: where)
                 path = f"{at}/@{name}" if at else f"@{name}"
                 if name not in _NOT_OF_THE_ROBOT and path not in _IGNORED_LIMITS:
