@@ -25,6 +25,7 @@ class Scope:
         self._models = {model.name: model for model in holder.models}
         self._inner: dict[str, Scope] = {}
         self._unread = self._include(holder.includes)
+        self._longest = max((len(name or "") for name in self._kinds), default=0)
 
     def _add(self, kind: Found, nodes: Iterable[Node]) -> None:
         for node in nodes:
@@ -51,7 +52,7 @@ class Scope:
         if here is not None:
             return here
         outer, colons, inner = name.partition("::")
-        while colons:
+        while colons and len(outer) <= self._longest:
             found = self._find_in(outer, inner)
             if found is not None:
                 return found
