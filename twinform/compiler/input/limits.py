@@ -22,8 +22,8 @@ MOST_CHILDREN = 50_000
 has 20,000."""
 MOST_STRAY_TEXTS = 10_000
 """The most texts between elements, unless more tags are allowed: each is a part that no format has, and is carried."""
-MOST_REPAIRS = 10_000
-"""The most names with two colons that are repaired. Of what libxml2 recovers, lxml lists a hundred places at most."""
+MOST_COLONS = 10_000
+"""The most names with two colons behind their prefix. Other faults need no limit: libxml2 lists a hundred of them."""
 MOST_ATTRIBUTES = 256
 """The most attributes of one element, since libxml2 looks each of them up among all. The most in a real file is 12."""
 MOST_LOOKUPS = 250_000_000
@@ -168,9 +168,9 @@ def _excess_of_parts(root: XmlElement) -> Excess | None:
 
 def excess_of_colons(count: int) -> Excess | None:
     """Why a file with so many names that have two colons is not repaired."""
-    if count <= MOST_REPAIRS:
+    if count <= MOST_COLONS:
         return None
-    return Excess(f"{count:,} names of the file have two colons behind their prefix; the limit is {MOST_REPAIRS:,}")
+    return Excess(f"{count:,} names of the file have two colons behind their prefix; the limit is {MOST_COLONS:,}")
 
 
 def excess_of_namespaces(root: XmlElement, text: bytes, *, repaired: bool) -> Excess | None:

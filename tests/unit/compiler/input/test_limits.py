@@ -186,7 +186,7 @@ def test_a_file_has_so_many_texts_between_its_elements() -> None:
 
 def test_so_many_names_with_two_colons_are_repaired() -> None:
     """Each is repaired again in each round of fixes."""
-    checked = twinform.check(f"<robot name='r'>{'<x::y/>' * (limits.MOST_REPAIRS + 1)}</robot>".encode())
+    checked = twinform.check(f"<robot name='r'>{'<x::y/>' * (limits.MOST_COLONS + 1)}</robot>".encode())
     message = "10,001 names of the file have two colons behind their prefix; the limit is 10,000"
     assert [(each.rule.name, each.message) for each in checked.diagnostics] == [("oversized-file", message)]
 
