@@ -29,15 +29,13 @@ class MeshProcess:
     def do(self, job: Job) -> Result:
         """What comes of a job."""
         with self._lock:
+            late = threading.Event()
             try:
                 child = self._running()
-            except OSError as error:
-                why = f"the process that looks into it cannot be started ({error.strerror})"
+                timer = _started_timer(self.seconds, child, late)
+            except (OSError, RuntimeError) as error:  # RuntimeError: the machine refuses another thread
+                why = f"the process that looks into it cannot be started ({getattr(error, 'strerror', error)})"
                 return Result({}, trouble="unreadable", message=why)
-            late = threading.Event()
-            timer = threading.Timer(self.seconds, _give_up, (child, late))
-            timer.daemon = True
-            timer.start()
             try:
                 return _asked(child, job)
             except (OSError, BadMessageError):
@@ -72,6 +70,13 @@ class MeshProcess:
 
 
 _DEATH = "the process that looks into it died, as it does where it needs too much memory"
+
+
+def _started_timer(seconds: float, child: "subprocess.Popen[bytes]", late: threading.Event) -> threading.Timer:
+    timer = threading.Timer(seconds, _give_up, (child, late))
+    timer.daemon = True
+    timer.start()
+    return timer
 
 
 def _give_up(child: "subprocess.Popen[bytes]", late: threading.Event) -> None:

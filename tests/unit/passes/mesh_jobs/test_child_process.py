@@ -72,6 +72,18 @@ def test_scales_that_leave_nothing_are_trouble() -> None:
     assert "scale" in result.message
 
 
+def test_a_machine_that_refuses_another_thread_is_trouble(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_: object) -> None:
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr(threading.Timer, "start", refuse)
+    process = MeshProcess()
+    try:
+        assert "cannot be started (can't start new thread)" in process.do(job()).message
+    finally:
+        process.end()
+
+
 def test_a_process_that_runs_out_of_time_or_memory_takes_only_its_job_along() -> None:
     process = MeshProcess(seconds=0.01)
     try:
