@@ -95,7 +95,7 @@ def test_our_own_pages_are_ours_alone(site: Path) -> None:
             "late-comer and twinform-house-style both register a rule called unusual-name",
         ),
         (
-            ("twinform.rules", "unknown-element", "twinform.diagnostics.rules.structure:UNKNOWN_ELEMENT"),
+            ("twinform.rules", "unknown-element", "twinform.diagnostics.rules:UNKNOWN_ELEMENT"),
             "explain",
             "twinform and late-comer both register a rule called unknown-element",
         ),

@@ -18,9 +18,7 @@ from reports.harness.sample import Sample
 from tests.corpus.examine import rules_of
 from tests.corpus.files import CorpusFile, Kind, corpus_files
 from twinform.compiler.audit import audit
-from twinform.diagnostics import Diagnostic, Fate, Severity
-from twinform.diagnostics.rules import classic as rules
-from twinform.diagnostics.rules import plugins as plugin_rules
+from twinform.diagnostics import Diagnostic, Fate, Severity, rules
 
 KNOWN = Known.beside(__file__)
 PIPELINE = "migrate-gazebo-classic{release=harmonic controllers=controllers.yaml},check-plugins{release=harmonic}"
@@ -40,7 +38,21 @@ reason is in `reports/classic/known.toml`."""
 
 Key = TypeVar("Key")
 _SUBJECT = re.compile(r"plugin (?:'.*?'|None) of (\S+?),? ")
-_CHECKED = {rule.name for rule in vars(plugin_rules).values() if hasattr(rule, "finds")}
+_CHECKED = {
+    rules.DEFAULT_SYSTEMS_OFF,
+    rules.IGNITION_PLUGIN_NAME,
+    rules.MISSING_WORLD_SYSTEM,
+    rules.PLUGIN_NOT_IN_RELEASE,
+    rules.PLUGIN_PARAMETER_COUNT,
+    rules.PLUGIN_PARAMETER_VALUE,
+    rules.PLUGIN_REFERENCE,
+    rules.UNKNOWN_PLUGIN_PARAMETER,
+    rules.UNSUPPORTED_SENSOR,
+    rules.WORLD_SYSTEM_NEEDED,
+    rules.WRONG_PLUGIN_CLASS,
+    rules.WRONG_PLUGIN_SCOPE,
+}
+"""What `check-plugins` finds."""
 
 
 class End(StrEnum):
@@ -158,7 +170,7 @@ def _count_outcomes(outcome: Outcome, found: list[Block], conversion: twinform.C
 
 
 def _is_check(diagnostic: Diagnostic) -> bool:
-    return diagnostic.rule.name in _CHECKED and diagnostic.severity >= Severity.WARNING
+    return diagnostic.rule in _CHECKED and diagnostic.severity >= Severity.WARNING
 
 
 def _faults(outcome: Outcome) -> Iterator[str]:

@@ -10,8 +10,7 @@ from reports.harness.pages import table
 from reports.harness.sample import Sample
 from tests.corpus.files import CorpusFile, Kind
 from twinform.compiler.audit import audit
-from twinform.diagnostics import Diagnostic
-from twinform.diagnostics.rules import control as rules
+from twinform.diagnostics import Diagnostic, rules
 
 THERE, BACK = "ros2-control-from-transmissions", "transmissions-from-ros2-control"
 

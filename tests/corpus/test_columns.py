@@ -11,7 +11,7 @@ from twinform.compiler import check
 from twinform.compiler.input.finding_spans import located
 from twinform.compiler.input.loading import read_tree_again
 from twinform.diagnostics import Diagnostic, Span
-from twinform.diagnostics.rules.joints import UNUSED_AXIS
+from twinform.diagnostics.rules import UNUSED_AXIS
 from twinform.text import SourceText, UnplacedError, spans
 
 _CHUNKS = chunks(Kind.URDF, Kind.SDF)

@@ -8,8 +8,7 @@ import pytest
 
 from tests.corpus.files import CorpusFile, chunks
 from twinform.compiler.input.parsing import UnreadableError, parse, strip_default_namespace
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import structure
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.schemas import (
     Context,
     Version,
@@ -54,7 +53,7 @@ def _disagreement(file: CorpusFile) -> str | None:
     if (default and names) is bool(normative):
         return f"{file.name}: {default=}, {names=}, {normative[:1]}"
     validate(root, context)
-    if any(found.rule is structure.SCHEMA_DISAGREEMENT for found in context.sink.diagnostics):
+    if any(found.rule is rules.SCHEMA_DISAGREEMENT for found in context.sink.diagnostics):
         return f"{file.name}: {context.sink.diagnostics[-1].message}"
     return None
 

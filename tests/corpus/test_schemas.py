@@ -13,19 +13,16 @@ from tests.corpus.files import CorpusFile, chunks
 from tests.profile import DEEP
 from twinform.compiler.input.loading import declared_version, read_tree
 from twinform.compiler.input.parsing import UnreadableError
-from twinform.diagnostics import DiagnosticSink, Rule
-from twinform.diagnostics.rules import structure
+from twinform.diagnostics import DiagnosticSink, Rule, rules
 from twinform.schemas import Version, XmlElement, table, xmlschema_errors
 from twinform.schemas.xacro_xsd import imported_schemas
 from twinform.schemas.xsd import generate_schema, lenient_schema_text
 
 CHUNKS = chunks()
-_REFUSED_BY_ALL = frozenset(
-    {structure.STRAY_TEXT, structure.INVALID_VALUE, structure.MISSING_ATTRIBUTE, structure.MISSING_ELEMENT}
-)
+_REFUSED_BY_ALL = frozenset({rules.STRAY_TEXT, rules.INVALID_VALUE, rules.MISSING_ATTRIBUTE, rules.MISSING_ELEMENT})
 """Findings about what no schema takes, lenient or not; where the robot does not depend on it they are warnings."""
 
-_UNUSUAL = _REFUSED_BY_ALL | {structure.UNKNOWN_ELEMENT}
+_UNUSUAL = _REFUSED_BY_ALL | {rules.UNKNOWN_ELEMENT}
 
 
 @pytest.mark.parametrize("chunk", CHUNKS)
@@ -78,9 +75,9 @@ def _xacro_schema(format: str, folder: Path) -> etree.XMLSchema:
     return etree.XMLSchema(etree.parse(folder / "main.xsd"))
 
 
-def _of_dialects(rules: AbstractSet[Rule]) -> bool:
+def _of_dialects(found: AbstractSet[Rule]) -> bool:
     """Whether there is nothing unusual in it but the syntax of dialects and of other versions."""
-    return not rules & {*_REFUSED_BY_ALL, structure.UNKNOWN_ELEMENT}
+    return not found & {*_REFUSED_BY_ALL, rules.UNKNOWN_ELEMENT}
 
 
 def _readers_take(file: CorpusFile) -> bool:

@@ -41,6 +41,7 @@ OTHERS = {
     "compiler/workers/processes.py": NOWHERE,
     "compiler/workers/running.py": "opens an executor",
     "diagnostics/generated_files.py": DATA,
+    "diagnostics/rule_files.py": DATA,
     "file_access/regular_files.py": "the one reader",
     "passes/appearance/classic_materials.py": DATA,
     "passes/classic/tables.py": DATA,

@@ -24,8 +24,7 @@ from twinform.compiler.output.emitting import emit, emit_legal
 from twinform.compiler.request import ConversionRequest, Language, UrdfVersion
 from twinform.compiler.search.uris import LocalAssets, SearchPath
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile
-from twinform.diagnostics.rules.model import MISSING_LIMIT
-from twinform.diagnostics.rules.structure import MISSING_ATTRIBUTE, OUTSIDE_VERSION
+from twinform.diagnostics.rules import MISSING_ATTRIBUTE, MISSING_LIMIT, OUTSIDE_VERSION
 from twinform.ir import Document, Format, Include
 from twinform.ir.verify import verify
 from twinform.passes import Pass, PassError, PassInstrumentation, Pipeline

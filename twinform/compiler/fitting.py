@@ -17,7 +17,7 @@ from twinform.compiler.inspection.consumers import subject_of, unread
 from twinform.compiler.output.emitting import located
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import Diagnostic, Entry, Location, PhysicsChange, Severity
-from twinform.diagnostics.rules.portability import KEPT_PHYSICS
+from twinform.diagnostics.rules import KEPT_PHYSICS
 from twinform.ir import Document, Format
 from twinform.passes import Pass, PassInstrumentation, Pipeline
 from twinform.profiles import Assessment, Judgment, Profile, Subject, assess, findings

@@ -5,8 +5,7 @@ from dataclasses import replace
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.limits import USUAL_LIMITS, Limits, excess_of_bytes
 from twinform.compiler.input.parsing import UnreadableError, parse, refuse_excess
-from twinform.diagnostics import Diagnostic, DiagnosticSink, Location
-from twinform.diagnostics.rules import reading
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, rules
 from twinform.text import SourceText, UndecodableError, UnplacedError
 from twinform.text.formatting import FormatOptions, format_text
 
@@ -41,7 +40,7 @@ def _explain(data: bytes, error: ValueError, sink: DiagnosticSink, limits: Limit
     if not sink.has_errors:
         line, column = (error.line, error.column) if isinstance(error, UnplacedError) else (0, 0)
         where = Location(line=line or 1, path="/", column=column)
-        sink.report(reading.NOT_WELL_FORMED, f"not well-formed XML: {error}", where, help=_REPAIR)
+        sink.report(rules.NOT_WELL_FORMED, f"not well-formed XML: {error}", where, help=_REPAIR)
 
 
 def _not_repaired(diagnostic: Diagnostic) -> Diagnostic:

@@ -4,8 +4,7 @@ from importlib import resources
 
 from twinform.compiler.input.loading import loads
 from twinform.compiler.output.emitting import emit
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import plugins as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Element, Format, Model, Opaque, Pose, World
 from twinform.passes.plugins.bridge import bridge_yaml, bridges
 from twinform.passes.plugins.ground_clearance import lowest_point

@@ -11,7 +11,7 @@ from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.compiler.output.emitting import document_tree
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules.edits import EDIT_CONFLICT
+from twinform.diagnostics.rules import EDIT_CONFLICT
 from twinform.ir import Document
 from twinform.passes import PassInstrumentation
 from twinform.schemas import XmlElement, path_of

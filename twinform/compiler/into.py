@@ -11,7 +11,7 @@ from twinform.compiler.in_place import Updated, file_bytes, updated
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules.edits import EDIT_CONFLICT
+from twinform.diagnostics.rules import EDIT_CONFLICT
 from twinform.ir import Document, Format
 from twinform.passes import Pipeline
 from twinform.schemas import versions_of

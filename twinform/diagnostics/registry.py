@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
-from twinform.diagnostics.built_in import BUILT_IN
-from twinform.diagnostics.catalog import catalog, rules_of
+from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.rule import Rule
 
 if TYPE_CHECKING:
@@ -46,9 +45,8 @@ def find_rule(name: str) -> RegisteredRule | None:
     Raises:
         RuleRegistryError: there is no built-in one of this name, and others contradict each other.
     """
-    if name in BUILT_IN:
-        return next(RegisteredRule(rule, OWN) for rule in rules_of(BUILT_IN[name]) if rule.name == name)
-    return rules().get(name)
+    own = catalog().get(name)
+    return RegisteredRule(own, OWN) if own else rules().get(name)
 
 
 def collect_rules(own: Iterable[Rule], entries: "Iterable[EntryPoint]") -> dict[str, RegisteredRule]:

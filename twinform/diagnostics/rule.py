@@ -1,6 +1,6 @@
 """What a rule is: a kind of finding, with its documentation."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 
 from twinform.diagnostics.fix import Safety
@@ -24,16 +24,16 @@ class Rule:
     `strict` is the severity under `--strict`; it is the plain one where it is not given. `fix` says how safe
     its fixes are at best, if there are any. What is `fatal` leaves nothing to go on with, and cannot be allowed.
     What is `unsound` is no tree: `check` may allow it, and nothing can be made of it.
-    The other fields are the rule's page, as `twinform explain` prints it.
+    The other fields are the rule's page, as `twinform explain` prints it; two rules are not told apart by it.
     """
 
     name: str
     severity: Severity
-    finds: str
-    matters: str
-    example: str
-    better: str
-    references: str = ""
+    finds: str = field(compare=False, repr=False)
+    matters: str = field(compare=False, repr=False)
+    example: str = field(compare=False, repr=False)
+    better: str = field(compare=False, repr=False)
+    references: str = field(default="", compare=False, repr=False)
     strict: Severity | None = None
     fix: Safety | None = None
     fatal: bool = False

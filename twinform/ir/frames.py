@@ -4,8 +4,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from twinform.diagnostics import NOWHERE, DiagnosticSink, Location, Rule, Source
-from twinform.diagnostics.rules import frames as rules
+from twinform.diagnostics import NOWHERE, DiagnosticSink, Location, Rule, Source, rules
 from twinform.ir.joint import Joint
 from twinform.ir.link import Link
 from twinform.ir.model import Include, Model

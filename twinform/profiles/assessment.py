@@ -4,14 +4,22 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
-from twinform.diagnostics import Diagnostic, DiagnosticSink, Location
-from twinform.diagnostics.rules.portability import SHORTFALLS
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, rules
 from twinform.ir import Format
 from twinform.profiles.counterparts import Counterparts
 from twinform.profiles.detectors import DETECTORS
 from twinform.profiles.profile import Effect, Profile, Row
 from twinform.profiles.reading import Shortfall, read_as
 from twinform.profiles.subject import Subject
+
+_SHORTFALLS = {
+    "value": rules.UNREAD_VALUE,
+    "absent": rules.UNWRITTEN_PART,
+    "unread": rules.UNREAD_PART,
+    "tree": rules.UNTAKEN_TREE,
+    "text": rules.UNREAD_TEXT,
+}
+"""The rules about what a consumer's table of reads demands, by the kind of shortfall."""
 
 
 class Verdict(StrEnum):
@@ -103,7 +111,7 @@ class Shortfalls:
             yield Judgment(Row.model_validate(words), finding)
 
     def _finding(self, each: Shortfall) -> Diagnostic:
-        rule = SHORTFALLS[each.kind]
+        rule = _SHORTFALLS[each.kind]
         key = (rule.name, each.message, each.line)
         if key not in self._findings:
             place = Location(self._subject.path, each.line, each.path or "/")

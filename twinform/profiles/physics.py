@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 
 from twinform.diagnostics import Entry, Fate, Location, PhysicsChange, ValueChange
-from twinform.diagnostics.rules.portability import CHANGED_PHYSICS
+from twinform.diagnostics.rules import CHANGED_PHYSICS
 from twinform.ir import Document, Joint, Link, Model
 from twinform.ir.changes import changes
 

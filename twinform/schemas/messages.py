@@ -4,8 +4,7 @@ from collections.abc import Collection
 from dataclasses import dataclass, field
 from typing import Any, Protocol, TypedDict, Unpack
 
-from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, Source, nearest_name
-from twinform.diagnostics.rules import structure
+from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, Source, nearest_name, rules
 from twinform.schemas.facts import Fact, Version, print_version
 from twinform.schemas.hints import dialect_of, hint_for_attribute, hint_for_element, hint_for_word, words_of
 from twinform.schemas.xml import Places, XmlElement, path_of
@@ -18,10 +17,10 @@ _ESSENTIAL = frozenset({"parent", "child"})
 _BEYOND_THE_XSD = frozenset(
     rule.name
     for rule in (
-        structure.OUT_OF_RANGE,
-        structure.DEPRECATED_ELEMENT,
-        structure.DEFAULTED_ATTRIBUTE,
-        structure.BLANK_VALUE,
+        rules.OUT_OF_RANGE,
+        rules.DEPRECATED_ELEMENT,
+        rules.DEFAULTED_ATTRIBUTE,
+        rules.BLANK_VALUE,
     )
 )
 """Findings that no XSD refuses a document for."""
@@ -101,7 +100,7 @@ def unknown_element(
     parent = element.getparent()
     holder = "the document" if parent is None else f"<{parent.tag}>"
     context.report(
-        structure.UNKNOWN_ELEMENT,
+        rules.UNKNOWN_ELEMENT,
         element,
         f"<{element.tag}> is not an element of {holder}",
         found=str(element.tag),
@@ -116,7 +115,7 @@ def unknown_attribute(
     context.tolerated.append((element, name))
     message = f"{name!r} is not an attribute of <{element.tag}>"
     hint = hint_for_attribute(context.format, name, known, children) if _is_shown(context) else None
-    context.report(structure.UNKNOWN_ATTRIBUTE, element, message, f"@{name}", found=name, help=hint)
+    context.report(rules.UNKNOWN_ATTRIBUTE, element, message, f"@{name}", found=name, help=hint)
 
 
 def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
@@ -128,7 +127,7 @@ def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
     message = f"{what} {_when(context, fact)}"
     step = name if fact.is_attribute else ""
     severity = None if context.declared or context.sink.strict else Severity.INFO
-    context.report(structure.OUTSIDE_VERSION, element, message, step, found=name, severity=severity)
+    context.report(rules.OUTSIDE_VERSION, element, message, step, found=name, severity=severity)
 
 
 def value_outside_version(context: Context, element: XmlElement, fact: Fact, word: str) -> None:
@@ -137,7 +136,7 @@ def value_outside_version(context: Context, element: XmlElement, fact: Fact, wor
     context.replaced.append((element, step[1:] or "#text", fact.enum[0]))
     subject = f"{step[1:]!r} of <{element.tag}>" if step else f"<{element.tag}>"
     message = f"{word!r} as {subject} {_when(context, fact.elsewhere[word])}"
-    context.report(structure.OUTSIDE_VERSION, element, message, step, found=word, expected=", ".join(fact.enum))
+    context.report(rules.OUTSIDE_VERSION, element, message, step, found=word, expected=", ".join(fact.enum))
 
 
 def _when(context: Context, fact: Fact) -> str:
@@ -150,7 +149,7 @@ def _when(context: Context, fact: Fact) -> str:
 
 def missing_child(context: Context, element: XmlElement, name: str) -> None:
     """A required element that is not there."""
-    rule = structure.MISSING_PART if name in _ESSENTIAL else structure.MISSING_ELEMENT
+    rule = rules.MISSING_PART if name in _ESSENTIAL else rules.MISSING_ELEMENT
     context.report(rule, element, f"<{element.tag}> has no <{name}>", expected=f"<{name}>")
 
 
@@ -158,10 +157,10 @@ def missing_attribute(context: Context, element: XmlElement, fact: Fact) -> None
     """A required attribute that is not there, or one that readers want to see although they can do without."""
     message = f"<{element.tag}> has no attribute {fact.name[1:]!r}"
     if not fact.expected:
-        context.report(structure.MISSING_ATTRIBUTE, element, message, expected=fact.name)
+        context.report(rules.MISSING_ATTRIBUTE, element, message, expected=fact.name)
         return
     meant = "the element has no effect" if fact.default is None else f"{fact.default!r} is assumed"
-    context.report(structure.DEFAULTED_ATTRIBUTE, element, f"{message}; without it, {meant}", expected=fact.name)
+    context.report(rules.DEFAULTED_ATTRIBUTE, element, f"{message}; without it, {meant}", expected=fact.name)
 
 
 _DIALECTS = {
@@ -181,14 +180,14 @@ def dialect_element(context: Context, element: XmlElement, dialect: str) -> None
     """An element of somebody's dialect."""
     context.tolerated.append((element, None))
     message = f"<{element.tag}> is not {context.format.upper()}; {_DIALECTS[dialect]}"
-    context.report(structure.DIALECT, element, message, found=dialect)
+    context.report(rules.DIALECT, element, message, found=dialect)
 
 
 def dialect_attribute(context: Context, element: XmlElement, name: str, dialect: str) -> None:
     """An attribute of somebody's dialect."""
     context.tolerated.append((element, name))
     message = f"{name!r} of <{element.tag}> is not {context.format.upper()}; {_DIALECTS[dialect]}"
-    context.report(structure.DIALECT, element, message, f"@{name}", found=dialect)
+    context.report(rules.DIALECT, element, message, f"@{name}", found=dialect)
 
 
 def dialect_value(context: Context, element: XmlElement, step: str, word: str, dialect: str) -> None:
@@ -196,7 +195,7 @@ def dialect_value(context: Context, element: XmlElement, step: str, word: str, d
     message = (
         f"{step[1:]!r} of <{element.tag}> is {word!r}, which is not {context.format.upper()}; {_DIALECTS[dialect]}"
     )
-    context.report(structure.DIALECT, element, message, step, found=word)
+    context.report(rules.DIALECT, element, message, step, found=word)
 
 
 def prefixed_element(context: Context, element: XmlElement) -> None:
@@ -207,7 +206,7 @@ def prefixed_element(context: Context, element: XmlElement) -> None:
     prefix, word = own
     if word in words_of(prefix):
         message = f"<{prefix}:{word}> is not {context.format.upper()}; {_DIALECTS[prefix]}"
-        _report_prefixed(context, structure.DIALECT, element, message, found=prefix)
+        _report_prefixed(context, rules.DIALECT, element, message, found=prefix)
     for below in element.iter():
         _check_word(context, below, str(below.tag))
 
@@ -220,7 +219,7 @@ def prefixed_attribute(context: Context, element: XmlElement, name: str) -> None
     prefix, word = own
     if word in words_of(prefix):
         message = f"'{prefix}:{word}' of <{element.tag}> is not {context.format.upper()}; {_DIALECTS[prefix]}"
-        _report_prefixed(context, structure.DIALECT, element, message, f"@{prefix}:{word}", found=prefix)
+        _report_prefixed(context, rules.DIALECT, element, message, f"@{prefix}:{word}", found=prefix)
     else:
         _check_word(context, element, name, f"@{prefix}:{word}")
 
@@ -229,7 +228,7 @@ def _check_word(context: Context, element: XmlElement, name: str, step: str = ""
     prefix, word = dialect_of(element, name) or ("", "")
     if not prefix or word in words_of(prefix):
         return
-    rule = structure.UNKNOWN_ATTRIBUTE if step else structure.UNKNOWN_ELEMENT
+    rule = rules.UNKNOWN_ATTRIBUTE if step else rules.UNKNOWN_ELEMENT
     subject = f"'{prefix}:{word}'" if step else f"<{prefix}:{word}>"
     near = nearest_name(word, words_of(prefix)) if _is_shown(context) else None
     hint = f"did you mean '{prefix}:{near}'?" if near else None
@@ -247,19 +246,19 @@ def _report_prefixed(
 def deprecated(context: Context, element: XmlElement) -> None:
     """An element on its way out."""
     message = f"<{element.tag}> is deprecated in {context.format.upper()} {print_version(context.version)}"
-    context.report(structure.DEPRECATED_ELEMENT, element, message, found=str(element.tag))
+    context.report(rules.DEPRECATED_ELEMENT, element, message, found=str(element.tag))
 
 
 def missing_text(context: Context, element: XmlElement, expected: str) -> None:
     """A required value that was left blank."""
     message = f"<{element.tag}> is empty; expected {expected}"
-    context.report(structure.MISSING_ELEMENT, element, message, found="", expected=expected)
+    context.report(rules.MISSING_ELEMENT, element, message, found="", expected=expected)
 
 
 def blank_value(context: Context, element: XmlElement, expected: str) -> None:
     """A value that was left blank where that means something."""
     message = f"<{element.tag}> is empty; expected {expected}"
-    context.report(structure.BLANK_VALUE, element, message, found="", expected=expected)
+    context.report(rules.BLANK_VALUE, element, message, found="", expected=expected)
 
 
 def repeated(context: Context, element: XmlElement) -> None:
@@ -269,7 +268,7 @@ def repeated(context: Context, element: XmlElement) -> None:
     if parent is not None and element.tag == "camera" and parent.get("type") == "multicamera":
         return  # which is what this type of sensor is for, although the specification counts one
     holder = "its parent" if parent is None else f"<{parent.tag}>"
-    context.report(structure.REPEATED_ELEMENT, element, f"<{element.tag}> occurs more than once in {holder}")
+    context.report(rules.REPEATED_ELEMENT, element, f"<{element.tag}> occurs more than once in {holder}")
 
 
 def invalid_value(context: Context, element: XmlElement, step: str, text: str, expected: str) -> None:
@@ -277,7 +276,7 @@ def invalid_value(context: Context, element: XmlElement, step: str, text: str, e
     subject = f"{step[1:]!r} of <{element.tag}>" if step else f"<{element.tag}>"
     shown = text if len(text) <= 60 else text[:57] + "..."
     message = f"{subject} is {shown!r}; expected {expected}"
-    context.report(structure.INVALID_VALUE, element, message, step, found=text, expected=expected)
+    context.report(rules.INVALID_VALUE, element, message, step, found=text, expected=expected)
 
 
 def unlisted_value(context: Context, element: XmlElement, step: str, word: str, known: tuple[str, ...]) -> None:
@@ -287,7 +286,7 @@ def unlisted_value(context: Context, element: XmlElement, step: str, word: str, 
     expected = f"one of {', '.join(known)}"
     hint = hint_for_word(word, known) if _is_shown(context) else None
     message = f"{subject} is {shown!r}; expected {expected}"
-    context.report(structure.INVALID_VALUE, element, message, step, found=word, expected=expected, help=hint)
+    context.report(rules.INVALID_VALUE, element, message, step, found=word, expected=expected, help=hint)
 
 
 def mixed_rotation(context: Context, element: XmlElement, count: int) -> None:
@@ -296,11 +295,11 @@ def mixed_rotation(context: Context, element: XmlElement, count: int) -> None:
     context.structural -= 1  # an XSD does not see it
     if notation == "quat_xyzw" and count == 7:
         message = f"<{element.tag}> is a quaternion, which cannot have the attribute degrees={degrees!r}"
-        context.report(structure.INVALID_VALUE, element, message, "@degrees", found=degrees)
+        context.report(rules.INVALID_VALUE, element, message, "@degrees", found=degrees)
         return
     need = "seven numbers" if notation == "quat_xyzw" else "six numbers, or the attribute rotation_format='quat_xyzw'"
     message = f"<{element.tag}> has {count} numbers; expected {need}"
-    context.report(structure.INVALID_VALUE, element, message, found=(element.text or "").strip(), expected=need)
+    context.report(rules.INVALID_VALUE, element, message, found=(element.text or "").strip(), expected=need)
 
 
 def out_of_range(context: Context, element: XmlElement, fact: Fact, value: float) -> None:
@@ -311,14 +310,14 @@ def out_of_range(context: Context, element: XmlElement, fact: Fact, value: float
     message = f"{subject} is {value:g}; expected {bound}"
     step = fact.name if attribute else ""
     hint = "divide by 255" if fact.type in _COLORS and value > 1 else None
-    context.report(structure.OUT_OF_RANGE, element, message, step, found=f"{value:g}", expected=bound, help=hint)
+    context.report(rules.OUT_OF_RANGE, element, message, step, found=f"{value:g}", expected=bound, help=hint)
 
 
 def stray_text(context: Context, element: XmlElement, text: str, after: XmlElement | None) -> None:
     """Text where only elements belong: at the beginning of an element, or after one of its children."""
     context.tolerated.append((element, "#text") if after is None else (after, "#tail"))
     shown = " ".join(text.split())[:40]
-    context.report(structure.STRAY_TEXT, element, f"text {shown!r} does not belong in <{element.tag}>", found=shown)
+    context.report(rules.STRAY_TEXT, element, f"text {shown!r} does not belong in <{element.tag}>", found=shown)
 
 
 def _is_shown(context: Context) -> bool:

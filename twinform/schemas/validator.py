@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 
 from lxml import etree
 
-from twinform.diagnostics import Location
-from twinform.diagnostics.rules import structure
+from twinform.diagnostics import Location, rules
 from twinform.schemas.facts import Version, print_version
 from twinform.schemas.messages import Context
 from twinform.schemas.packaged import schema_text
@@ -31,11 +30,11 @@ MOST = 100
 
 _FAULTS = frozenset(
     {
-        structure.INVALID_VALUE.name,
-        structure.MISSING_ATTRIBUTE.name,
-        structure.MISSING_ELEMENT.name,
-        structure.MISSING_PART.name,
-        structure.DIALECT.name,
+        rules.INVALID_VALUE.name,
+        rules.MISSING_ATTRIBUTE.name,
+        rules.MISSING_ELEMENT.name,
+        rules.MISSING_PART.name,
+        rules.DIALECT.name,
     }
 )
 """Findings of the schema reader that leave nothing to take out of the document, and that the schema refuses as well; a
@@ -70,7 +69,7 @@ def validate(
     for error in errors:
         if error.line not in explained and not context.sink.left_out:
             message = f"the XSD of {context.format.upper()} {print_version(context.version)} refuses: {error.message}"
-            context.sink.report(structure.SCHEMA_DISAGREEMENT, message, Location(context.file, error.line, "/"))
+            context.sink.report(rules.SCHEMA_DISAGREEMENT, message, Location(context.file, error.line, "/"))
 
 
 def libxml2_errors(root: XmlElement, format: str, version: Version) -> list[SchemaError]:

@@ -15,11 +15,10 @@ from twinform.compiler.input.loading import read
 from twinform.compiler.input.options import LoadOptions, LoadResult
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.inspection import inspect
-from twinform.diagnostics import Diagnostic
-from twinform.diagnostics.rules import model, structure
+from twinform.diagnostics import Diagnostic, rules
 from twinform.server.settings import Settings
 
-_OF_WHOLE_ROBOTS = frozenset({model.EMPTY_MODEL.name, structure.MISSING_ATTRIBUTE.name, structure.MISSING_ELEMENT.name})
+_OF_WHOLE_ROBOTS = frozenset({rules.EMPTY_MODEL.name, rules.MISSING_ATTRIBUTE.name, rules.MISSING_ELEMENT.name})
 """What is missing in a xacro file that others include, and is not looked for in it."""
 
 

@@ -5,9 +5,8 @@ from pathlib import Path
 
 from lsprotocol import types
 
-from twinform.diagnostics import Diagnostic, Location, Severity, Span
+from twinform.diagnostics import Diagnostic, Location, Severity, Span, catalog
 from twinform.diagnostics.addresses import RULES
-from twinform.diagnostics.built_in import BUILT_IN
 from twinform.server.documents import Document
 from twinform.server.tree import Node, Tree
 
@@ -91,4 +90,4 @@ def _related(found: Diagnostic, document_of: DocumentOf) -> list[types.Diagnosti
 
 def _page(found: Diagnostic) -> types.CodeDescription | None:
     """The page of one of our own rules."""
-    return types.CodeDescription(f"{RULES}#{found.rule.name}") if found.rule.name in BUILT_IN else None
+    return types.CodeDescription(f"{RULES}#{found.rule.name}") if found.rule.name in catalog() else None

@@ -8,7 +8,7 @@ import pytest
 import twinform
 from twinform.compiler import ReadOnlyPassError
 from twinform.diagnostics import Diagnostic, DiagnosticSink
-from twinform.diagnostics.rules.limits import EMPTY_RANGE
+from twinform.diagnostics.rules import EMPTY_RANGE
 from twinform.ir import Document
 from twinform.passes import Pass, Pipeline, PipelineError, parse_pipeline
 

@@ -6,8 +6,7 @@ from hypothesis import strategies as st
 
 from twinform.diagnostics import Diagnostic, Location, Severity
 from twinform.diagnostics.baseline import Baseline, BaselineError, BaselineRun, KnownFinding
-from twinform.diagnostics.rules.model import DANGLING_LINK
-from twinform.diagnostics.rules.reading import NOT_WELL_FORMED
+from twinform.diagnostics.rules import DANGLING_LINK, NOT_WELL_FORMED
 
 _TEXTS = st.text(st.characters(codec="utf-8"), max_size=8)
 _FINDINGS = st.builds(KnownFinding, _TEXTS, _TEXTS, _TEXTS, _TEXTS, _TEXTS)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from twinform.diagnostics import NOWHERE, Diagnostic, Fix, Location, Rule, Safety, Severity, Span, TextEdit
 from twinform.diagnostics.reporters import NO_TEXTS, REPORTERS, Findings, text
-from twinform.diagnostics.rules.model import DANGLING_LINK
+from twinform.diagnostics.rules import DANGLING_LINK
 
 RULE = Rule(name="odd-value", severity=Severity.ERROR, finds="Odd.", matters="So.", example="3", better="2")
 FULL = Diagnostic(

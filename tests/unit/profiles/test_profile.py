@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from twinform.diagnostics import Diagnostic, Location, Severity, catalog
-from twinform.diagnostics.rules.inertia import IMPOSSIBLE_INERTIA
+from twinform.diagnostics.rules import IMPOSSIBLE_INERTIA
 from twinform.ir import Format
 from twinform.passes import parse_pipeline
 from twinform.profiles import Effect, Profile, Row, UnknownProfileError, load, names, parse

@@ -8,8 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from lxml import etree
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import structure
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.schemas import (
     Context,
     Engine,
@@ -86,7 +85,7 @@ def _read(name: str, root: XmlElement, *, strict: bool = False) -> Context:
 
 def _of_two_minds(context: Context) -> list[int]:
     found = context.sink.diagnostics
-    return [one.location.line for one in found if one.rule is structure.SCHEMA_DISAGREEMENT]
+    return [one.location.line for one in found if one.rule is rules.SCHEMA_DISAGREEMENT]
 
 
 @pytest.mark.parametrize("strict", [False, True], ids=["compat", "strict"])

@@ -5,8 +5,7 @@ from pathlib import Path
 from lsprotocol import types
 
 from tests.unit.server.test_half_typed import session_with
-from twinform.diagnostics import Diagnostic, Fix, Location, Safety, Severity, Span, TextEdit
-from twinform.diagnostics.rules import structure
+from twinform.diagnostics import Diagnostic, Fix, Location, Safety, Severity, Span, TextEdit, rules
 from twinform.server.actions import FIX_ALL, actions, edit_of, together
 from twinform.server.checking import Job, check
 from twinform.server.documents import Document
@@ -24,7 +23,7 @@ def finding(text: str, start: int, safety: Safety) -> Diagnostic:
     fix = Fix("delete the attribute 'nam'", (TextEdit(span, ""),), safety)
     line = text.count("\n", 0, start) + 1
     where = Location("a.urdf", line, "/robot/link/@nam", start - text.rfind("\n", 0, start) + 1)
-    return Diagnostic(structure.UNKNOWN_ATTRIBUTE, "no", where, Severity.WARNING, fix=fix)
+    return Diagnostic(rules.UNKNOWN_ATTRIBUTE, "no", where, Severity.WARNING, fix=fix)
 
 
 def offered(safety: Safety, text: str = TEXT) -> tuple[Session, Document]:

@@ -6,7 +6,7 @@ from typing import ClassVar
 import pytest
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.limits import FILLED_LIMIT
+from twinform.diagnostics.rules import FILLED_LIMIT
 from twinform.ir import Document, map_children
 from twinform.passes import Pass
 from twinform.passes.limits.fill_limits import FillLimits

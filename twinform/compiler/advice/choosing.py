@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from twinform.compiler.advice.forms import Form, Loss
-from twinform.diagnostics.rules.to_urdf import MODEL_NOT_CHOSEN
+from twinform.diagnostics.rules import MODEL_NOT_CHOSEN
 from twinform.ir import Document, Format, Joint, walk
 from twinform.passes.analyses.candidates import candidates
 from twinform.passes.control.carried_elements import elements

@@ -9,8 +9,7 @@ from twinform.compiler.driver import run_conversion
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.options import Input, LoadOptions, LoadResult
 from twinform.compiler.request import ConversionRequest, Language
-from twinform.diagnostics import Diagnostic, Entry, Fate
-from twinform.diagnostics.rules import comments, to_sdf, to_urdf
+from twinform.diagnostics import Diagnostic, Entry, Fate, rules
 from twinform.ir import Document, Format
 
 
@@ -59,20 +58,20 @@ def _kind(entry: Entry) -> tuple[str, str]:
 
 _THE_SAME_ROBOT = frozenset(
     {
-        comments.LEFT_COMMENT,
-        to_sdf.FRAME_LINK,
-        to_sdf.MATERIAL_NAME,
-        to_sdf.NO_JOINT,
-        to_sdf.RENAMED,
-        to_sdf.TOKEN_MASS,
-        to_urdf.AXIS_FRAME,
-        to_urdf.COMPUTED_INERTIA,
-        to_urdf.FRAME_MADE_LINK,
-        to_urdf.HUNG_ROOT,
-        to_urdf.JOINT_END,
-        to_urdf.MOVED_FRAME,
-        to_urdf.NESTED_MODEL,
-        to_urdf.UNBOUNDED_LIMIT,
+        rules.LEFT_COMMENT,
+        rules.FRAME_LINK,
+        rules.MATERIAL_NAME,
+        rules.NO_JOINT,
+        rules.RENAMED,
+        rules.TINY_MASS,
+        rules.AXIS_FRAME,
+        rules.COMPUTED_INERTIA,
+        rules.FRAME_MADE_LINK,
+        rules.HUNG_ROOT,
+        rules.JOINT_END,
+        rules.MOVED_FRAME,
+        rules.NESTED_MODEL,
+        rules.UNBOUNDED_LIMIT,
     }
 )
 """Rules about what is only written in another way: whoever reads the other format sees the same robot."""

@@ -7,10 +7,9 @@ from dataclasses import replace
 from twinform.compiler.fixing.registry import fixer_of, text_fixer_of
 from twinform.compiler.fixing.site import FixableFile, Site, touches_expressions
 from twinform.compiler.input.loading import LoadResult
-from twinform.diagnostics import Diagnostic, Fix
-from twinform.diagnostics.rules import joints
+from twinform.diagnostics import Diagnostic, Fix, rules
 
-_ABOUT_WHAT_IS_NOT_THERE = frozenset({joints.UNUSED_AXIS.name})
+_ABOUT_WHAT_IS_NOT_THERE = frozenset({rules.UNUSED_AXIS.name})
 """Rules whose paths may lead to an element that URDF has no need of, as its `<limit>` says the same."""
 _MANY_EDITS = 100
 """A fix of more edits is offered at the first finding that it is for."""

@@ -8,7 +8,7 @@ from importlib import import_module
 from typing import cast
 
 from twinform.compiler.fixing.site import Fixer, Fixers, TextFixer, TextFixers
-from twinform.diagnostics.built_in import BUILT_IN
+from twinform.diagnostics import catalog
 
 GROUP = "twinform.fixes"
 SUBJECTS = (
@@ -55,7 +55,7 @@ def fixer_of(rule: str) -> Fixer | None:
     Raises:
         FixRegistryError: what is registered for it is none.
     """
-    return fixers().get(rule) if rule in BUILT_IN else strangers().get(rule)
+    return fixers().get(rule) if rule in catalog() else strangers().get(rule)
 
 
 def text_fixer_of(rule: str) -> TextFixer | None:
@@ -75,7 +75,7 @@ def strangers() -> Fixers:
             fixer = entry.load()
         except (ImportError, AttributeError) as error:
             raise FixRegistryError(f"{owner} registers a fixer of {entry.name} that cannot be imported") from error
-        if entry.name in BUILT_IN or entry.name in found or not callable(fixer):
+        if entry.name in catalog() or entry.name in found or not callable(fixer):
             raise FixRegistryError(f"{owner} registers a fixer of {entry.name}, which has one already or is none")
         found[entry.name] = cast("Fixer", fixer)
     return found

@@ -10,8 +10,7 @@ from twinform.compiler.includes.model_config import manifest, model_file, newest
 from twinform.compiler.input.limits import LIFTED_BY_TAGS, excess_of_names
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.search.uris import UriError
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import files, includes
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Include
 from twinform.ir.transform import Transform
 from twinform.ir.verify import verify
@@ -57,7 +56,7 @@ def expand(
     whole = reader.expanded(document, Path(loaded.path), (), wanted)
     excess = excess_of_names(len(whole.document.namespaces), whole.size)
     if excess is not None:
-        sink.report(includes.TOO_MANY_INCLUDES, excess.message, document.location)
+        sink.report(rules.TOO_MANY_INCLUDES, excess.message, document.location)
     if not sink.has_errors:
         _verify(whole.document, sink)
     return replace(
@@ -161,7 +160,7 @@ class _Reader:
             self.load_options.search.seen.add(config)
             return model_file(config, newest_read(document, self.load_options), self.sink)
         usual = path / "model.sdf"
-        rule = files.MISSING_MODEL_CONFIG if usual.is_file() else files.BROKEN_MODEL_CONFIG
+        rule = rules.MISSING_MODEL_CONFIG if usual.is_file() else rules.BROKEN_MODEL_CONFIG
         message = f"{include.uri!r} is the folder {str(path)!r}, which has no model.config"
         self.sink.report(rule, message, include.location.at("uri"), found=include.uri)
         return usual if usual.is_file() else None
@@ -171,11 +170,11 @@ class _Reader:
         real = path.resolve()
         if not path.is_file():
             message = f"{include.uri!r} is {str(path)!r}, which is no file"
-            self.sink.report(files.UNRESOLVED_URI, message, include.location.at("uri"), found=include.uri)
+            self.sink.report(rules.UNRESOLVED_URI, message, include.location.at("uri"), found=include.uri)
             return None
         if real in above:
             names = " includes ".join(repr(each.name) for each in (*above[above.index(real) :], real))
-            self.sink.report(includes.INCLUDE_CYCLE, names, include.location.at("uri"), found=include.uri)
+            self.sink.report(rules.INCLUDE_CYCLE, names, include.location.at("uri"), found=include.uri)
             return None
         if len(above) >= _DEEPEST:
             self._report_too_many(include, f"it is inside {_DEEPEST} others")
@@ -216,7 +215,7 @@ class _Reader:
         self.full = True
         message = f"{include.uri!r} is not expanded: {why}"
         where = include.location.at("uri")
-        self.sink.report(includes.TOO_MANY_INCLUDES, message, where, found=include.uri, help=help)
+        self.sink.report(rules.TOO_MANY_INCLUDES, message, where, found=include.uri, help=help)
 
 
 def _nesting(document: Document) -> int:

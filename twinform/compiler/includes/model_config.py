@@ -7,8 +7,7 @@ from pathlib import Path
 
 from twinform.compiler.input.options import LoadOptions
 from twinform.compiler.input.parsing import UnreadableError, parse, read_bytes
-from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules import files as rules
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.file_access import Readable
 from twinform.ir import Document, Format
 from twinform.schemas import Version, parse_version, versions_of

@@ -8,7 +8,7 @@ from twinform.compiler.includes.model_config import manifest, model_file, newest
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.search.uris import UriError
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.edits import UNREAD_DOCUMENT
+from twinform.diagnostics.rules import UNREAD_DOCUMENT
 from twinform.ir import Document, Format
 from twinform.schemas import Version
 

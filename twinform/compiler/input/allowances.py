@@ -9,7 +9,7 @@ from pathlib import Path
 
 from twinform.compiler.input.limits import Limits
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Origins, Rule
-from twinform.diagnostics.rules.suppressions import MALFORMED_SUPPRESSION
+from twinform.diagnostics.rules import MALFORMED_SUPPRESSION
 from twinform.diagnostics.suppressions import NO_SUPPRESSIONS, Suppressions
 from twinform.file_access import Readable
 

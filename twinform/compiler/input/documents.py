@@ -5,8 +5,7 @@ from twinform.compiler.input.json import compare_documents
 from twinform.compiler.input.loading import lower_tree
 from twinform.compiler.input.options import LoadOptions, LoadResult
 from twinform.compiler.output.emitting import document_tree, located
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import structure
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format
 from twinform.ir.verify import verify
 
@@ -18,7 +17,7 @@ def check_document(document: Document, sink: DiagnosticSink, load_options: LoadO
     except (ValueError, IndexError) as error:  # a name that is none in XML; no model at all
         compare_documents(document, None, sink)
         if not sink.has_errors:
-            sink.report(structure.INVALID_VALUE, f"the document cannot be written: {error}", document.location)
+            sink.report(rules.INVALID_VALUE, f"the document cannot be written: {error}", document.location)
         return LoadResult(sink.file, document, tuple(sink.diagnostics))
     found = DiagnosticSink(sink.file, sink.strict)
     again = lower_tree(tree, found)

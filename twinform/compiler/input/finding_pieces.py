@@ -7,55 +7,43 @@ import re
 from collections.abc import Iterable, Iterator
 from itertools import islice
 
-from twinform.diagnostics import Diagnostic, Rule, Span, nearest_name
-from twinform.diagnostics.rules import (
-    bodies,
-    classic,
-    edits,
-    frames,
-    inertia,
-    joints,
-    model,
-    sdf_versions,
-    structure,
-    to_sdf,
-)
+from twinform.diagnostics import Diagnostic, Rule, Span, nearest_name, rules
 from twinform.text import AttributeSpan, ElementSpan
 from twinform.text.asides import COMMENT, INSTRUCTION
 
 _NAMES: frozenset[Rule] = frozenset(
     {
-        structure.UNKNOWN_ELEMENT,
-        structure.UNKNOWN_ATTRIBUTE,
-        structure.OUTSIDE_VERSION,
-        structure.DEPRECATED_ELEMENT,
-        structure.DIALECT,
-        structure.REPEATED_ELEMENT,
-        structure.MISSING_ELEMENT,
-        structure.MISSING_PART,
-        sdf_versions.GONE_FROM_SDF,
-        edits.NOT_FOR_FORMAT,
-        classic.PARAMETER_WITHOUT_COUNTERPART,
-        to_sdf.GAZEBO_TAG_WITHOUT_TARGET,
-        to_sdf.GAZEBO_CONFLICT,
+        rules.UNKNOWN_ELEMENT,
+        rules.UNKNOWN_ATTRIBUTE,
+        rules.OUTSIDE_VERSION,
+        rules.DEPRECATED_ELEMENT,
+        rules.DIALECT,
+        rules.REPEATED_ELEMENT,
+        rules.MISSING_ELEMENT,
+        rules.MISSING_PART,
+        rules.GONE_FROM_SDF,
+        rules.NOT_FOR_FORMAT,
+        rules.PARAMETER_WITHOUT_COUNTERPART,
+        rules.GAZEBO_TAG_WITHOUT_TARGET,
+        rules.GAZEBO_CONFLICT,
     }
 )
 """Findings about an element or attribute itself, whatever its value is."""
 _PARTS: dict[Rule, str] = {
-    model.DUPLICATE_NAME: "name",
-    model.EMPTY_NAME: "name",
-    model.SHARED_NAME: "name",
-    model.UNPRINTABLE_NAME: "name",
-    model.DANGLING_LINK: "link",
-    model.UNKNOWN_MATERIAL: "name",
-    model.LOWER_ABOVE_UPPER: "lower",
-    frames.FRAME_CYCLE: "name",
-    bodies.CONFLICTING_MATERIAL: "name",
-    joints.MIMIC_CYCLE: "joint",
-    inertia.NON_POSITIVE_MASS: "mass",
-    model.TWO_PARENTS: "child",
-    model.KINEMATIC_LOOP: "child",
-    model.SELF_JOINT: "child",
+    rules.DUPLICATE_NAME: "name",
+    rules.EMPTY_NAME: "name",
+    rules.SHARED_NAME: "name",
+    rules.UNPRINTABLE_NAME: "name",
+    rules.DANGLING_LINK: "link",
+    rules.UNKNOWN_MATERIAL: "name",
+    rules.LOWER_ABOVE_UPPER: "lower",
+    rules.FRAME_CYCLE: "name",
+    rules.CONFLICTING_MATERIAL: "name",
+    rules.MIMIC_CYCLE: "joint",
+    rules.NON_POSITIVE_MASS: "mass",
+    rules.TWO_PARENTS: "child",
+    rules.KINEMATIC_LOOP: "child",
+    rules.SELF_JOINT: "child",
 }
 """The attribute, or the child element, that a finding about an element is about, where it has one."""
 _QUOTED = re.compile(r"'((?:[^']|(?<=\w)'(?=\w))+)'")
@@ -75,13 +63,13 @@ def piece(finding: Diagnostic, element: ElementSpan, text: str) -> Span:
     if attribute is not None:
         written = element.attributes.get(attribute)
         return _of_attribute(finding, written, text) if written else element.name
-    if finding.rule is structure.STRAY_TEXT:
+    if finding.rule is rules.STRAY_TEXT:
         return next((span for span in _texts(element, text) if span.of(text) == finding.found), element.name)
-    if finding.rule is structure.MISSING_ATTRIBUTE:
+    if finding.rule is rules.MISSING_ATTRIBUTE:
         return _misspelt(finding, element) or element.name
     if finding.rule in _NAMES:
         return element.name
-    if finding.rule is structure.SPLIT_VALUE:
+    if finding.rule is rules.SPLIT_VALUE:
         return _own_text(element, text) or element.name
     return _part(finding, element, text) or _holding(finding, element, text) or element.name
 

@@ -17,8 +17,7 @@ from twinform.compiler.input.loading import garbage_collection_paused, read_tree
 from twinform.compiler.input.options import LoadResult, expanded_name
 from twinform.compiler.input.parsing import UnreadableError, parse
 from twinform.compiler.input.source_files import SourceFiles
-from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Span
-from twinform.diagnostics.rules import reading, structure
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Span, rules
 from twinform.schemas import XmlElement
 from twinform.schemas.writer import LAST_LINE
 from twinform.text import ElementSpan, Lines, SourceText
@@ -26,7 +25,7 @@ from twinform.text.positions import start_tag
 from twinform.text.tags import Tags
 
 _WORD = re.compile(r"[\w:.-]+")
-_OF_ROOT = frozenset({reading.UNKNOWN_ROOT, reading.OLD_ROOT})
+_OF_ROOT = frozenset({rules.UNKNOWN_ROOT, rules.OLD_ROOT})
 """Findings about the root element whatever it is called."""
 _MOST_ON_LINE = 1000
 
@@ -117,7 +116,7 @@ class FindingSpans:
         Of one whose part was `expanded` from what stands here, the path may be another.
         """
         where = finding.location
-        if finding.rule is structure.TABBED_NUMBERS:
+        if finding.rule is rules.TABBED_NUMBERS:
             return self._tabbed(finding)
         if finding.rule in _OF_ROOT:
             return start_tag(self.text, self.tags.starts[0]).name

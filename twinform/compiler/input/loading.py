@@ -27,9 +27,7 @@ from twinform.compiler.input.parsing import (
 from twinform.compiler.input.unexpanded_xacro import report_unexpanded
 from twinform.compiler.input.used_up_tree import LARGE, used_up
 from twinform.compiler.search.uris import SearchPath
-from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules import model, reading, structure
-from twinform.diagnostics.rules import xacro as xacro_rules
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format
 from twinform.ir.sourced import amend
 from twinform.ir.verify import verify
@@ -52,7 +50,7 @@ _ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Document | None]]] 
     "sdf": ("sdf", sdf.build),
 }
 _CONSEQUENCES = frozenset(
-    {model.MISSING_LIMIT, model.PARTIAL_LIMIT, model.SEVERAL_ROOTS, model.EMPTY_MODEL, model.UNKNOWN_MATERIAL}
+    {rules.MISSING_LIMIT, rules.PARTIAL_LIMIT, rules.SEVERAL_ROOTS, rules.EMPTY_MODEL, rules.UNKNOWN_MATERIAL}
 )
 _JSON = re.compile(rb"(\xef\xbb\xbf)?\s*\{")
 """How a JSON document begins."""
@@ -170,7 +168,7 @@ def _check_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) ->
 
     if load_options.xacro is False:
         message = "this is a xacro file, and xacro is refused here"
-        sink.report(xacro_rules.XACRO_REFUSED, message, Location(line=1))
+        sink.report(rules.XACRO_REFUSED, message, Location(line=1))
         raise UnreadableError
     expansion = expand(path, load_options, sink)
     load_options.search.seen.update(map(Path, {place.file for place in expansion.origins.places}))
@@ -288,12 +286,12 @@ def read_tree(
     namespace = strip_default_namespace(root)
     if root.tag == _OLD_ROOT and root.get("version") in _OLD_ROOT_VERSIONS:
         message = f"the root of SDF {root.get('version')} is <{_OLD_ROOT}>; read, and written, as <sdf>"
-        sink.report(reading.OLD_ROOT, message, Location(line=root.sourceline or 0, path=f"/{root.tag}"))
+        sink.report(rules.OLD_ROOT, message, Location(line=root.sourceline or 0, path=f"/{root.tag}"))
         root.tag = "sdf"
     if root.tag not in _ROOTS:
         where = Location(line=root.sourceline or 0, path=f"/{root.tag}")
         message = f"the root element is <{root.tag}>; expected <robot> or <sdf>"
-        sink.report(reading.UNKNOWN_ROOT, message, where, found=str(root.tag), expected="robot or sdf")
+        sink.report(rules.UNKNOWN_ROOT, message, where, found=str(root.tag), expected="robot or sdf")
         raise UnreadableError
     return root, namespace
 
@@ -343,19 +341,19 @@ def declared_version(root: XmlElement, format_: str, sink: DiagnosticSink) -> Ve
     newest = known[-1]
     if declared is not None:
         message = f"{format_.upper()} has no version {declared!r}; read as {newest}"
-        sink.report(structure.UNKNOWN_VERSION, message, where, found=declared, expected=", ".join(known))
+        sink.report(rules.UNKNOWN_VERSION, message, where, found=declared, expected=", ".join(known))
     return parse_version(newest)
 
 
 def _is_plain(text: bytes, sink: DiagnosticSink) -> bool:
     """Whether no name has a namespace: none is declared, nor was a prefix repaired; in UTF-16 there is a zero byte."""
-    repaired = any(found.rule is reading.REPAIRED_XML for found in sink.diagnostics)
+    repaired = any(found.rule is rules.REPAIRED_XML for found in sink.diagnostics)
     return not repaired and b"xmlns" not in text and b"\0" not in text
 
 
 def _declares_inside(root: XmlElement, text: bytes, sink: DiagnosticSink) -> bool:
     """Whether other elements than the root may declare namespaces, or have had prefixes of theirs repaired."""
-    repaired = any(found.rule is reading.REPAIRED_XML for found in sink.diagnostics)
+    repaired = any(found.rule is rules.REPAIRED_XML for found in sink.diagnostics)
     return repaired or text.count(b"xmlns") > len(root.nsmap) or b"\0" in text
 
 

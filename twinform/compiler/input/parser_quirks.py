@@ -7,8 +7,7 @@ import re
 
 from lxml import etree
 
-from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules import structure
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.schemas import XmlElement, path_of
 from twinform.schemas.xml import Places
 from twinform.text.asides import COMMENT, INSTRUCTION, SECTION
@@ -42,7 +41,7 @@ def report_tabbed_numbers(text: bytes, sink: DiagnosticSink) -> None:
             name = found[1].decode()
             message = f"the numbers of {name!r} have a tab or a new line between them; expected blanks"
             line, counted = line + bare.count(b"\n", counted, found.start()), found.start()
-            sink.report(structure.TABBED_NUMBERS, message, Location(sink.file, line), expected="blanks")
+            sink.report(rules.TABBED_NUMBERS, message, Location(sink.file, line), expected="blanks")
 
 
 def _has_break_after_digit(text: bytes) -> bool:
@@ -61,7 +60,7 @@ def report_split_values(root: XmlElement, sink: DiagnosticSink) -> None:
         if _is_split(element):
             message = f"the text of <{element.tag}> has a comment in the middle"
             where = Location(sink.file, element.sourceline or 0, path_of(element, places))
-            sink.report(structure.SPLIT_VALUE, message, where, found=(element.text or "").strip())
+            sink.report(rules.SPLIT_VALUE, message, where, found=(element.text or "").strip())
 
 
 def has_comment_after_text(text: bytes) -> bool:

@@ -33,8 +33,7 @@ from twinform.compiler.input.xml_recovery import (
     without_hyphens,
 )
 from twinform.compiler.observing import note_failure
-from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules import reading
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.file_access import OutsideError, Readable
 from twinform.schemas import XmlElement, undeclared_namespace
 
@@ -82,7 +81,7 @@ def parse(
     if encoding is not None:
         message = f"the encoding {encoding!r} is none that models are written in"
         hint = "save the file as UTF-8, or name an encoding that it may have, such as UTF-8 or ISO-8859-1"
-        sink.report(reading.NOT_WELL_FORMED, message, Location(line=1, path="/"), help=hint)
+        sink.report(rules.NOT_WELL_FORMED, message, Location(line=1, path="/"), help=hint)
         raise UnreadableError
     repaired = False
     try:
@@ -94,11 +93,11 @@ def parse(
     if root.getroottree().docinfo.doctype:
         from twinform.compiler.input.syntax_places import SyntaxPlaces  # noqa: PLC0415 - few files are refused
 
-        sink.report(reading.DOCTYPE, "the document has a DOCTYPE; none is allowed", SyntaxPlaces(text).doctype())
+        sink.report(rules.DOCTYPE, "the document has a DOCTYPE; none is allowed", SyntaxPlaces(text).doctype())
         raise UnreadableError
     if b"\0" in text[:4] or text[:2] in _UTF_16:
         message = "the file is in UTF-16, which neither urdfdom nor Drake nor libsdformat reads"
-        sink.report(reading.WIDE_ENCODING, message, Location(line=1, path="/"), help="save the file as UTF-8")
+        sink.report(rules.WIDE_ENCODING, message, Location(line=1, path="/"), help="save the file as UTF-8")
     return root
 
 
@@ -109,7 +108,7 @@ def refuse_excess(excess: Excess | None, sink: DiagnosticSink) -> None:
         UnreadableError: there is something.
     """
     if excess is not None:
-        sink.report(reading.OVERSIZED_FILE, excess.message, excess.location, help=excess.help)
+        sink.report(rules.OVERSIZED_FILE, excess.message, excess.location, help=excess.help)
         raise UnreadableError
 
 
@@ -135,7 +134,7 @@ def _recover(
     if whole is not None:
         line = text[: text.index(b"?xml")].count(b"\n") + 1
         message = "not well-formed XML, repaired: the '<' of the XML declaration is missing"
-        sink.report(reading.REPAIRED_XML, message, Location(line=line, path="/"), help=LOST_BRACKET)
+        sink.report(rules.REPAIRED_XML, message, Location(line=line, path="/"), help=LOST_BRACKET)
         text = whole
     text, flaws = with_single_colons(text)
     refuse_excess(excess_of_colons(len(flaws)), sink)
@@ -151,7 +150,7 @@ def _recover(
         if any(entry.type_name == "ERR_RESOURCE_LIMIT" for entry in log):
             refuse_excess(Excess(f"{LIMITS} (column {flaw.column})", Location(line=flaw.line, path="/")), sink)
         where = SyntaxPlaces(text).location(flaw) if text == source else Location(line=flaw.line, path="/")
-        sink.report(reading.NOT_WELL_FORMED, f"not well-formed XML: {flaw.message}", where, help=flaw.help)
+        sink.report(rules.NOT_WELL_FORMED, f"not well-formed XML: {flaw.message}", where, help=flaw.help)
         raise UnreadableError from error
     refuse_excess(excess_of_tree(root, text, limits), sink)
     places = SyntaxPlaces(source)
@@ -160,7 +159,7 @@ def _recover(
         words = f"not well-formed XML, repaired: {flaw.message}"
         is_placed = is_unchanged or (number < len(flaws) and whole is None)
         where = places.location(flaw) if is_placed else Location(line=flaw.line, path="/")
-        sink.report(reading.REPAIRED_XML, words, where, help=flaw.help)
+        sink.report(rules.REPAIRED_XML, words, where, help=flaw.help)
     _declare_prefixes(root)
     return root
 
@@ -204,5 +203,5 @@ def strip_default_namespace(root: XmlElement) -> str | None:
 
 
 def _unreadable(sink: DiagnosticSink, message: str, help: str | None = None) -> UnreadableError:
-    sink.report(reading.UNREADABLE_FILE, message, help=help)
+    sink.report(rules.UNREADABLE_FILE, message, help=help)
     return UnreadableError()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from twinform.compiler.input.limits import LARGEST
 from twinform.compiler.input.options import LoadResult
-from twinform.diagnostics.rules.xacro import XACRO_REFUSED
+from twinform.diagnostics.rules import XACRO_REFUSED
 from twinform.file_access import Readable
 from twinform.schemas import XmlElement
 from twinform.text import Lines, SourceText

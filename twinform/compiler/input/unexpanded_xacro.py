@@ -5,8 +5,7 @@ from typing import NamedTuple
 
 from lxml import etree
 
-from twinform.diagnostics import DiagnosticSink, Location, Severity
-from twinform.diagnostics.rules import xacro as rules
+from twinform.diagnostics import DiagnosticSink, Location, Severity, rules
 from twinform.schemas import XmlElement
 from twinform.schemas.xml import path_of
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from twinform.compiler.input.options import LoadOptions, LoadResult
 from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location
-from twinform.diagnostics.rules.portability import UNREAD_FORMAT
+from twinform.diagnostics.rules import UNREAD_FORMAT
 from twinform.ir import Format
 from twinform.profiles import Profile, Subject, assess, findings
 

@@ -1,7 +1,7 @@
 """Contact sensors in the `<gazebo>` elements of URDF that name a collision which is not there."""
 
 from twinform.diagnostics import DiagnosticSink, did_you_mean
-from twinform.diagnostics.rules.bodies import UNKNOWN_COLLISION
+from twinform.diagnostics.rules import UNKNOWN_COLLISION
 from twinform.ir import Document, Element, Format, Model
 from twinform.passes.carriers.lumped_names import mentions_collisions
 

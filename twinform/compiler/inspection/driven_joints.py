@@ -3,8 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator
 
-from twinform.diagnostics import DiagnosticSink, Location, did_you_mean
-from twinform.diagnostics.rules import control as rules
+from twinform.diagnostics import DiagnosticSink, Location, did_you_mean, rules
 from twinform.ir import Document, Element, Model
 from twinform.passes.control.carried_elements import elements
 

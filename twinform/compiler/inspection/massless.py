@@ -1,7 +1,7 @@
 """Moving links without mass: what joints move and has no `<inertial>` anywhere."""
 
 from twinform.diagnostics import DiagnosticSink, Severity
-from twinform.diagnostics.rules.inertia import MISSING_INERTIAL
+from twinform.diagnostics.rules import MISSING_INERTIAL
 from twinform.ir import Document, Format
 from twinform.passes.analyses.moving_bodies import moving_bodies, neighbors
 from twinform.passes.carriers.annotations import find_annotation, is_synthesized

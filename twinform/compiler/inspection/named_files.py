@@ -8,8 +8,7 @@ from typing import NamedTuple
 from twinform.compiler.input.finding_lines import PartFinder, line_of_text
 from twinform.compiler.inspection.near_files import is_elsewhere, near_file
 from twinform.compiler.search.uris import SearchPath, UriError, exists
-from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules import files as rules
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document
 from twinform.passes.transforms.uris import Kind, map_uris
 from twinform.schemas import XmlElement

@@ -2,7 +2,7 @@
 
 from twinform.compiler.input.allowances import Allowances
 from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules.suppressions import UNUSED_SUPPRESSION
+from twinform.diagnostics.rules import UNUSED_SUPPRESSION
 from twinform.diagnostics.suppressions import Suppression
 
 _NAMES = """

@@ -10,9 +10,8 @@ from lxml import etree
 from twinform.compiler.output import sdf, urdf
 from twinform.compiler.output.comments import Comments, place_comments
 from twinform.compiler.output.default_namespaces import has_made_up_prefixes, restore_defaults
-from twinform.diagnostics import Diagnostic, DiagnosticSink, Fate, Location
-from twinform.diagnostics.rules import to_sdf
-from twinform.diagnostics.rules.comments import LEFT_COMMENT
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Fate, Location, rules
+from twinform.diagnostics.rules import LEFT_COMMENT
 from twinform.ir import Document, Format, walk
 from twinform.ir.verify import verify_again
 from twinform.passes import PassInstrumentation, Pipeline
@@ -188,8 +187,8 @@ def _leave_out(context: Context, kept: AbstractSet[str], sink: DiagnosticSink) -
         message = f"{version} does not have {what}"
         where = Location(sink.file, element.sourceline or 0, path_of(element))
         weight = 1 if fact.is_attribute else sum(1 + len(each.keys()) for each in element.iter())
-        sink.report(to_sdf.OLDER_VERSION, message, where, found=fact.name)
-        sink.account(Fate.DROPPED, to_sdf.OLDER_VERSION, message, where, weight)
+        sink.report(rules.OLDER_VERSION, message, where, found=fact.name)
+        sink.account(Fate.DROPPED, rules.OLDER_VERSION, message, where, weight)
         parent = element.getparent()
         if fact.is_attribute:
             element.attrib.pop(fact.name[1:], None)

@@ -3,8 +3,7 @@
 import json
 from typing import Any
 
-from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules import structure
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format, Model, Node, node_values
 from twinform.schemas import in_order, table, writer
 from twinform.schemas.json_check import json_faults
@@ -22,7 +21,7 @@ def json_text(document: Document, sink: DiagnosticSink) -> str:
     for fault in json_faults(data):
         path = "/".join(map(str, fault.path))
         message = f"{path or 'the document'}: {fault.message}; {document.format.upper()} cannot express it"
-        sink.report(structure.INVALID_VALUE, message, Location(path=path), found=fault.found, expected=fault.expected)
+        sink.report(rules.INVALID_VALUE, message, Location(path=path), found=fault.found, expected=fault.expected)
     return json.dumps({"$schema": JSON_IDENTIFIER, **data}, indent=2, ensure_ascii=False) + "\n"
 
 

@@ -11,7 +11,7 @@ from twinform.compiler.packaging.made_files import MadeFiles
 from twinform.compiler.packaging.plugin_files import report_plugin_files
 from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity
-from twinform.diagnostics.rules.packaging import UNPACKAGED_FILE, UNPACKAGED_INCLUDE
+from twinform.diagnostics.rules import UNPACKAGED_FILE, UNPACKAGED_INCLUDE
 from twinform.ir import Document, Format
 from twinform.passes.framework.asset_access import AssetError
 from twinform.passes.framework.assets import AssetPass

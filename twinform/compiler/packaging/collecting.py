@@ -15,8 +15,7 @@ from twinform.compiler.packaging.origins import Origins
 from twinform.compiler.packaging.package import Content
 from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import Rule
-from twinform.diagnostics.rules.files import URI_LEAVES_FOLDER
-from twinform.diagnostics.rules.packaging import UNPACKAGED_FILE
+from twinform.diagnostics.rules import UNPACKAGED_FILE, URI_LEAVES_FOLDER
 from twinform.file_access import OutsideError
 from twinform.passes.framework.asset_access import AssetError
 from twinform.passes.mesh_jobs.mesh_files import POINTER, is_pointer

@@ -10,7 +10,7 @@ from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
 from twinform.compiler.packaging.ros2.packages import build as build_ros2
 from twinform.diagnostics import Diagnostic, DiagnosticSink
-from twinform.diagnostics.rules.packaging import PLACEHOLDER
+from twinform.diagnostics.rules import PLACEHOLDER
 
 Builder = Callable[[Order, Collection], Built]
 """Makes a package of an order; the files of the model go into the collection, which several may share."""

@@ -14,7 +14,7 @@ from twinform.compiler.packaging.made_files import MadeFiles
 from twinform.compiler.packaging.package import Package
 from twinform.compiler.request import ConversionRequest, Language
 from twinform.diagnostics import Diagnostic, Ledger, Location, Severity
-from twinform.diagnostics.rules.packaging import UNPACKAGED_FILE
+from twinform.diagnostics.rules import UNPACKAGED_FILE
 from twinform.passes import PassInstrumentation, Pipeline
 from twinform.passes.plugins.release_names import ReleaseName
 

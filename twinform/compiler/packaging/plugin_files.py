@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable, Iterator
 
 from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules.packaging import UNPACKAGED_PARAMETER
+from twinform.diagnostics.rules import UNPACKAGED_PARAMETER
 from twinform.ir import Document, Element, Plugin, rewrite
 from twinform.ir.census import untyped_elements
 

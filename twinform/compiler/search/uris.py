@@ -10,7 +10,7 @@ from urllib.parse import unquote, urlsplit
 
 from twinform.compiler.search import fuel
 from twinform.compiler.search.packages import MODEL_CONFIG, PackageIndex, package_name
-from twinform.diagnostics.rules import files as rules
+from twinform.diagnostics import rules
 from twinform.file_access import OutsideError, Readable
 from twinform.file_access.roots import find_root, folders_around, neighborhood
 from twinform.passes import AssetError

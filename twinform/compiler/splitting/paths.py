@@ -9,7 +9,7 @@ from urllib.parse import quote, unquote
 
 from twinform.compiler.search.uris import LocalAssets, exists
 from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules.files import MISSING_FILE
+from twinform.diagnostics.rules import MISSING_FILE
 from twinform.file_access import Readable
 from twinform.ir import Document
 from twinform.passes.framework.asset_access import AssetError

@@ -21,10 +21,8 @@ from twinform.compiler.request import ConversionRequest
 from twinform.compiler.search.uris import LocalAssets
 from twinform.compiler.splitting.gazebo_urdf import changes
 from twinform.compiler.splitting.paths import moved
-from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile
-from twinform.diagnostics.rules import splitting as rules
-from twinform.diagnostics.rules import structure
-from twinform.diagnostics.rules.to_urdf import UNSAYABLE_SHAPE
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile, rules
+from twinform.diagnostics.rules import UNSAYABLE_SHAPE
 from twinform.ir import Document, Format, Include, Model, Pose, World
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform
@@ -108,7 +106,7 @@ def split(
         document = passes.run(checked.document, sink, instrumentation, verify)
         if document.format is not Format.SDF:
             message = "the file is URDF, which holds one robot; --split is for SDF"
-            sink.report(structure.INVALID_VALUE, message, document.location, found="urdf", expected="sdf")
+            sink.report(rules.INVALID_VALUE, message, document.location, found="urdf", expected="sdf")
         if folder is not None:
             document, there = moved(document, assets, folder, sink)
             request = replace(request, assets=there)

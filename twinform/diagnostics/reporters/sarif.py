@@ -6,7 +6,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from twinform.diagnostics.addresses import HOME, RULES
-from twinform.diagnostics.built_in import BUILT_IN
+from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.location import Location
 from twinform.diagnostics.reporters.findings import Findings, placed_edits
@@ -42,7 +42,7 @@ def _rule(rule: Rule) -> dict[str, object]:
     page = list(sections(rule))
     text = "\n".join(f"{heading}: {body}" for heading, body in page)
     markdown = "\n\n".join(f"**{heading}.** {body}" for heading, body in page)
-    address = {"helpUri": f"{RULES}#{rule.name}"} if BUILT_IN.get(rule.name) else {}
+    address = {"helpUri": f"{RULES}#{rule.name}"} if rule.name in catalog() else {}
     return {
         "id": rule.name,
         "shortDescription": {"text": rule.finds},

@@ -2,8 +2,7 @@
 
 import math
 
-from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity
-from twinform.diagnostics.rules import inertia as rules
+from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, rules
 from twinform.ir.link import Inertia, Inertial, Link
 from twinform.ir.principal_moments import Symmetric, principal_moments, relative_moments
 from twinform.ir.solids import tensor

@@ -3,10 +3,8 @@
 import math
 from collections.abc import Iterable, Mapping
 
-from twinform.diagnostics import DiagnosticSink, Location, did_you_mean
-from twinform.diagnostics.rules import joints as rules
-from twinform.diagnostics.rules import model as names
-from twinform.diagnostics.rules.limits import RANGE_IN_DEGREES
+from twinform.diagnostics import DiagnosticSink, Location, did_you_mean, rules
+from twinform.diagnostics.rules import RANGE_IN_DEGREES
 from twinform.ir.joint import Axis, Joint, Limit, Mimic
 from twinform.ir.node import Vector3
 
@@ -28,7 +26,7 @@ def verify_joint(joint: Joint, sink: DiagnosticSink, *, every_axis: bool = False
     """Report what is wrong with a joint by itself; `every_axis` is whether readers look at unused axes, too."""
     if joint.parent is not None and joint.parent == joint.child:
         message = f"joint {joint.name!r} connects {joint.parent!r} to itself"
-        sink.report(names.SELF_JOINT, message, joint.location, found=joint.parent)
+        sink.report(rules.SELF_JOINT, message, joint.location, found=joint.parent)
     freedoms = _FREEDOMS.get(joint.type, 0)
     axis, axis2 = joint.axis, joint.axis2
     for number, (name, each) in enumerate((("axis", axis), ("axis2", axis2))):
@@ -71,12 +69,12 @@ def _place(joint: Joint, name: str, axis: Axis) -> Location:
 def _verify_length(joint: Joint, xyz: Vector3, where: Location, sink: DiagnosticSink) -> None:
     if not any(xyz):
         message = f"the axis of joint {joint.name!r} has length zero"
-        sink.report(names.ZERO_AXIS, message, where, found="0 0 0")
+        sink.report(rules.ZERO_AXIS, message, where, found="0 0 0")
         return
     length = math.hypot(*xyz)
     if abs(length - 1) > _ROUNDING:
         message = f"the axis of joint {joint.name!r} has length {length:.4g}; readers normalize it"
-        sink.report(rules.UNNORMALIZED_AXIS, message, where, found=f"{length:.4g}", expected="1")
+        sink.report(rules.UNNORMALISED_AXIS, message, where, found=f"{length:.4g}", expected="1")
 
 
 def _verify_limit(joint: Joint, limit: Limit, sink: DiagnosticSink) -> None:
@@ -86,7 +84,7 @@ def _verify_limit(joint: Joint, limit: Limit, sink: DiagnosticSink) -> None:
             sink.report(rules.UNUSED_LIMIT, message, limit.location)
     elif limit.lower is not None and limit.upper is not None and limit.lower > limit.upper:
         message = f"joint {joint.name!r} has the lower limit {limit.lower:g} above the upper limit {limit.upper:g}"
-        sink.report(names.LOWER_ABOVE_UPPER, message, limit.location, found=f"{limit.lower:g}")
+        sink.report(rules.LOWER_ABOVE_UPPER, message, limit.location, found=f"{limit.lower:g}")
     if joint.type == "revolute" and _is_in_degrees(limit.lower or 0.0, limit.upper or 0.0):
         message = (
             f"joint {joint.name!r} turns from {limit.lower or 0:g} to {limit.upper or 0:g} rad; are these degrees?"
@@ -111,10 +109,10 @@ def verify_limits_there(joint: Joint, sink: DiagnosticSink, *, optional: bool) -
     missing = [name for name in ("effort", "velocity") if limit and getattr(limit, name) is None]
     if limit and missing and not optional:
         message = f"the limit of joint {joint.name!r} has no {' and no '.join(missing)}"
-        sink.report(names.PARTIAL_LIMIT, message, limit.location, expected=f"@{missing[0]}")
+        sink.report(rules.PARTIAL_LIMIT, message, limit.location, expected=f"@{missing[0]}")
     if joint.type in _LIMITED and limit is None:
         message = f"{joint.type} joint {joint.name!r} has no <limit>"
-        sink.report(names.MISSING_LIMIT, message, joint.location, expected="<limit>")
+        sink.report(rules.MISSING_LIMIT, message, joint.location, expected="<limit>")
 
 
 def verify_mimics(joints: Iterable[Joint], sink: DiagnosticSink) -> None:
@@ -133,7 +131,7 @@ def verify_mimics(joints: Iterable[Joint], sink: DiagnosticSink) -> None:
         message = f"joint {joint.name!r} mimics {mimic.joint!r}, {what}"
         others = (each for each in known if each != joint.name)
         hint = None if mimic.joint in known else did_you_mean(mimic.joint or "", others)
-        sink.report(names.UNKNOWN_LEADER, message, mimic.location, found=mimic.joint, help=hint)
+        sink.report(rules.UNKNOWN_LEADER, message, mimic.location, found=mimic.joint, help=hint)
     _report_circles(followers, leaders, sink)
 
 

@@ -2,8 +2,7 @@
 
 from collections.abc import Iterable
 
-from twinform.diagnostics import DiagnosticSink, Severity
-from twinform.diagnostics.rules import model as rules
+from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.ir.document import Document
 from twinform.ir.node import Node
 from twinform.ir.scoped_elements import scoped_elements, scoped_parts_below

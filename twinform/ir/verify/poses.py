@@ -2,8 +2,7 @@
 
 import math
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import frames as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir.pose import Pose
 
 _MOST = 4 * math.pi
@@ -41,4 +40,4 @@ def _length(pose: Pose, length: float, sink: DiagnosticSink) -> None:
         message = f"a quaternion has the length {found}; some readers normalize it, others scale by it"
     else:
         message = "a quaternion has length zero, which is no rotation"
-    sink.report(rules.UNNORMALIZED_QUATERNION, message, pose.location, found=found, expected="1")
+    sink.report(rules.UNNORMALISED_QUATERNION, message, pose.location, found=found, expected="1")

@@ -2,9 +2,7 @@
 
 from collections.abc import Iterable
 
-from twinform.diagnostics import DiagnosticSink, Rule, Severity, did_you_mean
-from twinform.diagnostics.rules import frames as rules
-from twinform.diagnostics.rules import model as joints
+from twinform.diagnostics import DiagnosticSink, Rule, Severity, did_you_mean, rules
 from twinform.ir.joint import Joint
 from twinform.ir.light import Light
 from twinform.ir.link import Link
@@ -97,18 +95,16 @@ class References:
             where = joint.location.at("gearbox_reference_body")
             message = f"joint {joint.name!r} has the reference body {reference!r}, which is no link"
             hint = did_you_mean(reference, self.scope.names("link"))
-            self.sink.report(
-                joints.DANGLING_LINK, message, where, found=reference, severity=Severity.WARNING, help=hint
-            )
+            self.sink.report(rules.DANGLING_LINK, message, where, found=reference, severity=Severity.WARNING, help=hint)
 
     def _end(self, joint: Joint, end: str, name: str) -> None:
         if name == joint.name and self.scope.find(name) == "joint":
             message = f"joint {joint.name!r} has itself as its {end}"
-            self.sink.report(joints.SELF_JOINT, message, joint.location.at(end), found=name)
+            self.sink.report(rules.SELF_JOINT, message, joint.location.at(end), found=name)
         elif name != self.own:
             what = f"joint {joint.name!r} has the {end} {name!r}, which is no link or frame of the "
             message = what + ("model" if self.own == MODEL else "world")
-            self._look_up(joints.DANGLING_LINK, message, (joint, end), name, (joint.parent, joint.child))
+            self._look_up(rules.DANGLING_LINK, message, (joint, end), name, (joint.parent, joint.child))
 
     def _pose(self, placed: _Placed) -> None:
         pose = placed.pose

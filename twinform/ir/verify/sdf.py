@@ -1,9 +1,6 @@
 """The rules of SDF: models in models, whose links, joints and frames share one scope of names."""
 
-from twinform.diagnostics import DiagnosticSink, Severity
-from twinform.diagnostics.rules import frames as frame_rules
-from twinform.diagnostics.rules import joints as joint_rules
-from twinform.diagnostics.rules import model as rules
+from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.ir import Format
 from twinform.ir.defaults import MOMENT
 from twinform.ir.document import Document
@@ -83,7 +80,7 @@ class _Verifier:
         if model.pose is not None and model.pose.relative_to:
             message = f"the pose of model {model.name!r} names a frame, and a model at the top has no frame around it"
             where = model.pose.location.at("@relative_to")
-            self.sink.report(frame_rules.DANGLING_FRAME, message, where, found=model.pose.relative_to)
+            self.sink.report(rules.DANGLING_FRAME, message, where, found=model.pose.relative_to)
 
     def model_with_frames(self, model: Model) -> None:
         before = len(self.sink.diagnostics)
@@ -117,7 +114,7 @@ class _Verifier:
             message = f"joint {joint.name!r} is continuous, which no physics engine of Gazebo supports"
             where = joint.location.at("@type")
             self.sink.report(
-                joint_rules.CONTINUOUS_IN_SDF, message, where, found="continuous", expected="revolute without limits"
+                rules.CONTINUOUS_IN_SDF, message, where, found="continuous", expected="revolute without limits"
             )
         if joint.child == "world":
             message = f"joint {joint.name!r} has the child 'world'"
@@ -174,7 +171,7 @@ class _Verifier:
             graph, problems = None, [error]
         for problem in problems:
             # a name that leads nowhere is in an include, or was reported where it stands
-            if problem.rule is frame_rules.FRAME_CYCLE and problem.found not in seen:
+            if problem.rule is rules.FRAME_CYCLE and problem.found not in seen:
                 problem.report(self.sink)
                 seen.add(problem.found)
         if graph is not None and not problems:

@@ -2,8 +2,7 @@
 
 from collections.abc import Callable, Iterator
 
-from twinform.diagnostics import DiagnosticSink, did_you_mean
-from twinform.diagnostics.rules import bodies as rules
+from twinform.diagnostics import DiagnosticSink, did_you_mean, rules
 from twinform.ir.element import Opaque
 from twinform.ir.link import Link
 from twinform.ir.model import Model

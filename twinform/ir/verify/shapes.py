@@ -1,7 +1,6 @@
 """Verifies visuals and collisions: whether there is a shape, and whether it has a size."""
 
-from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules import bodies as rules
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir.geometry import Geometry, Plane
 from twinform.ir.link import Link
 from twinform.ir.visual import Collision, Visual

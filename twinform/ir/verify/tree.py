@@ -2,8 +2,7 @@
 
 from collections.abc import Iterable
 
-from twinform.diagnostics import DiagnosticSink, Severity
-from twinform.diagnostics.rules import model as rules
+from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.ir.joint import Joint
 
 

@@ -2,10 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 
-from twinform.diagnostics import DiagnosticSink, Location, Severity, did_you_mean
-from twinform.diagnostics.rules import bodies
-from twinform.diagnostics.rules import joints as joint_rules
-from twinform.diagnostics.rules import model as rules
+from twinform.diagnostics import DiagnosticSink, Location, Severity, did_you_mean, rules
 from twinform.ir.joint import Joint
 from twinform.ir.model import Model
 from twinform.ir.node import Node
@@ -62,7 +59,7 @@ def _verify_joint(joint: Joint, links: set[str], sink: DiagnosticSink) -> None:
     for part in joint.opaque:
         if part.element and part.element.name == "dynamics" and not part.element.attributes:
             message = f"<dynamics> of joint {joint.name!r} has neither damping nor friction"
-            sink.report(joint_rules.EMPTY_DYNAMICS, message, part.location, expected="damping or friction")
+            sink.report(rules.EMPTY_DYNAMICS, message, part.location, expected="damping or friction")
 
 
 def _verify_tree(model: Model, links: set[str], sink: DiagnosticSink) -> None:
@@ -83,7 +80,7 @@ def _report_materials(model: Model, sink: DiagnosticSink) -> None:
     for material in model.materials:
         if _is_bare(material):
             message = f"the shared material {material.name!r} has neither a color nor a texture"
-            sink.report(bodies.BARE_MATERIAL, message, material.location, expected="<color> or <texture>")
+            sink.report(rules.BARE_MATERIAL, message, material.location, expected="<color> or <texture>")
     _report_unnamed(model, sink)
     defined = {material.name: material for material in model.materials if material.name}
     used = [visual.material for link in model.links for visual in link.visuals if visual.material]
@@ -99,11 +96,11 @@ def _report_materials(model: Model, sink: DiagnosticSink) -> None:
 
 def _report_unnamed(model: Model, sink: DiagnosticSink) -> None:
     for place in _unnamed(model, model.materials):
-        sink.report(bodies.UNNAMED_MATERIAL, "a shared material has no name", place, expected="@name")
+        sink.report(rules.UNNAMED_MATERIAL, "a shared material has no name", place, expected="@name")
     for visual in (visual for link in model.links for visual in link.visuals):
         for place in _unnamed(visual, (visual.material,) if visual.material else ()):
             message = "the material of a visual has no name"
-            sink.report(bodies.UNNAMED_MATERIAL, message, place, expected="@name")
+            sink.report(rules.UNNAMED_MATERIAL, message, place, expected="@name")
 
 
 def _unnamed(holder: Node, materials: Iterable[Material]) -> Iterator[Location]:
@@ -121,4 +118,4 @@ def _report_conflict(material: Material, first: Material, sink: DiagnosticSink) 
     if (material.color, material.texture) != (first.color, first.texture):
         message = f"material {material.name!r} has another color or texture here than in its first definition"
         related = (first.location,)
-        sink.report(bodies.CONFLICTING_MATERIAL, message, material.location, found=material.name, related=related)
+        sink.report(rules.CONFLICTING_MATERIAL, message, material.location, found=material.name, related=related)

@@ -5,8 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple, cast
 
-from twinform.diagnostics import Rule
-from twinform.diagnostics.rules import meshes as rules
+from twinform.diagnostics import Rule, rules
 from twinform.ir import Element, Mesh, Vector3
 from twinform.ir.principal_moments import times_each
 from twinform.ir.scaling import times_power

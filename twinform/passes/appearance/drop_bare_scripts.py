@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules.portability_engines import DROPPED_BARE_SCRIPT
+from twinform.diagnostics.rules import DROPPED_BARE_SCRIPT
 from twinform.ir import Document, Format, Material, Script, rewrite
 from twinform.passes.framework.base import Pass
 

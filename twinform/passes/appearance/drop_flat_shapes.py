@@ -3,7 +3,7 @@
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules.portability_engines import DROPPED_FLAT_SHAPE
+from twinform.diagnostics.rules import DROPPED_FLAT_SHAPE
 from twinform.ir import Collision, Document, Link, Visual, replace_fields, rewrite
 from twinform.passes.analyses.shapes import is_flat
 from twinform.passes.framework.base import Pass

@@ -6,7 +6,7 @@ from typing import ClassVar
 from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules.appearance import PBR_TOO_OLD, TEXTURED_SCRIPT, UNKNOWN_SCRIPT
+from twinform.diagnostics.rules import PBR_TOO_OLD, TEXTURED_SCRIPT, UNKNOWN_SCRIPT
 from twinform.ir import Document, Element, Format, GazeboExtension, Link, Material, Opaque, replace_fields, rewrite
 from twinform.passes.appearance.classic_materials import ClassicMaterial, classic_materials
 from twinform.passes.carriers.carriers import to_element

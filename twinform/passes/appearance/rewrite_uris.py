@@ -5,7 +5,7 @@ from typing import ClassVar, Literal
 from pydantic import Field, field_validator
 
 from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules.appearance import UNMAPPED_URI
+from twinform.diagnostics.rules import UNMAPPED_URI
 from twinform.ir import Document
 from twinform.passes.appearance.uri_schemes import Known, Roots, Scheme, UnmappedError, rewritten, scheme_of
 from twinform.passes.framework.asset_access import AssetError

@@ -5,7 +5,7 @@ from typing import ClassVar, Self
 from pydantic import Field, model_validator
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.appearance import NOTHING_MATCHED, UNSET_SURFACE
+from twinform.diagnostics.rules import NOTHING_MATCHED, UNSET_SURFACE
 from twinform.ir import Collision, Document, Format, Link, Model, Surface, rewrite
 from twinform.passes.appearance.link_tags import with_element, with_tags
 from twinform.passes.framework.base import Pass

@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules.appearance import TIDIED_MATERIAL
+from twinform.diagnostics.rules import TIDIED_MATERIAL
 from twinform.ir import Document, Format, Material, Model, Visual, replace_fields, rewrite
 from twinform.passes.framework.base import Pass
 from twinform.passes.transforms.nodes import unique_name

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules.appearance import REPLACED_SHAPE
+from twinform.diagnostics.rules import REPLACED_SHAPE
 from twinform.ir import Document, Format, Link, Pose, replace_fields, rewrite
 from twinform.ir.defaults import sizes
 from twinform.ir.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere

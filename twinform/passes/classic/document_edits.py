@@ -1,7 +1,6 @@
 """Migration outside plugins and sensors: material scripts, `<ros2_control>` hardware, emptied `<gazebo>` elements."""
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import classic as rules
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Element, Format, GazeboExtension, Model, replace_fields, rewrite
 from twinform.passes.classic.element_edits import text_at, with_text
 from twinform.passes.classic.tables import hardware_names

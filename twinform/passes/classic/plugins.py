@@ -3,8 +3,7 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import classic as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Axis, Element, Format, Joint, Mimic, Model, Plugin
 from twinform.ir.defaults import multiplier
 from twinform.passes.classic.deferred_edits import DeferredEdits

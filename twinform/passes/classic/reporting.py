@@ -3,8 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from twinform.diagnostics import DiagnosticSink, Fate, Location
-from twinform.diagnostics.rules import classic as rules
+from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Element, Plugin
 from twinform.passes.classic.moving import DroppedParameter, truth_of
 from twinform.passes.classic.tables import Caveat, Migration

@@ -4,8 +4,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 
-from twinform.diagnostics import DiagnosticSink, Fate, Location
-from twinform.diagnostics.rules import classic as rules
+from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Element, Plugin, Sensor
 from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.passes.classic.element_edits import text_at, with_text

@@ -2,9 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 
-from twinform.diagnostics import DiagnosticSink, Fate, Location
-from twinform.diagnostics.rules import classic as rules
-from twinform.diagnostics.rules import plugins as plugin_rules
+from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Document, Format, Include, World, rewrite
 from twinform.ir.element import Element, Opaque
 from twinform.passes.classic.tables import unread_parts
@@ -59,7 +57,7 @@ def report_needs(document: Document, release: Release, sink: DiagnosticSink) -> 
                 where = sensor.location if sensor.source or site.model is None else site.model.location
                 message = f"sensor {sensor.name!r} needs {needed.class_name} in the world"
                 help_ = f"the world needs {as_xml(needed)}"
-                sink.report(plugin_rules.WORLD_SYSTEM_NEEDED, message, where, help=help_)
+                sink.report(rules.WORLD_SYSTEM_NEEDED, message, where, help=help_)
 
 
 def report_unread(document: Document, sink: DiagnosticSink) -> None:
@@ -83,7 +81,7 @@ def _complete(world: World, release: Release, sink: DiagnosticSink) -> World:
     if missing:
         listed = ", ".join(kind.class_name for kind in missing)
         message = f"world {world.name!r} got the systems that it needs: {listed}"
-        sink.report(plugin_rules.ADDED_WORLD_SYSTEM, message, world.location)
+        sink.report(rules.ADDED_WORLD_SYSTEM, message, world.location)
     for name in sorted(
         {name for kind in kinds for name in requirements_of(kind).elements if not has_element(world, name)}
     ):

@@ -6,8 +6,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import DiagnosticSink, Fate, Location
-from twinform.diagnostics.rules import control as rules
+from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Document, Element, Format, Joint, Model, Opaque, rewrite
 from twinform.passes.control.carried_elements import as_parts, declare_carriers, elements, place_of, replace
 from twinform.passes.control.interfaces import PLUGINS, STATES, commands_of

@@ -6,8 +6,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import control as rules
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Element, Format, Model, Opaque, rewrite
 from twinform.passes.control.carried_elements import as_parts, declare_carriers, elements, place_of, replace
 from twinform.passes.control.interfaces import CLASSES, PLUGINS, SIMPLE, STATE_CLASS

@@ -3,8 +3,7 @@
 from pathlib import Path
 from typing import Literal, Protocol
 
-from twinform.diagnostics import Rule
-from twinform.diagnostics.rules import files as rules
+from twinform.diagnostics import Rule, rules
 from twinform.file_access import Readable
 
 

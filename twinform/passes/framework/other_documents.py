@@ -7,7 +7,7 @@ from typing import Protocol, Self
 from pydantic import PrivateAttr
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.edits import UNREAD_DOCUMENT
+from twinform.diagnostics.rules import UNREAD_DOCUMENT
 from twinform.ir import Document
 from twinform.passes.framework.base import Pass
 

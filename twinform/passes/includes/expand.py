@@ -5,8 +5,7 @@ from dataclasses import dataclass, field
 from itertools import chain
 from typing import TypeVar
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import includes as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Include, Model, World, replace_fields
 from twinform.ir.namespaces import joined
 from twinform.ir.transform import Transform

@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 from typing import TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import includes as rules
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import IN_MODELS, Frame, Include, Link, Model, Node, Pose, ReferenceKind, World
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform

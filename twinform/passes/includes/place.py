@@ -3,8 +3,7 @@
 from collections.abc import Iterator
 from contextlib import suppress
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import includes as rules
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Element, Format, Include, Light, Model, Opaque, Pose
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import find_annotation

@@ -6,7 +6,7 @@ from typing import ClassVar
 from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, Severity
-from twinform.diagnostics.rules.inertia import BALANCED_INERTIA, UNBALANCED_INERTIA
+from twinform.diagnostics.rules import BALANCED_INERTIA, UNBALANCED_INERTIA
 from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.defaults import MOMENT
 from twinform.ir.principal_moments import Symmetric, principal_moments, times_each

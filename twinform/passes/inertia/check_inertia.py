@@ -6,7 +6,7 @@ from typing import ClassVar, Self
 from pydantic import Field, model_validator
 
 from twinform.diagnostics import DiagnosticSink, Severity
-from twinform.diagnostics.rules.inertia import MASS_RATIO, MISSING_INERTIAL, NON_POSITIVE_MASS
+from twinform.diagnostics.rules import MASS_RATIO, MISSING_INERTIAL, NON_POSITIVE_MASS
 from twinform.ir import Document, Format, Inertial, Link
 from twinform.ir.defaults import MOMENT
 from twinform.ir.verify.inertia import inertia_matrix, report_moments

@@ -7,7 +7,7 @@ from typing import ClassVar, Literal, NamedTuple, Self
 from pydantic import Field, model_validator
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.inertia import FILLED_INERTIA, UNFILLED_INERTIA
+from twinform.diagnostics.rules import FILLED_INERTIA, UNFILLED_INERTIA
 from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.frames import FrameError
 from twinform.ir.scaling import common_exponent, times_power

@@ -4,9 +4,8 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import inertia as rules
-from twinform.diagnostics.rules.meshes import UNREADABLE_MESH
+from twinform.diagnostics import DiagnosticSink, rules
+from twinform.diagnostics.rules import UNREADABLE_MESH
 from twinform.ir import Inertial, Link
 from twinform.ir.bounds import Bounds
 from twinform.ir.frames import FrameError
@@ -59,7 +58,7 @@ class Plausible:
         if outside > slack:
             at = " ".join(f"{part:.4g}" for part in body.center)
             message = f"the center of mass of link {link.name!r}, {at}, is {outside:.4g} m outside of its shapes"
-            self.sink.report(rules.DISTANT_CENTER_OF_MASS, message, inertial.location, found=at, expected=_words(box))
+            self.sink.report(rules.DISTANT_CENTRE_OF_MASS, message, inertial.location, found=at, expected=_words(box))
         reaches = ((length + 2 * slack) / 2 for length in size)
         most = (reach * reach * body.mass for reach in reaches)
         spread = zip(_spread(body.inertia), most, _AXES, strict=True)

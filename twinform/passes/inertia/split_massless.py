@@ -5,7 +5,7 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.massless import SPLIT_MASS, TOKEN_MASS
+from twinform.diagnostics.rules import SPLIT_MASS, TOKEN_MASS
 from twinform.ir import Document, Format, Joint, Link, Sphere, rewrite
 from twinform.ir.frames import FrameError
 from twinform.ir.solids import NOTHING, solid, with_mass

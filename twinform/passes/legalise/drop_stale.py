@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Document, Format, Model, Node, Opaque, census_of, map_children
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SOURCE, bits_of_ours, has_ours, is_carrier, is_memory
 from twinform.passes.carriers.provenance import came_from, without_provenance

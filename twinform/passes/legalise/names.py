@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Element, Format, Frame, Joint, Link, Model
 from twinform.passes.carriers.annotations import AnyNode, find_annotation, with_annotation, without_annotation
 from twinform.passes.carriers.provenance import came_from, wrote_scopes

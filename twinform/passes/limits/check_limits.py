@@ -6,9 +6,8 @@ from typing import ClassVar, NamedTuple
 
 from pydantic import Field
 
-from twinform.diagnostics import DiagnosticSink, Location, Rule
-from twinform.diagnostics.rules import limits as rules
-from twinform.diagnostics.rules.to_urdf import UNBOUNDED_LIMIT
+from twinform.diagnostics import DiagnosticSink, Location, Rule, rules
+from twinform.diagnostics.rules import UNBOUNDED_LIMIT
 from twinform.ir import Axis, Document, Format, Joint, Limit, rewrite
 from twinform.ir.defaults import UNLIMITED, with_range
 from twinform.passes.framework.base import Pass

@@ -6,7 +6,7 @@ from typing import ClassVar
 from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.portability_engines import ORDERED_LIMITS
+from twinform.diagnostics.rules import ORDERED_LIMITS
 from twinform.ir import Axis, Document, Dynamics, Joint, Limit, rewrite
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name

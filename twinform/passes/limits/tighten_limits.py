@@ -6,7 +6,7 @@ from typing import ClassVar
 from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.limits import TIGHTENED_LIMIT, UNTIGHTENED_LIMIT
+from twinform.diagnostics.rules import TIGHTENED_LIMIT, UNTIGHTENED_LIMIT
 from twinform.ir import Document, Joint, Limit, rewrite
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name

@@ -6,8 +6,7 @@ from typing import ClassVar, Self, cast
 from pydantic import Field, model_validator
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.appearance import NOTHING_MATCHED
-from twinform.diagnostics.rules.meshes import CHANGED_MESH, KEPT_MESH
+from twinform.diagnostics.rules import CHANGED_MESH, KEPT_MESH, NOTHING_MATCHED
 from twinform.ir import Document, Geometry, Link, Mesh, Visual, rewrite
 from twinform.passes.analyses.meshes import MeshError
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name

@@ -7,7 +7,7 @@ from typing import ClassVar
 from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.sensors import LIMITED_SENSOR, SENSOR_OVER_BUDGET
+from twinform.diagnostics.rules import LIMITED_SENSOR, SENSOR_OVER_BUDGET
 from twinform.ir import Document, Element, Opaque, Sensor
 from twinform.passes.analyses.sensor_costs import SensorCost, image_size, images, samples, sensor_cost, sensors_in
 from twinform.passes.framework.base import Pass

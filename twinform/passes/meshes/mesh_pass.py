@@ -8,8 +8,7 @@ from typing import Literal, NamedTuple, Self
 
 from pydantic import Field, field_validator
 
-from twinform.diagnostics import DiagnosticSink, Location, SideFile
-from twinform.diagnostics.rules import meshes as rules
+from twinform.diagnostics import DiagnosticSink, Location, SideFile, rules
 from twinform.ir import Mesh
 from twinform.passes.analyses.meshes import MeshError, submesh_of
 from twinform.passes.framework.assets import AssetPass

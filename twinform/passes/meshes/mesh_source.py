@@ -5,8 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 
-from twinform.diagnostics import HEAD, DiagnosticSink
-from twinform.diagnostics.rules import meshes as rules
+from twinform.diagnostics import HEAD, DiagnosticSink, rules
 from twinform.passes.analyses.meshes import MeshError
 from twinform.passes.framework.asset_access import AssetError, Assets
 from twinform.passes.mesh_jobs.formats import MARK

@@ -7,8 +7,7 @@ from typing import ClassVar, Literal, cast
 from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.appearance import NOTHING_MATCHED
-from twinform.diagnostics.rules.meshes import CHANGED_MESH, KEPT_MESH
+from twinform.diagnostics.rules import CHANGED_MESH, KEPT_MESH, NOTHING_MATCHED
 from twinform.ir import Collision, Document, Format, Geometry, Link, Mesh, Shape, rewrite
 from twinform.ir.geometry import Box, Capsule, Cylinder, Sphere
 from twinform.ir.transform import Transform

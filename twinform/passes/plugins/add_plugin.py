@@ -5,8 +5,7 @@ from typing import ClassVar, Self, cast
 
 from pydantic import Field, model_validator
 
-from twinform.diagnostics import DiagnosticSink, Severity
-from twinform.diagnostics.rules import plugins as rules
+from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.ir import Document, Model, Plugin, Sensor, World, replace_node
 from twinform.passes.plugins.base_link import base_link
 from twinform.passes.plugins.catalog import nearest, releases, system

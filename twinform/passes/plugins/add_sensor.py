@@ -6,8 +6,7 @@ from typing import Annotated, ClassVar, Self
 
 from pydantic import Field, model_validator
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import plugins as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor, replace_node
 from twinform.ir.frames import WORLD
 from twinform.passes.plugins.catalog import releases, sensor

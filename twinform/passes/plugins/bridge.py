@@ -5,8 +5,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from twinform.diagnostics import DiagnosticSink, Severity
-from twinform.diagnostics.rules import plugins as rules
+from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.ir import Document, Format
 from twinform.passes.plugins.catalog import ros_message
 from twinform.passes.plugins.topics import Topic, topics_of

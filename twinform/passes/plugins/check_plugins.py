@@ -4,8 +4,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import plugins as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Plugin, Sensor, World
 from twinform.passes.framework.base import Pass
 from twinform.passes.plugins.catalog import (

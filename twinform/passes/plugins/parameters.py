@@ -4,8 +4,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules import plugins as rules
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Element, Model, Plugin
 from twinform.passes.plugins.catalog import nearest
 from twinform.passes.plugins.parts import Parameter, PluginKind

@@ -2,8 +2,7 @@
 
 from collections.abc import Iterator
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import plugins as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Model, World
 from twinform.passes.plugins.catalog import nearest
 

@@ -5,8 +5,7 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.frames import DANGLING_FRAME
-from twinform.diagnostics.rules.to_urdf import INCLUDE_NOT_EXPANDED
+from twinform.diagnostics.rules import DANGLING_FRAME, INCLUDE_NOT_EXPANDED
 from twinform.ir import Document, Element, Node, replace_fields
 from twinform.ir.frames import FrameError
 from twinform.passes.carriers.sdf_versions import Keeper

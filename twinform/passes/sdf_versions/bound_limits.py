@@ -4,7 +4,7 @@ import math
 from functools import partial
 from typing import ClassVar
 
-from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.diagnostics import rules
 from twinform.ir import Axis, Document, Joint, Opaque, rewrite
 from twinform.ir.defaults import UNLIMITED, UNLIMITED_STRENGTH
 from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition

@@ -4,8 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import to_sdf as rules
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Frame, Joint, Link, Model, ReferenceKind, World, map_references, rewrite
 from twinform.passes.carriers.sdf_versions import Keeper
 from twinform.passes.sdf_versions.base import VersionPass

@@ -3,8 +3,8 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.diagnostics.rules.frames import DANGLING_FRAME
+from twinform.diagnostics import rules
+from twinform.diagnostics.rules import DANGLING_FRAME
 from twinform.ir import Document, Joint, Model, Opaque, World, count_parts, rewrite
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition

@@ -3,8 +3,7 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.diagnostics.rules import to_sdf as shared_rules
+from twinform.diagnostics import rules
 from twinform.ir import Axis, Document, Format, Joint, Limit, Opaque, rewrite
 from twinform.ir.defaults import AXIS
 from twinform.passes.carriers.carriers import to_element
@@ -42,7 +41,7 @@ def _joint(keeper: Keeper, version: Version, joint: Joint) -> Joint:
     if joint.type == "fixed":
         return _fixed(keeper, joint)
     message = f"joint {joint.name!r} is {joint.type}, a type that SDF {print_version(version)} does not have"
-    keeper.sink.report(shared_rules.JOINT_TYPE_UNSUPPORTED, message, joint.location.at("@type"), found=joint.type)
+    keeper.sink.report(rules.JOINT_TYPE_UNSUPPORTED, message, joint.location.at("@type"), found=joint.type)
     return joint
 
 

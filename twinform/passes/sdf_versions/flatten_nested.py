@@ -3,7 +3,7 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.diagnostics.rules import to_sdf as rules
+from twinform.diagnostics import rules
 from twinform.ir import Document, Model, World, count_parts, rewrite
 from twinform.passes.carriers.annotations import without_synthesized
 from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition

@@ -2,9 +2,7 @@
 
 from typing import Any, ClassVar
 
-from twinform.diagnostics import Location
-from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.diagnostics.rules import to_sdf as shared_rules
+from twinform.diagnostics import Location, rules
 from twinform.ir import Collision, Document, Element, Node, Opaque, Pose, Visual, census_of, node_fields, replace_fields
 from twinform.passes.carriers.definitions import definition_of
 from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition, is_version_carrier
@@ -121,7 +119,7 @@ class _UndefinedRemover:
         message = f"SDF {print_version(self.version)} does not have {called}"
         rule = rules.GONE_FROM_SDF
         if left.condition.since is not None:
-            rule = shared_rules.OLDER_VERSION
+            rule = rules.OLDER_VERSION
             self.keeper.sink.report(rule, message, where, found=called)
         return self.keeper.keep(node, pieces, left.condition, rule, message, where, left.weight)
 
@@ -233,7 +231,7 @@ class _Elements:
 
     def _keep(self, piece: Opaque, condition: VersionCondition, called: str, where: Location) -> list[Element]:
         message = f"SDF {print_version(self.version)} does not have {called}"
-        rule = shared_rules.OLDER_VERSION if condition.since is not None else rules.GONE_FROM_SDF
+        rule = rules.OLDER_VERSION if condition.since is not None else rules.GONE_FROM_SDF
         if condition.since is not None:
             self.keeper.sink.report(rule, message, where, found=called)
         return list(self.keeper.keep_element(piece, condition, rule, message, where))

@@ -3,8 +3,7 @@
 from pathlib import PurePosixPath
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Light, Plugin, rewrite
 from twinform.passes.carriers.sdf_versions import Keeper
 from twinform.passes.sdf_versions.base import VersionPass

@@ -4,8 +4,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import (
     IN_MODELS,
     Axis,

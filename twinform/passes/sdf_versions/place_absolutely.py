@@ -3,9 +3,7 @@
 from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
-from twinform.diagnostics import NOWHERE
-from twinform.diagnostics.rules import sdf_versions as rules
-from twinform.diagnostics.rules import to_sdf as shared_rules
+from twinform.diagnostics import NOWHERE, rules
 from twinform.ir import (
     Collision,
     Document,
@@ -112,13 +110,11 @@ class _Placer:
         for index in reversed(range(len(holder.frames))):
             frame = holder.frames[index]
             message = f"frame {frame.name!r} has no place in SDF before 1.7"
-            self.keeper.sink.report(shared_rules.OLDER_VERSION, message, frame.location, found=frame.name)
+            self.keeper.sink.report(rules.OLDER_VERSION, message, frame.location, found=frame.name)
             pieces = [Opaque.unchecked(element=to_element(frame, "frame", "sdf"))]
             condition = VersionCondition(since=NAMED_FRAMES, index=index)
             weight = count_parts(frame)
-            holder = self.keeper.keep(
-                holder, pieces, condition, shared_rules.OLDER_VERSION, message, frame.location, weight
-            )
+            holder = self.keeper.keep(holder, pieces, condition, rules.OLDER_VERSION, message, frame.location, weight)
         return holder.model_copy(update={"frames": ()})
 
     def replace(self, node: Posed, where: Transform, relative_to: str | None) -> Posed:

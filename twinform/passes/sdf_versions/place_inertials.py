@@ -2,8 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Link, Model, rewrite
 from twinform.ir.frames import FrameGraph
 from twinform.passes.carriers.sdf_versions import Keeper

@@ -3,8 +3,7 @@
 from functools import partial
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import (
     Document,
     Element,

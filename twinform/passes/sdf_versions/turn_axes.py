@@ -3,7 +3,7 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.diagnostics import rules
 from twinform.ir import Axis, Document, Element, Format, Joint, Model, Opaque, rewrite
 from twinform.ir.defaults import AXIS, direction
 from twinform.ir.frames import MODEL, FrameGraph

@@ -3,7 +3,7 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.diagnostics import rules
 from twinform.ir import Document, Inertial, Link, Model, rewrite
 from twinform.ir.frames import FrameGraph
 from twinform.passes.analyses.automatic_inertias import NoInertiaError, automatic, map_automatic, written_out

@@ -3,8 +3,7 @@
 from functools import partial
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import NOWHERE
-from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.diagnostics import NOWHERE, rules
 from twinform.ir import PLAIN, Document, Element, Node, Opaque, Pose, bits_of, count_parts, map_children, rewrite
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element

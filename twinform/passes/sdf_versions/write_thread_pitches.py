@@ -4,7 +4,7 @@ import math
 from functools import partial
 from typing import ClassVar
 
-from twinform.diagnostics.rules import sdf_versions as rules
+from twinform.diagnostics import rules
 from twinform.ir import Document, Joint, rewrite
 from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
 from twinform.passes.sdf_versions.base import VersionPass

@@ -5,8 +5,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import edits as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Model, replace_node
 from twinform.ir.namespaces import joined
 from twinform.ir.node import Vector3

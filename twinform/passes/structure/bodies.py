@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 
 from twinform.diagnostics import DiagnosticSink, Severity
-from twinform.diagnostics.rules.inertia import INDEFINITE_INERTIA
+from twinform.diagnostics.rules import INDEFINITE_INERTIA
 from twinform.ir import Format, Inertial, Link, Pose
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, combined, placed, turned, with_tensor, written_solid

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules.appearance import DROPPED_REFERENCE
+from twinform.diagnostics.rules import DROPPED_REFERENCE
 from twinform.ir import Document, Element, GazeboExtension, Node, Plugin, walk
 from twinform.ir.verify import verify
 

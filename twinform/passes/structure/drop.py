@@ -5,7 +5,7 @@ from typing import ClassVar, Self, TypeVar
 from pydantic import Field, model_validator
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.appearance import NOTHING_MATCHED
+from twinform.diagnostics.rules import NOTHING_MATCHED
 from twinform.ir import (
     Collision,
     Document,

@@ -4,7 +4,7 @@ from functools import cache, partial
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules.structure import REPEATED_ELEMENT
+from twinform.diagnostics.rules import REPEATED_ELEMENT
 from twinform.ir import Document, Format, Inertial, Joint, Link, Node, Opaque, replace_fields, rewrite
 from twinform.ir.visual import Collision, Material, Visual
 from twinform.passes.framework.base import Pass

@@ -5,9 +5,8 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import edits as rules
-from twinform.diagnostics.rules.to_urdf import INCLUDE_NOT_EXPANDED
+from twinform.diagnostics import DiagnosticSink, rules
+from twinform.diagnostics.rules import INCLUDE_NOT_EXPANDED
 from twinform.ir import Document, Format, Frame, Link, Model, World
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.carriers.annotations import without_synthesized

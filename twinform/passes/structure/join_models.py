@@ -3,8 +3,7 @@
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import edits as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Element, Include, Joint, Model, Node, Opaque, Pose, map_references
 from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3

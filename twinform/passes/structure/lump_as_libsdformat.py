@@ -6,8 +6,7 @@ Its rules were read in parser_urdf.cc (ReduceFixedJoints and what it calls) and 
 from collections.abc import Iterable
 from typing import TypeVar
 
-from twinform.diagnostics import Fate
-from twinform.diagnostics.rules import edits as rules
+from twinform.diagnostics import Fate, rules
 from twinform.ir import (
     Axis,
     Collision,

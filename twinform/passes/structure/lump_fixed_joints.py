@@ -4,7 +4,7 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from twinform.diagnostics.rules import edits as rules
+from twinform.diagnostics import rules
 from twinform.ir import Format, Model
 from twinform.passes.analyses.meshes import Meshes
 from twinform.passes.framework.assets import AssetPass

@@ -2,7 +2,7 @@
 
 from typing import TypeVar
 
-from twinform.diagnostics.rules import edits as rules
+from twinform.diagnostics import rules
 from twinform.ir import Collision, Element, Format, GazeboExtension, Joint, Link, Model, Visual, replace_fields
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, placed

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
-from twinform.diagnostics.rules import edits as rules
+from twinform.diagnostics import rules
 from twinform.ir import Joint, Link, Model
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.passes.framework.patterns import matches

@@ -7,8 +7,7 @@ from itertools import chain
 
 from pydantic import Field
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import edits as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Model, World, replace_fields
 from twinform.ir.frames import FrameError
 from twinform.passes.framework.base import Pass

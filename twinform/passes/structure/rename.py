@@ -5,8 +5,7 @@ from typing import ClassVar, Literal, NamedTuple
 
 from pydantic import Field, field_validator
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import edits as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Model, World
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
 from twinform.passes.structure.renaming import renamed_in_world, renamed_model

@@ -5,8 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules import edits as rules
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Element, Format, GazeboExtension, Model, Node, Plugin, World, map_children, map_references
 from twinform.ir.sourced import Sourced
 from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text

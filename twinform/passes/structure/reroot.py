@@ -5,8 +5,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import edits as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Joint, Model
 from twinform.ir.frames import WORLD, FrameGraph
 from twinform.passes.structure.gazebo_blocks import blocks, content

@@ -3,8 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules import edits as rules
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format, Model, ReferenceKind
 from twinform.ir.frames import MODEL, WORLD
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.to_urdf import GAZEBO_SHAPE_NAME
+from twinform.diagnostics.rules import GAZEBO_SHAPE_NAME
 from twinform.ir import Collision, Document, Element, Format, GazeboExtension, Link, Model, Visual, replace_fields
 from twinform.passes.carriers.lumped_names import LUMP, mentions_collisions
 from twinform.passes.framework.base import Pass

@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics.rules import edits as rules
+from twinform.diagnostics import rules
 from twinform.ir import Format, Joint, Link, Model, Pose
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.node import Vector3

@@ -2,8 +2,7 @@
 
 from collections.abc import Container
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import model as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Joint, Opaque, Pose
 from twinform.ir.frames import FrameGraph
 from twinform.passes.carriers.annotations import find_annotation

@@ -3,8 +3,7 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
-from twinform.diagnostics import DiagnosticSink, Rule
-from twinform.diagnostics.rules import portability, portability_engines
+from twinform.diagnostics import DiagnosticSink, Rule, rules
 from twinform.profiles.detectors.attributes import find_empty_attributes
 from twinform.profiles.detectors.engines import find_engine_faults
 from twinform.profiles.detectors.meshes import find_mesh_formats
@@ -22,23 +21,23 @@ class Detector(NamedTuple):
 
 
 DETECTORS = (
-    Detector(find_mesh_formats, (portability.COLLADA_MESH,)),
-    Detector(find_empty_attributes, (portability_engines.EMPTY_ATTRIBUTE,)),
-    Detector(find_lost_tags, (portability.RENAMED_COLLISION, portability.UNTAGGED_SHAPE)),
+    Detector(find_mesh_formats, (rules.COLLADA_MESH,)),
+    Detector(find_empty_attributes, (rules.EMPTY_ATTRIBUTE,)),
+    Detector(find_lost_tags, (rules.RENAMED_COLLISION, rules.UNTAGGED_SHAPE)),
     Detector(
         find_engine_faults,
         (
-            portability_engines.BARE_SCRIPT,
-            portability_engines.FLAT_COLLISION,
-            portability_engines.LATE_SENSOR,
-            portability_engines.MODEL_JOINT_END,
-            portability_engines.NARROW_VIEW,
-            portability_engines.NESTED_IN_ENGINE,
-            portability_engines.RARE_JOINT_TYPE,
-            portability_engines.THREADLESS_SCREW,
-            portability_engines.UNCERTAIN_INERTIA,
-            portability_engines.UNUSABLE_AXIS,
-            portability_engines.WEIGHTLESS_MOVER,
+            rules.BARE_SCRIPT,
+            rules.FLAT_COLLISION,
+            rules.LATE_SENSOR,
+            rules.MODEL_JOINT_END,
+            rules.NARROW_VIEW,
+            rules.NESTED_IN_ENGINE,
+            rules.RARE_JOINT_TYPE,
+            rules.THREADLESS_SCREW,
+            rules.UNCERTAIN_INERTIA,
+            rules.UNUSABLE_AXIS,
+            rules.WEIGHTLESS_MOVER,
         ),
     ),
 )

@@ -1,7 +1,7 @@
 """Attributes that libsdformat does not take, whatever element has them."""
 
 from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules.portability_engines import EMPTY_ATTRIBUTE
+from twinform.diagnostics.rules import EMPTY_ATTRIBUTE
 from twinform.profiles.subject import Subject
 from twinform.schemas import XmlElement, path_of
 

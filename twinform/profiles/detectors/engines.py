@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.portability_engines import (
+from twinform.diagnostics.rules import (
     BARE_SCRIPT,
     FLAT_COLLISION,
     LATE_SENSOR,

@@ -1,7 +1,7 @@
 """Mesh files in formats that not every consumer reads."""
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.portability import COLLADA_MESH
+from twinform.diagnostics.rules import COLLADA_MESH
 from twinform.ir import Mesh, walk
 from twinform.profiles.subject import Subject
 

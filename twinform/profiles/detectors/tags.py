@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.portability import RENAMED_COLLISION, UNTAGGED_SHAPE
+from twinform.diagnostics.rules import RENAMED_COLLISION, UNTAGGED_SHAPE
 from twinform.ir import Element, Format, Model
 from twinform.passes.structure.tag_shapes import wrongly_tagged
 from twinform.passes.structure.tagged_shapes import KINDS, seen_shapes

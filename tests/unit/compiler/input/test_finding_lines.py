@@ -5,7 +5,7 @@ from lxml import etree
 
 from twinform.compiler.input.finding_lines import PartFinder, line_of_text, with_exact_lines
 from twinform.diagnostics import Diagnostic, Location
-from twinform.diagnostics.rules.model import DANGLING_LINK
+from twinform.diagnostics.rules import DANGLING_LINK
 
 TREE = etree.fromstring(
     b"""<robot name="r">

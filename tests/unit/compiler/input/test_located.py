@@ -11,7 +11,7 @@ import twinform
 from twinform.compiler.input.finding_spans import located, with_columns
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.diagnostics import Diagnostic, Location, Severity
-from twinform.diagnostics.rules.structure import UNKNOWN_ELEMENT
+from twinform.diagnostics.rules import UNKNOWN_ELEMENT
 
 from .test_syntax_places import ENCODINGS, place_of
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from twinform.compiler.search.uris import SearchPath, UriError
-from twinform.diagnostics.rules import files as rules
+from twinform.diagnostics import rules
 
 TREE = {
     "gz/crate/model.sdf": "",

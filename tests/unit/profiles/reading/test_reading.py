@@ -3,7 +3,7 @@
 import pytest
 
 import twinform.profiles.reading.tinyxml as tiny
-from twinform.diagnostics.rules import portability
+from twinform.diagnostics import rules
 from twinform.ir import Format
 from twinform.profiles import Subject, Verdict, assess, load
 from twinform.profiles.reading import read_as
@@ -89,11 +89,11 @@ def test_a_table_is_like_another_one_but_for_what_it_says() -> None:
 @pytest.mark.parametrize(
     ("find", "write", "rule"),
     [
-        ('effort="1"', 'effort="inf"', portability.UNREAD_VALUE),
-        (' effort="1"', "", portability.UNWRITTEN_PART),
-        ('<axis xyz="0 0 1"/>', '<axis xyz="0 0 1"/><odd/>', portability.UNREAD_PART),
-        ("</robot>", "<link name='c'/></robot>", portability.UNTAKEN_TREE),
-        ("</robot>", "<?odd?></robot>", portability.UNREAD_TEXT),
+        ('effort="1"', 'effort="inf"', rules.UNREAD_VALUE),
+        (' effort="1"', "", rules.UNWRITTEN_PART),
+        ('<axis xyz="0 0 1"/>', '<axis xyz="0 0 1"/><odd/>', rules.UNREAD_PART),
+        ("</robot>", "<link name='c'/></robot>", rules.UNTAKEN_TREE),
+        ("</robot>", "<?odd?></robot>", rules.UNREAD_TEXT),
     ],
     ids=["unread-value", "unwritten-part", "unread-part", "untaken-tree", "unread-text"],
 )
@@ -103,6 +103,6 @@ def test_a_profile_reports_shortfalls_by_rules(find: str, write: str, rule: obje
     found = assess(Subject("robot.urdf", Format.URDF, content=content), profiles)
     assert {judgment.finding.rule for each in found for judgment in each.judgments} >= {rule}
     same = [judgment.finding for each in found for judgment in each.judgments if judgment.finding.rule is rule]
-    assert len({id(each) for each in same}) < len(same) or len(same) == 1 or rule is portability.UNREAD_TEXT
+    assert len({id(each) for each in same}) < len(same) or len(same) == 1 or rule is rules.UNREAD_TEXT
     clean = assess(Subject("robot.urdf", Format.URDF, content=ROBOT.encode()), profiles)
     assert {each.verdict for each in clean} == {Verdict.ACCEPTS}

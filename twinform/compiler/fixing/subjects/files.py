@@ -1,8 +1,7 @@
 """Fixes of the paths and URIs of files: backslashes, slips in names and schemes."""
 
 from twinform.compiler.fixing.site import FixableFile, TextFixers, unsafe
-from twinform.diagnostics import Diagnostic, Fix, TextEdit, meant_name
-from twinform.diagnostics.rules import files
+from twinform.diagnostics import Diagnostic, Fix, TextEdit, meant_name, rules
 
 
 def _backslashes(finding: Diagnostic, file: FixableFile) -> Fix | None:
@@ -47,4 +46,4 @@ def _written(file: FixableFile, found: str, new: str) -> tuple[TextEdit, ...]:
     return tuple(edits)
 
 
-TEXT_FIXERS: TextFixers = {files.BACKSLASH_IN_PATH.name: _backslashes, files.MISSING_FILE.name: _missing_file}
+TEXT_FIXERS: TextFixers = {rules.BACKSLASH_IN_PATH.name: _backslashes, rules.MISSING_FILE.name: _missing_file}

@@ -6,8 +6,7 @@ from lxml import etree
 
 from twinform.compiler.fixing.numbers_text import numbers_of, text_of_numbers
 from twinform.compiler.fixing.site import Fixers, Site, safe, unsafe
-from twinform.diagnostics import Fix, TextEdit, nearest_name
-from twinform.diagnostics.rules import joints, limits, model
+from twinform.diagnostics import Fix, TextEdit, nearest_name, rules
 from twinform.schemas import XmlElement
 
 _OF_AN_AXIS = frozenset({"limit", "dynamics"})
@@ -146,14 +145,14 @@ def _world_child(site: Site) -> Fix | None:
 
 
 FIXERS: Fixers = {
-    joints.MISSING_AXIS.name: _missing_axis,
-    joints.UNUSED_AXIS.name: _unused_axis,
-    joints.UNNORMALIZED_AXIS.name: _unnormalized_axis,
-    joints.UNUSED_LIMIT.name: _unused_limit,
-    joints.CONTINUOUS_IN_SDF.name: _continuous,
-    joints.EMPTY_DYNAMICS.name: _empty_dynamics,
-    limits.EMPTY_RANGE.name: _empty_range,
-    model.MISSING_LIMIT.name: _missing_limit,
-    model.WORLD_CHILD.name: _world_child,
-    model.ZERO_AXIS.name: _zero_axis,
+    rules.MISSING_AXIS.name: _missing_axis,
+    rules.UNUSED_AXIS.name: _unused_axis,
+    rules.UNNORMALISED_AXIS.name: _unnormalized_axis,
+    rules.UNUSED_LIMIT.name: _unused_limit,
+    rules.CONTINUOUS_IN_SDF.name: _continuous,
+    rules.EMPTY_DYNAMICS.name: _empty_dynamics,
+    rules.EMPTY_RANGE.name: _empty_range,
+    rules.MISSING_LIMIT.name: _missing_limit,
+    rules.WORLD_CHILD.name: _world_child,
+    rules.ZERO_AXIS.name: _zero_axis,
 }

@@ -5,8 +5,7 @@ from collections.abc import Mapping
 
 from twinform.compiler.fixing.numbers_text import numbers_of, text_of_number
 from twinform.compiler.fixing.site import Fixers, Site, unsafe
-from twinform.diagnostics import Fix, TextEdit
-from twinform.diagnostics.rules import limits, model
+from twinform.diagnostics import Fix, TextEdit, rules
 from twinform.schemas import XmlElement
 
 
@@ -73,8 +72,8 @@ def _negative_dynamics(site: Site) -> Fix | None:
 
 
 FIXERS: Fixers = {
-    limits.NEGATIVE_DYNAMICS.name: _negative_dynamics,
-    limits.RANGE_IN_DEGREES.name: _in_degrees,
-    limits.SOFT_LIMIT_OUTSIDE.name: _soft,
-    model.LOWER_ABOVE_UPPER.name: _upside_down,
+    rules.NEGATIVE_DYNAMICS.name: _negative_dynamics,
+    rules.RANGE_IN_DEGREES.name: _in_degrees,
+    rules.SOFT_LIMIT_OUTSIDE.name: _soft,
+    rules.LOWER_ABOVE_UPPER.name: _upside_down,
 }

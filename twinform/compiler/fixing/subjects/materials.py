@@ -2,8 +2,7 @@
 
 from twinform.compiler.fixing.site import Fixers, Site, safe, unsafe
 from twinform.compiler.fixing.subjects.names import free_name
-from twinform.diagnostics import Fix
-from twinform.diagnostics.rules import bodies, model
+from twinform.diagnostics import Fix, rules
 from twinform.schemas import XmlElement
 from twinform.text import same_element
 
@@ -46,8 +45,8 @@ def _is_at_top(element: XmlElement) -> bool:
 
 
 FIXERS: Fixers = {
-    bodies.BARE_MATERIAL.name: _bare,
-    bodies.CONFLICTING_MATERIAL.name: _conflict,
-    bodies.UNNAMED_MATERIAL.name: _unnamed,
-    model.DUPLICATE_NAME.name: _twice,
+    rules.BARE_MATERIAL.name: _bare,
+    rules.CONFLICTING_MATERIAL.name: _conflict,
+    rules.UNNAMED_MATERIAL.name: _unnamed,
+    rules.DUPLICATE_NAME.name: _twice,
 }

@@ -1,8 +1,7 @@
 """Fixes of names: unknown words with one near miss, references to what is called nearly so, names that SDF refuses."""
 
 from twinform.compiler.fixing.site import FixableFile, Fixers, Site, unsafe
-from twinform.diagnostics import Fix, TextEdit, meant_name, nearest_name
-from twinform.diagnostics.rules import bodies, control, frames, model, plugins, structure
+from twinform.diagnostics import Fix, TextEdit, meant_name, nearest_name, rules
 
 _SURE = 0.72
 """How much of two words is the same where a tag is taken for the other one: what is less is only asked."""
@@ -85,22 +84,22 @@ def free_name(file: FixableFile, wanted: str) -> str:
 
 
 _REFERENCES = (
-    bodies.UNKNOWN_COLLISION,
-    bodies.UNKNOWN_GRIPPER_LINK,
-    control.UNKNOWN_DRIVEN_JOINT,
-    frames.DANGLING_FRAME,
-    frames.UNKNOWN_CANONICAL_LINK,
-    model.DANGLING_LINK,
-    model.UNKNOWN_LEADER,
-    model.UNKNOWN_MATERIAL,
-    model.UNKNOWN_REFERENCE,
-    plugins.PLUGIN_REFERENCE,
+    rules.UNKNOWN_COLLISION,
+    rules.UNKNOWN_GRIPPER_LINK,
+    rules.UNKNOWN_DRIVEN_JOINT,
+    rules.DANGLING_FRAME,
+    rules.UNKNOWN_CANONICAL_LINK,
+    rules.DANGLING_LINK,
+    rules.UNKNOWN_LEADER,
+    rules.UNKNOWN_MATERIAL,
+    rules.UNKNOWN_REFERENCE,
+    rules.PLUGIN_REFERENCE,
 )
 FIXERS: Fixers = {
     **{rule.name: _reference for rule in _REFERENCES},
-    structure.UNKNOWN_ELEMENT.name: _unknown_element,
-    structure.UNKNOWN_ATTRIBUTE.name: _unknown_attribute,
-    plugins.UNKNOWN_PLUGIN_PARAMETER.name: _unknown_element,
-    model.RESERVED_NAME.name: _reserved_name,
-    model.SHARED_NAME.name: _shared_name,
+    rules.UNKNOWN_ELEMENT.name: _unknown_element,
+    rules.UNKNOWN_ATTRIBUTE.name: _unknown_attribute,
+    rules.UNKNOWN_PLUGIN_PARAMETER.name: _unknown_element,
+    rules.RESERVED_NAME.name: _reserved_name,
+    rules.SHARED_NAME.name: _shared_name,
 }

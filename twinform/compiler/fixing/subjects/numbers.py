@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 from twinform.compiler.fixing.numbers_text import numbers_of, text_of_number, text_of_numbers
 from twinform.compiler.fixing.site import Fixers, Site, safe, unsafe
-from twinform.diagnostics import Fix, Safety, TextEdit, meant_name
-from twinform.diagnostics.rules import frames, inertia, structure
+from twinform.diagnostics import Fix, Safety, TextEdit, meant_name, rules
 from twinform.schemas import VALUE_TYPES
 
 _NUMBER = r"[-+]?(?<![\d.])(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?"
@@ -196,10 +195,10 @@ def _negative_mass(site: Site) -> Fix | None:
 
 
 FIXERS: Fixers = {
-    frames.ANGLE_IN_DEGREES.name: _angles_in_degrees,
-    frames.UNNORMALIZED_QUATERNION.name: _unnormalized_quaternion,
-    inertia.NON_POSITIVE_MASS.name: _negative_mass,
-    structure.INVALID_VALUE.name: _invalid_value,
-    structure.OUT_OF_RANGE.name: _out_of_range,
-    structure.SPLIT_VALUE.name: _split_value,
+    rules.ANGLE_IN_DEGREES.name: _angles_in_degrees,
+    rules.UNNORMALISED_QUATERNION.name: _unnormalized_quaternion,
+    rules.NON_POSITIVE_MASS.name: _negative_mass,
+    rules.INVALID_VALUE.name: _invalid_value,
+    rules.OUT_OF_RANGE.name: _out_of_range,
+    rules.SPLIT_VALUE.name: _split_value,
 }

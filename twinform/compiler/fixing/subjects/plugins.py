@@ -6,8 +6,7 @@ from itertools import chain
 from lxml import etree
 
 from twinform.compiler.fixing.site import Fixers, Site, unsafe
-from twinform.diagnostics import Fix, TextEdit, meant_name
-from twinform.diagnostics.rules import plugins
+from twinform.diagnostics import Fix, TextEdit, meant_name, rules
 from twinform.passes.plugins.catalog import systems_of_file
 from twinform.schemas import XmlElement
 
@@ -73,9 +72,9 @@ def _inserted(site: Site, world: XmlElement, file: str, name: str, behind: XmlEl
 
 
 FIXERS: Fixers = {
-    plugins.DEFAULT_SYSTEMS_OFF.name: _lacking,
-    plugins.IGNITION_PLUGIN_NAME.name: _ignition,
-    plugins.MISSING_WORLD_SYSTEM.name: _lacking,
-    plugins.PLUGIN_NOT_IN_RELEASE.name: _not_in_release,
-    plugins.WRONG_PLUGIN_CLASS.name: _wrong_class,
+    rules.DEFAULT_SYSTEMS_OFF.name: _lacking,
+    rules.IGNITION_PLUGIN_NAME.name: _ignition,
+    rules.MISSING_WORLD_SYSTEM.name: _lacking,
+    rules.PLUGIN_NOT_IN_RELEASE.name: _not_in_release,
+    rules.WRONG_PLUGIN_CLASS.name: _wrong_class,
 }

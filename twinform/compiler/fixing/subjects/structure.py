@@ -8,8 +8,7 @@ from twinform.compiler.fixing.numbers_text import numbers_of, text_of_number
 from twinform.compiler.fixing.site import Fixers, Site, display, safe, unsafe
 from twinform.compiler.fixing.subjects.names import free_name
 from twinform.compiler.fixing.subjects.numbers import guesses
-from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit
-from twinform.diagnostics.rules import structure
+from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit, rules
 from twinform.schemas import VALUE_TYPES, Fact, parse_version, print_version, table, versions_of
 from twinform.text import same_element
 
@@ -146,7 +145,7 @@ def _runs_of_text(site: Site) -> Mapping[str | None, list[Span]]:
 def _without_attributes(site: Site) -> frozenset[str]:
     """The paths of elements that lack an attribute."""
     if "without attributes" not in site.file.memo:
-        lacking = (each for each in site.file.loaded.diagnostics if each.rule is structure.MISSING_ATTRIBUTE)
+        lacking = (each for each in site.file.loaded.diagnostics if each.rule is rules.MISSING_ATTRIBUTE)
         site.file.memo["without attributes"] = frozenset(each.location.path for each in lacking)
     return site.file.memo["without attributes"]
 
@@ -172,7 +171,7 @@ def _outside_version(site: Site) -> Fix | None:
 
 
 def _fitting(site: Site) -> str | None:
-    outside = [each for each in site.file.loaded.diagnostics if each.rule is structure.OUTSIDE_VERSION]
+    outside = [each for each in site.file.loaded.diagnostics if each.rule is rules.OUTSIDE_VERSION]
     rows = [[*_rows(site, each)] for each in _sites(site, outside)]
     if len(rows) != len(outside) or site.file.root.get("version") is None:
         return None
@@ -217,12 +216,12 @@ def _unknown_version(site: Site) -> Fix | None:
 
 
 FIXERS: Fixers = {
-    structure.BLANK_VALUE.name: _blank,
-    structure.DEFAULTED_ATTRIBUTE.name: _defaulted,
-    structure.DEPRECATED_ELEMENT.name: _deprecated,
-    structure.MISSING_ATTRIBUTE.name: _missing_attribute,
-    structure.OUTSIDE_VERSION.name: _outside_version,
-    structure.REPEATED_ELEMENT.name: _repeated,
-    structure.STRAY_TEXT.name: _stray_text,
-    structure.UNKNOWN_VERSION.name: _unknown_version,
+    rules.BLANK_VALUE.name: _blank,
+    rules.DEFAULTED_ATTRIBUTE.name: _defaulted,
+    rules.DEPRECATED_ELEMENT.name: _deprecated,
+    rules.MISSING_ATTRIBUTE.name: _missing_attribute,
+    rules.OUTSIDE_VERSION.name: _outside_version,
+    rules.REPEATED_ELEMENT.name: _repeated,
+    rules.STRAY_TEXT.name: _stray_text,
+    rules.UNKNOWN_VERSION.name: _unknown_version,
 }

@@ -11,8 +11,7 @@ from lxml import etree
 
 from twinform.compiler.fixing.site import FixableFile, TextFixers, safe, unsafe
 from twinform.compiler.input.xml_recovery import REPAIRS
-from twinform.diagnostics import Diagnostic, Fix, Span, TextEdit, nearest_name
-from twinform.diagnostics.rules import reading, structure
+from twinform.diagnostics import Diagnostic, Fix, Span, TextEdit, nearest_name, rules
 from twinform.schemas import usual_namespace
 from twinform.text.asides import COMMENT, IN_COMMENT, INSTRUCTION, SECTION
 
@@ -321,9 +320,9 @@ def _old_root(_: Diagnostic, file: FixableFile) -> Fix | None:
 
 
 TEXT_FIXERS: TextFixers = {
-    reading.DOCTYPE.name: _doctype,
-    reading.NOT_WELL_FORMED.name: _not_well_formed,
-    reading.OLD_ROOT.name: _old_root,
-    reading.REPAIRED_XML.name: _repaired,
-    structure.TABBED_NUMBERS.name: _tabbed,
+    rules.DOCTYPE.name: _doctype,
+    rules.NOT_WELL_FORMED.name: _not_well_formed,
+    rules.OLD_ROOT.name: _old_root,
+    rules.REPAIRED_XML.name: _repaired,
+    rules.TABBED_NUMBERS.name: _tabbed,
 }

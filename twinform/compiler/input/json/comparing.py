@@ -6,8 +6,7 @@ from itertools import islice
 from typing import Any, NamedTuple, cast
 
 from twinform.compiler.output.json import Data, json_data
-from twinform.diagnostics import DiagnosticSink, Location
-from twinform.diagnostics.rules import structure
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Node
 from twinform.schemas.json_check import JsonPath, is_array, is_object, json_faults
 
@@ -34,7 +33,7 @@ def compare_documents(document: Document, again: Document | None, sink: Diagnost
         name = "/".join(map(str, fault.path))
         message = f"{name or 'the document'}: {fault.message}; {document.format.upper()} cannot express it"
         where = _nearest(document, fault.path).location
-        sink.report(structure.INVALID_VALUE, message, where, found=fault.found, expected=fault.expected)
+        sink.report(rules.INVALID_VALUE, message, where, found=fault.found, expected=fault.expected)
     if again is None or sink.has_errors:
         return
     missed = next(differences(data, plain(json_data(again)), ()), None)
@@ -63,7 +62,7 @@ def report_missed(missed: Missed, format_: str, where: Location, sink: Diagnosti
     shown = "nothing" if missed.mine is _UNKNOWN else _shown(missed.mine)
     message = f"{name}: {format_.upper()} cannot express {shown}; a file in that format {became}"
     hint = "if it stands in 'opaque', write it in the field that is meant for it"
-    sink.report(structure.INVALID_VALUE, message, where, found=shown, help=hint)
+    sink.report(rules.INVALID_VALUE, message, where, found=shown, help=hint)
 
 
 def plain(data: Any) -> Any:

@@ -16,8 +16,7 @@ from twinform.compiler.input.limits import excess_of_names
 from twinform.compiler.input.parsing import refuse_excess
 from twinform.compiler.output.emitting import document_tree, serialized
 from twinform.compiler.output.json import Data, json_data
-from twinform.diagnostics import DiagnosticSink, Location, Origins, Source
-from twinform.diagnostics.rules import structure
+from twinform.diagnostics import DiagnosticSink, Location, Origins, Source, rules
 from twinform.ir import Document, Node, node_values
 from twinform.schemas.json_check import JsonPath, is_array, is_object, json_faults
 
@@ -69,7 +68,7 @@ def read_json(text: bytes, sink: DiagnosticSink) -> JsonSource | None:
         lines = lines_of(decoded)
         for fault in faults[:MOST]:
             message = f"{'/'.join(map(str, fault.path)) or 'the document'}: {fault.message}"
-            where, rule = _location(lines, fault.path), structure.INVALID_VALUE
+            where, rule = _location(lines, fault.path), rules.INVALID_VALUE
             sink.report(rule, message, where, found=fault.found, expected=fault.expected, help=fault.help)
         return None
     values = plain(data)
@@ -108,7 +107,7 @@ def _whole(digits: str) -> int:
 
 
 def _report(sink: DiagnosticSink, message: str, where: Location | None = None) -> None:
-    sink.report(structure.INVALID_VALUE, message, where or Location(line=1))
+    sink.report(rules.INVALID_VALUE, message, where or Location(line=1))
 
 
 def _location(lines: dict[JsonPath, int], path: JsonPath) -> Location:

@@ -12,9 +12,7 @@ from twinform.compiler.input.limits import LARGEST
 from twinform.compiler.input.options import LoadOptions
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.compiler.input.xacro.conversation import ask_worker
-from twinform.diagnostics import DiagnosticSink, Location, Origins
-from twinform.diagnostics.rules import reading
-from twinform.diagnostics.rules import xacro as rules
+from twinform.diagnostics import DiagnosticSink, Location, Origins, rules
 
 _EXPAT = re.compile(r"not well-formed XML: .*: line \d+, column (\d+)$")
 """Where expat noticed what is wrong; it counts columns from 0."""
@@ -49,7 +47,7 @@ def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expan
     text = outcome["text"].encode()
     if len(text) > LARGEST:
         message = f"the expanded file has {len(text):,} bytes; the limit is {LARGEST:,}"
-        sink.report(reading.UNREADABLE_FILE, message)
+        sink.report(rules.UNREADABLE_FILE, message)
         raise UnreadableError
     return Expansion(text, _origins(text, outcome["places"]))
 

@@ -9,8 +9,7 @@ from typing import Any, Literal, NamedTuple
 from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.gazebo_model.drawing import Faces, UndrawableError, picture
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.files import UNRESOLVED_URI
-from twinform.diagnostics.rules.packaging import NO_THUMBNAIL
+from twinform.diagnostics.rules import NO_THUMBNAIL, UNRESOLVED_URI
 from twinform.file_access import Readable
 from twinform.ir import Box, Capsule, Cone, Cylinder, Document, Ellipsoid, Link, Material, Mesh, Model, Shape, Sphere
 from twinform.ir.defaults import sizes

@@ -20,7 +20,7 @@ from twinform.compiler.packaging.package import Content, Package
 from twinform.compiler.search.uris import LocalAssets
 from twinform.compiler.splitting import Placement, split
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger
-from twinform.diagnostics.rules.packaging import UNPACKAGED_INCLUDE
+from twinform.diagnostics.rules import UNPACKAGED_INCLUDE
 from twinform.ir import Document
 from twinform.schemas import DEFAULT_SDF_VERSION
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 from twinform.compiler.packaging.ros2.drive import differential_drive
 from twinform.compiler.packaging.ros2.gazebo_control import runs_in_gazebo
 from twinform.compiler.packaging.ros2.systems import Component, System, systems_of
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import ros2 as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Model
 from twinform.passes.plugins.base_link import base_link
 from twinform.passes.plugins.wheels import NotMeasuredError

@@ -6,8 +6,7 @@ from typing import ClassVar
 from pydantic import Field
 
 from twinform.compiler.packaging.ros2.systems import System, systems_of
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import ros2 as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Element, Format, GazeboExtension, Model, Plugin, rewrite
 from twinform.passes.framework.base import Pass
 from twinform.passes.plugins.release_names import ReleaseName

@@ -15,8 +15,7 @@ from twinform.compiler.packaging.ros2.controllers import controllers_in_gazebo, 
 from twinform.compiler.packaging.ros2.gazebo_control import CONTROLLERS, ConnectControllers, has_gazebo_control
 from twinform.compiler.packaging.ros2.sensor_frames import NameSensorFrames, report_frames
 from twinform.compiler.packaging.ros2.texts import generated_files
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import ros2 as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.passes import Pipeline
 from twinform.passes.control.carried_elements import elements
 from twinform.passes.plugins.bridge import bridges

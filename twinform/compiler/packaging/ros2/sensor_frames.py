@@ -6,8 +6,7 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import ros2 as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Model, Sensor, rewrite
 from twinform.passes.framework.base import Pass
 from twinform.passes.plugins.catalog import release

@@ -3,8 +3,7 @@
 from collections import defaultdict
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import to_sdf
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Format, Inertia, Inertial, Link, Model
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.provenance import came_from
@@ -59,7 +58,7 @@ class UrdfBodies(ModelPass):
         # the source has nothing of it, or an annotation has it
         message = f"link {link.name!r} has no {' or '.join(lacks[::2])}, and gets {' and '.join(lacks[1::2])}"
         where = link.inertial.location if link.inertial else link.location.at("inertial")
-        sink.account(Fate.APPROXIMATED, to_sdf.TOKEN_MASS, message, where, weight=0)
+        sink.account(Fate.APPROXIMATED, rules.TINY_MASS, message, where, weight=0)
         return _with_token(link, carriers=self.carriers)
 
     def _report_massless(self, model: Model, sink: DiagnosticSink) -> None:
@@ -75,7 +74,7 @@ class UrdfBodies(ModelPass):
         for link in model.links:
             if link.name in moved and not _reaches(link.name, fixed, massive):
                 message = f"link {link.name!r} moves but has no mass, nor has anything fixed to it"
-                sink.report(to_sdf.MASSLESS_LINK, message, link.location)
+                sink.report(rules.MASSLESS_LINK, message, link.location)
 
 
 def _has_no_mass(link: Link) -> bool:

@@ -4,8 +4,7 @@ from collections.abc import Container, Iterator
 from functools import cache
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import to_sdf
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import (
     OPAQUE,
     Collision,
@@ -90,7 +89,7 @@ class CarryUrdf(ModelPass):
         for piece in pieces:
             why = message or f"{piece.name} is not a part of SDF"
             where = piece.location if piece.source else node.location
-            sink.account(fate, to_sdf.URDF_ONLY, why, where, max(1, piece.weight))
+            sink.account(fate, rules.URDF_ONLY, why, where, max(1, piece.weight))
         if not self.carriers:
             return node
         once = OF_AN_AXIS if isinstance(node, Joint) else ()  # a second one means nothing, and no edit has made it so

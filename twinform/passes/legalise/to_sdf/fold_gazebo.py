@@ -5,8 +5,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Any, ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, Severity
-from twinform.diagnostics.rules import structure, to_sdf
+from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, Severity, rules
 from twinform.ir import Element, Format, Frame, GazeboExtension, Joint, Link, Model, Node, Opaque
 from twinform.passes.carriers.annotations import EXTENSION, is_synthesized, with_annotation
 from twinform.passes.carriers.carriers import DANGLING, OVERRULED, Attributes, pack
@@ -96,7 +95,7 @@ class _Fold:
                     self._keep(
                         extension,
                         extension.content,
-                        to_sdf.URDF_ONLY,
+                        rules.URDF_ONLY,
                         f"<gazebo> refers to {name!r}, which is neither a link nor a joint",
                         DANGLING,
                     )
@@ -106,11 +105,11 @@ class _Fold:
     def _shell(self, extension: GazeboExtension) -> None:
         """Attributes and text of the element itself, and an element without content, which nothing comes of."""
         for part in extension.opaque:
-            rule = structure.UNKNOWN_ATTRIBUTE if part.attribute else structure.STRAY_TEXT
+            rule = rules.UNKNOWN_ATTRIBUTE if part.attribute else rules.STRAY_TEXT
             if not (part.attribute and part.attribute[0].startswith("{")):
                 self.sink.report(rule, f"no reader uses {part.name} of <gazebo>", part.location, found=part.name)
         if extension.opaque or not extension.content:
-            self._keep(extension, (), to_sdf.URDF_ONLY, "this <gazebo> sets nothing in the model")
+            self._keep(extension, (), rules.URDF_ONLY, "this <gazebo> sets nothing in the model")
 
     def _link(self, link: Link, extensions: list[GazeboExtension]) -> Link:
         elsewhere = {**MODEL_TAGS, **({} if link.name in self.joints else JOINT_TAGS)}
@@ -177,13 +176,13 @@ class _Fold:
             if came_from(self.robot, Format.SDF):  # made so that libsdformat lets the links be
                 continue
             message = ", ".join(f"<{element.name}>" for element in elements)
-            self._keep(extension, elements, to_sdf.URDF_ONLY, f"{message} has no effect: no link is lumped")
+            self._keep(extension, elements, rules.URDF_ONLY, f"{message} has no effect: no link is lumped")
         for element, extension, message in sorter.overruled:
-            self._keep(extension, [element], to_sdf.GAZEBO_CONFLICT, message, OVERRULED)
+            self._keep(extension, [element], rules.GAZEBO_CONFLICT, message, OVERRULED)
         for extension, elements in sorter.without_use:
             names = ", ".join(f"<{element.name}>" for element in elements)
             message = f"{names} applies to shapes, and link {extension.reference!r} has none of that kind"
-            where, rule = place_of(elements[0], extension), to_sdf.GAZEBO_TAG_WITHOUT_TARGET
+            where, rule = place_of(elements[0], extension), rules.GAZEBO_TAG_WITHOUT_TARGET
             self.sink.report(rule, message, where, found=elements[0].name, severity=Severity.INFO)
             self._keep(extension, elements, rule, message)
         return sorter
@@ -192,11 +191,11 @@ class _Fold:
         for element in elements:
             message = f"<{element.name}> has no effect in a <gazebo> for {target}"
             where = place_of(element, extension)
-            self.sink.report(to_sdf.GAZEBO_TAG_WITHOUT_TARGET, message, where, found=element.name)
+            self.sink.report(rules.GAZEBO_TAG_WITHOUT_TARGET, message, where, found=element.name)
         if elements:
             names = ", ".join(f"<{element.name}>" for element in elements)
             message = f"{names} has no effect on {target}"
-            self._keep(extension, elements, to_sdf.GAZEBO_TAG_WITHOUT_TARGET, message)
+            self._keep(extension, elements, rules.GAZEBO_TAG_WITHOUT_TARGET, message)
 
     def _keep(
         self, extension: GazeboExtension, elements: Iterable[Element], rule: Rule, message: str, about: Attributes = ()
@@ -222,7 +221,7 @@ class _Fold:
             if any(old not in {None, each.value} for old in old_values(each.tag, link)):
                 message = self._conflict(link, each.tag.field, f"<{each.element.name}>", each.where, accounted=False)
                 where = next(filter(None, (blob.place_of(each.tag.field) for blob in reversed(before))), each.where)
-                self.sink.account(Fate.DROPPED, to_sdf.GAZEBO_CONFLICT, message, where)
+                self.sink.account(Fate.DROPPED, rules.GAZEBO_CONFLICT, message, where)
         values = [(each.tag, each.value) for each in tags]
         visuals = tuple(set_visual(visual, values) for visual in link.visuals)
         collisions = tuple(set_collision(collision, values) for collision in link.collisions)
@@ -269,13 +268,13 @@ class _Fold:
             return
         message = self._conflict(node, field, "the first one", again[0][1].location, accounted=False)
         for extension, element in again:
-            self._keep(extension, [element], to_sdf.GAZEBO_CONFLICT, message)
+            self._keep(extension, [element], rules.GAZEBO_CONFLICT, message)
 
     def _conflict(self, node: Node, field: str, winner: str, where: Location, *, accounted: bool = True) -> str:
         message = f"<gazebo> sets {field!r} of {node.__dict__['name']!r} again; {winner} is used"
-        self.sink.report(to_sdf.GAZEBO_CONFLICT, message, where, found=field)
+        self.sink.report(rules.GAZEBO_CONFLICT, message, where, found=field)
         if accounted:
-            self.sink.account(Fate.DROPPED, to_sdf.GAZEBO_CONFLICT, message, where)
+            self.sink.account(Fate.DROPPED, rules.GAZEBO_CONFLICT, message, where)
         return message
 
 

@@ -3,8 +3,7 @@
 import math
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Joint, Mimic, Model
 from twinform.ir.defaults import multiplier
 from twinform.ir.frames import FrameError, FrameGraph

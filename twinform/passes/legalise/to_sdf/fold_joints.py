@@ -3,8 +3,7 @@
 from collections.abc import Container, Iterator
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Axis, Joint, Link, Model
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.joint_chains import CHAIN, PART, TWO_AXES, chain_type, part_of

@@ -2,8 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink, Fate, Source
-from twinform.diagnostics.rules import to_sdf as rules
+from twinform.diagnostics import DiagnosticSink, Fate, Source, rules
 from twinform.ir import Collision, GazeboExtension, Model
 from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions
 from twinform.passes.framework.base import ModelPass

@@ -2,9 +2,8 @@
 
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import to_sdf
-from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.diagnostics import DiagnosticSink, Fate, rules
+from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Collision, Element, Format, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.passes.carriers.annotations import (
@@ -120,7 +119,7 @@ class FrameLinks(ModelPass):
             element = Element.unchecked(name="gazebo", attributes=(("reference", joint.name),), children=tuple(parts))
             message = f"joint {joint.name!r} becomes a frame, which has no <{parts[0].name}>"
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
-            sink.account(fate, to_sdf.FRAME_LINK, message, joint.location, element.weight)
+            sink.account(fate, rules.FRAME_LINK, message, joint.location, element.weight)
             kept.append(Opaque.unchecked(element=element))
         return carry(model, kept, "urdf") if self.carriers else model
 
@@ -136,7 +135,7 @@ class FrameLinks(ModelPass):
             names = ", ".join(field for field, value in written.items() if value is not None)
             message = f"{names} of {link.name!r} have no body to act on"
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
-            sink.account(fate, to_sdf.FRAME_LINK, message, link.location, len(bare.children))
+            sink.account(fate, rules.FRAME_LINK, message, link.location, len(bare.children))
             kept.append(Opaque.unchecked(element=element))
         return carry(model, kept, "urdf") if self.carriers else model
 
@@ -150,7 +149,7 @@ class FrameLinks(ModelPass):
     def _keep(self, frame: Frame, rest: list[Opaque], message: str, sink: DiagnosticSink) -> Frame:
         for part in rest:
             sink.account(
-                Fate.CARRIED if self.carriers else Fate.DROPPED, to_sdf.FRAME_LINK, message, frame.location, part.weight
+                Fate.CARRIED if self.carriers else Fate.DROPPED, rules.FRAME_LINK, message, frame.location, part.weight
             )
         return carry(frame, rest, "urdf") if self.carriers else frame
 

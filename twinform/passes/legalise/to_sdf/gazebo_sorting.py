@@ -4,8 +4,7 @@ from collections import defaultdict
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
 
-from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity, Source
-from twinform.diagnostics.rules import structure, to_sdf
+from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity, Source, rules
 from twinform.ir import Element, GazeboExtension, Link
 from twinform.passes.transforms.gazebo_tags import FALSE, LINK_TAGS, TRUE, TRUTHS, Tag, value_text
 
@@ -164,8 +163,8 @@ class Sorter:
         self._extra_attributes(element, where, ())
         if element.text:
             message = f"text {element.text[:40]!r} in <{element.name}> of <gazebo>"
-            self._notes.report(structure.STRAY_TEXT, message, where, found=element.text[:40])
-            self._notes.account(Fate.DROPPED, structure.STRAY_TEXT, message, where)
+            self._notes.report(rules.STRAY_TEXT, message, where, found=element.text[:40])
+            self._notes.account(Fate.DROPPED, rules.STRAY_TEXT, message, where)
         above = extension.source
         source = above and Source(above.file, where.line, above, element.name)
         inside = extension.model_copy(update={"source": source})
@@ -179,13 +178,13 @@ class Sorter:
             value = tag.read(text)
         except ValueError:
             message = f"<{element.name}> in <gazebo> is {text!r}; expected a value of its type"
-            self._notes.report(structure.INVALID_VALUE, message, where, found=text)
+            self._notes.report(rules.INVALID_VALUE, message, where, found=text)
             return
         if tag.read in TRUTHS and text.lower() not in TRUE | FALSE:
             message = f"<{element.name}> in <gazebo> is {text!r}, which Gazebo takes for {str(value).lower()}"
             expected = "true or false"
             warning = Severity.ERROR if self._notes.strict else Severity.WARNING
-            self._notes.report(structure.INVALID_VALUE, message, where, found=text, expected=expected, severity=warning)
+            self._notes.report(rules.INVALID_VALUE, message, where, found=text, expected=expected, severity=warning)
         self._set(TagValue(tag, value, element, extension, len(self.rest)))
 
     def _set(self, read: TagValue) -> None:
@@ -196,7 +195,7 @@ class Sorter:
             message = f"<{read.element.name}> in <gazebo> has another value than before; the last one is used"
             related = (before.where,)
             self._notes.report(
-                to_sdf.GAZEBO_CONFLICT, message, read.where, found=value_text(read.element), related=related
+                rules.GAZEBO_CONFLICT, message, read.where, found=value_text(read.element), related=related
             )
             self.overruled.append(OverriddenTag(before.element, before.extension, message))
         self._read[key] = read
@@ -205,8 +204,8 @@ class Sorter:
         for name, value in element.attributes:
             if name not in known:
                 message = f"{name!r} is not an attribute of <{element.name}> in <gazebo>"
-                self._notes.report(structure.UNKNOWN_ATTRIBUTE, message, where.at(f"@{name}"), found=value)
-                self._notes.account(Fate.DROPPED, structure.UNKNOWN_ATTRIBUTE, message, where.at(f"@{name}"))
+                self._notes.report(rules.UNKNOWN_ATTRIBUTE, message, where.at(f"@{name}"), found=value)
+                self._notes.account(Fate.DROPPED, rules.UNKNOWN_ATTRIBUTE, message, where.at(f"@{name}"))
 
 
 def _with(extension: GazeboExtension, content: list[Element]) -> GazeboExtension:

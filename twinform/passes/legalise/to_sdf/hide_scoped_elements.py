@@ -2,8 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import to_sdf
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import PLAIN, Model, Node, rewrite
 from twinform.ir.scoped_elements import scoped_parts
 from twinform.passes.carriers.carriers import carry
@@ -34,7 +33,7 @@ class HideScopedElements(ModelPass):
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
         for part in scoped:
             message = f"{part.name} has '::' in a name, which readers of SDF refuse since 1.8"
-            sink.account(fate, to_sdf.SCOPED_ELEMENT, message, part.location, part.weight)
+            sink.account(fate, rules.SCOPED_ELEMENT, message, part.location, part.weight)
         rest = tuple(part for part in node.opaque if part not in scoped)
         node = node.model_copy(update={"opaque": rest})
         return carry(node, scoped, "sdf") if self.carriers else node

@@ -3,8 +3,7 @@
 from collections.abc import Mapping
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate, Rule
-from twinform.diagnostics.rules import to_sdf
+from twinform.diagnostics import DiagnosticSink, Fate, Rule, rules
 from twinform.ir import Axis, Element, Format, Joint, Limit, Link, Mimic, Model, Opaque, count_parts
 from twinform.ir.defaults import AXIS, with_range
 from twinform.ir.verify.joints import useless_leader
@@ -94,10 +93,10 @@ class UrdfJoints(ModelPass):
 
     def _was_planar(self, turn: Joint, joint: Joint, sink: DiagnosticSink) -> Joint:
         message = f"planar joint {joint.name!r} is two sliding joints and a turning one in SDF, with links without mass"
-        sink.report(to_sdf.JOINT_CHAIN, message, joint.location.at("@type"), found="planar")
+        sink.report(rules.JOINT_CHAIN, message, joint.location.at("@type"), found="planar")
         rest = [child for child in to_element(joint, "joint", "urdf").children if child.name in _BESIDE_AXIS]
         pieces = [Opaque.unchecked(attribute=("type", "planar")), *(Opaque.unchecked(element=child) for child in rest)]
-        return self._keep(turn, pieces, f"planar joint {joint.name!r} is a chain of joints", sink, to_sdf.JOINT_CHAIN)
+        return self._keep(turn, pieces, f"planar joint {joint.name!r} is a chain of joints", sink, rules.JOINT_CHAIN)
 
     def _free(self, link: Link, joint: Joint, sink: DiagnosticSink) -> Link:
         freed = link.model_copy(update={"pose": joint.pose})
@@ -105,7 +104,7 @@ class UrdfJoints(ModelPass):
             return freed
         message = f"joint {joint.name!r} leaves link {link.name!r} free, which needs no joint in SDF"
         element = to_element(joint.model_copy(update={"pose": None}), "joint", "urdf")
-        sink.account(self._fate(), to_sdf.NO_JOINT, message, joint.location, count_parts(joint))
+        sink.account(self._fate(), rules.NO_JOINT, message, joint.location, count_parts(joint))
         if not self.carriers:
             return freed
         rest = tuple(child for child in element.children if child.name not in {"parent", "child"})
@@ -125,7 +124,7 @@ class UrdfJoints(ModelPass):
                 return joint  # SDF's own, from a <gazebo> element
             case _:
                 message = f"joint {joint.name!r} is {joint.type!r}, which SDF has no joint for"
-                sink.report(to_sdf.JOINT_TYPE_UNSUPPORTED, message, joint.location.at("@type"), found=joint.type)
+                sink.report(rules.JOINT_TYPE_UNSUPPORTED, message, joint.location.at("@type"), found=joint.type)
                 return joint
 
     def _ball(self, joint: Joint, sink: DiagnosticSink) -> Joint:
@@ -166,7 +165,7 @@ class UrdfJoints(ModelPass):
         return self._keep(joint, rest, f"SDF has no equivalent of these limits of joint {joint.name!r}", sink)
 
     def _keep(
-        self, joint: Joint, rest: list[Opaque], message: str, sink: DiagnosticSink, rule: Rule = to_sdf.URDF_ONLY
+        self, joint: Joint, rest: list[Opaque], message: str, sink: DiagnosticSink, rule: Rule = rules.URDF_ONLY
     ) -> Joint:
         for part in rest:
             sink.account(self._fate(), rule, f"{message}: {part.name}", joint.location, part.weight)

@@ -4,8 +4,7 @@ import math
 from collections.abc import Iterable
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Format, Inertial, Link, Model, Opaque
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.solids import Solid, placed, written_solid

@@ -3,8 +3,7 @@
 from collections import defaultdict
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import to_sdf as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Element, Format, Model
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass

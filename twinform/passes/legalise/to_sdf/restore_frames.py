@@ -4,8 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Pose, replace_fields, rewrite
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph, Kind

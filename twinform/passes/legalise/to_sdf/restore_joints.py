@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Axis, Format, Joint, Limit, Model
 from twinform.ir.defaults import UNLIMITED
 from twinform.passes.carriers.annotations import SYNTHESIZED, find_annotation, without_annotation

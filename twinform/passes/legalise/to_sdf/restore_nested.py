@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Severity
-from twinform.diagnostics.rules.to_urdf import NESTED_MODEL, STALE_CARRIER
+from twinform.diagnostics.rules import NESTED_MODEL, STALE_CARRIER
 from twinform.ir import IN_MODELS, Element, Format, Frame, Link, Model, Node, Opaque, Pose, map_references
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform

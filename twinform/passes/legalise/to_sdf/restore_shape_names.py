@@ -3,7 +3,7 @@
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules.to_sdf import LUMPED_NAME
+from twinform.diagnostics.rules import LUMPED_NAME
 from twinform.ir import Collision, Format, Link, Model, Visual, replace_fields
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions

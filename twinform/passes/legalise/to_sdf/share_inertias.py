@@ -2,8 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import to_sdf as rules
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Format, Link, Model
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import ELEMENTS

@@ -4,9 +4,8 @@ from collections.abc import Iterable
 from functools import lru_cache
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import to_sdf
-from twinform.diagnostics.rules.to_urdf import GAZEBO_MATERIAL
+from twinform.diagnostics import DiagnosticSink, Fate, rules
+from twinform.diagnostics.rules import GAZEBO_MATERIAL
 from twinform.ir import Link, Material, Model, Opaque, Visual, count_parts
 from twinform.passes.carriers.annotations import annotation
 from twinform.passes.carriers.carriers import pack, to_element
@@ -80,7 +79,7 @@ class SharedMaterials(ModelPass):
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
         named = f"SDF has no name for the material {material.name!r}"
         message = named if material.name else "SDF has no shared materials"
-        sink.account(fate, to_sdf.MATERIAL_NAME, message, material.location, weight)
+        sink.account(fate, rules.MATERIAL_NAME, message, material.location, weight)
 
 
 def _note_gazebo(materials: Iterable[Material], sink: DiagnosticSink) -> None:

@@ -3,8 +3,7 @@
 from collections.abc import Collection
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import to_sdf
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Format, Joint, Link, Model, map_references
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.names import with_old_name
@@ -59,10 +58,8 @@ class UniqueNames(ModelPass):
     def _rename(self, node: Named, name: str, sink: DiagnosticSink) -> Named:
         kind = type(node).__name__.lower()
         message = f"{kind} {node.name!r} is called {name!r} in SDF"
-        sink.report(to_sdf.RENAMED, message, node.location, found=node.name)
-        sink.account(
-            Fate.CARRIED if self.carriers else Fate.DROPPED, to_sdf.RENAMED, message, node.location.at("@name")
-        )
+        sink.report(rules.RENAMED, message, node.location, found=node.name)
+        sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rules.RENAMED, message, node.location.at("@name"))
         if self.carriers:
             node = with_old_name(node, name)
         return node.model_copy(update={"name": name})

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from typing import ClassVar, Literal, TypeVar, cast
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import (
     Color,
     Element,

@@ -2,8 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink, Fate
-from twinform.diagnostics.rules import to_sdf
+from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Joint, Link, Model, Opaque, count_parts
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import carry, is_carrier, to_element, unpack
@@ -41,16 +40,16 @@ class WorldLink(ModelPass):
         if not any(joint.parent == "world" and not needs_no_joint(joint, held) for joint in joints):
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
             message = "nothing is fixed to the link 'world', and SDF always has a world"
-            sink.account(fate, to_sdf.URDF_ONLY, message, world.location, count_parts(world))
+            sink.account(fate, rules.URDF_ONLY, message, world.location, count_parts(world))
         own = tuple(piece for part in world.opaque for piece in (unpack(part) if is_carrier(part, "urdf") else (part,)))
         body = world.model_copy(update={"opaque": own})
         return self._keep_body(model, body, sink) if count_parts(body) > 2 else model
 
     def _keep_body(self, model: Model, world: Link, sink: DiagnosticSink) -> Model:
         message = "the link 'world' has a body, which SDF's world cannot have"
-        sink.report(to_sdf.WORLD_LINK, message, world.location)
+        sink.report(rules.WORLD_LINK, message, world.location)
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
-        sink.account(fate, to_sdf.WORLD_LINK, message, world.location, count_parts(world))
+        sink.account(fate, rules.WORLD_LINK, message, world.location, count_parts(world))
         if not self.carriers:
             return model
         return carry(model, [Opaque.unchecked(element=to_element(world, "link", "urdf"))], "urdf")

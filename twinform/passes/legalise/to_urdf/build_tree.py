@@ -2,8 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import Fate
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import Fate, rules
 from twinform.ir import Joint, Link, Model, count_parts
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.passes.carriers.annotations import (

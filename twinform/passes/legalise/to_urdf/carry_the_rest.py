@@ -2,8 +2,7 @@
 
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Joint, Link, Model, Node, replace_fields
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import without_synthesized

@@ -3,7 +3,7 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import rules
 from twinform.ir import Inertial, Link, Model
 from twinform.ir.frames import FrameGraph
 from twinform.passes.analyses.automatic_inertias import (

@@ -2,8 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics.rules import model as model_rules
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import rules
 from twinform.ir import Axis, Format, Joint, Model
 from twinform.ir.defaults import AXIS, direction, filled
 from twinform.ir.frames import MODEL, FrameGraph
@@ -46,7 +45,7 @@ def _express(joint: Joint, field: str, graph: FrameGraph, keeper: Keeper) -> Joi
     axis = written or Axis()
     if axis.xyz is not None and not any(axis.xyz):
         message = f"the {field} of joint {joint.name!r} has length zero"
-        keeper.sink.report(model_rules.ZERO_AXIS, message, axis.location, found="0 0 0")
+        keeper.sink.report(rules.ZERO_AXIS, message, axis.location, found="0 0 0")
     if not axis.expressed_in:
         made = filled(axis, {"xyz": AXIS[Format.SDF]})
         return joint if made is axis else joint.model_copy(update={field: made})

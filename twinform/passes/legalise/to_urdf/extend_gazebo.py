@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from typing import ClassVar
 
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import rules
 from twinform.ir import Dynamics, Element, GazeboExtension, Joint, Link, Model, Opaque, replace_fields
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import is_synthesized

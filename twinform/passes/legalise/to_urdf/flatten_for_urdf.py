@@ -3,7 +3,7 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import rules
 from twinform.ir import Format, Frame, Model, Opaque, count_parts
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, to_element

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 
-from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Element, Joint, Link, Model, Opaque, Pose
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.passes.carriers.annotations import find_annotation, without_annotation

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import rules
 from twinform.ir import Joint, Limit, Link, Model, Opaque
 from twinform.passes.carriers.annotations import SYNTHESIZED, is_synthesized, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack

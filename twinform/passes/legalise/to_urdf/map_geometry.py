@@ -2,7 +2,7 @@
 
 from typing import ClassVar, Literal, TypeVar
 
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import rules
 from twinform.ir import (
     Box,
     Capsule,

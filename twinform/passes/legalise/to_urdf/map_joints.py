@@ -4,9 +4,7 @@ import math
 from collections.abc import Mapping
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import Fate
-from twinform.diagnostics.rules import to_sdf as shared_rules
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import Fate, rules
 from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node
 from twinform.ir.defaults import UNLIMITED, multiplier
 from twinform.passes.carriers.joint_words import CONTINUOUS, MIMIC
@@ -52,7 +50,7 @@ def _map(joint: Joint, strength: float | None, keeper: Keeper) -> Joint:
     if joint.type not in _TYPES:
         message = f"joint {joint.name!r} is {joint.type}, a type that URDF does not have"
         where = joint.location.at("@type")
-        keeper.sink.report(shared_rules.JOINT_TYPE_UNSUPPORTED, message, where, found=joint.type)
+        keeper.sink.report(rules.JOINT_TYPE_UNSUPPORTED, message, where, found=joint.type)
         return joint
     if joint.type == "continuous":
         message = f"joint {joint.name!r} is continuous, which most SDF files write as revolute without limits"

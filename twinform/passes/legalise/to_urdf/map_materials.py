@@ -2,8 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import Fate
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import Fate, rules
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual
 from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS, material_name
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
@@ -75,7 +74,7 @@ def _keep_colors(visual: Visual, material: Material, keeper: Keeper) -> Visual:
     if not others:
         return visual
     message = f"visual {visual.name!r} has more colors than a URDF material can have"
-    keeper.account(rules.COLORS, message, material.location, sum(1 for name in others if written[name]))
+    keeper.account(rules.COLOURS, message, material.location, sum(1 for name in others if written[name]))
     return keeper.annotate(visual, COLORS, attributes={**others, "of": format_value(color)}, always=True)
 
 

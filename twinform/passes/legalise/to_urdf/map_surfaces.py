@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics.rules.to_urdf import UNSHARED_SURFACE
+from twinform.diagnostics.rules import UNSHARED_SURFACE
 from twinform.ir import Collision, Element, GazeboExtension, Link, Model, Surface
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass

@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics.rules import to_sdf as rules
+from twinform.diagnostics import rules
 from twinform.ir import Format, Joint, Model
 from twinform.passes.legalise.names import Names, renamed, with_old_name
 from twinform.passes.legalise.to_sdf.unique_names import free_name

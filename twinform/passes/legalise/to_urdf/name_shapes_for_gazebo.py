@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics.rules.to_urdf import GAZEBO_SHAPE_NAME
+from twinform.diagnostics.rules import GAZEBO_SHAPE_NAME
 from twinform.ir import Model
 from twinform.passes.legalise.names import NAME
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass

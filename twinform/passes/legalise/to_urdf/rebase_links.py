@@ -4,8 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import NOWHERE
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import NOWHERE, rules
 from twinform.ir import (
     PLAIN,
     Element,

@@ -2,8 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import Fate, Severity
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import Fate, Severity, rules
 from twinform.ir import Axis, Joint, Mimic, Model, count_parts
 from twinform.ir.frames import FrameGraph
 from twinform.passes.analyses.gearboxes import GEARED, Relation, UngearedError, relation

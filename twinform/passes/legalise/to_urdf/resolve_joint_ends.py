@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import rules
 from twinform.ir import Joint, Model
 from twinform.ir.frames import WORLD, FrameGraph
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass

@@ -4,7 +4,7 @@ import math
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Inertial, Model
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import tensor

@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Element, GazeboExtension, Model
 from twinform.passes.carriers.lumped_names import has_annotations, restored
 from twinform.passes.framework.base import ModelPass

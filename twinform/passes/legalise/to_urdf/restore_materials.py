@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import ClassVar, NamedTuple
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Color, Element, Link, Material, Model, Opaque, Visual, replace_fields
 from twinform.passes.carriers.annotations import find_annotation, is_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack

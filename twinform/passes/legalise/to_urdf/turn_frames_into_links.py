@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import rules
 from twinform.ir import Frame, Joint, Link, Model, Pose, count_parts
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.carriers.annotations import SYNTHESIZED, annotate_synthesized, is_synthesized, without_annotation

@@ -3,9 +3,7 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.diagnostics import Fate
-from twinform.diagnostics.rules import to_sdf as shared_rules
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import Fate, rules
 from twinform.ir import Axis, Joint, Link, Model, Opaque, Pose, count_parts
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.carriers import carry, is_carrier, to_element, unpack
@@ -154,7 +152,7 @@ def _lacks_pitch(joint: Joint, keeper: Keeper) -> bool:
     if joint.type != "screw" or metres_per_radian(joint) is not None:
         return False
     message = f"screw joint {joint.name!r} has a thread pitch of 0 rad/m, which moves infinitely far"
-    keeper.sink.report(shared_rules.JOINT_TYPE_UNSUPPORTED, message, joint.location, found="0")
+    keeper.sink.report(rules.JOINT_TYPE_UNSUPPORTED, message, joint.location, found="0")
     return True
 
 

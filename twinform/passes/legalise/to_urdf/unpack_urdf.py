@@ -5,7 +5,7 @@ from functools import partial
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules.to_urdf import STALE_CARRIER
+from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Link, Model, Node, Opaque, map_children, rewrite
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, is_dangling, is_overruled, unpack

@@ -2,7 +2,7 @@
 
 from typing import TypeVar
 
-from twinform.diagnostics.rules import to_urdf as rules
+from twinform.diagnostics import rules
 from twinform.ir import Collision, Visual
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.legalise.to_urdf.base import Keeper

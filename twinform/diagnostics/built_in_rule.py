@@ -1,0 +1,52 @@
+"""Built-in rules: what a finding needs of them is in a generated table; their pages are read when somebody asks."""
+
+from collections.abc import Callable, Mapping
+
+from twinform.diagnostics.fix import Safety
+from twinform.diagnostics.rule import Rule, Severity
+
+
+def rule(
+    name: str,
+    severity: Severity,
+    *,
+    strict: Severity | None = None,
+    fix: Safety | None = None,
+    fatal: bool = False,
+    unsound: bool = False,
+) -> Rule:
+    """A rule whose page is a file of `rules/`."""
+    made = _BuiltInRule.__new__(_BuiltInRule)
+    _fill(made, {"name": name, "severity": severity, "strict": strict, "fix": fix, "fatal": fatal, "unsound": unsound})
+    return made
+
+
+class _BuiltInRule(Rule):
+    """A rule whose page stays unset until one of its texts is asked for."""
+
+    __slots__ = ()
+
+    def __getattr__(self, field: str) -> str:
+        # Python calls this where a slot is unset
+        from twinform.diagnostics.rule_files import read_page  # noqa: PLC0415 - most runs show no page
+
+        page = read_page(self.name)
+        if field not in page:
+            raise AttributeError(f"a rule has no {field}")
+        _fill(self, page)
+        return page[field]
+
+    def __reduce__(self) -> tuple[Callable[[str], Rule], tuple[str]]:
+        # findings travel between processes: the other one has the rule too
+        return _rule_of_name, (self.name,)
+
+
+def _rule_of_name(name: str) -> Rule:
+    from twinform.diagnostics.catalog import catalog  # noqa: PLC0415 - it imports the table, and that imports this
+
+    return catalog()[name]
+
+
+def _fill(rule: Rule, values: Mapping[str, object]) -> None:
+    for field, value in values.items():
+        object.__setattr__(rule, field, value)

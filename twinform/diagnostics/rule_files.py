@@ -1,0 +1,55 @@
+"""Reads the Markdown files of `rules/`, one for each built-in rule: a head of `key: value` lines, and its page."""
+
+import re
+from typing import TYPE_CHECKING
+
+from twinform.package_files import package_files
+
+if TYPE_CHECKING:
+    from importlib.resources.abc import Traversable
+
+HEADINGS = {
+    "What it finds": "finds",
+    "Why it matters": "matters",
+    "Example": "example",
+    "Better": "better",
+    "References": "references",
+}
+"""The headings of a page, and the fields of `Rule` that they are. The last one may be left out."""
+_FILE = re.compile(r"---\n(?P<head>([a-z]+: .+\n)+)---\n(?P<page>(\n## .+\n\n([^#\n].*\n)+)+)")
+_SECTION = re.compile(r"^## (.+)\n\n((?:.+\n)+)", re.MULTILINE)
+
+
+def rule_names() -> list[str]:
+    """The names of all built-in rules, sorted."""
+    files = (file.name for file in _folder().iterdir())
+    return sorted(name.removesuffix(".md") for name in files if name.endswith(".md"))
+
+
+def read_head(name: str) -> dict[str, str]:
+    """The head of a rule's file: what a `Rule` has besides its name and its page.
+
+    Raises:
+        ValueError: the file is not a head and one paragraph below each heading, in their order.
+    """
+    found = _FILE.fullmatch(_text(name))
+    if found is None:
+        raise ValueError(f"{name}.md is not a head between two lines of --- and one paragraph below each heading")
+    headings = [heading for heading, _ in _SECTION.findall(found["page"])]
+    if headings not in (list(HEADINGS), list(HEADINGS)[:-1]):
+        raise ValueError(f"{name}.md has the headings {', '.join(headings)}; expected are {', '.join(HEADINGS)}")
+    return dict(line.split(": ", 1) for line in found["head"].splitlines())
+
+
+def read_page(name: str) -> dict[str, str]:
+    """The page of a built-in rule: a text in one line for each field of `Rule` that is a part of the page."""
+    sections = _SECTION.findall(_text(name))
+    return {"references": "", **{HEADINGS[heading]: " ".join(text.split()) for heading, text in sections}}
+
+
+def _text(name: str) -> str:
+    return _folder().joinpath(f"{name}.md").read_text(encoding="utf-8")
+
+
+def _folder() -> "Traversable":
+    return package_files("twinform.diagnostics").joinpath("rules")
