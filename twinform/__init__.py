@@ -10,6 +10,7 @@ Names are imported when they are first used, so that `import twinform` costs not
 """
 
 from twinform.lazy import lazy_attributes
+from twinform.notebooks import DRAWN_BY
 
 TYPE_CHECKING = False  # `typing` takes longer than all that is here
 if TYPE_CHECKING:
@@ -30,6 +31,9 @@ else:
         },
     )
 
+DRAWN_BY.update(
+    Document=("twinform.report.notebook", "document_html"), Conversion=("twinform.report.notebook", "conversion_html")
+)
 __version__ = "0.1.0"
 __all__ = [
     "Comparison",

@@ -27,6 +27,7 @@ from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile
 from twinform.diagnostics.rules import MISSING_ATTRIBUTE, MISSING_LIMIT, OUTSIDE_VERSION
 from twinform.ir import Document, Format, Include
 from twinform.ir.verify import verify
+from twinform.notebooks import draw
 from twinform.passes import Pass, PassError, PassInstrumentation, Pipeline
 from twinform.passes.analyses.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.passes.sdf_versions import has_early_frames
@@ -58,9 +59,7 @@ class Conversion:
 
     def _repr_html_(self) -> str:
         """What a notebook shows of it."""
-        from twinform.report.notebook import conversion_html  # noqa: PLC0415 - see the contracts in pyproject.toml
-
-        return conversion_html(self)
+        return draw("Conversion", self)
 
 
 def plan(

@@ -6,6 +6,7 @@ from twinform.ir.light import Light
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Node
 from twinform.ir.world import World
+from twinform.notebooks import draw
 
 
 class Format(StrEnum):
@@ -38,6 +39,4 @@ class Document(Node):
 
     def _repr_html_(self) -> str:
         """What a notebook shows of it."""
-        from twinform.report.notebook import document_html  # noqa: PLC0415 - see the contracts in pyproject.toml
-
-        return document_html(self)
+        return draw("Document", self)
