@@ -1,6 +1,6 @@
 """Built-in rules: what a finding needs of them is in a generated table; their pages are read when somebody asks."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 from twinform.diagnostics.fix import Safety
 from twinform.diagnostics.rule import Rule, Severity
@@ -25,6 +25,7 @@ class _BuiltInRule(Rule):
     """A rule whose page stays unset until one of its texts is asked for."""
 
     __slots__ = ()
+    __module__ = "twinform.diagnostics.rules"  # where pickle looks for the constant
 
     def __getattr__(self, field: str) -> str:
         # Python calls this where a slot is unset
@@ -36,15 +37,9 @@ class _BuiltInRule(Rule):
         _fill(self, page)
         return page[field]
 
-    def __reduce__(self) -> tuple[Callable[[str], Rule], tuple[str]]:
-        # findings travel between processes: the other one has the rule too
-        return _rule_of_name, (self.name,)
-
-
-def _rule_of_name(name: str) -> Rule:
-    from twinform.diagnostics.catalog import catalog  # noqa: PLC0415 - it imports the table, and that imports this
-
-    return catalog()[name]
+    def __reduce__(self) -> str:
+        # findings travel between processes: pickle writes the name of the constant, which the other process has too
+        return self.name.upper().replace("-", "_")
 
 
 def _fill(rule: Rule, values: Mapping[str, object]) -> None:
