@@ -26,7 +26,7 @@ Places are:
 * `-> field:kind`: one of several elements that share a field and differ by kind;
 * `-> /field`: a field of the document around the root's node;
 * `-> .`: a container that makes no node: its rows fill the node around it;
-* nothing: the subtree is kept as an opaque element.
+* nothing: the subtree is kept as an opaque element, and no row in it has a place.
 """
 
 import re
@@ -181,7 +181,7 @@ def parse_facts(lines: Iterable[str], name: str) -> Iterator[Fact]:
     """The definitions in the lines of a `.facts` file.
 
     Raises:
-        ValueError: a line is not in the notation; the message names it.
+        ValueError: a line is not in the notation, or has a field that nothing leads to; the message names it.
     """
     stack: list[Fact] = []
     for number, line in enumerate(lines, 1):
@@ -196,6 +196,9 @@ def parse_facts(lines: Iterable[str], name: str) -> Iterator[Fact]:
             if stack:
                 yield stack[0]
         else:
+            if fact.place and depth > 1 and not stack[depth - 1].place:
+                around = f"<{stack[depth - 1].name}> around it is not: it needs a place too, `-> .` if it makes no node"
+                raise ValueError(f"{name}:{number}: {fact.name} is kept in a field, and {around}")
             stack[depth - 1].rows.append(fact)
         stack[depth:] = [fact]
     if stack:

@@ -1,0 +1,35 @@
+"""What is a mistake in a facts table."""
+
+import pytest
+
+from twinform.schemas.facts import parse_facts
+
+_FIELD_BELOW_NOTHING = """\
+visual
+  transparency  ?
+    @value      1  double  -> transparency"""
+_DEEPER = """\
+visual
+  material   ?          -> material
+    shader   ?
+      normal_map  ?  string  -> normal_map"""
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        (_FIELD_BELOW_NOTHING, "t.facts:3: @value is kept in a field, and <transparency> around it is not"),
+        (_DEEPER, "t.facts:4: normal_map is kept in a field, and <shader> around it is not"),
+        ("visual\n    deep  ?", "t.facts:2: not a row of a facts table"),
+        ("visual\n  name  ?  sting  string", "t.facts:2: 'string' is not known here"),
+        ("visual\n  name  ?  string  minimum=1", "t.facts:2: 'minimum' is not a key of a facts table"),
+    ],
+)
+def test_a_mistake_in_a_table_is_an_error_with_its_line(text: str, complaint: str) -> None:
+    with pytest.raises(ValueError, match=complaint):
+        list(parse_facts(text.splitlines(), "t.facts"))
+
+
+def test_a_container_that_makes_no_node_says_so() -> None:
+    (visual,) = parse_facts(_FIELD_BELOW_NOTHING.replace("?", "?  -> .", 1).splitlines(), "t.facts")
+    assert [row.place for row in visual.rows] == ["."]
