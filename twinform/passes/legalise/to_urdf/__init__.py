@@ -50,9 +50,9 @@ def to_urdf(
 ) -> tuple[Pass, ...]:
     """The passes that make URDF of the model of this name, or of the only one.
 
-    `mixed` lets it have shapes of newer versions, and `mixed_source` means that the SDF has syntax of other ones.
+    `mixed` lets it have elements of newer versions, and `mixed_source` means that the SDF has syntax of other ones.
     """
-    shapes: UrdfVersion = "1.2" if mixed else urdf_version
+    words: UrdfVersion = "1.2" if mixed else urdf_version
     return (
         SelectModel.unchecked(model=model),
         ShowScopedElements.unchecked(),
@@ -71,12 +71,12 @@ def to_urdf(
         UnfoldJoints.unchecked(carriers=carriers),
         MapJoints.unchecked(carriers=carriers, urdf_version=urdf_version),
         RebaseLinks.unchecked(carriers=carriers),
-        MapGeometry.unchecked(carriers=carriers, urdf_version=shapes),  # what it carries is where it will be
-        ShareVisuals.unchecked(carriers=carriers),
+        MapGeometry.unchecked(carriers=carriers, urdf_version=words),  # what it carries is where it will be
+        ShareVisuals.unchecked(carriers=carriers, urdf_version=words),
         MapMaterials.unchecked(carriers=carriers),
         MapSurfaces.unchecked(carriers=carriers),
         ExtendGazebo.unchecked(carriers=carriers),
-        CarryTheRest.unchecked(carriers=carriers, urdf_version=urdf_version),
+        CarryTheRest.unchecked(carriers=carriers, urdf_version=urdf_version, words=words),
         NameShapesForGazebo.unchecked(carriers=carriers),
         RestoreMaterials.unchecked(),
         RestoreShapes.unchecked(),

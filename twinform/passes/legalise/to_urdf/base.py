@@ -3,7 +3,7 @@
 from abc import abstractmethod
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Literal, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule
 from twinform.ir import Document, Format, Joint, Model, Node, Opaque, replace_fields
@@ -14,6 +14,7 @@ from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import Pass
 
 AnyNode = TypeVar("AnyNode", bound=Node)
+UrdfVersion = Literal["1.0", "1.1", "1.2"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,5 +1,6 @@
 """The last pass to URDF: moving all remaining SDF parts into carriers, and changing the format."""
 
+from functools import partial
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, rules
@@ -10,8 +11,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SECOND, has_our
 from twinform.passes.carriers.definitions import is_repeated
 from twinform.passes.carriers.provenance import came_from, with_provenance, without_provenance
 from twinform.passes.framework.base import Pass
-from twinform.passes.legalise.to_urdf.base import Keeper
-from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
+from twinform.passes.legalise.to_urdf.base import Keeper, UrdfVersion
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, take_remainder, urdf_fields
 from twinform.passes.transforms.notation import BODY
 
@@ -34,13 +34,15 @@ class CarryTheRest(Pass):
 
     carriers: bool = True
     urdf_version: UrdfVersion = "1.0"
+    words: UrdfVersion = "1.0"
+    """The version whose elements and attributes may be written: that of a file with some of a newer version is 1.2."""
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document as URDF."""
         if sink.has_errors:
             return document
         keeper = Keeper(sink, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
-        models = tuple(_finish(model, document, keeper) for model in document.models)
+        models = tuple(_finish(model, document, _RemainderCarrier(keeper, self.words)) for model in document.models)
         if not self.carriers:
             models = tuple(without_synthesized(model) for model in models)
         namespaces = tuple(pair for pair in document.namespaces if pair[0] not in ("", PREFIX))
@@ -51,13 +53,13 @@ class CarryTheRest(Pass):
         return document.model_copy(update=update)
 
 
-def _finish(model: Model, document: Document, keeper: Keeper) -> Model:
-    rest = _RemainderCarrier(keeper)
+def _finish(model: Model, document: Document, rest: "_RemainderCarrier") -> Model:
+    keeper = rest.keeper
     model = _without_usual_root(model, keeper)
     model = model.model_copy(
         update={"links": tuple(map(rest.link, model.links)), "joints": tuple(map(rest.joint, model.joints))}
     )
-    model = rest.take(model, "model", urdf_fields("robot"))
+    model = rest.take(model, "model", rest.fields("robot"))
     model = model.model_copy(update={"links": tuple(_annotated_world(link, keeper) for link in model.links)})
     has_world = any(link.name == WORLD for link in model.links)  # which SDF before 1.7 did not forbid
     if not has_world and any(joint.parent == WORLD for joint in model.joints):
@@ -86,22 +88,23 @@ def _without_usual_root(model: Model, keeper: Keeper) -> Model:
 class _RemainderCarrier:
     """Takes the remainders off, from the inside out."""
 
-    def __init__(self, keeper: Keeper) -> None:
+    def __init__(self, keeper: Keeper, words: UrdfVersion) -> None:
         self.keeper = keeper
-        self.link_fields = KnownFields({**urdf_fields("link"), "pose": _IMPLIED, "inertial": None})
-        joint = urdf_fields("joint")
+        self.fields = partial(urdf_fields, words)
+        self.link_fields = KnownFields({**self.fields("link"), "pose": _IMPLIED, "inertial": None})
+        joint = self.fields("joint")
         self.joint_fields = KnownFields({**joint, "pose": KnownFields({**(joint["pose"] or {}), **_IMPLIED})})
         self.fixed_fields = KnownFields({name: inner for name, inner in self.joint_fields.items() if name != "axis"})
 
     def link(self, link: Link) -> Link:
         update: dict[str, object] = {
-            "visuals": tuple(self.take(visual, "visual", urdf_fields("link", "visual")) for visual in link.visuals),
+            "visuals": tuple(self.take(visual, "visual", self.fields("link", "visual")) for visual in link.visuals),
             "collisions": tuple(
-                self.take(one, "collision", urdf_fields("link", "collision")) for one in link.collisions
+                self.take(one, "collision", self.fields("link", "collision")) for one in link.collisions
             ),
         }
         if link.inertial is not None:
-            update["inertial"] = self.take(link.inertial, "inertial", urdf_fields("link", "inertial"))
+            update["inertial"] = self.take(link.inertial, "inertial", self.fields("link", "inertial"))
         return self.take(replace_fields(link, **update), "link", self.link_fields)
 
     def joint(self, joint: Joint) -> Joint:

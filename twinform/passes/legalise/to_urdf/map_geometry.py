@@ -1,35 +1,30 @@
 """Converting geometry to the shapes of URDF, and carrying the others."""
 
-from typing import ClassVar, Literal, TypeVar
+from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import rules
 from twinform.ir import (
-    Box,
-    Capsule,
     Collision,
-    Cylinder,
     Geometry,
     Link,
     Mesh,
     Model,
     Node,
-    Sphere,
     Visual,
     count_parts,
     replace_fields,
 )
 from twinform.ir.defaults import SIZES, filled
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass, UrdfVersion
+from twinform.passes.legalise.to_urdf.remainder import urdf_fields
 from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
 from twinform.passes.transforms.nodes import piece
 from twinform.passes.transforms.uri_schemes import MESH_SCHEME
 
-UrdfVersion = Literal["1.0", "1.1", "1.2"]
-Sayable = frozenset[type[Node]]
+Sayable = frozenset[str]
+"""The kinds of shapes that a version of URDF has, which requires their sizes."""
 AnyShaped = TypeVar("AnyShaped", Visual, Collision)
 
-_SHAPES: Sayable = frozenset({Box, Cylinder, Sphere, Capsule, Mesh})
-"""The shapes of URDF, which requires their sizes."""
 _UNSAYABLE = {
     "ellipsoid": "is an ellipsoid, which URDF does not have",
     "empty": "has an empty shape, which URDF does not have",
@@ -53,7 +48,7 @@ class MapGeometry(ToUrdfPass):
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with shapes of URDF alone."""
-        sayable = _SHAPES - ({Capsule} if self.urdf_version == "1.0" else set())
+        sayable = frozenset(urdf_fields(self.urdf_version, "geometry")["shape"] or ())
         return replace_fields(model, links=tuple(_map_link(link, sayable, keeper) for link in model.links))
 
 
@@ -87,7 +82,7 @@ def _can_say(geometry: Geometry | None, sayable: Sayable) -> bool:
         return shape.uri is not None and not any(
             part.element and part.element.name == "submesh" for part in shape.opaque
         )
-    return type(shape) in sayable
+    return shape is not None and shape.kind in sayable
 
 
 def _map_shape(one: AnyShaped, keeper: Keeper) -> AnyShaped:

@@ -8,8 +8,8 @@ from twinform.diagnostics import Fate, rules
 from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node
 from twinform.ir.defaults import UNLIMITED, multiplier
 from twinform.passes.carriers.joint_words import CONTINUOUS, MIMIC
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
-from twinform.passes.legalise.to_urdf.map_geometry import UrdfVersion
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass, UrdfVersion
+from twinform.passes.legalise.to_urdf.remainder import urdf_row
 from twinform.passes.legalise.urdf_pieces import BALLS
 from twinform.passes.transforms.nodes import text_piece
 from twinform.schemas import format_value
@@ -21,8 +21,6 @@ _WITHOUT_STRENGTH = ("effort", "velocity", "stiffness", "dissipation")
 _LIMITS = ("lower", "upper", "effort", "velocity")
 _TYPES = frozenset({"fixed", "revolute", "continuous", "prismatic", "floating", "planar"})
 _FORCES = ("effort", "velocity")
-_NEEDS_STRENGTH = frozenset({"1.0", "1.1"})
-"""The versions of URDF in which a limit has to have effort and velocity."""
 
 
 class MapJoints(ToUrdfPass):
@@ -39,7 +37,7 @@ class MapJoints(ToUrdfPass):
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with joints of URDF."""
-        strength = UNLIMITED if self.urdf_version in _NEEDS_STRENGTH else None
+        strength = UNLIMITED if urdf_row(self.urdf_version, "joint", "limit", "@effort").required else None
         return model.model_copy(update={"joints": tuple(_map(joint, strength, keeper) for joint in model.joints)})
 
 

@@ -10,7 +10,9 @@ from typing import NamedTuple, TypeVar, Union
 from twinform.ir import Element, Node, Opaque
 from twinform.ir.tree import classes_in
 from twinform.passes.carriers.carriers import is_ours, to_element
-from twinform.schemas import Fact, format_value, table
+from twinform.passes.legalise.to_urdf.base import UrdfVersion
+from twinform.schemas import Fact, Version, format_value, table
+from twinform.schemas.facts import parse_version
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -53,28 +55,35 @@ class Split:
 
 
 @cache
-def urdf_fields(definition: str, *steps: str) -> KnownFields:
-    """The fields that URDF has for the node of a definition, or of the rows below it that the steps name."""
-    facts = table("urdf")
-    fact = facts.definitions[definition]
-    for step in steps:
-        fact = facts.resolve(next(row for row in fact.children if row.name == step))
+def urdf_fields(version: UrdfVersion, definition: str, *steps: str) -> KnownFields:
+    """The fields that a version of URDF has for the node of a definition, or of the row below it that steps name."""
     known = KnownFields()
-    _collect(fact, known)
+    _collect(urdf_row(version, definition, *steps), known, parse_version(version))
     return known
 
 
-def _collect(fact: Fact, known: KnownFields) -> None:
+def urdf_row(version: UrdfVersion, definition: str, *steps: str) -> Fact:
+    """The facts of a definition, or of the row below it that the steps name in this version."""
+    facts, number = table("urdf"), parse_version(version)
+    fact = facts.definitions[definition]
+    for step in steps:
+        fact = facts.resolve(next(row for row in fact.rows if row.name == step and row.exists_in(number)))
+    return fact
+
+
+def _collect(fact: Fact, known: KnownFields, version: Version) -> None:
     if fact.any and fact.place:
         known[fact.place] = None
     for row in fact.rows:
+        if not row.exists_in(version):
+            continue
         if row.place == ".":
-            _collect(table("urdf").resolve(row), known)
+            _collect(table("urdf").resolve(row), known, version)
         elif row.place:
-            _place(row, known)
+            _place(row, known, version)
 
 
-def _place(row: Fact, known: KnownFields) -> None:
+def _place(row: Fact, known: KnownFields, version: Version) -> None:
     *outer, last = row.place.split(".") if row.place else [""]
     for step in outer:
         inner = known.setdefault(step, KnownFields())
@@ -83,7 +92,7 @@ def _place(row: Fact, known: KnownFields) -> None:
         known[last] = None
         return
     inside = KnownFields()
-    _collect(table("urdf").resolve(row), inside)
+    _collect(table("urdf").resolve(row), inside, version)
     if row.kind is None:
         known[last] = KnownFields({**(known.get(last) or {}), **inside})
     else:

@@ -1,13 +1,14 @@
 """Writing what all visuals of a link share, and URDF lacks, as one `<visual>` in a `<gazebo>` element."""
 
 from collections.abc import Iterator
+from functools import cache
 from typing import ClassVar
 
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual, replace_fields
 from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.material_annotations import LOOK, look_of
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass, UrdfVersion
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, fits, take_remainder, urdf_fields
 from twinform.passes.transforms.gazebo_tags import LINK_TAGS
 
@@ -15,9 +16,6 @@ _COLORS = ("ambient", "diffuse")
 _NOT_FIELDS = frozenset({"source", "spelling"})
 _OF_MATERIALS = frozenset({"material"})
 _IN_FRAMES = frozenset({"pose", "geometry"})
-
-
-_FIELDS = KnownFields({**urdf_fields("link", "visual"), **dict.fromkeys(("material", "pose", "geometry"))})
 
 
 class ShareVisuals(ToUrdfPass):
@@ -30,13 +28,14 @@ class ShareVisuals(ToUrdfPass):
     """
 
     name: ClassVar[str] = "share-visuals"
+    urdf_version: UrdfVersion = "1.0"
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with shared parts of visuals in extensions."""
         links: list[Link] = []
         extensions = list(model.extensions)
         for link in model.links:
-            kept, content = _shared(link)
+            kept, content = _shared(link, self.urdf_version)
             links.append(kept)
             if content:
                 blob = Element.unchecked(name="visual", children=tuple(content))
@@ -44,7 +43,7 @@ class ShareVisuals(ToUrdfPass):
         return replace_fields(model, links=tuple(links), extensions=tuple(extensions))
 
 
-def _shared(link: Link) -> tuple[Link, list[Element]]:
+def _shared(link: Link, version: UrdfVersion) -> tuple[Link, list[Element]]:
     """The link without what its visuals have alike, and that."""
     look = look_of(link)
     link = without_annotation(link, LOOK)
@@ -56,10 +55,10 @@ def _shared(link: Link) -> tuple[Link, list[Element]]:
     if shared is not None:
         content += to_element(Visual(name="", material=shared), "visual", "sdf").children
         visuals = tuple(_without_look(visual, look) for visual in visuals)
-    parts = [_rest(visual) for visual in visuals]
+    parts = [_rest(visual, version) for visual in visuals]
     if parts[0] and all(part == parts[0] for part in parts[1:]):
         content += parts[0]
-        visuals = tuple(_without_rest(visual) for visual in visuals)
+        visuals = tuple(_without_rest(visual, version) for visual in visuals)
     return replace_fields(link, visuals=visuals), content
 
 
@@ -92,16 +91,22 @@ def _written(material: Material | None) -> Iterator[tuple[str, object]]:
             yield name, value
 
 
-def _rest(visual: Visual) -> tuple[Element, ...]:
+def _rest(visual: Visual, version: UrdfVersion) -> tuple[Element, ...]:
     """What only SDF has, besides materials."""
-    if fits(visual, _FIELDS):
+    if fits(visual, _fields(version)):
         return ()
     bare = visual.model_copy(update={"material": None, "pose": None, "geometry": None})
-    _, pieces, _ = take_remainder(bare, "visual", urdf_fields("link", "visual"))
+    _, pieces, _ = take_remainder(bare, "visual", urdf_fields(version, "link", "visual"))
     elements = tuple(piece.element for piece in pieces if piece.element and not piece.at)
     if len(elements) != len(pieces) or any(_is_special(element) for element in elements):
         return ()
     return elements
+
+
+@cache
+def _fields(version: UrdfVersion) -> KnownFields:
+    """The fields of a visual, those among them whose content is not looked at."""
+    return KnownFields({**urdf_fields(version, "link", "visual"), **dict.fromkeys(("material", "pose", "geometry"))})
 
 
 def _is_special(element: Element) -> bool:
@@ -109,6 +114,7 @@ def _is_special(element: Element) -> bool:
     return element.name.startswith("{") or element.name in LINK_TAGS or element.name in _OF_MATERIALS | _IN_FRAMES
 
 
-def _without_rest(visual: Visual) -> Visual:
-    kept, _, _ = take_remainder(visual.model_copy(update={"material": None}), "visual", urdf_fields("link", "visual"))
+def _without_rest(visual: Visual, version: UrdfVersion) -> Visual:
+    bare = visual.model_copy(update={"material": None})
+    kept, _, _ = take_remainder(bare, "visual", urdf_fields(version, "link", "visual"))
     return kept.model_copy(update={"material": visual.material})

@@ -7,15 +7,18 @@ from hypothesis import given
 
 from twinform.ir import Collision, Document, Element, Inertial, Joint, Link, Node, Opaque, Pose, Visual, walk
 from twinform.passes.legalise.to_urdf import remainder
-from twinform.passes.legalise.to_urdf.remainder import KnownFields, urdf_fields
+from twinform.passes.legalise.to_urdf.base import UrdfVersion
+from twinform.passes.legalise.to_urdf.remainder import KnownFields, urdf_fields, urdf_row
+from twinform.schemas import Table
+from twinform.schemas.facts import parse_facts
 from twinform.testing import strategies
 
 WORDS: dict[type[Node], KnownFields] = {
-    Link: urdf_fields("link"),
-    Joint: urdf_fields("joint"),
-    Inertial: urdf_fields("link", "inertial"),
-    Visual: urdf_fields("link", "visual"),
-    Collision: urdf_fields("link", "collision"),
+    Link: urdf_fields("1.2", "link"),
+    Joint: urdf_fields("1.2", "joint"),
+    Inertial: urdf_fields("1.2", "link", "inertial"),
+    Visual: urdf_fields("1.2", "link", "visual"),
+    Collision: urdf_fields("1.2", "link", "collision"),
 }
 
 
@@ -55,3 +58,30 @@ def _agree(document: Document) -> None:
 )
 def test_what_has_no_syntax_or_no_end_does_not_fit(node: Node, fits: bool) -> None:
     assert _both(node) == (fits, fits)
+
+
+_NEWER = """
+link
+  @self_collide  ?  bool  until=1.0   -> self_collide
+  kinematic      ?        since=1.2   -> .
+    @value       1  bool              -> kinematic
+"""
+
+
+@pytest.mark.parametrize(("version", "carried"), [("1.0", ["kinematic"]), ("1.1", ["self_collide", "kinematic"])])
+def test_what_the_version_lacks_is_carried(
+    monkeypatch: pytest.MonkeyPatch, version: UrdfVersion, carried: list[str]
+) -> None:
+    (definition,) = parse_facts(_NEWER.splitlines(), "link.facts")
+    newer = Table("urdf", ("1.0", "1.1", "1.2"), "link", {"link": definition})
+    monkeypatch.setattr(remainder, "table", {"urdf": newer}.get)
+    link = Link(name="l", self_collide=True, kinematic=True)
+    kept, pieces, _ = remainder.take_remainder(link, "link", urdf_fields.__wrapped__(version, "link"))
+    assert [piece.element.name for piece in pieces if piece.element] == carried
+    assert (kept.self_collide, kept.kinematic) == (True if version == "1.0" else None, None)
+
+
+def test_the_versions_of_shapes_and_limits_are_those_of_the_table() -> None:
+    shapes = {version: sorted(urdf_fields(version, "geometry")["shape"] or {}) for version in ("1.0", "1.1", "1.2")}
+    assert shapes["1.1"] == shapes["1.2"] == sorted([*shapes["1.0"], "capsule"])
+    assert [urdf_row(version, "joint", "limit", "@effort").required for version in ("1.1", "1.2")] == [True, False]
