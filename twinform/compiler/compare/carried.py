@@ -37,6 +37,12 @@ def _is_in_carrier(carrier: XmlElement) -> bool:
     return any(str(above.tag).startswith(f"{{{NAMESPACE}}}") for above in carrier.iterancestors())
 
 
+def _is_in_pose(carrier: XmlElement) -> bool:
+    """Whether it stands where no conversion puts one, and nothing comes of it."""
+    parent = carrier.getparent()
+    return parent is not None and parent.tag == "pose"
+
+
 def _graft(child: XmlElement, parent: XmlElement, at: str, fact: Fact | None) -> None:
     if child.tag in _OF_THE_FILE or not isinstance(child.tag, str):
         return
@@ -62,7 +68,7 @@ def _holder(element: XmlElement, path: str) -> XmlElement:
 def urdf_pieces(element: XmlElement) -> Iterator[tuple[str, XmlElement]]:
     """What the carriers of URDF in an element hold: where in it, and the carrier or an element in it."""
     for carrier in element.iter(_CARRIER["urdf"]):
-        if _is_in_carrier(carrier):
+        if _is_in_carrier(carrier) or _is_in_pose(carrier):
             continue
         at = "/".join(filter(None, (*_steps(element, carrier), carrier.get("at"))))
         if carrier.get("attribute") is not None or carrier.get("text") is not None:

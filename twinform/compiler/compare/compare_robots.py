@@ -8,6 +8,7 @@ from typing import TypeVar
 from twinform.compiler.compare.alignment import Alignment, align
 from twinform.compiler.compare.comparison import Difference, Severity
 from twinform.compiler.compare.findings import Base, Findings, Subject, Terms
+from twinform.compiler.compare.fixed_bodies import FixedBodies, with_share
 from twinform.compiler.compare.frames import compare_frames
 from twinform.compiler.compare.joint_values import joint_type
 from twinform.compiler.compare.kinematics import compare_kinematics
@@ -17,6 +18,7 @@ from twinform.compiler.compare.robot import Body, JointView, Leaves, Mass, Robot
 from twinform.compiler.compare.values import Delta, Direction, Flag, Numbers, Point, PoseValue, Tensor, Text, gaps
 from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3
+from twinform.ir.solids import Solid
 from twinform.ir.transform import Transform
 
 Named = TypeVar("Named", Body, JointView)
@@ -38,6 +40,7 @@ class _Comparer:
         self.subject = Subject("model", lumped.a.name if several else "")
         self.found = Findings(terms, lumped.a.name if several else "")
         self.alignment: Alignment = align(self.a, self.b, terms)
+        self.fixed = (FixedBodies(self.a), FixedBodies(self.b))
 
     def run(self) -> tuple[Difference, ...]:
         self._model()
@@ -110,7 +113,18 @@ class _Comparer:
         if one.mass or other.mass:
             self.found.values(subject, "inertial/center", Point(one.center), Point(other.center), places, base)
         if any((*one.inertia, *other.inertia)):  # also of what weighs nothing
-            self.found.values(subject, "inertial/inertia", Tensor(one.inertia), Tensor(other.inertia), places, base)
+            pair = Tensor(one.inertia), Tensor(other.inertia)
+            if self.terms.worst(*pair, base) and self._is_shared(subject.name, one, base):
+                message = f"{subject} has another inertia, and with the links that are fixed to it the same"
+                self.found.note(subject, "inertial/inertia", message, places)
+            else:
+                self.found.values(subject, "inertial/inertia", *pair, places, base)
+
+    def _is_shared(self, link: str, solid: Solid, base: Base) -> bool:
+        """Whether what a link has less the others of its body have more, which is the same to any engine."""
+        own = Tensor(solid.inertia).seen_from(base.a)
+        shared = with_share(own.moments, link, base, self.fixed)
+        return shared is not None and not self.terms.worst(own, Tensor(shared))
 
     def _joint(self, a: JointView, b: JointView) -> None:
         subject, places = Subject("joint", a.name), (a.where, b.where)

@@ -8,8 +8,8 @@ from twinform.compiler.compare.robot import Leaf, Leaves
 from twinform.compiler.compare.values import Numbers, Text, Value
 from twinform.ir import Joint
 from twinform.ir.defaults import MULTIPLIER, UNLIMITED
+from twinform.ir.motion import WITH_TWO_AXES, WITHOUT_AXIS
 
-_WITHOUT_AXIS = frozenset({"fixed", "ball"})
 _OF_TYPES: Mapping[str, frozenset[str]] = {
     "gearbox_ratio": frozenset({"gearbox"}),
     "gearbox_reference_body": frozenset({"gearbox"}),
@@ -51,7 +51,9 @@ def joint_leaves(joint: Joint, leaves: Leaves) -> Leaves:
 def _counts(path: str, type: str) -> bool:
     if path in _OF_TYPES:
         return type in _OF_TYPES[path]
-    return not (type in _WITHOUT_AXIS and path.startswith("axis"))
+    if path.startswith("axis2"):
+        return type in WITH_TWO_AXES
+    return type not in WITHOUT_AXIS or not path.startswith("axis")
 
 
 def _read(path: str, leaf: Leaf, type: str) -> Leaf:

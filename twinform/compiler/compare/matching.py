@@ -91,7 +91,7 @@ def _by_kind(parts: Iterable[Part]) -> dict[str, list[Part]]:
 def match(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
     """Pairs of parts of one kind, and those of each robot that are left over."""
     if not any(part.kind in _BY_CONTENT for part in (*a, *b)):
-        return _paired_by(a, b, attrgetter("name"), attrgetter("name"))
+        return _named(a, b, base)
     pairs, left_a, left_b = _same(a, b, terms, base)
     if _are_few(left_a, left_b):
         alike = _most_alike(left_a, left_b, terms, base)
@@ -100,6 +100,16 @@ def match(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[
     named, left_a, left_b = _paired_by(left_a, left_b, attrgetter("name"), attrgetter("name"))
     alike, left_a, left_b = _paired_by(left_a, left_b, _shape, _shape)
     return [*pairs, *named, *alike], left_a, left_b
+
+
+def _named(a: list[Part], b: list[Part], base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
+    """Pairs of parts that have one name; where several have it, in whatever order, those that are equal come first."""
+    equal: list[Pair] = []
+    if len({part.name for part in a}) < len(a):
+        of_a, of_b = partial(_content, base=base.a), partial(_content, base=base.b)
+        equal, a, b = _paired_by(a, b, lambda one: (one.name, of_a(one)), lambda one: (one.name, of_b(one)))
+    named, a, b = _paired_by(a, b, attrgetter("name"), attrgetter("name"))
+    return [*equal, *named], a, b
 
 
 def _same(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[Pair], list[Part], list[Part]]:

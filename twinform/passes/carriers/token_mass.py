@@ -1,6 +1,7 @@
 """Token mass for massless links, so that the physics engines of Gazebo can move them."""
 
 from twinform.ir import Inertia, Inertial, Model
+from twinform.passes.carriers.carriers import is_ours
 
 TOKEN_MASS = 1e-12
 """In kg: DART aborts on a body that moves and has none, Bullet holds it where it is."""
@@ -62,4 +63,4 @@ def is_chain_token(inertial: Inertial | None) -> bool:
 
 
 def _is_empty_besides(inertial: Inertial) -> bool:
-    return inertial.pose is None and not inertial.opaque and has_token_inertia(inertial)
+    return inertial.pose is None and all(map(is_ours, inertial.opaque)) and has_token_inertia(inertial)

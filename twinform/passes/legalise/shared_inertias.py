@@ -27,7 +27,7 @@ _ROUNDING = 1e-12
 def shared_inertias(model: Model) -> dict[str, Symmetric]:
     """The elements of the inertias of a URDF that have to change in SDF, by link."""
     written = {link.name: link for link in model.links}
-    needy = [link for link in model.links if _is_refused(_matrix(link))]
+    needy = [link for link in model.links if is_refused(_matrix(link))]
     if not needy:
         return {}
     graph, hosts = FrameGraph(model), hosts_of(model)
@@ -48,7 +48,7 @@ def _matrix(link: Link) -> Symmetric | None:
     return inertia_matrix(inertial.inertia, None)
 
 
-def _is_refused(matrix: Symmetric | None) -> bool:
+def is_refused(matrix: Symmetric | None) -> bool:
     """Whether libsdformat refuses an inertia, or may."""
     if matrix is None or not any(matrix) or not all(map(math.isfinite, matrix)) or is_plain(matrix):
         return False
@@ -65,7 +65,7 @@ def _of_body(members: Sequence[Link], host: str, graph: FrameGraph) -> dict[str,
         return {}
     places = {link.name: _inertial_in(link.inertial, link.name, host, graph) for link in members}
     found: dict[str, Symmetric] = {}
-    for name in [name for name, matrix in matrices.items() if _is_refused(matrix)]:
+    for name in [name for name, matrix in matrices.items() if is_refused(matrix)]:
         made = nearest_possible(matrices[name], _MARGIN * abs(sum(matrices[name][:3])))
         change = _minus(made, matrices[name])
         giver = next(_givers(name, change, matrices, places), None)
