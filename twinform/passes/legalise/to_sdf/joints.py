@@ -12,8 +12,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, carry, to_element
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.free_links import links_in_static_models, needs_no_joint
-from twinform.passes.legalise.to_sdf.planar import planar_chain
-from twinform.passes.legalise.to_sdf.unique_names import free_name
+from twinform.passes.legalise.to_sdf.planar import planar_chain, planar_names
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS
 from twinform.schemas import format_value
 
@@ -79,9 +78,7 @@ class UrdfJoints(ModelPass):
             if joint.type != "planar":
                 joints.append(joint)
                 continue
-            words = ("x", "x_link", "y", "y_link")
-            first, first_link, second, second_link = (free_name(f"{joint.name}_{word}", taken) for word in words)
-            chain = planar_chain(joint, (first, first_link, second, second_link))
+            chain = planar_chain(joint, planar_names(joint.name, taken))
             links[joint.child] = tuple(self._made(link) for link in chain.links)
             slide, shift, turn = chain.joints
             joints += [self._made(slide), self._made(shift), self._was_planar(turn, joint, sink)]

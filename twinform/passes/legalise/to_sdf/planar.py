@@ -6,6 +6,10 @@ from twinform.ir import Axis, Format, Joint, Link, Pose
 from twinform.ir.defaults import direction
 from twinform.ir.motion import plane_across
 from twinform.passes.carriers.token_mass import TOKEN
+from twinform.passes.legalise.to_sdf.unique_names import free_name
+
+Names = tuple[str, str, str, str]
+"""Those of the sliding joints and their links, in turns."""
 
 
 class Chain(NamedTuple):
@@ -15,8 +19,18 @@ class Chain(NamedTuple):
     joints: tuple[Joint, Joint, Joint]
 
 
-def planar_chain(joint: Joint, names: tuple[str, str, str, str]) -> Chain:
-    """The chain of a planar joint of URDF; `names` are for the sliding joints and their links, in turns.
+def planar_names(joint: str, taken: set[str]) -> Names:
+    """The names in the chain of a planar joint, each with a number if it is taken; they are from then on."""
+    return (
+        free_name(f"{joint}_x", taken),
+        free_name(f"{joint}_x_link", taken),
+        free_name(f"{joint}_y", taken),
+        free_name(f"{joint}_y_link", taken),
+    )
+
+
+def planar_chain(joint: Joint, names: Names) -> Chain:
+    """The chain of a planar joint of URDF.
 
     All three axes are in the joint's frame, whose x and y span the plane where its normal is z. The links between have
     a token of mass, so that engines move them and the robot weighs what it weighed.

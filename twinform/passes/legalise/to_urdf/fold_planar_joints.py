@@ -7,13 +7,13 @@ from twinform.diagnostics import rules
 from twinform.ir import Joint, Limit, Link, Model, Opaque
 from twinform.passes.carriers.annotations import SYNTHESIZED, is_synthesized, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
-from twinform.passes.legalise.to_sdf.planar import planar_chain
+from twinform.passes.legalise.to_sdf.planar import planar_chain, planar_names
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 
 AnyPart = TypeVar("AnyPart", Joint, Link)
 
 _SLIDES = 2
-_BESIDE = frozenset({"name", "type", "opaque", "source", "spelling"})
+_BESIDE = frozenset({"type", "opaque", "source", "spelling"})
 """Fields in which the parts of a chain that is as it was made may differ; their types are looked at before."""
 
 
@@ -23,7 +23,7 @@ class FoldPlanarJoints(ToUrdfPass):
     Changes: 1. the joint that was called so is planar, and has the parent and the place of the first one of its chain;
     2. the other two joints and the links between them go.
     Never touches: chains that did not come from a planar joint. Those that were edited since stay, without their
-    annotations.
+    annotations, also where one joint has a name of its own, as a planar joint names the others after itself.
     Diagnostics: `stale-carrier`.
     """
 
@@ -36,13 +36,16 @@ class FoldPlanarJoints(ToUrdfPass):
             return model
         above = {joint.child: joint for joint in model.joints}
         links = {link.name: link for link in model.links}
+        taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
         folded: dict[str, Joint] = {}
         gone: set[str] = set()
         stale: set[str] = set()
         for joint in annotated:
             chain = _chain(joint, above, links)
-            if chain is None or not _is_as_made(joint, chain, links):
-                message = f"joint {joint.name!r} was planar, and the joints that it became have changed since"
+            if chain is None or not _is_as_made(joint, chain, links, taken):
+                message = (
+                    f"joint {joint.name!r} was planar, and the joints that it became, or their names, have changed"
+                )
                 keeper.sink.report(rules.STALE_CARRIER, message, joint.location, found=joint.name)
                 folded[joint.name] = joint.model_copy(update={"opaque": _without_planar(joint)})
                 stale |= set(_upwards(joint, above))
@@ -89,12 +92,14 @@ def _chain(joint: Joint, above: dict[str | None, Joint], links: dict[str, Link])
     return (first, second) if all(made) and {first.type, second.type} == {"prismatic"} else None
 
 
-def _is_as_made(turn: Joint, chain: tuple[Joint, Joint], links: dict[str, Link]) -> bool:
+def _is_as_made(turn: Joint, chain: tuple[Joint, Joint], links: dict[str, Link], taken: set[str]) -> bool:
     """Whether a chain is the one that a planar joint becomes, with the axis and in the place that it has now."""
     first, second = chain
-    names = (first.name, first.child or "", second.name, second.child or "")
-    made = planar_chain(_planar(turn, first), names)
-    between = (links[names[1]], links[names[3]])
+    between = (links[first.child or ""], links[second.child or ""])
+    names = {part.name for part in (*chain, *between)}
+    taken -= names
+    made = planar_chain(_planar(turn, first), planar_names(turn.name, taken))
+    taken |= names
     parts = zip((first, second, turn, *between), (*made.joints, *made.links), strict=True)
     return all(_bare(is_now) == _bare(was) for is_now, was in parts)
 
