@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from twinform.ir import Element, Joint, Link, Mimic, Model, Node, Opaque
 from twinform.ir.verify.joints import useless_leader
-from twinform.passes.transforms.gazebo_tags import LINK_TAGS
+from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS, is_part_of_axis
 
 _ABOUT_JOINTS = frozenset({"transmission", "ros2_control"})
 OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})
@@ -74,7 +74,24 @@ def _misfit_of_mimic(element: Element, joint: Joint, model: Model) -> str:
     return f"joint {leader!r} has an axis by now, and this joint has moved without it"
 
 
-def _would_act(element: Element, link: Link) -> bool:
+def _would_act(element: Element, reference: str | None, model: Model) -> bool:
+    """Whether an element of `<gazebo>`, which traveled because it set nothing, would set something by now."""
+    beside = (one for one in model.extensions if (one.reference or None) == (reference or None))
+    if any(each.name == element.name for one in beside for each in one.content):
+        return False
+    if not reference:
+        return element.name not in LINK_TAGS | JOINT_TAGS
+    link = next((each for each in model.links if each.name == reference), None)
+    if link is not None:
+        return _would_act_on_shapes(element, link)
+    joint = next((each for each in model.joints if each.name == reference), None)
+    if joint is None or joint.type == "floating" or element.name in LINK_TAGS | MODEL_TAGS:
+        return False
+    tag = JOINT_TAGS.get(element.name)
+    return not (tag and tag.target == "ignored") and not (joint.type == "fixed" and is_part_of_axis(element))
+
+
+def _would_act_on_shapes(element: Element, link: Link) -> bool:
     """Whether a tag about shapes, which traveled because there were none, would change those of a link."""
     tag = LINK_TAGS.get(element.name)
     about_collisions = element.name == "collision" or (tag is not None and tag.target in {"surface", "collision"})
@@ -96,9 +113,9 @@ def _misfit_of_model(piece: Opaque, model: Model) -> str:
     reference = element.get("reference") if element.name == "gazebo" else None
     if reference and reference not in names and all(link.name != reference for link in model.links):
         return f"there is no link or joint {reference!r}"
-    link = next((each for each in model.links if reference and each.name == reference), None)
-    idle = next((each.name for each in element.children if link and _would_act(each, link)), None)
-    if idle is not None:
-        return f"<{idle}> had nothing to act on in link {reference!r}, and would have by now"
+    idle = element.children if element.name == "gazebo" else ()
+    acting = next((each.name for each in idle if _would_act(each, reference, model)), None)
+    if acting is not None:
+        return f"<{acting}> set nothing in {repr(reference) if reference else 'the model'}, and would by now"
     gone = next((name for name in joints_of(element) if name not in names), None)
     return "" if gone is None else f"there is no joint {gone!r}"

@@ -8,10 +8,11 @@ from typing import Any, ClassVar, TypeVar
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, Severity, rules
 from twinform.ir import Element, Format, Frame, GazeboExtension, Joint, Link, Model, Node, Opaque
 from twinform.passes.carriers.annotations import EXTENSION, is_synthesized, with_annotation
-from twinform.passes.carriers.carriers import DANGLING, OVERRULED, Attributes, pack
+from twinform.passes.carriers.carriers import DANGLING, OVERRULED, Attributes, pack, to_element
 from twinform.passes.carriers.material_annotations import with_look
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
+from twinform.passes.legalise.to_sdf.free_links import are_at_one_place, placing_frames
 from twinform.passes.legalise.to_sdf.gazebo_content import read_content, with_axis, with_mass
 from twinform.passes.legalise.to_sdf.gazebo_fields import (
     old_values,
@@ -26,11 +27,10 @@ from twinform.passes.legalise.to_sdf.gazebo_sorting import (
     Blob,
     Sorter,
     TagValue,
-    is_part_of_axis,
     lacks_shapes,
     place_of,
 )
-from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
+from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS, is_part_of_axis
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -73,7 +73,6 @@ class _Fold:
         self.annotations = carriers and not came_from(model, Format.SDF)  # SDF does not need them back
         self.links = {link.name for link in model.links}
         self.joints = {joint.name for joint in model.joints}
-        self.floating = {joint.name for joint in model.joints if joint.type == "floating"}
         self.kept: list[Opaque] = []
 
     def run(self) -> Model:
@@ -145,13 +144,35 @@ class _Fold:
             update={
                 "links": (*model.links[:links], *map(with_mass, model.links[links:])),
                 "joints": (*model.joints[:joints], *map(self._extension, model.joints[joints:])),
-                "frames": (*model.frames[:frames], *filter(self._is_kept, model.frames[frames:])),
+                "frames": (*model.frames[:frames], *self._own_frames(model.frames[frames:])),
             }
         )
 
-    def _is_kept(self, frame: Frame) -> bool:
-        """Whether it is more than what says to libsdformat where a floating joint leaves a link."""
-        return not is_synthesized(frame) or frame.name not in self.floating
+    def _own_frames(self, frames: tuple[Frame, ...]) -> tuple[Frame, ...]:
+        """Those but what says to libsdformat where a floating joint leaves a link: the joint itself counts."""
+        placing = list(filter(self._is_placing, frames))
+        if not placing:
+            return frames
+        floating = {joint.name: joint for joint in self.robot.joints if joint.type == "floating"}
+        right = placing_frames(self.robot, (floating[frame.name] for frame in placing if frame.name in floating))
+        for frame in placing:
+            if frame.name not in floating:
+                message = (
+                    f"the frame {frame.name!r} in <gazebo> is for a floating joint, and {frame.name!r} is none now"
+                )
+                self.sink.report(rules.STALE_CARRIER, message, frame.location, found=frame.name)
+            elif frame.name in right and not are_at_one_place(frame, right[frame.name]):
+                message = (
+                    f"Gazebo has link {floating[frame.name].child!r} where the frame {frame.name!r} in <gazebo> is, "
+                    "and the floating joint of that name has it elsewhere"
+                )
+                self.sink.report(
+                    rules.STALE_CARRIER, message, frame.location, expected=_written_pose(right[frame.name])
+                )
+        return tuple(frame for frame in frames if not self._is_placing(frame))
+
+    def _is_placing(self, frame: Frame) -> bool:
+        return is_synthesized(frame) and frame.name in self.joints
 
     def _extension(self, joint: Joint) -> Joint:
         return with_annotation(with_axis(joint), EXTENSION) if self.annotations else with_axis(joint)
@@ -283,6 +304,10 @@ def _each(
 ) -> Iterable[Any]:
     for node in nodes:
         yield fold(node, groups[node.name]) if node.name in groups else node
+
+
+def _written_pose(frame: Frame) -> str:
+    return " ".join(each.text or "" for each in to_element(frame, "frame", "sdf").children if each.name == "pose")
 
 
 def _is_second(part: Opaque) -> bool:

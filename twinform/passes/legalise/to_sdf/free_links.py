@@ -1,10 +1,16 @@
 """Links that need no joint in SDF: those that are free, and those in static models."""
 
-from twinform.ir import Element, Joint, Model
-from twinform.ir.frames import WORLD
-from twinform.passes.carriers.annotations import find_annotation, is_synthesized
+from collections.abc import Iterable, Mapping
+
+from twinform.ir import Element, Frame, Joint, Model
+from twinform.ir.frames import WORLD, FrameError, FrameGraph
+from twinform.ir.transform import Transform
+from twinform.passes.carriers.annotations import annotate_synthesized, find_annotation, is_synthesized
 from twinform.passes.legalise.names import scoped_name
 from twinform.passes.transforms.notation import NESTED
+
+_CLOSE = 1e-9
+"""How far numbers may be apart that were written from one."""
 
 
 def links_in_static_models(model: Model) -> frozenset[str]:
@@ -21,6 +27,29 @@ def needs_no_joint(joint: Joint, held: frozenset[str]) -> bool:
     if joint.type == "floating":
         return True
     return joint.type == "fixed" and joint.parent == WORLD and joint.child in held and is_synthesized(joint)
+
+
+def placing_frames(model: Model, joints: Iterable[Joint]) -> Mapping[str, Frame]:
+    """A frame in `<gazebo>` for each floating joint of URDF, by their names; none where the links are in no tree.
+
+    libsdformat writes no such joint, and still poses the link relative to it, so that it refuses the file without a
+    frame of that name: parser_urdf.cc, CreateLink.
+    """
+    children = {joint.child for joint in model.joints}
+    root = next((link.name for link in model.links if link.name not in children), "")
+    graph = FrameGraph(model)
+    try:
+        poses = {joint.name: graph.pose(joint.child or "", root).to_pose() for joint in joints}
+    except FrameError:
+        return {}
+    return {name: annotate_synthesized(Frame(name=name, pose=pose)) for name, pose in poses.items()}
+
+
+def are_at_one_place(frame: Frame, other: Frame) -> bool:
+    """Whether the poses of two frames are the same, as far as files write them."""
+    one, two = (Transform.from_pose(each.pose) for each in (frame, other))
+    numbers = zip((*one.translation, *one.rotation), (*two.translation, *two.rotation), strict=True)
+    return all(abs(a - b) <= _CLOSE * max(1.0, abs(a)) for a, b in numbers)
 
 
 def _is_static(nested: Element | None) -> bool:

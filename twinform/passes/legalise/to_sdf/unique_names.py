@@ -23,7 +23,7 @@ class UniqueNames(ModelPass):
     poses follow; 3. names lose the blanks around them, which libsdformat drops where it reads them; 4. a robot without
     a name is called `robot`.
     References follow, also those in frames, sensors and plugins of `<gazebo>`, as in the pass `rename`.
-    Never touches: a text that may be something else than a reference.
+    Never touches: a floating joint, which SDF does not have; a text that may be something else than a reference.
     Diagnostics: `renamed`, and `unfollowed-name` for such a text. The old name is carried.
     """
 
@@ -37,7 +37,8 @@ class UniqueNames(ModelPass):
         names = {link.name for link in model.links}
         taken = names | {joint.name for joint in model.joints}
         links = {name: free_name(_new(name, "link"), taken) for name in sorted(names) if _reserved(name)}
-        clashes = [joint.name for joint in model.joints if joint.name in names or _reserved(joint.name)]
+        kept = (joint.name for joint in model.joints if joint.type != "floating")  # SDF has no joint there
+        clashes = [name for name in kept if name in names or _reserved(name)]
         joints = {name: free_name(_new(name, "joint", names), taken) for name in clashes}
         if not links and not joints:
             return model

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import NOWHERE, rules
+from twinform.diagnostics import NOWHERE, Fate, Location, rules
 from twinform.ir import (
     PLAIN,
     Element,
@@ -113,7 +113,7 @@ class _Rebase:
             message = f"link {link.name!r} is the root, whose frame is that of the robot"
             if joint is not None:
                 message = f"the frame of link {link.name!r} is that of its joint {joint.name!r}"
-            self._account(written, message)
+            _account(self.keeper, message, written, written.location)
         return moved
 
     def _write(self, holder: AnyPosed, tag: str, transform: Transform) -> AnyPosed:
@@ -126,7 +126,8 @@ class _Rebase:
         message = (
             f"the pose of the {tag} {name!r} is written differently in URDF" if name else f"the pose of the {tag} moved"
         )
-        self._account(written, f"{message} ({self.kind} {self.name!r})")
+        message = f"{message} ({self.kind} {self.name!r})"
+        _account(self.keeper, message, written, written.location)
         return self._annotated(moved, written, notation=made)
 
     def _annotated(self, node: AnyNode, written: Pose | None, *, notation: Pose | None = None) -> AnyNode:
@@ -137,14 +138,20 @@ class _Rebase:
             attributes = {name: text for name, text in attributes.items() if name != "degrees"}
         return self.keeper.annotate(node, POSE, attributes=attributes) if attributes else node
 
-    def _account(self, written: Pose, message: str) -> None:
-        self.keeper.account(rules.MOVED_FRAME, message, written.location, count_parts(written))
-
     def _element(self, message: str, written: Pose) -> tuple[Element, ...]:
-        self.keeper.account(rules.MOVED_FRAME, message, NOWHERE, count_parts(written))
+        _account(self.keeper, message, written, NOWHERE)
         attributes = pose_attributes(written)
         made = annotation(POSE, attributes=attributes).element if attributes else None
         return (made,) if made and self.keeper.carriers and not self.keeper.back else ()
+
+
+def _account(keeper: Keeper, message: str, written: Pose, where: Location) -> None:
+    """Account for a pose: it moved, and what is in it besides numbers has no place there."""
+    rest = sum(part.weight for part in written.opaque)
+    keeper.account(rules.MOVED_FRAME, message, where, count_parts(written) - rest)
+    for part in written.opaque:
+        lost = f"no reader uses {part.name} in a <pose>, and URDF has six numbers there"
+        keeper.sink.account(Fate.DROPPED, rules.SDF_ONLY, lost, part.location_in(written), part.weight)
 
 
 def _parts(link: Link) -> Iterator[Posed]:
@@ -206,7 +213,7 @@ def _place_joint(joint: Joint, graph: FrameGraph, bases: Mapping[str, Base], kee
         return placed
     if written != made and _is_written(written, joint):
         message = f"the pose of joint {joint.name!r} is relative to its parent link"
-        keeper.account(rules.MOVED_FRAME, message, written.location, count_parts(written))
+        _account(keeper, message, written, written.location)
     attributes = {} if find_annotation(joint, REVERSED) else joint_pose_attributes(joint)
     return keeper.annotate(placed, POSE, attributes=attributes) if attributes else placed
 
@@ -225,6 +232,6 @@ def _place_model(model: Model, graph: FrameGraph, roots: list[str], keeper: Keep
     if written is None or written == made:
         return moved
     message = f"the pose of model {model.name!r} is that of its root link {root!r}"
-    keeper.account(rules.MOVED_FRAME, message, written.location, count_parts(written))
+    _account(keeper, message, written, written.location)
     attributes = pose_attributes(written)
     return keeper.annotate(moved, POSE, attributes=attributes) if attributes else moved

@@ -97,8 +97,9 @@ def _between(name: str, joint: Joint, keeper: Keeper) -> Link:
 
 def _last(joint: Joint, parent: str | None, step: Step, opaque: tuple[Opaque, ...], keeper: Keeper) -> Joint:
     """The joint that keeps the name, the child and the place."""
-    update = {"type": step.type, "parent": parent, "axis": step.axis, "opaque": opaque}
-    last = joint.model_copy(update={**dict.fromkeys(("axis2", *PITCHES)), **update})
+    update: dict[str, object] = {"type": step.type, "parent": parent, "axis": step.axis, "opaque": opaque}
+    said = PITCHES if joint.type == "screw" else ("axis2",)  # the second axis of a screw is one that nobody reads
+    last = joint.model_copy(update={**dict.fromkeys(said), **update})
     return with_annotation(last, CHAIN, attributes={"type": joint.type}) if keeper.carriers else last
 
 
