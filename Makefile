@@ -24,7 +24,7 @@ DEMO := out/demo
 # tests start the command a thousand times: it must not be compiled each time
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help sync fmt generate lint site pictures wheel test demo report bench latency vsix before prove coverage fuzz clean
+.PHONY: help sync fmt generate lint site pictures wheel test demo report bench latency vsix size before prove coverage fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -152,6 +152,9 @@ latency: $(SYNCED) ## how long an editor waits for an answer; writes docs/eviden
 vsix: ## the extension for Visual Studio Code, which needs npm: editors/vscode/twinform.vsix
 	cp LICENSE editors/vscode/LICENSE
 	cd editors/vscode && npm install --silent --no-audit --no-fund && npm run package --silent
+
+size: $(SYNCED) ## how large the code is, room by room: ARGS=twinform/passes for those of a folder
+	@$(BIN)/python -m benchmarks.code_size $(ARGS)
 
 before: $(SYNCED) ## outputs and speed of this tree beside those of an older checkout: make before WITH=../older
 	$(BIN)/python -m benchmarks.before $(WITH) --every 8
