@@ -14,7 +14,7 @@ from types import FrameType
 
 import twinform
 from reports.harness.pages import paragraphs, section, table
-from twinform.compiler.request import Language
+from twinform.compiler.request_options import Language
 
 TICK = 0.001
 """In seconds; a kernel makes four of it."""

@@ -9,7 +9,7 @@ from lxml import etree
 import twinform
 from twinform import dumps
 from twinform.compiler import Conversion
-from twinform.compiler.request import Language
+from twinform.compiler.request_options import Language
 from twinform.schemas import XmlElement
 
 OTHER: dict[str, Language] = {"urdf": "sdf", "sdf": "urdf"}

@@ -11,7 +11,7 @@ import twinform
 from tests.corpus.files import CorpusFile, chunks
 from tests.profile import DEEP, examples
 from twinform.compiler import CompileError
-from twinform.compiler.request import Language
+from twinform.compiler.request_options import Language
 from twinform.ir import Document, Node, census_of
 from twinform.ir.census import ANYTHING
 from twinform.ir.rewrite import map_children

@@ -1,17 +1,16 @@
 """`twinform advise`."""
 
-from typing import Unpack
-
 import click
 
 from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
-from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
+from twinform.cli.inputs import file_options, inputs, load_options_of
 from twinform.cli.printing import print_report
 from twinform.compiler import CompileError
 from twinform.compiler.advice import REPORTERS, advise
+from twinform.compiler.input.options import FileOptions
 from twinform.diagnostics.reporters import Findings
 from twinform.profiles import Profile, UnknownProfileError, load, names, parse
 from twinform.profiles.profile import PORTABLE
@@ -46,7 +45,8 @@ def command(
     profiles: tuple[Profile, ...],
     model: str | None,
     style: str,
-    **input_options: Unpack[InputOptions],
+    *,
+    reading: FileOptions,
 ) -> None:
     """Say which format to keep a robot in, and who takes it.
 
@@ -57,7 +57,7 @@ def command(
     sources, arguments = inputs(words)
     if len(sources) != 1:
         raise click.UsageError("advise takes one input")
-    source, load_options = sources[0], load_options_of(arguments, input_options)
+    source, load_options = sources[0], load_options_of(arguments, reading)
     try:
         found = advise(source.content, profiles, load_options, name=source.name, model=model)
     except CompileError as error:

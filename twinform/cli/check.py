@@ -1,7 +1,7 @@
 """`twinform check`."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING
 
 import click
 import pydantic  # noqa: F401 # pyright: ignore[reportUnusedImport] - decisions: near the top of the stack
@@ -10,16 +10,18 @@ from twinform.cli.baseline import baseline_of, baseline_options
 from twinform.cli.check_report import CheckReport
 from twinform.cli.command import Command
 from twinform.cli.completion import files, pipelines
+from twinform.cli.config.per_file import RuleSettings
 from twinform.cli.consumers import consumers_option
 from twinform.cli.exclude import exclude_options, exclusion_of
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.findings import all_option, notes_option
-from twinform.cli.inputs import InputOptions, model_inputs, reading_options
+from twinform.cli.inputs import model_inputs, reading_options
 from twinform.cli.own_options import OptionsByFile
 from twinform.cli.pipeline_option import pipeline_option
 from twinform.cli.policy import policy_options
 from twinform.cli.source import Source
 from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, inspect, read
+from twinform.compiler.input.options import ReadingOptions
 from twinform.diagnostics.reporters import REPORTERS
 from twinform.passes import PassError
 
@@ -71,8 +73,7 @@ def command(
     *,
     notes: bool,
     every: bool,
-    allow: tuple[str, ...],
-    deny: tuple[str, ...],
+    rules: RuleSettings,
     baseline: Path | None,
     update_baseline: bool,
     check_passes: "Pipeline | None",
@@ -84,8 +85,7 @@ def command(
     unsafe_fixes: bool,
     diff: bool,
     fix_only: bool,
-    expand_includes: bool,
-    **input_options: Unpack[InputOptions],
+    reading: ReadingOptions,
 ) -> None:
     """Find everything that is wrong with robot models.
 
@@ -94,8 +94,8 @@ def command(
     """
     exclusion = exclusion_of(ctx, exclude, force=force_exclude)
     sources, arguments = model_inputs(words, exclusion)
-    options = OptionsByFile(ctx, arguments, input_options, allow, deny, check_passes, "check_passes", profiles)
-    mends = fix or diff or fix_only
+    options = OptionsByFile(ctx, arguments, reading, rules, check_passes, "check_passes", profiles)
+    mends, expand_includes = fix or diff or fix_only, reading.get("expand_includes") or False
 
     def new_report() -> CheckReport:
         return CheckReport(style, notes=notes, every=every, baseline=baseline_of(ctx, baseline, update=update_baseline))

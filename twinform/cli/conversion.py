@@ -13,7 +13,7 @@ from twinform.cli.gazebo_files import GazeboFiles
 from twinform.cli.instrumentation import InstrumentationOptions
 from twinform.cli.mesh_progress import mesh_progress
 from twinform.cli.outputs import Output, Outputs, beside
-from twinform.cli.own_options import FileOptions
+from twinform.cli.own_options import ResolvedOptions
 from twinform.cli.printing import print_line
 from twinform.cli.source import Source
 from twinform.cli.targets import Job
@@ -49,7 +49,7 @@ class Options:
             self.request, to=job.target, sdf_version=self.request.sdf_version if job.target == "sdf" else None
         )
 
-    def for_file(self, own: FileOptions) -> "Options":
+    def for_file(self, own: ResolvedOptions) -> "Options":
         """The same for a file that has its own settings."""
         request = replace(self.request, passes=own.passes or Pipeline())
         return replace(self, load_options=own.load_options, policy=own.policy, request=request)

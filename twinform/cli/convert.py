@@ -1,9 +1,9 @@
 """`twinform convert`."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING
 
 import click
 from click.core import ParameterSource
@@ -11,6 +11,7 @@ from click.core import ParameterSource
 from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.config import settings_of
+from twinform.cli.config.per_file import RuleSettings
 from twinform.cli.consumers import consumers_option, keep_physics_option
 from twinform.cli.conversion import Options, print_plan, run_job
 from twinform.cli.findings import all_option, notes_option
@@ -21,10 +22,12 @@ from twinform.cli.outputs import Outputs
 from twinform.cli.own_options import OptionsByFile
 from twinform.cli.policy import policy_options
 from twinform.cli.printing import print_line
-from twinform.cli.request import Asked, ordering_options, request_of
+from twinform.cli.request import passes_of, request_options, whole_request
 from twinform.cli.source import Source
 from twinform.cli.targets import TARGETS, Job, Target, jobs, jobs_in_place
-from twinform.compiler import LoadOptions
+from twinform.compiler import ConversionRequest
+from twinform.compiler.input.options import ReadingOptions
+from twinform.compiler.request_options import RequestOptions
 
 if TYPE_CHECKING:
     from twinform.profiles import Profile
@@ -63,7 +66,7 @@ EXAMPLES = {
 @consumers_option
 @keep_physics_option
 @click.option("--to", "target", type=click.Choice(TARGETS), help="The format; else OUT's suffix or the other format.")
-@ordering_options
+@request_options
 @click.option(
     "--ledger", type=click.Path(path_type=Path), metavar="FILE", help="Where to write what was not expressed."
 )
@@ -94,28 +97,22 @@ def command(
     *,
     profiles: "tuple[Profile, ...]",
     keep_physics: bool,
+    request: RequestOptions,
     ledger: Path | None,
-    bridge: Path | None,
-    world: Path | None,
-    gazebo: str,
+    gazebo_files: GazeboFiles,
     model: str | None,
     split: bool,
     audit: bool,
     check: bool,
     print_pipeline: bool,
-    dumps: tuple[str, ...],
-    changes: bool,
-    times: bool,
-    statistics: bool,
-    reproducers: Path | None,
+    watching: InstrumentationOptions,
     in_place: bool,
     into: Path | None,
     base: Path | None,
     notes: bool,
     every: bool,
-    allow: tuple[str, ...],
-    deny: tuple[str, ...],
-    **asked: Unpack[Asked],
+    rules: RuleSettings,
+    reading: ReadingOptions,
 ) -> None:
     """Compile robot models from one format into the other.
 
@@ -125,17 +122,13 @@ def command(
     written.
     """
     sources, arguments = inputs(words)
-    if ledger is not None and len(sources) > 1:
-        raise click.UsageError("--ledger takes one input")
     if ctx.get_parameter_source("gazebo") is not ParameterSource.DEFAULT:
-        asked["sdf_version"] = version_for(gazebo, asked["sdf_version"])
-    by_file = OptionsByFile(ctx, arguments, asked, allow, deny, asked["passes"], profiles=profiles)
+        request["sdf_version"] = version_for(gazebo_files.gazebo, request.get("sdf_version"))
+    whole = whole_request(request, reading, model=model, keep_physics=keep_physics)
+    by_file = OptionsByFile(ctx, arguments, reading, rules, passes_of(request), profiles=profiles)
     load_options, policy, _ = by_file.usual
-    watching = InstrumentationOptions(
-        dumps=dumps, changes=changes, times=times, statistics=statistics, reproducers=reproducers
-    )
     options = Options(
-        request=replace(request_of(asked, "sdf", model), keep_physics=keep_physics),
+        request=ConversionRequest.of("sdf", whole),
         load_options=load_options,
         ledger=ledger,
         notes=notes,
@@ -143,39 +136,83 @@ def command(
         policy=policy,
         watching=watching,
         audit=audit,
-        gazebo_files=GazeboFiles(bridge, world, gazebo),
+        gazebo_files=gazebo_files,
     )
-    if len(sources) == 1:
-        options = options.for_file(by_file.of(sources[0].name))
-    if options.gazebo_files and (split or len(sources) > 1):
-        raise click.UsageError("--bridge and --world take one input, and no --split")
-    if options.beside and len(sources) > 1:
-        raise click.UsageError(f"a pass writes {options.beside[0]} beside the result; that takes one input")
-    read = [source.path for source in sources] + [path for path in [settings_of(ctx).path] if path]
+    run = _Run(ctx, sources, by_file, options.for_file(by_file.of(sources[0].name)) if len(sources) == 1 else options)
+    run.require_one_input(split=split)
     _require_consumers(profiles, alone=not (split or into), keep_physics=keep_physics)
     if split:
-        from twinform.cli.splitting import run_split  # noqa: PLC0415 - few worlds are split
-
-        whole = Outputs(read, check=check)
         folder = _folder(out, target, model, in_place=in_place)
-        code = run_split(_only(sources), target or "urdf", options, folder, whole)
-        ctx.exit(_end(whole, [code], load_options))
+        ctx.exit(run.split_world(target or "urdf", folder, check=check))
     if into or base:
-        from twinform.cli.into import run_into  # noqa: PLC0415 - most results are new files
-
-        if out or in_place or target or asked["passes"]:
+        if out or in_place or target or request.get("passes"):
             raise click.UsageError("--into says what is written: leave -o, --in-place, --to and --passes out")
-        updated = Outputs(read, [into] if into else (), check)
-        code = run_into(_only(sources, "--into"), into, base, options, updated)
-        ctx.exit(_end(updated, [code], load_options))
+        ctx.exit(run.update(into, base, check=check))
     todo = jobs_in_place(sources, out, target) if in_place else jobs(sources, out, target)
     _require_sdf(ctx, todo)
-    planned = [(job, options.for_file(by_file.of(job.source.name))) for job in todo]
-    if print_pipeline:
-        ctx.exit(max(print_plan(job, own, label=_label(job, todo)) for job, own in planned))
-    outputs = Outputs(read, [job.path for job in todo if in_place and job.path], check)
-    outputs.require_apart([place for job, own in planned for place in own.places(job, outputs)])
-    ctx.exit(_end(outputs, [run_job(job, own, _label(job, todo), outputs) for job, own in planned], load_options))
+    ctx.exit(run.print_pipelines(todo) if print_pipeline else run.convert(todo, in_place=in_place, check=check))
+
+
+@dataclass(frozen=True, slots=True)
+class _Run:
+    """The inputs of one run, and the options for them: each mode gives the exit code."""
+
+    ctx: click.Context
+    sources: Sequence[Source]
+    by_file: OptionsByFile
+    options: Options
+
+    def require_one_input(self, *, split: bool) -> None:
+        """Raise where something is asked for that there can be only one of."""
+        several = len(self.sources) > 1
+        if self.options.ledger is not None and several:
+            raise click.UsageError("--ledger takes one input")
+        if self.options.gazebo_files and (split or several):
+            raise click.UsageError("--bridge and --world take one input, and no --split")
+        if self.options.beside and several:
+            raise click.UsageError(f"a pass writes {self.options.beside[0]} beside the result; that takes one input")
+
+    def split_world(self, target: Target, folder: Path, *, check: bool) -> int:
+        """Write the models of a world into a folder, and an SDF that includes them."""
+        from twinform.cli.splitting import run_split  # noqa: PLC0415 - few worlds are split
+
+        outputs = self._outputs(check=check)
+        return self._end(outputs, [run_split(_only(self.sources), target, self.options, folder, outputs)])
+
+    def update(self, into: Path | None, base: Path | None, *, check: bool) -> int:
+        """Change a file of the other format where the input has changed."""
+        from twinform.cli.into import run_into  # noqa: PLC0415 - most results are new files
+
+        outputs = self._outputs([into] if into else (), check=check)
+        return self._end(outputs, [run_into(_only(self.sources, "--into"), into, base, self.options, outputs)])
+
+    def print_pipelines(self, todo: Sequence[Job]) -> int:
+        """Print the passes that would run."""
+        return max(print_plan(job, self._options_for(job), label=_label(job, todo)) for job in todo)
+
+    def convert(self, todo: Sequence[Job], *, in_place: bool, check: bool) -> int:
+        """Write new files, or change the inputs themselves."""
+        planned = [(job, self._options_for(job)) for job in todo]
+        outputs = self._outputs([job.path for job in todo if in_place and job.path], check=check)
+        outputs.require_apart([place for job, own in planned for place in own.places(job, outputs)])
+        return self._end(outputs, [run_job(job, own, _label(job, todo), outputs) for job, own in planned])
+
+    def _options_for(self, job: Job) -> Options:
+        return self.options.for_file(self.by_file.of(job.source.name))
+
+    def _outputs(self, rewritten: Sequence[Path] = (), *, check: bool) -> Outputs:
+        settings = settings_of(self.ctx).path
+        read = [*(source.path for source in self.sources), *([settings] if settings else [])]
+        return Outputs(read, rewritten, check)
+
+    def _end(self, outputs: Outputs, codes: Sequence[int]) -> int:
+        """Write everything if nothing is wrong."""
+        if not max(codes):
+            return outputs.write(self.options.load_options.search.seen)
+        if len(codes) > 1:
+            wrong = sum(map(bool, codes))
+            print_line(f"nothing is written: {wrong} of {len(codes)} inputs could not be converted", err=True)
+        return max(codes)
 
 
 def _require_consumers(profiles: "tuple[Profile, ...]", *, alone: bool, keep_physics: bool) -> None:
@@ -198,17 +235,7 @@ def _label(job: Job, todo: Sequence[Job]) -> str:
     return job.source.name if len(todo) > 1 else ""
 
 
-def _end(outputs: Outputs, codes: Sequence[int], load_options: LoadOptions) -> int:
-    """Write everything if nothing is wrong; gives the exit code."""
-    if not max(codes):
-        return outputs.write(load_options.search.seen)
-    if len(codes) > 1:
-        wrong = sum(map(bool, codes))
-        print_line(f"nothing is written: {wrong} of {len(codes)} inputs could not be converted", err=True)
-    return max(codes)
-
-
-def _only(sources: list[Source], option: str = "--split") -> Source:
+def _only(sources: Sequence[Source], option: str = "--split") -> Source:
     if len(sources) > 1:
         raise click.UsageError(f"{option} takes one input")
     return sources[0]

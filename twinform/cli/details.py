@@ -1,15 +1,12 @@
 """Options for what a package says about itself: version, description, author, maintainer, license."""
 
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypedDict, TypeVar
 
 import click
 
+from twinform.cli.flags import group
 from twinform.compiler.packaging.order import Details
 from twinform.compiler.packaging.source_details import details_around
-
-Command = TypeVar("Command", bound=Callable[..., Any])
 
 _OPTIONS = (
     click.option("--package-version", metavar="X.Y.Z", default="", help="The version of the package; else 0.1.0."),
@@ -21,32 +18,14 @@ _OPTIONS = (
 )
 
 
-class DetailOptions(TypedDict):
-    """What these options give a command."""
-
-    package_version: str
-    description: str
-    author: str
-    maintainer: str
-    email: str
-    license: str
+def _details(package_version: str, **words: str) -> Details:
+    return Details(version=package_version.strip(), **{name: word.strip() for name, word in words.items()})
 
 
-def detail_options(command: Command) -> Command:
-    """Give a command the options for what a package says about itself."""
-    for option in reversed(_OPTIONS):
-        command = option(command)
-    return command
+detail_options = group("details", _details, *_OPTIONS)
+"""Gives a command the options for what a package says about itself."""
 
 
-def details_of(options: DetailOptions, source: str | bytes) -> Details:
-    """The options as the compiler takes them; what is not given is as the package or model around a file has it."""
-    given = Details(
-        description=options["description"].strip(),
-        version=options["package_version"].strip(),
-        author=options["author"].strip(),
-        maintainer=options["maintainer"].strip(),
-        email=options["email"].strip(),
-        license=options["license"].strip(),
-    )
+def details_of(given: Details, source: str | bytes) -> Details:
+    """The details; what is not given is as the package or model around a file has it."""
     return given if isinstance(source, bytes) else given.or_else(details_around(Path(source)))

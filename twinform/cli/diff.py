@@ -1,19 +1,18 @@
 """`twinform diff`."""
 
-from typing import Unpack
-
 import click
 
 from twinform.cli.command import Command
-from twinform.cli.comparison import ComparisonFlags, comparison_flags, comparison_options
+from twinform.cli.comparison import comparison_options
 from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
-from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
+from twinform.cli.inputs import file_options, inputs, load_options_of
 from twinform.cli.printing import Color, print_report, print_text, styled
 from twinform.compiler import CompileError
-from twinform.compiler.compare import Severity, compare_files
+from twinform.compiler.compare import ComparisonOptions, Severity, compare_files
 from twinform.compiler.compare.reporters import REPORTERS, summary, text
+from twinform.compiler.input.options import FileOptions
 from twinform.diagnostics.reporters import Findings
 
 _COLORS: dict[Severity, Color] = {Severity.DIFFERENCE: "red", Severity.CARRIED: "yellow", Severity.NOTE: "cyan"}
@@ -27,15 +26,11 @@ EXAMPLES = {
 }
 
 
-class _Options(InputOptions, ComparisonFlags):
-    """What the options shared with other commands give."""
-
-
 @click.command("diff", cls=Command, examples=EXAMPLES)
 @click.argument("words", metavar="A B [NAME:=VALUE...]", nargs=-1, required=True, shell_complete=files)
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print differences.")
 @click.option("--model", metavar="NAME", help="The model to compare, where a file has several.")
-@comparison_flags
+@comparison_options
 @file_options
 @click.pass_context
 def command(
@@ -44,7 +39,8 @@ def command(
     style: str,
     *,
     model: str | None,
-    **rest: Unpack[_Options],
+    comparison: ComparisonOptions,
+    reading: FileOptions,
 ) -> None:
     """Say whether two files describe the same robot.
 
@@ -58,8 +54,8 @@ def command(
         raise click.UsageError("diff compares two files")
     a, b = sources
     try:
-        load_options, names = load_options_of(arguments, rest), (a.name, b.name)
-        found = compare_files(a.content, b.content, load_options, comparison_options(rest), names=names, model=model)
+        load_options, names = load_options_of(arguments, reading), (a.name, b.name)
+        found = compare_files(a.content, b.content, load_options, comparison, names=names, model=model)
     except CompileError as error:
         show(Findings(a.name, error.diagnostics), notes=False, on_stderr=True)
         ctx.exit(UNUSABLE)

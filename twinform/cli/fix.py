@@ -1,18 +1,18 @@
 """`twinform fix`."""
 
 from collections.abc import Callable
-from typing import Unpack
 
 import click
 
 from twinform.cli.command import Command
 from twinform.cli.completion import files, pipelines
+from twinform.cli.config.per_file import RuleSettings
 from twinform.cli.exclude import exclude_options, exclusion_of
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.files.model_files import is_plain
 from twinform.cli.findings import notes_option, show
 from twinform.cli.fixing import Fixing, mended_source
-from twinform.cli.inputs import InputOptions, file_options, load_options_of, model_inputs
+from twinform.cli.inputs import file_options, load_options_of, model_inputs
 from twinform.cli.mesh_progress import mesh_progress
 from twinform.cli.pipeline_option import pipeline_option
 from twinform.cli.policy import policy_of, policy_options
@@ -21,6 +21,7 @@ from twinform.cli.rewriting import Rewrite, show_differences, write_back
 from twinform.cli.source import Source
 from twinform.compiler import CompileError, ConversionRequest, Language, LoadResult, inspect, read
 from twinform.compiler.in_place import convert_bytes_in_place
+from twinform.compiler.input.options import FileOptions
 from twinform.diagnostics import Diagnostic
 from twinform.diagnostics.reporters import Findings
 from twinform.passes import PassError, Pipeline, SideFilePass
@@ -60,11 +61,10 @@ def command(
     unsafe_fixes: bool,
     diff: bool,
     notes: bool,
-    allow: tuple[str, ...],
-    deny: tuple[str, ...],
+    rules: RuleSettings,
     exclude: tuple[str, ...],
     force_exclude: bool,
-    **input_options: Unpack[InputOptions],
+    reading: FileOptions,
 ) -> None:
     """Mend robot models in their files, and run passes on them.
 
@@ -74,7 +74,7 @@ def command(
     read or written.
     """
     sources, arguments = model_inputs(words, exclusion_of(ctx, exclude, force=force_exclude), is_plain)
-    policy, load_options = policy_of(ctx, allow, deny), load_options_of(arguments, input_options)
+    policy, load_options = policy_of(ctx, rules), load_options_of(arguments, reading)
 
     def look(content: str | bytes, name: str) -> LoadResult:
         return inspect(read(content, load_options, name=name), load_options)

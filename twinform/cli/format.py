@@ -19,8 +19,9 @@ from twinform.cli.rewriting import Rewrite, write_back
 from twinform.cli.source import Source
 from twinform.compiler import CompileError
 from twinform.compiler.formatting import formatted
-from twinform.compiler.input.limits import Limits
+from twinform.compiler.input.limits import LARGEST, Limits
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
+from twinform.compiler.options import given
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.reporters import Findings
 from twinform.text import SourceText
@@ -82,7 +83,7 @@ def command(
     sort_attributes: bool,
     exclude: tuple[str, ...],
     force_exclude: bool,
-    max_size: int,
+    max_size: int | None,
 ) -> None:
     """Lay out the text of models, and change nothing else.
 
@@ -91,7 +92,7 @@ def command(
     are. Exit code: 0 formatted, 1 with --check or --diff where something would change, 2 where a file could not be read
     or written, or is no XML.
     """
-    options, limits = FormatOptions(indent, numbers, sort_attributes), Limits(max_size)
+    options, limits = FormatOptions(indent, numbers, sort_attributes), Limits(given(max_size, LARGEST))
     run = _Run(options, limits, check=check, diff=diff)
     sources, _ = model_inputs(files, exclusion_of(ctx, exclude, force=force_exclude), is_text)
     found = Counter[Outcome](map(run.file, sources))

@@ -8,6 +8,7 @@ from typing import Any, TypeVar, get_args
 import click
 
 from twinform.cli.findings import show
+from twinform.cli.flags import group
 from twinform.cli.outputs import Output, Outputs
 from twinform.compiler import Conversion
 from twinform.diagnostics import DiagnosticSink
@@ -19,16 +20,6 @@ _WORLD = "default"
 """The name of the world that is written."""
 
 Command = TypeVar("Command", bound=Callable[..., Any])
-
-
-def companion_options(command: Command) -> Command:
-    """The options for files beside the model."""
-    path = click.Path(path_type=Path)
-    bridge = "Write the file of ros_gz_bridge for the topics of the result."
-    world = "Write a world with the model in it, ground, light, and the systems that its sensors need."
-    command = click.option("--bridge", type=path, metavar="FILE", help=bridge)(command)
-    command = click.option("--world", type=path, metavar="FILE", help=world)(command)
-    return release_option(command)
 
 
 def release_option(command: Command) -> Command:
@@ -79,3 +70,23 @@ class GazeboFiles:
             outputs.add("--bridge", self.bridge, bridge_text(document, self.gazebo, found, world))
         show(Findings(name, tuple(found.diagnostics)), notes=notes, on_stderr=True)
         return not found.has_errors
+
+
+companion_options = group(
+    "gazebo_files",
+    GazeboFiles,
+    release_option,
+    click.option(
+        "--world",
+        type=click.Path(path_type=Path),
+        metavar="FILE",
+        help="Write a world with the model in it, ground, light, and the systems that its sensors need.",
+    ),
+    click.option(
+        "--bridge",
+        type=click.Path(path_type=Path),
+        metavar="FILE",
+        help="Write the file of ros_gz_bridge for the topics of the result.",
+    ),
+)
+"""Gives a command the options for files beside the model."""

@@ -1,7 +1,6 @@
 """`twinform graph`."""
 
 from pathlib import Path
-from typing import Unpack
 
 import click
 
@@ -9,11 +8,12 @@ from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
-from twinform.cli.inputs import InputOptions, inputs, load_options_of, reading_options
+from twinform.cli.inputs import inputs, load_options_of, reading_options
 from twinform.cli.outputs import Outputs
 from twinform.compiler import expand, read
 from twinform.compiler.graph import WRITERS, build_graph
 from twinform.compiler.graph.mermaid import MOST_CHARACTERS, MOST_EDGES, fits
+from twinform.compiler.input.options import ReadingOptions
 from twinform.diagnostics.reporters import Findings
 
 _SUFFIXES = {".mmd": "mermaid", ".mermaid": "mermaid", ".dot": "dot", ".gv": "dot", ".svg": "svg"}
@@ -47,8 +47,7 @@ def command(
     *,
     frames: bool,
     mimics: bool,
-    expand_includes: bool,
-    **input_options: Unpack[InputOptions],
+    reading: ReadingOptions,
 ) -> None:
     """Draw the links and joints of a model or world.
 
@@ -60,9 +59,9 @@ def command(
     sources, arguments = inputs(words)
     if len(sources) != 1:
         raise click.UsageError("graph draws one input")
-    load_options = load_options_of(arguments, input_options)
+    load_options = load_options_of(arguments, reading)
     loaded = read(sources[0].content, load_options, name=sources[0].name)
-    loaded = expand(loaded, load_options) if expand_includes else loaded
+    loaded = expand(loaded, load_options) if reading.get("expand_includes") else loaded
     if not loaded.accepted:
         show(Findings(loaded.path, loaded.diagnostics), notes=False, on_stderr=True)
     if loaded.document is None:

@@ -3,18 +3,20 @@
 import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypedDict, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from twinform.cli.config import config_options, hold_limit, settings_of
+from twinform.cli.config import config_options, settings_of
 from twinform.cli.files import Exclusion, NothingFoundError, PatternError, discover
 from twinform.cli.files.model_files import Kind, is_model
+from twinform.cli.flags import flag, flags_of, group
 from twinform.cli.source import Source, open_source
-from twinform.compiler import LoadOptions, SearchPath
-from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits, parse_size
+from twinform.compiler import LoadOptions
+from twinform.compiler.input.limits import LARGEST
+from twinform.compiler.input.options import FileOptions, ReadingOptions
+from twinform.compiler.options import declared_options
 from twinform.diagnostics import Policy
-from twinform.schemas import Engine
 
 if TYPE_CHECKING:
     from twinform.profiles import Profile
@@ -22,95 +24,26 @@ if TYPE_CHECKING:
 Command = TypeVar("Command", bound=Callable[..., Any])
 
 
-def _size(ctx: click.Context, option: click.Parameter, value: str) -> int:
-    try:
-        size = parse_size(value)
-    except ValueError as error:
-        raise click.BadParameter(str(error)) from error
-    return hold_limit(ctx, option, size, LARGEST)
-
-
-def _tags(ctx: click.Context, option: click.Parameter, value: int) -> int:
-    return hold_limit(ctx, option, value, MOST_TAGS)
-
-
 _ARGUMENT = re.compile(r"(?P<name>[A-Za-z_][\w.-]*):=(?P<value>.*)", re.DOTALL)
-size_option = click.option(
-    "--max-size",
-    metavar="SIZE",
-    default=str(LARGEST),
-    callback=_size,
-    help="The largest file that is read, such as 200MB or 1GiB; by default 64MiB.",
-)
-_OPTIONS = (
-    click.option("--strict/--no-strict", default=False, help="Refuse what readers ignore, such as unknown names."),
-    click.option(
-        "--engine",
-        type=click.Choice(["libxml2", "xmlschema"]),
-        default="libxml2",
-        help="The XSD validator; xmlschema is the slow reference.",
-    ),
-    click.option(
-        "--path",
-        "paths",
-        metavar="DIR",
-        multiple=True,
-        type=click.Path(exists=True, file_okay=False, path_type=Path),
-        help="A folder of models or packages, looked in before those that the environment names; repeatable.",
-    ),
-    click.option(
-        "--env",
-        metavar="NAME",
-        multiple=True,
-        help="An environment variable that xacro files may read besides those of ROS and Gazebo; * fits any letters.",
-    ),
-    click.option(
-        "--xacro/--no-xacro",
-        default=None,
-        help="Expand all files, or none; by default those called .xacro. It evaluates expressions in them.",
-    ),
-    size_option,
-    click.option(
-        "--max-tags",
-        type=click.IntRange(min=1),
-        metavar="N",
-        default=MOST_TAGS,
-        callback=_tags,
-        help=f"The most tags of a file, or parts of a JSON document; by default {MOST_TAGS:,}.",
-    ),
-)
-_EXPAND_INCLUDES = click.option(
-    "--expand-includes", is_flag=True, help="Read the files that includes name, and put them in their place."
-)
+_FOLDER = {"type": click.Path(exists=True, file_okay=False, path_type=Path)}
+_file_flags = group("reading", dict, *flags_of(FileOptions, paths=_FOLDER))
+_reading_flags = group("reading", dict, *flags_of(ReadingOptions, paths=_FOLDER))
+size_option = flag("max_size", *declared_options(FileOptions)["max_size"])
 
 
 def file_options(command: Command) -> Command:
-    """Give a command the options that say how a file is read, and the settings of the project."""
-    for option in reversed(_OPTIONS):
-        command = option(command)
-    return config_options(command)
+    """Give a command the options that say how a file is read, as `reading`, and the settings of the project."""
+    return config_options(_file_flags(command))
 
 
 def reading_options(command: Command) -> Command:
     """The same, and whether the files that it includes are read too."""
-    return file_options(_EXPAND_INCLUDES(command))
-
-
-class InputOptions(TypedDict):
-    """What these options give a command."""
-
-    strict: bool
-    engine: Engine
-    paths: tuple[Path, ...]
-    env: tuple[str, ...]
-    xacro: bool | None
-    max_size: int
-    max_tags: int
+    return config_options(_reading_flags(command))
 
 
 def load_options_of(
     arguments: Mapping[str, str],
-    input_options: InputOptions,
+    options: FileOptions,
     policy: Policy | None = None,
     profiles: "tuple[Profile, ...]" = (),
 ) -> LoadOptions:
@@ -119,19 +52,14 @@ def load_options_of(
     Where there is a policy, what it allows is left out, errors too. `profiles` are those of the consumers.
     """
     project = settings_of(click.get_current_context())
-    paths = (*input_options["paths"], *project.folders)
-    return LoadOptions(
-        input_options["strict"],
-        input_options["engine"],
-        SearchPath.of(paths),
-        arguments,
-        input_options["xacro"],
-        Limits(input_options["max_size"], input_options["max_tags"]),
-        allow=policy.allow if policy else frozenset(),
-        tolerant=policy is not None,
-        profiles=profiles,
-        variables=(*input_options["env"], *project.variables),
-    )
+    given: FileOptions = {
+        **options,
+        "paths": (*options.get("paths", ()), *project.folders),
+        "env": (*options.get("env", ()), *project.variables),
+        "arguments": arguments,
+    }
+    allow = policy.allow if policy else ()
+    return LoadOptions.of(given, allow=allow, profiles=profiles, tolerant=policy is not None)
 
 
 def inputs(words: Sequence[str]) -> tuple[list[Source], dict[str, str]]:
@@ -173,5 +101,5 @@ def _opened(files: Sequence[str], arguments: Mapping[str, str]) -> list[Source]:
     xacro = bool(ctx and ctx.params.get("xacro"))
     if arguments and not (xacro or any(file.lower().endswith(".xacro") for file in files)):
         raise click.UsageError(f"{next(iter(arguments))}:=... is an argument of xacro, and no input is a .xacro file")
-    size = int(ctx.params["max_size"]) if ctx and "max_size" in ctx.params else LARGEST
+    size = (ctx and ctx.params.get("max_size")) or LARGEST
     return [open_source(file, size) for file in files]

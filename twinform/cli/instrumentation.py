@@ -1,18 +1,15 @@
 """Options that observe passes (dump the IR, changes, times), and what they and a failed pass print on stderr."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypeVar
 
 import click
 
 from twinform.cli.failure import UNUSABLE
+from twinform.cli.flags import group
 from twinform.cli.printing import print_line, print_text
 from twinform.passes import CombinedInstrumentation, PassError, PassInstrumentation
 from twinform.passes.framework.hooks import Dumps, Statistics, table
-
-Command = TypeVar("Command", bound=Callable[..., Any])
 
 _OPTIONS = (
     click.option(
@@ -32,13 +29,6 @@ _OPTIONS = (
 )
 
 
-def watching_options(command: Command) -> Command:
-    """Give a command the options that watch passes."""
-    for option in reversed(_OPTIONS):
-        command = option(command)
-    return command
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InstrumentationOptions:
     """What these options give a command."""
@@ -52,6 +42,10 @@ class InstrumentationOptions:
     def begin(self, name: str) -> "InputInstrumentation":
         """Observe the passes of one input, which messages call `name`."""
         return InputInstrumentation(self, name)
+
+
+watching_options = group("watching", InstrumentationOptions, *_OPTIONS)
+"""Gives a command the options that watch passes."""
 
 
 @dataclass(slots=True)

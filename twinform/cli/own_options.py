@@ -1,6 +1,6 @@
 """The options for one file: those of the command line, of the project, and of the file's own settings in it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -8,11 +8,12 @@ import click
 from click.core import ParameterSource
 
 from twinform.cli.config import settings_of
-from twinform.cli.config.per_file import NO_OWN_SETTINGS, OwnSettings
-from twinform.cli.inputs import InputOptions, load_options_of
+from twinform.cli.config.per_file import NO_OWN_SETTINGS, OwnSettings, RuleSettings
+from twinform.cli.inputs import load_options_of
 from twinform.cli.pipeline_option import configured_pipeline
 from twinform.cli.policy import policy_of
 from twinform.compiler import LoadOptions
+from twinform.compiler.input.options import FileOptions
 from twinform.diagnostics import Policy
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 _TYPED = (ParameterSource.COMMANDLINE, ParameterSource.ENVIRONMENT)
 
 
-class FileOptions(NamedTuple):
+class ResolvedOptions(NamedTuple):
     """How one file is read, what is allowed in it, and the passes that are run on it."""
 
     load_options: LoadOptions
@@ -40,21 +41,20 @@ class OptionsByFile:
 
     ctx: click.Context
     arguments: Mapping[str, str]
-    input_options: InputOptions
-    allow: Sequence[str]
-    deny: Sequence[str]
+    reading: FileOptions
+    rules: RuleSettings
     passes: "Pipeline | None"
     option: str = "passes"
     profiles: "tuple[Profile, ...]" = ()
-    usual: FileOptions = field(init=False)
+    usual: ResolvedOptions = field(init=False)
 
     def __post_init__(self) -> None:
-        policy = policy_of(self.ctx, self.allow, self.deny)
-        self.usual = FileOptions(
-            load_options_of(self.arguments, self.input_options, policy, self.profiles), policy, self.passes
+        policy = policy_of(self.ctx, self.rules)
+        self.usual = ResolvedOptions(
+            load_options_of(self.arguments, self.reading, policy, self.profiles), policy, self.passes
         )
 
-    def of(self, name: str) -> FileOptions:
+    def of(self, name: str) -> ResolvedOptions:
         """The options for the file of this name.
 
         Raises:
@@ -64,17 +64,17 @@ class OptionsByFile:
         own = per_file.of(name) if per_file else NO_OWN_SETTINGS
         return self.usual if own is NO_OWN_SETTINGS else self._with(self.usual, own)
 
-    def _with(self, usual: FileOptions, own: OwnSettings) -> FileOptions:
-        policy = policy_of(self.ctx, self.allow, self.deny, own)
+    def _with(self, usual: ResolvedOptions, own: OwnSettings) -> ResolvedOptions:
+        policy = policy_of(self.ctx, self.rules, own)
         load_options = replace(usual.load_options, arguments={**own.arguments, **self.arguments}, allow=policy.allow)
         if own.strict is not None and not self._is_typed("strict"):
             load_options = replace(load_options, strict=own.strict)
         configured = own.check_passes if self.option == "check_passes" else own.passes
         if configured is None or self._is_typed(self.option):
-            return FileOptions(load_options, policy, usual.passes)
+            return ResolvedOptions(load_options, policy, usual.passes)
         text, key = configured
         passes = configured_pipeline(settings_of(self.ctx), text, key) if text else None
-        return FileOptions(load_options, policy, passes)
+        return ResolvedOptions(load_options, policy, passes)
 
     def _is_typed(self, option: str) -> bool:
         return self.ctx.get_parameter_source(option) in _TYPED

@@ -1,22 +1,25 @@
 """`twinform package`."""
 
 from pathlib import Path
-from typing import Any, cast
 
 import click
 
 from twinform.cli.command import Command
 from twinform.cli.completion import files
-from twinform.cli.details import DetailOptions, detail_options, details_of
+from twinform.cli.config.per_file import RuleSettings
+from twinform.cli.details import detail_options, details_of
 from twinform.cli.findings import all_option, notes_option
 from twinform.cli.gazebo_files import release_option, version_for
 from twinform.cli.inputs import inputs, reading_options
 from twinform.cli.own_options import OptionsByFile
 from twinform.cli.packaging import Packaging, run_packaging
 from twinform.cli.policy import policy_options
-from twinform.cli.request import Asked, ordering_options_of_versions, request_of
+from twinform.cli.request import passes_of, request_options_of_versions, whole_request
+from twinform.compiler import ConversionRequest
+from twinform.compiler.input.options import ReadingOptions
 from twinform.compiler.packaging.kind_names import KIND_NAMES, kinds_of
-from twinform.compiler.packaging.order import Order
+from twinform.compiler.packaging.order import Details, Order
+from twinform.compiler.request_options import RequestOptions
 from twinform.passes.plugins.release_names import ReleaseName
 
 EXAMPLES = {
@@ -49,7 +52,7 @@ EXAMPLES = {
 )
 @click.option("--name", metavar="NAME", help="What the package is called; else as its folder.")
 @detail_options
-@ordering_options_of_versions
+@request_options_of_versions
 @release_option
 @click.option("--model", metavar="NAME", help="The model of the file to put into the package.")
 @click.option(
@@ -83,9 +86,10 @@ def command(
     ledger: Path | None,
     notes: bool,
     every: bool,
-    allow: tuple[str, ...],
-    deny: tuple[str, ...],
-    **rest: Any,
+    details: Details,
+    request: RequestOptions,
+    rules: RuleSettings,
+    reading: ReadingOptions,
 ) -> None:
     """Put a model and all its files into a folder.
 
@@ -98,9 +102,8 @@ def command(
     sources, arguments = inputs(words)
     if len(sources) > 1:
         raise click.UsageError("package takes one input")
-    asked = cast("Asked", {**rest, "sdf_version": None})
-    own = OptionsByFile(ctx, arguments, asked, allow, deny, asked["passes"]).of(sources[0].name)
-    request = request_of({**asked, "passes": own.passes}, "sdf", model)
+    own = OptionsByFile(ctx, arguments, reading, rules, passes_of(request)).of(sources[0].name)
+    whole = whole_request(request, reading, passes=own.passes, model=model)
     title = folder.resolve().name
     if kind == "both" and name is not None and name != title:
         raise click.UsageError(f"--name {name}: ROS looks for a package by its name, and Gazebo by that of its folder, "
@@ -110,11 +113,11 @@ def command(
         source_name=sources[0].name,
         name=name or title,
         folder=title,
-        conversion=request,
+        conversion=ConversionRequest.of("sdf", whole),
         load_options=own.load_options,
         sdf_versions=tuple(dict.fromkeys(version_for(gazebo, each) for each in sdf_versions or (None,))),
         release=gazebo,
-        details=details_of(cast("DetailOptions", rest), sources[0].content),
+        details=details_of(details, sources[0].content),
         allow_missing=allow_missing,
         thumbnail=thumbnail,
     )

@@ -1,7 +1,6 @@
 """`--allow` and `--deny`."""
 
-from collections.abc import Callable, Sequence
-from typing import Any, TypeVar
+from collections.abc import Sequence
 
 import click
 
@@ -9,31 +8,14 @@ from twinform.cli.completion import rule_names
 from twinform.cli.config import ConfigError, Project, settings_of
 from twinform.cli.config.per_file import NO_OWN_SETTINGS, OwnSettings, RuleSettings
 from twinform.cli.failure import Unusable
+from twinform.cli.flags import group
 from twinform.diagnostics import Policy
 from twinform.diagnostics.registry import RuleRegistryError, find_rule
 from twinform.diagnostics.registry import rules as known_rules
 
-Command = TypeVar("Command", bound=Callable[..., Any])
 
-
-def policy_options(command: Command) -> Command:
-    """Give a command `--allow` and `--deny`; what the configuration has comes in addition."""
-    for name, text in (("deny", "Make findings of a rule errors"), ("allow", "Leave out findings of a rule")):
-        command = click.option(
-            f"--{name}",
-            metavar="RULE",
-            multiple=True,
-            help=f"{text}; repeatable.",
-            callback=_known,
-            shell_complete=rule_names,
-        )(command)
-    return command
-
-
-def policy_of(
-    ctx: click.Context, allow: Sequence[str], deny: Sequence[str], own: OwnSettings = NO_OWN_SETTINGS
-) -> Policy:
-    """The policy for a file, whose `own` settings go before those of the project, and options before both.
+def policy_of(ctx: click.Context, typed: RuleSettings, own: OwnSettings = NO_OWN_SETTINGS) -> Policy:
+    """The policy for a file, whose `own` settings go before those of the project, and what is typed before both.
 
     Raises:
         ConfigError: the configuration names a rule that there is not, or allows a fatal one.
@@ -43,7 +25,7 @@ def policy_of(
     for rules in (RuleSettings(project.allow, project.deny), *own.rules):
         _require_known(project, rules)
         policy = _over(policy, rules.allow, rules.deny)
-    return _over(policy, allow, deny)
+    return _over(policy, typed.allow, typed.deny)
 
 
 def _require_known(project: Project, rules: RuleSettings) -> None:
@@ -80,3 +62,21 @@ def _problem(name: str, option: str) -> str:
     except RuleRegistryError as error:
         raise Unusable(str(error)) from error
     return f"{name} is fatal, and cannot be allowed" if option == "allow" and found.rule.fatal else ""
+
+
+policy_options = group(
+    "rules",
+    RuleSettings,
+    *(
+        click.option(
+            f"--{name}",
+            metavar="RULE",
+            multiple=True,
+            help=f"{text}; repeatable.",
+            callback=_known,
+            shell_complete=rule_names,
+        )
+        for name, text in (("allow", "Leave out findings of a rule"), ("deny", "Make findings of a rule errors"))
+    ),
+)
+"""Gives a command `--allow` and `--deny`; what the configuration has comes in addition."""

@@ -1,18 +1,19 @@
 """`twinform report`."""
 
 from pathlib import Path
-from typing import Unpack
 
 import click
 
 from twinform.cli.command import Command
-from twinform.cli.comparison import ComparisonFlags, comparison_flags, comparison_options
+from twinform.cli.comparison import comparison_options
 from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
-from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
+from twinform.cli.inputs import file_options, inputs, load_options_of
 from twinform.cli.outputs import Outputs
 from twinform.compiler import CompileError
+from twinform.compiler.compare import ComparisonOptions
+from twinform.compiler.input.options import FileOptions
 from twinform.diagnostics.reporters import Findings
 from twinform.report import WRITERS, build_report
 from twinform.report.content import make_page
@@ -24,10 +25,6 @@ EXAMPLES = {
     "Show what has changed between two files": "twinform report robot.urdf robot.sdf -o out/report.html",
     "Write a comment for a pull request": "twinform report robot.urdf robot.sdf -o out/report.md",
 }
-
-
-class _Options(InputOptions, ComparisonFlags):
-    """What the options shared with other commands give."""
 
 
 @click.command("report", cls=Command, examples=EXAMPLES)
@@ -44,7 +41,7 @@ class _Options(InputOptions, ComparisonFlags):
 @click.option("--view/--no-view", default=True, help="Whether the 3D view is in it, about 0.8 MB.")
 @click.option("--meshes/--no-meshes", default=True, help="Whether to count the triangles of mesh files.")
 @click.option("--model", metavar="NAME", help="The model to convert and compare, where a file has several.")
-@comparison_flags
+@comparison_options
 @file_options
 @click.pass_context
 def command(
@@ -56,7 +53,8 @@ def command(
     view: bool,
     meshes: bool,
     model: str | None,
-    **rest: Unpack[_Options],
+    comparison: ComparisonOptions,
+    reading: FileOptions,
 ) -> None:
     """Write a report on a model, or on two, that opens offline.
 
@@ -74,10 +72,10 @@ def command(
         found = build_report(
             first.content,
             second.content if second else None,
-            load_options_of(arguments, rest),
+            load_options_of(arguments, reading),
             names=(first.name, second.name if second else ""),
             model=model,
-            options=comparison_options(rest),
+            options=comparison,
             meshes=meshes,
             view=make_page if view and style == "html" else None,
         )

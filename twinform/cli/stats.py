@@ -1,16 +1,15 @@
 """`twinform stats`."""
 
-from typing import Unpack
-
 import click
 
 from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.findings import show
-from twinform.cli.inputs import InputOptions, inputs, load_options_of, reading_options
+from twinform.cli.inputs import inputs, load_options_of, reading_options
 from twinform.cli.printing import print_report
 from twinform.compiler import expand, read
+from twinform.compiler.input.options import ReadingOptions
 from twinform.compiler.statistics import REPORTERS, FileStatistics, measure
 from twinform.diagnostics.reporters import Findings
 
@@ -32,8 +31,7 @@ def command(
     style: str,
     *,
     meshes: bool,
-    expand_includes: bool,
-    **input_options: Unpack[InputOptions],
+    reading: ReadingOptions,
 ) -> None:
     """Print in numbers what models are made of.
 
@@ -43,11 +41,11 @@ def command(
     Exit code: 0 without errors, 1 where a file has errors, 2 where one could not be read.
     """
     sources, arguments = inputs(words)
-    load_options, code = load_options_of(arguments, input_options), 0
+    load_options, code = load_options_of(arguments, reading), 0
     found: list[FileStatistics] = []
     for source in sources:
         loaded = read(source.content, load_options, name=source.name)
-        loaded = expand(loaded, load_options) if expand_includes else loaded
+        loaded = expand(loaded, load_options) if reading.get("expand_includes") else loaded
         if loaded.document is None or not loaded.accepted:
             show(Findings(loaded.path, loaded.diagnostics), notes=False, on_stderr=True)
             code = max(code, UNUSABLE if loaded.unreadable else FINDINGS)

@@ -5,7 +5,7 @@ import threading
 import webbrowser
 from collections.abc import Generator, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING
 
 import click
 
@@ -13,10 +13,11 @@ from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.failure import UNUSABLE, Unusable
 from twinform.cli.findings import show
-from twinform.cli.inputs import InputOptions, file_options, inputs, load_options_of
+from twinform.cli.inputs import file_options, inputs, load_options_of
 from twinform.cli.printing import print_line
 from twinform.cli.source import Source
 from twinform.compiler import CompileError, LoadOptions
+from twinform.compiler.input.options import FileOptions
 from twinform.diagnostics import Diagnostic
 from twinform.diagnostics.reporters import Findings
 from twinform.signals import signals_exit_with
@@ -48,7 +49,7 @@ def command(
     *,
     opens: bool,
     watch: bool,
-    **input_options: Unpack[InputOptions],
+    reading: FileOptions,
 ) -> None:
     """Show a robot or world in a browser, or two over each other.
 
@@ -60,7 +61,7 @@ def command(
     sources, arguments = inputs(words)
     if len(sources) > _MOST:
         raise click.UsageError("view shows one file or two")
-    load_options = load_options_of(arguments, input_options)
+    load_options = load_options_of(arguments, reading)
     session = _Session(sources, load_options, port, opens=opens)
     try:
         if watch and "-" in words:

@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     from twinform.compiler.includes.expanding import expand
     from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, load, loads, read
     from twinform.compiler.inspection import inspect
-    from twinform.compiler.request import URDF_VERSIONS, ConversionRequest, Language, UrdfVersion
+    from twinform.compiler.request import ConversionRequest
+    from twinform.compiler.request_options import URDF_VERSIONS, Language, UrdfVersion
     from twinform.compiler.search.uris import SearchPath, UriError
     from twinform.compiler.splitting import Split, split
     from twinform.schemas import DEFAULT_SDF_VERSION
@@ -30,7 +31,8 @@ else:
             "twinform.compiler.inspection": "inspect",
             "twinform.schemas": "DEFAULT_SDF_VERSION",
             "twinform.storage.writing": "write_all_atomically write_atomically",
-            "twinform.compiler.request": "URDF_VERSIONS ConversionRequest Language UrdfVersion",
+            "twinform.compiler.request": "ConversionRequest",
+            "twinform.compiler.request_options": "URDF_VERSIONS Language UrdfVersion",
             "twinform.compiler.search.uris": "SearchPath UriError",
             "twinform.compiler.splitting": "Split split",
         },

@@ -1,36 +1,18 @@
 """`check`: read a file, report everything that is wrong with it, and run read-only passes."""
 
-from collections.abc import Iterable, Mapping
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Unpack
 
-from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits
 from twinform.compiler.input.loading import read
-from twinform.compiler.input.options import Input, LoadOptions, LoadResult, profiles_of
+from twinform.compiler.input.options import CheckOptions, Input, LoadResult, checking_options
 from twinform.compiler.inspection import inspect
-from twinform.compiler.search.uris import SearchPath
-from twinform.schemas import Engine
+from twinform.compiler.options import require_options
 
 if TYPE_CHECKING:
     from twinform.passes import Pipeline
-    from twinform.profiles import Profile
 
 
 def check(
-    source: Input,
-    *,
-    name: str = "",
-    strict: bool = False,
-    engine: Engine = "libxml2",
-    paths: Iterable[str | Path] = (),
-    arguments: Mapping[str, str] | None = None,
-    xacro: bool | None = None,
-    max_size: int = LARGEST,
-    max_tags: int = MOST_TAGS,
-    expand_includes: bool = False,
-    allow: Iterable[str] = (),
-    passes: "str | Pipeline | None" = None,
-    profiles: "str | Iterable[Profile]" = (),
+    source: Input, *, name: str = "", passes: "str | Pipeline | None" = None, **options: Unpack[CheckOptions]
 ) -> LoadResult:
     """Read a file, the bytes of one or a document, and say everything that is wrong with it.
 
@@ -40,31 +22,23 @@ def check(
     it. `passes` are run on a model without errors, for what they find. Files of more than `max_size` bytes or
     `max_tags` tags are refused. Findings of the rules in `allow` are left out, as are those that comments in the files
     allow; they are `allowed` in the result. `profiles` are those of the consumers of the model, or their names
-    with commas between.
+    with commas between. Xacro files may read the environment variables that `env` names besides those of ROS and
+    Gazebo.
 
     Raises:
         ReadOnlyPassError: a pass would change the model.
         PassError: a pass is at fault.
         PipelineError: `passes` is not a pipeline.
+        TypeError: there is no such option.
     """
-    limits, rules = Limits(max_size, max_tags), frozenset(allow)
-    load_options = LoadOptions(
-        strict,
-        engine,
-        SearchPath.of(paths),
-        arguments or {},
-        xacro,
-        limits,
-        allow=rules,
-        tolerant=True,
-        profiles=profiles_of(profiles),
-    )
+    require_options(options, CheckOptions)
+    load_options = checking_options(options)
     if isinstance(passes, str):
         from twinform.passes import parse_pipeline  # noqa: PLC0415 - most checks have no passes
 
         passes = parse_pipeline(passes)
     loaded = read(source, load_options, name=name)
-    if expand_includes:
+    if options.get("expand_includes"):
         from twinform.compiler.includes.expanding import expand  # noqa: PLC0415 - most checks read one file
 
         loaded = expand(loaded, load_options)

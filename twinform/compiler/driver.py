@@ -1,15 +1,14 @@
 """The conversion pipeline: load, the user's passes, legalisation, back end."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Unpack
 
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.allowances import staying
 from twinform.compiler.input.comments import comments_of
-from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits
 from twinform.compiler.input.loading import (
     Input,
     LoadOptions,
@@ -18,23 +17,22 @@ from twinform.compiler.input.loading import (
     read,
     read_tree_again,
 )
-from twinform.compiler.input.options import profiles_of
+from twinform.compiler.input.options import CheckOptions, checking_options
+from twinform.compiler.options import require_options
 from twinform.compiler.output.comments import Comments
 from twinform.compiler.output.emitting import emit, emit_legal
-from twinform.compiler.request import ConversionRequest, Language, UrdfVersion
-from twinform.compiler.search.uris import LocalAssets, SearchPath
+from twinform.compiler.request import ConversionRequest
+from twinform.compiler.request_options import Language, RequestOptions
+from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile
 from twinform.diagnostics.rules import MISSING_ATTRIBUTE, MISSING_LIMIT, OUTSIDE_VERSION
 from twinform.ir import Document, Format, Include
 from twinform.ir.verify import verify
 from twinform.notebooks import draw
-from twinform.passes import Pass, PassError, PassInstrumentation, Pipeline
+from twinform.passes import PassError, PassInstrumentation, Pipeline
 from twinform.passes.analyses.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.passes.sdf_versions import has_early_frames
-from twinform.schemas import Engine, XmlElement, versions_of
-
-if TYPE_CHECKING:
-    from twinform.profiles import Profile
+from twinform.schemas import XmlElement
 
 
 @dataclass(frozen=True)  # no slots: `source` is kept in the dictionary
@@ -62,30 +60,18 @@ class Conversion:
         return draw("Conversion", self)
 
 
-def plan(
-    source: Document,
-    *,
-    to: Language,
-    sdf_version: str | None = None,
-    urdf_version: UrdfVersion | None = None,
-    passes: str | Sequence[Pass] | None = None,
-    carriers: bool = True,
-    model: str | None = None,
-) -> Pipeline:
+class ConversionOptions(CheckOptions, RequestOptions, total=False):
+    """How a file is read, and what its model becomes."""
+
+
+def plan(source: Document, *, to: Language, **options: Unpack[RequestOptions]) -> Pipeline:
     """Every pass that `convert` runs on this document.
 
     Raises:
         ValueError: SDF has no such version.
     """
-    request = ConversionRequest(
-        to=to,
-        sdf_version=_known(sdf_version),
-        urdf_version=urdf_version,
-        passes=_pipeline(passes),
-        carriers=carriers,
-        model=model,
-    )
-    return request.plan(source)
+    require_options(options, RequestOptions)
+    return ConversionRequest.of(to, options).plan(source)
 
 
 def convert(
@@ -93,61 +79,25 @@ def convert(
     *,
     to: Language,
     name: str = "",
-    sdf_version: str | None = None,
-    urdf_version: UrdfVersion | None = None,
-    passes: str | Sequence[Pass] | None = None,
-    strict: bool = False,
-    carriers: bool = True,
-    model: str | None = None,
-    engine: Engine = "libxml2",
-    paths: Iterable[str | Path] = (),
-    arguments: Mapping[str, str] | None = None,
-    xacro: bool | None = None,
-    max_size: int = LARGEST,
-    max_tags: int = MOST_TAGS,
-    expand_includes: bool = False,
-    comments: bool = True,
-    allow: Iterable[str] = (),
-    profiles: "str | Iterable[Profile]" = (),
-    keep_physics: bool = False,
     instrumentation: PassInstrumentation | None = None,
+    **options: Unpack[ConversionOptions],
 ) -> Conversion:
     """Compile a file, the bytes of one or a document into the target's format; `instrumentation` sees each pass.
 
-    `paths`, `arguments`, `xacro`, `max_size`, `max_tags` and `allow` are those of `check`. URDF has no includes: for
-    it, those in the model are always expanded. `comments` are those of the source, which go along. `profiles` are those
-    of the consumers of the result, or their names with commas between: passes that help them run too, none that changes
-    the physics where `keep_physics` is true.
+    `options` on reading are those of `check`. URDF has no includes: for it, those in the model are always expanded.
+    `comments` are those of the source, which go along. `profiles` are those of the consumers of the result, or their
+    names with commas between: passes that help them run too, none that changes the physics where `keep_physics` is
+    true.
 
     Raises:
         CompileError: the source, a pass or the result has an error.
         PassError: a pass is at fault.
         PipelineError: `passes` is not a pipeline.
+        TypeError: there is no such option.
         ValueError: SDF has no such version.
     """
-    request = ConversionRequest(
-        to=to,
-        sdf_version=_known(sdf_version),
-        urdf_version=urdf_version,
-        passes=_pipeline(passes),
-        carriers=carriers,
-        model=model,
-        expand_includes=expand_includes,
-        comments=comments,
-        keep_physics=keep_physics,
-    )
-    limits, rules = Limits(max_size, max_tags), frozenset(allow)
-    load_options = LoadOptions(
-        strict,
-        engine,
-        SearchPath.of(paths),
-        arguments or {},
-        xacro,
-        limits,
-        allow=rules,
-        tolerant=True,
-        profiles=profiles_of(profiles),
-    )
+    require_options(options, ConversionOptions)
+    request, load_options = ConversionRequest.of(to, options), checking_options(options)
     return run_conversion(request, source, load_options, name=name, instrumentation=instrumentation)
 
 
@@ -235,21 +185,6 @@ def _is_outside_version(found: Diagnostic) -> bool:
     return found.rule is OUTSIDE_VERSION and not (
         path.startswith("/robot") and ("/gazebo[" in path or "/gazebo/" in path)
     )
-
-
-def _known(version: str | None) -> str | None:
-    versions = versions_of("sdf")
-    if version is not None and version not in versions:
-        raise ValueError(f"SDF has no version {version!r}; it has {', '.join(versions)}")
-    return version
-
-
-def _pipeline(passes: str | Sequence[Pass] | None) -> Pipeline:
-    if not isinstance(passes, str):
-        return Pipeline(tuple(passes or ()))
-    from twinform.passes import parse_pipeline  # noqa: PLC0415 - most conversions have no passes of the user
-
-    return parse_pipeline(passes)
 
 
 def _run(

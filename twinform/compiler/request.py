@@ -1,17 +1,15 @@
 """The request of a conversion: target format, version, passes and options."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Literal, get_args
 
+from twinform.compiler.options import given
+from twinform.compiler.request_options import URDF_VERSIONS, Language, RequestOptions, UrdfVersion, known_sdf_version
 from twinform.ir import Document, Format
-from twinform.passes import NO_ASSETS, Assets, Pipeline
+from twinform.passes import NO_ASSETS, Assets, Pass, Pipeline
 from twinform.passes.carriers.provenance import has_mixed_words, source_version
 from twinform.passes.legalise import Target, legalisation
 from twinform.schemas import DEFAULT_SDF_VERSION, versions_of
-
-Language = Literal["sdf", "urdf", "json"]
-UrdfVersion = Literal["1.0", "1.1", "1.2"]
-URDF_VERSIONS: tuple[UrdfVersion, ...] = get_args(UrdfVersion)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,6 +34,27 @@ class ConversionRequest:
     mends: frozenset[str] = frozenset()
     keep_physics: bool = False
     assets: Assets = field(default=NO_ASSETS, compare=False, repr=False)
+
+    @classmethod
+    def of(cls, to: Language, options: RequestOptions) -> "ConversionRequest":
+        """What these options ask for; one that is `None` is not given.
+
+        Raises:
+            PipelineError: `passes` is not a pipeline.
+            ValueError: SDF has no such version.
+        """
+        version = options.get("sdf_version")
+        return cls(
+            to=to,
+            sdf_version=None if version is None else known_sdf_version(version),
+            urdf_version=options.get("urdf_version"),
+            passes=_pipeline(options.get("passes")),
+            carriers=given(options.get("carriers"), usual=True),
+            model=options.get("model"),
+            expand_includes=options.get("expand_includes") or False,
+            comments=given(options.get("comments"), usual=True),
+            keep_physics=options.get("keep_physics") or False,
+        )
 
     def plan(self, source: Document) -> Pipeline:
         """Every pass that a conversion of this document runs, in order: the user's, then those of the target."""
@@ -66,3 +85,11 @@ class ConversionRequest:
         urdf = self.urdf_version or known.get(before or "", "1.0")
         back = (version if format_ is Format.SDF else urdf) == before and has_mixed_words(source)
         return Target(format_, version, urdf, self.carriers, self.model, back, self.mixed)
+
+
+def _pipeline(passes: str | Iterable[Pass] | None) -> Pipeline:
+    if not isinstance(passes, str):
+        return passes if isinstance(passes, Pipeline) else Pipeline(tuple(passes or ()))
+    from twinform.passes import parse_pipeline  # noqa: PLC0415 - most conversions have no passes of the user
+
+    return parse_pipeline(passes)

@@ -1,7 +1,6 @@
 """`twinform batch check`."""
 
 from pathlib import Path
-from typing import Any, cast
 
 import click
 
@@ -9,11 +8,13 @@ from twinform.cli.batch.models import ModelOptions, model_options, models
 from twinform.cli.batch.running import RunOptions, run_and_end, run_options
 from twinform.cli.command import Command
 from twinform.cli.completion import pipelines
+from twinform.cli.config.per_file import RuleSettings
 from twinform.cli.consumers import consumers_option
-from twinform.cli.inputs import InputOptions, load_options_of, reading_options
+from twinform.cli.inputs import load_options_of, reading_options
 from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.request import pipeline_option
 from twinform.compiler.batch import Batch, Check
+from twinform.compiler.input.options import ReadingOptions
 from twinform.passes import Pipeline
 from twinform.profiles import Profile
 
@@ -44,27 +45,26 @@ def command(
     *,
     check_passes: Pipeline,
     profiles: tuple[Profile, ...],
-    expand_includes: bool,
-    allow: tuple[str, ...],
-    deny: tuple[str, ...],
-    **rest: Any,
+    chosen: ModelOptions,
+    run: RunOptions,
+    rules: RuleSettings,
+    reading: ReadingOptions,
 ) -> None:
     """Find everything that is wrong with the models of a folder.
 
     SRC is a folder, a tar or zip archive, or - for a list of names on standard input. Models with errors are named;
     --report has all findings. Exit code: 0 without errors, 1 with errors, 2 where a file could not be read.
     """
-    options = cast("RunOptions", rest)
-    policy = policy_of(ctx, allow, deny)
-    job = Check(policy=policy, passes=check_passes, expand_includes=expand_includes)
-    with models(source, cast("ModelOptions", rest)) as found:
+    policy = policy_of(ctx, rules)
+    job = Check(policy=policy, passes=check_passes, expand_includes=reading.get("expand_includes") or False)
+    with models(source, chosen) as found:
         whole = Batch(
             source=found.folder,
             entries=found.entries,
             job=job,
-            load_options=load_options_of({}, cast("InputOptions", rest), policy, profiles),
-            shard=rest["shard"],
-            seconds=options["timeout"],
+            load_options=load_options_of({}, reading, policy, profiles),
+            shard=chosen["shard"],
+            seconds=run["timeout"],
             shown=found.shown,
         )
-        run_and_end(ctx, whole, options)
+        run_and_end(ctx, whole, run)

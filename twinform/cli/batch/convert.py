@@ -1,19 +1,22 @@
 """`twinform batch convert`."""
 
-from dataclasses import replace
 from pathlib import Path
-from typing import Any, Literal, cast
+from typing import Literal
 
 import click
 
 from twinform.cli.batch.models import ModelOptions, model_options, models
 from twinform.cli.batch.running import RunOptions, run_and_end, run_options
 from twinform.cli.command import Command
+from twinform.cli.config.per_file import RuleSettings
 from twinform.cli.consumers import consumers_option, keep_physics_option
 from twinform.cli.inputs import load_options_of, reading_options
 from twinform.cli.policy import policy_of, policy_options
-from twinform.cli.request import Asked, ordering_options, request_of
+from twinform.cli.request import request_options, whole_request
+from twinform.compiler import ConversionRequest
 from twinform.compiler.batch import Batch, Convert
+from twinform.compiler.input.options import ReadingOptions
+from twinform.compiler.request_options import RequestOptions
 from twinform.profiles import Profile
 
 EXAMPLES = {
@@ -29,7 +32,7 @@ EXAMPLES = {
 @click.option("--to", "target", type=click.Choice(["sdf", "urdf"]), required=True, help="The format.")
 @consumers_option
 @keep_physics_option
-@ordering_options
+@request_options
 @click.option(
     "--split", is_flag=True, help="Write each world into a folder: its models, and an SDF that includes them."
 )
@@ -57,9 +60,11 @@ def command(
     model_folders: bool,
     ledgers: bool,
     fresh: bool,
-    allow: tuple[str, ...],
-    deny: tuple[str, ...],
-    **rest: Any,
+    request: RequestOptions,
+    chosen: ModelOptions,
+    run: RunOptions,
+    rules: RuleSettings,
+    reading: ReadingOptions,
 ) -> None:
     """Compile every model of a folder.
 
@@ -68,23 +73,23 @@ def command(
     from, and its result are what they were. Exit code: 0 without errors, 1 with errors, 2 where a file could not be
     read or written, 130 after Ctrl-C.
     """
-    asked, options = cast("Asked", rest), cast("RunOptions", rest)
-    asked["sdf_version"] = asked["sdf_version"] if target == "sdf" else None
-    policy = policy_of(ctx, allow, deny)
-    request = replace(request_of(asked, target), keep_physics=keep_physics)
-    job = Convert(to=request, policy=policy, split=split, ledgers=ledgers, model_folders=model_folders)
-    with models(source, cast("ModelOptions", rest), dest) as found:
+    if target != "sdf":
+        request["sdf_version"] = None
+    policy = policy_of(ctx, rules)
+    wanted = ConversionRequest.of(target, whole_request(request, reading, keep_physics=keep_physics))
+    job = Convert(to=wanted, policy=policy, split=split, ledgers=ledgers, model_folders=model_folders)
+    with models(source, chosen, dest) as found:
         whole = Batch(
             source=found.folder,
             entries=found.entries,
             job=job,
-            load_options=load_options_of({}, asked, policy, profiles),
+            load_options=load_options_of({}, reading, policy, profiles),
             dest=dest,
-            shard=rest["shard"],
-            seconds=options["timeout"],
+            shard=chosen["shard"],
+            seconds=run["timeout"],
             fresh=fresh,
-            report=options["report"],
+            report=run["report"],
             shown=found.shown,
             contents=found.contents,
         )
-        run_and_end(ctx, whole, options)
+        run_and_end(ctx, whole, run)

@@ -10,6 +10,7 @@ from typing import Any, TypedDict, TypeVar
 import click
 
 from twinform.cli.failure import Unusable
+from twinform.cli.flags import group
 from twinform.compiler.batch import PATTERNS, Entry, FolderError, Shard, of_folder, of_names, with_arguments
 from twinform.compiler.batch.archives import is_archive, unpacked
 from twinform.file_access import Readable
@@ -18,7 +19,7 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 class ModelOptions(TypedDict):
-    """What these options give a command."""
+    """Which models a batch works on."""
 
     patterns: tuple[str, ...]
     names: Path | None
@@ -76,15 +77,12 @@ _OPTIONS = (
 )
 
 
-def model_options(command: Command) -> Command:
-    """Give a command the options that choose models."""
-    for option in reversed(_OPTIONS):
-        command = option(command)
-    return command
+model_options = group("chosen", ModelOptions, *_OPTIONS)
+"""Gives a command the options that choose models."""
 
 
 def pair_options(command: Command) -> Command:
-    """The same where each model is compared with another."""
+    """Give a command those of them that fit where each model is compared with another."""
     return _PATTERN(_SHARD(command))
 
 

@@ -5,12 +5,13 @@ from concurrent.futures import BrokenExecutor
 from contextlib import ExitStack, contextmanager
 from functools import partial
 from pathlib import Path
-from typing import Any, NoReturn, TypedDict, TypeVar
+from typing import NoReturn, TypedDict
 
 import click
 
 from twinform.cli.batch.progress import progress
 from twinform.cli.failure import UNUSABLE
+from twinform.cli.flags import group
 from twinform.cli.printing import print_document, print_line
 from twinform.compiler.batch import (
     Batch,
@@ -26,13 +27,12 @@ from twinform.compiler.batch import (
 from twinform.compiler.workers import Runner, process_runner
 from twinform.signals import raised_signals
 
-Command = TypeVar("Command", bound=Callable[..., Any])
 _INTERRUPTED = 130
 """The exit code of a program that is ended by Ctrl-C, as shells give it."""
 
 
 class RunOptions(TypedDict):
-    """What these options give a command."""
+    """How a batch is run."""
 
     jobs: int | None
     timeout: float
@@ -66,11 +66,8 @@ _OPTIONS = (
 )
 
 
-def run_options(command: Command) -> Command:
-    """Give a command the options of how a batch is run."""
-    for option in reversed(_OPTIONS):
-        command = option(command)
-    return command
+run_options = group("run", RunOptions, *_OPTIONS)
+"""Gives a command the options of how a batch is run."""
 
 
 def run_and_end(ctx: click.Context, asked: Batch, options: RunOptions) -> NoReturn:

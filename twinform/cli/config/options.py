@@ -18,18 +18,6 @@ if TYPE_CHECKING:
 Command = TypeVar("Command", bound=Callable[..., Any])
 _KEY = f"{__name__}.project"
 _TRUSTED = f"{__name__}.trusted"
-_DEFAULTS = (
-    "sdf_version",
-    "urdf_version",
-    "strict",
-    "carriers",
-    "read_carriers",
-    "passes",
-    "check_passes",
-    "max_size",
-    "max_tags",
-)
-"""Settings that are what an option is where the command line has none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,6 +213,4 @@ def _load(ctx: click.Context, _option: click.Parameter, value: Path | None) -> N
         per_file=_per_file(path, settings),
         env=settings.env,
     )
-    given = {name: getattr(settings, name) for name in _DEFAULTS} | dict(settings.format)
-    given["profiles"] = ",".join(settings.profiles) or None
-    ctx.default_map = {name: value for name, value in given.items() if value is not None}
+    ctx.default_map = dict(settings.defaults)

@@ -41,7 +41,7 @@ def _settings(project: ProjectSettings, own: OwnSettings) -> Settings:
         policy = Policy((policy.allow - {*deny}) | {*allow}, (policy.deny - {*allow}) | {*deny})
     load_options = replace(
         usual.load_options,
-        strict=bool(project.strict if own.strict is None else own.strict),
+        strict=bool(project.defaults.get("strict") if own.strict is None else own.strict),
         search=SearchPath.of(project.paths),
         arguments=own.arguments,
         allow=policy.allow,

@@ -3,17 +3,17 @@
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, ForwardRef, Literal, get_args
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, create_model, field_validator
 
 from twinform.cli.config.errors import ConfigError
 from twinform.cli.config.files import Table
-from twinform.compiler.input.limits import parse_size
+from twinform.compiler.input.options import FileOptions
+from twinform.compiler.options import Option, declared_options
+from twinform.compiler.request_options import RequestOptions
 from twinform.passes.framework.options import nearest
-from twinform.schemas import versions_of
 
-UrdfVersion = Literal["1.0", "1.1", "1.2"]
 _MOST = 1000
 """Folders, patterns, names of rules and tables of files that a configuration may list."""
 Texts = Annotated[list[str], Field(max_length=_MOST)]
@@ -45,20 +45,30 @@ class FileSettings(BaseModel):
     deny: Texts = Field(default_factory=list[str])
 
 
-class Settings(BaseModel):
+def _type_of(kind: Any, option: Option) -> Any:
+    """The type of an option in a configuration, where a text may stand for what is parsed of one, and for passes."""
+    parse, (kind, *_) = option.parse, get_args(kind) if type(None) in get_args(kind) else (kind,)
+    if kind is int:
+        kind = int | str if parse else Annotated[int, Field(gt=0)]
+    elif isinstance(kind, ForwardRef):
+        kind = str
+    return Annotated[kind, AfterValidator(lambda value: parse(str(value)))] if parse else kind
+
+
+_declared = {**declared_options(FileOptions), **declared_options(RequestOptions)}
+_fields: dict[str, Any] = {
+    name: (_type_of(kind, option) | None, None) for name, (kind, option) in _declared.items() if option.setting
+}
+_OptionSettings: type[BaseModel] = create_model("_OptionSettings", __config__=_CONFIG, **_fields)
+
+
+class Settings(_OptionSettings):
     """The settings of a project; `None` where nothing is set. Paths are relative to the folder of the file."""
 
     model_config = _CONFIG
 
-    sdf_version: str | None = None
-    urdf_version: UrdfVersion | None = None
-    strict: bool | None = None
-    carriers: bool | None = None
     read_carriers: bool | None = None
-    passes: str | None = None
     check_passes: str | None = None
-    max_size: int | str | None = None
-    max_tags: int | None = Field(default=None, gt=0)
     paths: Texts = Field(default_factory=list[str])
     env: Texts = Field(default_factory=list[str])
     allow: Texts = Field(default_factory=list[str])
@@ -83,18 +93,13 @@ class Settings(BaseModel):
                 raise ValueError(str(error)) from error
         return names
 
-    @field_validator("sdf_version")
-    @classmethod
-    def _exists(cls, version: str | None) -> str | None:
-        versions = versions_of("sdf")
-        if version is not None and version not in versions:
-            raise ValueError(f"SDF has no version {version!r}; it has {', '.join(versions)}")
-        return version
-
-    @field_validator("max_size")
-    @classmethod
-    def _bytes(cls, size: int | str | None) -> int | None:
-        return size if size is None else parse_size(str(size))
+    @property
+    def defaults(self) -> Mapping[str, object]:
+        """What options are where the command line has none, by the names that they have there."""
+        names = (*_fields, "read_carriers", "check_passes")
+        given = {name: getattr(self, name) for name in names} | dict(self.format)
+        given["profiles"] = ",".join(self.profiles) or None
+        return {name: value for name, value in given.items() if value is not None}
 
 
 def parse_settings(path: Path, found: Table) -> Settings:

@@ -8,7 +8,8 @@ from typing import NamedTuple
 from twinform.compiler.driver import run_conversion
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.options import Input, LoadOptions, LoadResult
-from twinform.compiler.request import ConversionRequest, Language
+from twinform.compiler.request import ConversionRequest
+from twinform.compiler.request_options import Language
 from twinform.diagnostics import Diagnostic, Entry, Fate, rules
 from twinform.ir import Document, Format
 

@@ -1,7 +1,7 @@
 """Do two files describe the same robot?"""
 
 from collections.abc import Iterable, Iterator, Mapping
-from pathlib import Path
+from typing import Unpack
 
 from twinform.compiler.compare.canonical_sdf import Robots, read_robots
 from twinform.compiler.compare.compare_robots import compare_robots
@@ -11,10 +11,9 @@ from twinform.compiler.compare.readers import Reader, reconcile
 from twinform.compiler.compare.robot import Robot
 from twinform.compiler.compare.surroundings import compare_surroundings
 from twinform.compiler.errors import CompileError
-from twinform.compiler.input.limits import LARGEST, MOST_TAGS, Limits
 from twinform.compiler.input.loading import Input, LoadOptions, garbage_collection_paused, name_of_input
-from twinform.compiler.search.uris import SearchPath
-from twinform.schemas import Engine
+from twinform.compiler.input.options import FileOptions
+from twinform.compiler.options import require_options
 
 
 def diff(
@@ -24,24 +23,20 @@ def diff(
     model: str | None = None,
     tolerance: float = TOLERANCE,
     carriers: bool = False,
-    strict: bool = False,
-    engine: Engine = "libxml2",
-    paths: Iterable[str | Path] = (),
-    arguments: Mapping[str, str] | None = None,
-    xacro: bool | None = None,
-    max_size: int = LARGEST,
-    max_tags: int = MOST_TAGS,
+    **options: Unpack[FileOptions],
 ) -> Comparison:
     """Compare the robots in two files or documents, of either format; `model` names one where a file has several.
 
     Without it the models of two worlds are compared by their names. What only a carrier or `<gazebo>` says is
-    `carried`; with `carriers` it counts as if it were written where every reader looks. `paths`, `arguments`, `xacro`,
-    `max_size` and `max_tags` are those of `check`; includes are always expanded.
+    `carried`; with `carriers` it counts as if it were written where every reader looks. The other
+    options are those of `check`; includes are always expanded.
 
     Raises:
         CompileError: a file has an error; what was found is in its diagnostics.
+        TypeError: there is no such option.
     """
-    load_options = LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, xacro, Limits(max_size, max_tags))
+    require_options(options, FileOptions)
+    load_options = LoadOptions.of(options)
     return compare_files(a, b, load_options, ComparisonOptions(tolerance, carriers), model=model)
 
 

@@ -3,19 +3,28 @@
 import gc
 import re
 from collections import defaultdict
-from collections.abc import Callable, Generator, Iterable, Mapping
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from dataclasses import replace
 from itertools import count
 from pathlib import Path
+from typing import Unpack
 
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input import sdf, urdf
 from twinform.compiler.input.allowances import Allowances, content_of
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.gazebo_extensions import check_extensions
-from twinform.compiler.input.limits import LARGEST, LIFTED_LIMITS, MOST_TAGS, USUAL_LIMITS, Limits, excess_of_json
-from twinform.compiler.input.options import Input, LoadOptions, LoadResult, expanded_name, name_of_input, parts_of
+from twinform.compiler.input.limits import LIFTED_LIMITS, USUAL_LIMITS, Limits, excess_of_json
+from twinform.compiler.input.options import (
+    FileOptions,
+    Input,
+    LoadOptions,
+    LoadResult,
+    expanded_name,
+    name_of_input,
+    parts_of,
+)
 from twinform.compiler.input.parser_quirks import has_comment_after_text, report_split_values, report_tabbed_numbers
 from twinform.compiler.input.parsing import (
     UnreadableError,
@@ -26,14 +35,13 @@ from twinform.compiler.input.parsing import (
 )
 from twinform.compiler.input.unexpanded_xacro import report_unexpanded
 from twinform.compiler.input.used_up_tree import LARGE, used_up
-from twinform.compiler.search.uris import SearchPath
+from twinform.compiler.options import require_options
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format
 from twinform.ir.sourced import amend
 from twinform.ir.verify import verify
 from twinform.schemas import (
     Context,
-    Engine,
     Version,
     XmlElement,
     declared_namespaces,
@@ -184,41 +192,27 @@ def _check_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) ->
     return replace(loaded, path=sink.file, diagnostics=tuple(sink.diagnostics), origins=sink.origins, allowed=allowed)
 
 
-def load(
-    source: str | Path,
-    *,
-    strict: bool = False,
-    engine: Engine = "libxml2",
-    paths: Iterable[str | Path] = (),
-    arguments: Mapping[str, str] | None = None,
-    max_size: int = LARGEST,
-    max_tags: int = MOST_TAGS,
-) -> Document:
-    """The document of a file; `paths`, `arguments`, `max_size` and `max_tags` are those of `check`.
+def load(source: str | Path, **options: Unpack[FileOptions]) -> Document:
+    """The document of a file; `options` are those of `check`.
 
     Raises:
         CompileError: the file has an error; what was found is in its diagnostics.
+        TypeError: there is no such option.
     """
-    limits = Limits(max_size, max_tags)
-    return _document(read(source, LoadOptions(strict, engine, SearchPath.of(paths), arguments or {}, None, limits)))
+    require_options(options, FileOptions)
+    return _document(read(source, LoadOptions.of(options)))
 
 
-def loads(
-    text: str | bytes,
-    name: str = "<string>",
-    *,
-    strict: bool = False,
-    engine: Engine = "libxml2",
-    max_size: int = LARGEST,
-    max_tags: int = MOST_TAGS,
-) -> Document:
+def loads(text: str | bytes, name: str = "<string>", **options: Unpack[FileOptions]) -> Document:
     """The document of a text; `name` stands for the file in diagnostics.
 
     Raises:
         CompileError: the text has an error; what was found is in its diagnostics.
+        TypeError: there is no such option.
     """
+    require_options(options, FileOptions)
     data = text.encode() if isinstance(text, str) else text
-    return _document(read(data, LoadOptions(strict, engine, limits=Limits(max_size, max_tags)), name=name))
+    return _document(read(data, LoadOptions.of(options), name=name))
 
 
 def _document(loaded: LoadResult) -> Document:

@@ -3,10 +3,11 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated, TypedDict
 
 from twinform.compiler.input.allowances import Allowances
-from twinform.compiler.input.limits import USUAL_LIMITS, Limits
+from twinform.compiler.input.limits import LARGEST, MOST_TAGS, USUAL_LIMITS, Limits, parse_size
+from twinform.compiler.options import Option, given
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Entry, Origins
 from twinform.ir import Document, count_parts
@@ -17,6 +18,68 @@ if TYPE_CHECKING:
 
 Input = str | Path | bytes | Document
 """What is read: the path of a file, the bytes of one, or a document that was read or made."""
+
+
+class FileOptions(TypedDict, total=False):
+    """How a file is read. `arguments` are those of xacro."""
+
+    strict: Annotated[bool, Option(help="Refuse what readers ignore, such as unknown names.", setting=True)]
+    engine: Annotated[Engine, Option(help="The XSD validator; xmlschema is the slow reference.")]
+    paths: Annotated[
+        Iterable[str | Path],
+        Option(
+            help="A folder of models or packages, looked in before those that the environment names; repeatable.",
+            flag="--path",
+            metavar="DIR",
+        ),
+    ]
+    env: Annotated[
+        Iterable[str],
+        Option(
+            help="An environment variable that xacro files may read besides those of ROS and Gazebo; * fits any "
+            "letters.",
+            metavar="NAME",
+        ),
+    ]
+    xacro: Annotated[
+        bool | None,
+        Option(help="Expand all files, or none; by default those called .xacro. It evaluates expressions in them."),
+    ]
+    max_size: Annotated[
+        int,
+        Option(
+            help="The largest file that is read, such as 200MB or 1GiB; by default 64MiB.",
+            metavar="SIZE",
+            parse=parse_size,
+            most=LARGEST,
+            setting=True,
+        ),
+    ]
+    max_tags: Annotated[
+        int,
+        Option(
+            help=f"The most tags of a file, or parts of a JSON document; by default {MOST_TAGS:,}.",
+            metavar="N",
+            most=MOST_TAGS,
+            setting=True,
+        ),
+    ]
+    arguments: Mapping[str, str]
+
+
+class ReadingOptions(FileOptions, total=False):
+    """How a file is read, and whether those that it includes are."""
+
+    expand_includes: Annotated[
+        bool, Option(help="Read the files that includes name, and put them in their place.", switch=True)
+    ]
+
+
+class CheckOptions(ReadingOptions, total=False):
+    """How a file is read, the rules that are not reported, and the consumers of the model, or their names."""
+
+    allow: Iterable[str]
+    profiles: "str | Iterable[Profile]"
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +108,34 @@ class LoadOptions:
     variables: tuple[str, ...] = ()
     sdf_version: str = DEFAULT_SDF_VERSION
 
+    @classmethod
+    def of(
+        cls,
+        options: FileOptions,
+        *,
+        allow: Iterable[str] = (),
+        profiles: "str | Iterable[Profile]" = (),
+        tolerant: bool = False,
+    ) -> "LoadOptions":
+        """What these options ask for; one that is `None` is not given.
+
+        Raises:
+            UnknownProfileError: there is no such consumer.
+            ValueError: a limit is no positive whole number.
+        """
+        return cls(
+            options.get("strict") or False,
+            options.get("engine") or "libxml2",
+            SearchPath.of(options.get("paths") or ()),
+            options.get("arguments") or {},
+            options.get("xacro"),
+            Limits(given(options.get("max_size"), LARGEST), given(options.get("max_tags"), MOST_TAGS)),
+            allow=frozenset(allow),
+            tolerant=tolerant,
+            profiles=profiles_of(profiles),
+            variables=tuple(options.get("env") or ()),
+        )
+
     def read_by(self, sdf_version: str | None) -> "LoadOptions":
         """The options for files that a reader of this version of SDF reads; the same ones where none is asked for."""
         return self if sdf_version is None else replace(self, sdf_version=sdf_version)
@@ -52,6 +143,12 @@ class LoadOptions:
     def allowances(self, file: str, origins: Mapping[str, Origins] | None = None) -> Allowances:
         """What may be left out of the findings about a file."""
         return Allowances(file, self.allow, self.limits, self.tolerant, origins or {})
+
+
+def checking_options(options: CheckOptions) -> LoadOptions:
+    """How a file is read whose errors may be allowed."""
+    allow, profiles = options.get("allow", ()), options.get("profiles", ())
+    return LoadOptions.of(options, allow=allow, profiles=profiles, tolerant=True)
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,8 @@ from twinform.compiler.packaging.collecting import Collection, UncollectedError
 from twinform.compiler.packaging.layout import Layout
 from twinform.compiler.packaging.made_files import MadeFiles
 from twinform.compiler.packaging.package import Package
-from twinform.compiler.request import ConversionRequest, Language
+from twinform.compiler.request import ConversionRequest
+from twinform.compiler.request_options import Language
 from twinform.diagnostics import Diagnostic, Ledger, Location, Severity
 from twinform.diagnostics.rules import UNPACKAGED_FILE
 from twinform.passes import PassInstrumentation, Pipeline

@@ -1,0 +1,55 @@
+"""The options on what a file becomes: format, version, passes, and what goes along."""
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Annotated, Literal, TypedDict, get_args
+
+from twinform.compiler.options import Option
+from twinform.schemas import versions_of
+
+if TYPE_CHECKING:
+    from twinform.passes import Pass
+
+Language = Literal["sdf", "urdf", "json"]
+UrdfVersion = Literal["1.0", "1.1", "1.2"]
+URDF_VERSIONS: tuple[UrdfVersion, ...] = get_args(UrdfVersion)
+
+
+def known_sdf_version(version: str) -> str:
+    """The version.
+
+    Raises:
+        ValueError: SDF has no such version.
+    """
+    versions = versions_of("sdf")
+    if version not in versions:
+        raise ValueError(f"SDF has no version {version!r}; it has {', '.join(versions)}")
+    return version
+
+
+class RequestOptions(TypedDict, total=False):
+    """What a file becomes. `model` is the one that is meant of several; `keep_physics` is for the consumers' passes."""
+
+    sdf_version: Annotated[
+        str | None,
+        Option(
+            help="The version of SDF to write.",
+            metavar="V",
+            parse=known_sdf_version,
+            known=lambda: versions_of("sdf"),
+            setting=True,
+        ),
+    ]
+    urdf_version: Annotated[UrdfVersion | None, Option(help="The version of URDF to write.", setting=True)]
+    passes: Annotated[
+        "str | Iterable[Pass] | None",
+        Option(
+            help="Passes to run, such as 'check-inertia', or @NAME for one that the configuration names.",
+            metavar="PIPELINE",
+            setting=True,
+        ),
+    ]
+    carriers: Annotated[bool, Option(help="Whether to keep what the target lacks in elements of tf:.", setting=True)]
+    comments: Annotated[bool, Option(help="Whether comments of the source go along.")]
+    expand_includes: bool
+    model: str | None
+    keep_physics: bool
