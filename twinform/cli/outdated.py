@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
@@ -11,14 +10,11 @@ from twinform.cli.printing import print_line
 from twinform.file_access import Readable
 from twinform.text.line_diff import line_diff
 
-if TYPE_CHECKING:
-    from twinform.cli.outputs import Output
-
 _MOST_LINES = 400
 """Lines of a difference that are printed."""
 
 
-def report_outdated(texts: "Sequence[tuple[Output, str | bytes]]", *, to_stdout: bool) -> int:
+def report_outdated(texts: Sequence[tuple[Path, str | bytes]], *, to_stdout: bool) -> int:
     """Print how files differ from these texts; gives the exit code.
 
     Raises:
@@ -27,7 +23,7 @@ def report_outdated(texts: "Sequence[tuple[Output, str | bytes]]", *, to_stdout:
     """
     if to_stdout:
         raise click.UsageError("--check compares files: name one with -o")
-    outdated = [output.path for output, text in texts if _differs(output.path, text)]
+    outdated = [path for path, text in texts if _differs(path, text)]
     for path in outdated:
         why = "is not what it is made to be" if path.exists() else "is not there"
         print_line(f"{path} {why}; run the command without --check", err=True)

@@ -111,7 +111,9 @@ class Outputs:
         if self.check:
             from twinform.cli.outdated import report_outdated  # noqa: PLC0415 - most runs write
 
-            return report_outdated(self.texts, to_stdout=self.stdout is not None)
+            return report_outdated(
+                [(output.path, text) for output, text in self.texts], to_stdout=self.stdout is not None
+            )
         try:
             write_all_atomically({output.path: text for output, text in self.texts}, self._print)
         except OSError as error:

@@ -5,7 +5,7 @@ from inspect import Parameter, Signature
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from twinform.ir.sourced import Sourced
+    from pydantic import BaseModel
 
 
 class FieldSignature:
@@ -14,13 +14,13 @@ class FieldSignature:
     Pydantic knows it when it has built a class, which ours put off until they have to validate something.
     """
 
-    def __get__(self, instance: "Sourced | None", owner: "type[Sourced]") -> Signature:
+    def __get__(self, instance: "BaseModel | None", owner: "type[BaseModel]") -> Signature:
         if instance is not None:
             raise AttributeError("__signature__")
         return Signature([*_parameters(owner)])
 
 
-def _parameters(kind: "type[Sourced]") -> Iterator[Parameter]:
+def _parameters(kind: "type[BaseModel]") -> Iterator[Parameter]:
     """What people write; where a part was read from, nobody does."""
     for name, field in kind.model_fields.items():
         if not field.exclude:

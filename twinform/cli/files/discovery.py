@@ -53,7 +53,10 @@ def _is_unwanted(word: str, exclusion: Exclusion, kind: Kind) -> bool:
 
 
 def _is_excluded(word: str, exclusion: Exclusion, *, is_folder: bool = False) -> bool:
-    return exclusion.compiled().match(os.path.abspath(word), is_folder=is_folder)  # noqa: PTH100 - links stay links
+    from twinform.cli.files.patterns import PathPatterns  # noqa: PLC0415 - most runs enforce no exclusion
+
+    patterns = PathPatterns.of(exclusion.folder, exclusion.patterns)
+    return patterns.match(os.path.abspath(word), is_folder=is_folder)  # noqa: PTH100 - links stay links
 
 
 def _below(folder: str, exclusion: Exclusion, kind: Kind) -> list[str]:

@@ -3,10 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from twinform.cli.files.patterns import PathPatterns
 
 DEFAULT_EXCLUDE = ("build/", "install/", "log/", "node_modules/", "venv/", "site-packages/", "__pycache__/")
 """What is left out where the project says nothing: what tools make. Hidden files and folders are left out as well."""
@@ -26,13 +22,3 @@ class Exclusion:
     patterns: Sequence[str] = DEFAULT_EXCLUDE
     folder: Path = Path()
     force: bool = False
-
-    def compiled(self, folder: Path | None = None) -> "PathPatterns":
-        """The patterns, relative to another folder if one is given.
-
-        Raises:
-            PatternError: one is no pattern.
-        """
-        from twinform.cli.files.patterns import PathPatterns  # noqa: PLC0415 - most runs name their files
-
-        return PathPatterns.of(folder or self.folder, self.patterns)

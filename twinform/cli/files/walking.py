@@ -26,10 +26,11 @@ class Walk:
     excluded: PathPatterns = field(init=False)
 
     def __post_init__(self) -> None:
-        self.excluded = self.exclusion.compiled()
+        self.excluded = PathPatterns.of(self.exclusion.folder, self.exclusion.patterns)
         here = os.path.abspath(self.top)  # noqa: PTH100 - links stay links
         if not self.excluded.is_around(here) or self.excluded.match(here, is_folder=True):
-            self.excluded = self.exclusion.compiled(Path(self.top))  # it was named, so only what is in it is excluded
+            # it was named, so only what is in it is excluded
+            self.excluded = PathPatterns.of(self.top, self.exclusion.patterns)
 
     def run(self) -> Iterator[str]:
         """The files in any order; links to folders are not followed, so that no way leads in a circle."""
