@@ -58,6 +58,7 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.profiles.page docs/reference/profiles.md
 	$(BIN)/python -m twinform.compiler.compare.page docs/reference/not_compared.md
 	$(BIN)/python -m twinform.cli.pages docs/reference/commands.md
+	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md
 	$(BIN)/python -m twinform.server.mapping.pages urdf docs/reference/urdf.md
 	$(BIN)/python -m twinform.server.mapping.pages sdf docs/reference/sdf.md
 	$(BIN)/python -m reports libsdformat_codes
@@ -80,6 +81,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.profiles.page docs/reference/profiles.md --check
 	$(BIN)/python -m twinform.compiler.compare.page docs/reference/not_compared.md --check
 	$(BIN)/python -m twinform.cli.pages docs/reference/commands.md --check
+	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md --check
 	$(BIN)/python -m twinform.server.mapping.pages urdf docs/reference/urdf.md --check
 	$(BIN)/python -m twinform.server.mapping.pages sdf docs/reference/sdf.md --check
 	$(BIN)/python -m reports libsdformat_codes --check

@@ -1,0 +1,46 @@
+"""The page of the options: `python -m twinform.compiler.options_page FILE [--check]` writes or checks it."""
+
+import sys
+
+from twinform.compiler.driver import ConversionOptions
+from twinform.compiler.input.options import FileOptions, ReadingOptions
+from twinform.compiler.options import Option, declared_options
+from twinform.compiler.request_options import RequestOptions
+from twinform.diagnostics.generated_files import main
+
+_INTRODUCTION = """\
+# Options
+
+What the functions of Python take as keywords, and the command line as flags: `load`, `loads`, `check`, `diff` and
+`convert` those of files, `convert` and `plan` those of conversions. A setting may stand in `twinform.toml`, with `-`
+for `_`. This file is made by `python -m twinform.compiler.options_page docs/reference/options.md`; do not edit it.
+
+| keyword | of | flag | setting | |
+| --- | --- | --- | --- | --- |
+"""
+_OTHERS = {
+    "arguments": Option(help="The arguments of xacro files, by their names.", flag="NAME:=VALUE"),
+    "allow": Option(help="The rules whose findings are left out.", setting=True),
+    "profiles": Option(help="The consumers of the model, or their names with commas between.", flag="--for"),
+    "model": Option(help="The model that is meant, where a file has several."),
+    "keep_physics": Option(help="Refuse passes for consumers that change masses, inertias, joints or limits."),
+}
+"""Options that commands declare themselves, each in its own way."""
+_OF = {"files": FileOptions, "conversions": RequestOptions}
+
+
+def options_page() -> str:
+    """All options in Markdown."""
+    declared = {**declared_options(ReadingOptions), **declared_options(RequestOptions)}
+    known = {name: option for name, (_, option) in declared.items()} | _OTHERS
+    return _INTRODUCTION + "".join(_row(name, known[name]) for name in ConversionOptions.__annotations__)
+
+
+def _row(name: str, option: Option) -> str:
+    of = next((word for word, options in _OF.items() if name in options.__annotations__), "checks")
+    flag = option.flag or f"--{name.replace('_', '-')}"
+    return f"| `{name}` | {of} | `{flag}` | {'yes' if option.setting else ''} | {option.help} |\n"
+
+
+if __name__ == "__main__":
+    sys.exit(main(options_page(), sys.argv[1:]))
