@@ -3,8 +3,9 @@
 from typing import cast
 
 from twinform.ir import Element, Node, Opaque
+from twinform.ir.sourced import NOT_CONTENT
 
-_UNSEEN = frozenset({"source", "spelling", "namespaces"})
+_UNSEEN = NOT_CONTENT | {"namespaces"}
 _MOST = 60
 
 

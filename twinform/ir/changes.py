@@ -11,9 +11,8 @@ from enum import StrEnum
 from typing import NamedTuple, TypeVar, cast
 
 from twinform.ir.node import Node
-from twinform.ir.sourced import Sourced
+from twinform.ir.sourced import NOT_CONTENT, Sourced
 
-_ABOUT = frozenset({"source", "spelling"})
 _NAMES = ("name", "reference", "uri")
 """Fields that tell nodes of one kind apart, the best first."""
 Part = TypeVar("Part", bound=Sourced)
@@ -56,7 +55,7 @@ def _inside(old: Node, new: Node, path: str) -> Iterator[Change]:
         return
     for name, before in old.__dict__.items():
         after = new.__dict__[name]
-        if before is not after and name not in _ABOUT:
+        if before is not after and name not in NOT_CONTENT:
             yield from _field(before, after, path, f"{path}/{name}")
 
 
@@ -83,7 +82,7 @@ def _whole(how: ChangeKind, part: object, path: str) -> Iterator[Change]:
         return
     yield Change(how, path, path)
     for name, value in part.__dict__.items():
-        if name in _ABOUT or value is None or value == ():
+        if name in NOT_CONTENT or value is None or value == ():
             continue
         inner = f"{path}/{name}"
         if isinstance(value, Node):

@@ -13,7 +13,8 @@ from twinform.ir.signature import FieldSignature
 Values = ParamSpec("Values")
 AnyPart = TypeVar("AnyPart", bound="Sourced")
 
-_UNSEEN = frozenset({"source", "spelling"})
+NOT_CONTENT = frozenset({"source", "spelling"})
+"""Fields of parts that say how the file was written, and nothing of the robot: they take no part in comparisons."""
 
 
 class Sourced(BaseModel):
@@ -61,10 +62,10 @@ class Sourced(BaseModel):
         if self.__class__ is not other.__class__:
             return NotImplemented
         mine, theirs = self.__dict__, other.__dict__
-        return all(value == theirs[name] for name, value in mine.items() if name not in _UNSEEN)
+        return all(value == theirs[name] for name, value in mine.items() if name not in NOT_CONTENT)
 
     def __hash__(self) -> int:
-        return hash((self.__class__, *(value for name, value in self.__dict__.items() if name not in _UNSEEN)))
+        return hash((self.__class__, *(value for name, value in self.__dict__.items() if name not in NOT_CONTENT)))
 
 
 _new = object.__new__

@@ -6,8 +6,9 @@ from typing import Any, Self, get_args
 
 from twinform.ir.element import Element, Opaque
 from twinform.ir.node import Node
+from twinform.ir.sourced import NOT_CONTENT
 
-_ABOUT = frozenset({"source", "spelling", "namespaces", "format", "kind", "version"})
+_ABOUT = NOT_CONTENT | {"namespaces", "format", "kind", "version"}
 
 
 @cache

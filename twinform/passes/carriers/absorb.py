@@ -8,6 +8,7 @@ from pydantic import ValidationError
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Model, Node, Opaque
+from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.definitions import definition_of, is_repeated
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.schemas import Context, Version, XmlElement, element_xml, reader
@@ -16,7 +17,6 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 _REQUIRED = frozenset({"name", "type", "format", "version", "kind"})
 """Fields that a node cannot be made without; where a piece sets them, its class has them here."""
-_ABOUT = frozenset({"source", "spelling"})
 
 
 class CarrierError(Exception):
@@ -109,7 +109,7 @@ def _merged(node: AnyNode, data: Mapping[str, Any], index: int | None = None) ->
     except ValidationError as error:
         raise CarrierError(error.errors(include_url=False)[0]["msg"]) from error
     update: dict[str, object] = {
-        name: _merged_value(node, name, getattr(read, name), index) for name in data if name not in _ABOUT
+        name: _merged_value(node, name, getattr(read, name), index) for name in data if name not in NOT_CONTENT
     }
     if read.spelling:
         update["spelling"] = {**(node.spelling or {}), **read.spelling}

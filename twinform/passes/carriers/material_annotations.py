@@ -10,6 +10,7 @@
 from collections.abc import Iterable
 
 from twinform.ir import Link, Visual
+from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
 
 COLORS = "colors"
@@ -18,12 +19,10 @@ MATERIAL = "material"
 SHARED_MATERIAL = "shared-material"
 LOOK = "look"
 
-_ABOUT = frozenset({"source", "spelling"})
-
 
 def with_look(link: Link, fields: Iterable[str]) -> Link:
     """The link with an annotation on the material fields that one extension sets in all visuals."""
-    names = dict.fromkeys((*look_of(link), *(field for field in fields if field not in _ABOUT)))
+    names = dict.fromkeys((*look_of(link), *(field for field in fields if field not in NOT_CONTENT)))
     return with_annotation(without_annotation(link, LOOK), LOOK, " ".join(names))
 
 

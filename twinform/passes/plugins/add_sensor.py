@@ -9,6 +9,7 @@ from pydantic import Field, model_validator
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor, replace_node
 from twinform.ir.frames import WORLD
+from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.plugins.catalog import releases, sensor
 from twinform.passes.plugins.editing import add_sensor
 from twinform.passes.plugins.parts import SensorKind
@@ -226,4 +227,4 @@ def _collisions(holder: Link | Joint, format_: Format) -> Iterator[str]:
 
 
 def _plain(node: Sensor) -> object:
-    return node.model_dump(exclude={"source", "spelling"}, exclude_defaults=True)
+    return node.model_dump(exclude=set(NOT_CONTENT), exclude_defaults=True)

@@ -3,11 +3,11 @@
 from typing import TypeVar
 
 from twinform.ir import Element, Node, Opaque, node_fields, rewrite
+from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.removal import without_parts
 from twinform.passes.carriers.sdf_versions import carried, is_version_carrier
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-_ABOUT = frozenset({"source", "spelling"})
 
 
 def without_carriers(node: AnyNode) -> AnyNode:
@@ -33,7 +33,7 @@ def _is_empty(value: object) -> bool:
     if not isinstance(value, Node):
         return False
     fields = type(value).model_fields
-    return all(getattr(value, name) == field.default for name, field in fields.items() if name not in _ABOUT)
+    return all(getattr(value, name) == field.default for name, field in fields.items() if name not in NOT_CONTENT)
 
 
 def _place(part: Opaque) -> tuple[str, ...]:

@@ -6,11 +6,12 @@ from typing import cast
 
 from twinform.diagnostics import NOWHERE, Location
 from twinform.ir import Element, Node, Opaque, count_parts
+from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.definitions import definition_of
 from twinform.passes.carriers.sdf_versions import VersionCondition
 
-_ABOUT = frozenset({"source", "spelling", "name", "type", "kind", "format", "version", "namespaces"})
+_ABOUT = NOT_CONTENT | {"name", "type", "kind", "format", "version", "namespaces"}
 _IDENTITY = frozenset({"name", "type", "version"})
 
 

@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from typing import Any, TypeVar
 
 from twinform.ir import Element, Node, Opaque
+from twinform.ir.sourced import NOT_CONTENT
 from twinform.ir.tree import node_fields
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
-_ABOUT = frozenset({"source", "spelling"})
 _WHOLE = frozenset({"inertial", "geometry", "pose", "surface"})
 """What makes sense only as it was written."""
 _ONCE = frozenset({"physics"})
@@ -21,7 +21,7 @@ def merge(mine: AnyNode, fields: Mapping[str, Any], conflicts: list[str], *, rep
     lists = node_fields(type(mine))
     for field, value in fields.items():
         old = mine.__dict__.get(field)
-        if field in _ABOUT:
+        if field in NOT_CONTENT:
             continue
         if field == "opaque":
             update[field] = _join(mine.opaque, value)

@@ -18,6 +18,7 @@ from twinform.ir import (
     census_of,
     map_children,
 )
+from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, is_memory, unpack
@@ -32,7 +33,7 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 _HAVING = bits_of_ours("sdf", COLORS, SCRIPTS)
 _ENDS = frozenset({"lower", "upper"})
-_ABOUT = frozenset({"opaque", "source", "spelling"})
+_ABOUT = NOT_CONTENT | {"opaque"}
 """Fields in which a node has nothing of its own, or one thing beside others."""
 
 

@@ -5,6 +5,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import rules
 from twinform.ir import Joint, Limit, Link, Model, Opaque
+from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.annotations import SYNTHESIZED, is_synthesized, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.legalise.to_sdf.planar import planar_chain, planar_names
@@ -13,7 +14,7 @@ from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 AnyPart = TypeVar("AnyPart", Joint, Link)
 
 _SLIDES = 2
-_BESIDE = frozenset({"type", "opaque", "source", "spelling"})
+_BESIDE = NOT_CONTENT | {"type", "opaque"}
 """Fields in which the parts of a chain that is as it was made may differ; their types are looked at before."""
 
 

@@ -4,6 +4,7 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import UNSHARED_SURFACE
 from twinform.ir import Collision, Element, GazeboExtension, Link, Model, Surface
+from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.schemas import format_value
@@ -17,7 +18,7 @@ _TAGS = {
     "max_vel": "maxVel",
     "min_depth": "minDepth",
 }
-_NOT_FIELDS = frozenset({"source", "spelling", "opaque"})
+_NOT_FIELDS = NOT_CONTENT | {"opaque"}
 _FIELDS = ("surface", "max_contacts", "laser_retro")
 
 

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import NamedTuple, TypeVar, Union
 
 from twinform.ir import Element, Node, Opaque
+from twinform.ir.sourced import NOT_CONTENT
 from twinform.ir.tree import classes_in
 from twinform.passes.carriers.carriers import is_ours, to_element
 from twinform.passes.legalise.to_urdf.base import UrdfVersion
@@ -35,8 +36,9 @@ class _Questions(NamedTuple):
 
 
 _IDENTITY = frozenset({"name", "type", "kind"})
-_ABOUT = frozenset({"source", "spelling", "opaque"})
+_ABOUT = NOT_CONTENT | {"opaque"}
 _APART = _IDENTITY | _ABOUT
+_EVEN_IF_EMPTY = NOT_CONTENT | {"kind"}
 _NONE: tuple[()] = ()
 """There is only one empty tuple."""
 
@@ -193,9 +195,7 @@ def _split_inner(split: Split, name: str, value: Node, known: KnownFields, path:
 
 def _is_empty(node: Node) -> bool:
     """Whether there is nothing in a node but its own fields."""
-    return all(
-        value in (None, ()) for name, value in node.__dict__.items() if name not in {"source", "spelling", "kind"}
-    )
+    return all(value in (None, ()) for name, value in node.__dict__.items() if name not in _EVEN_IF_EMPTY)
 
 
 def _is_endless(value: object) -> bool:

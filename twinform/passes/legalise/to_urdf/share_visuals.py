@@ -5,6 +5,7 @@ from functools import cache
 from typing import ClassVar
 
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual, replace_fields
+from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.material_annotations import LOOK, look_of
@@ -13,7 +14,6 @@ from twinform.passes.legalise.to_urdf.remainder import KnownFields, fits, take_r
 from twinform.passes.transforms.gazebo_tags import LINK_TAGS
 
 _COLORS = ("ambient", "diffuse")
-_NOT_FIELDS = frozenset({"source", "spelling"})
 _OF_MATERIALS = frozenset({"material"})
 _IN_FRAMES = frozenset({"pose", "geometry"})
 
@@ -87,7 +87,7 @@ def _written(material: Material | None) -> Iterator[tuple[str, object]]:
     """The fields of SDF that a material has, and their values."""
     for name in Material.model_fields if material else ():
         value = getattr(material, name)
-        if name not in _NOT_FIELDS and value not in (None, ()):
+        if name not in NOT_CONTENT and value not in (None, ()):
             yield name, value
 
 
