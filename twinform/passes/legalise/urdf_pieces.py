@@ -1,6 +1,8 @@
 """Carried URDF elements: what they refer to, and whether this still exists."""
 
-from collections.abc import Iterator
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from functools import cached_property
 
 from twinform.ir import Element, Joint, Link, Mimic, Model, Node, Opaque
 from twinform.ir.verify.joints import useless_leader
@@ -22,16 +24,44 @@ def joints_of(element: Element) -> Iterator[str]:
         yield from (child.get("name") or "" for child in element.children if child.name == "joint")
 
 
-def misfit(piece: Opaque, node: Node, model: Model) -> str:
-    """Why a piece cannot stand in a node of a model, or in the model, as that is by now; empty where it can.
+class Standing:
+    """What stands in a model by now, in the notation of URDF, where something that traveled is to come back."""
 
-    The model is in the notation of URDF.
-    """
+    def __init__(self, model: Model) -> None:
+        self.model = model
+
+    @cached_property
+    def links(self) -> Mapping[str, Link]:
+        """The links by name."""
+        return {link.name: link for link in self.model.links}
+
+    @cached_property
+    def joints(self) -> Mapping[str, Joint]:
+        """The joints by name."""
+        return {joint.name: joint for joint in self.model.joints}
+
+    @cached_property
+    def extensions(self) -> Mapping[str, frozenset[str]]:
+        """The names of the elements in `<gazebo>`, by the reference of that."""
+        found = defaultdict[str, set[str]](set)
+        for extension in self.model.extensions:
+            found[extension.reference or ""] |= {each.name for each in extension.content}
+        return {reference: frozenset(names) for reference, names in found.items()}
+
+    @cached_property
+    def named_joints(self) -> frozenset[str]:
+        """The names of the joints, of those in `<gazebo>` too."""
+        inside = (each for one in self.model.extensions for each in one.content if each.name == "joint")
+        return frozenset({*self.joints, *(each.get("name") or "" for each in inside)})
+
+
+def misfit(piece: Opaque, node: Node, standing: Standing) -> str:
+    """Why a piece cannot stand in a node of a model, or in the model, as that is by now; empty where it can."""
     if isinstance(node, Model):
-        return _misfit_of_model(piece, node)
+        return _misfit_of_model(piece, standing)
     if isinstance(node, Link):
         return _misfit_of_link(piece)
-    return _misfit_of_joint(piece, node, model) if isinstance(node, Joint) else ""
+    return _misfit_of_joint(piece, node, standing) if isinstance(node, Joint) else ""
 
 
 def _misfit_of_link(piece: Opaque) -> str:
@@ -49,7 +79,7 @@ def is_zero(text: str) -> bool:
         return False
 
 
-def _misfit_of_joint(piece: Opaque, joint: Joint, model: Model) -> str:
+def _misfit_of_joint(piece: Opaque, joint: Joint, standing: Standing) -> str:
     attribute = piece.attribute[0] if piece.attribute else ""
     if attribute == "type" and not piece.at and joint.type not in BALLS:
         return f"the joint is {joint.type} by now"
@@ -58,33 +88,31 @@ def _misfit_of_joint(piece: Opaque, joint: Joint, model: Model) -> str:
     if piece.at == "limit" and attribute in _ENDS and joint.type not in _ENDLESS:
         return f"the joint is {joint.type} and has limits of its own"
     if piece.element and not piece.at and piece.element.name == "mimic" and joint.type not in WITHOUT_AXIS:
-        return _misfit_of_mimic(piece.element, joint, model)
+        return _misfit_of_mimic(piece.element, joint, standing)
     if piece.element and not piece.at and piece.element.name in OF_AN_AXIS and joint.type not in WITHOUT_AXIS:
         return f"the joint is {joint.type} and has that type itself"
     return ""
 
 
-def _misfit_of_mimic(element: Element, joint: Joint, model: Model) -> str:
+def _misfit_of_mimic(element: Element, joint: Joint, standing: Standing) -> str:
     """A mimic travels where nothing moves by it."""
     if joint.axis is not None and joint.axis.mimic is not None:
         return "the joint mimics another one"
     leader = element.get("joint")
-    if useless_leader(joint, Mimic(joint=leader), {each.name: each for each in model.joints}):
+    if useless_leader(joint, Mimic(joint=leader), standing.joints):
         return ""
     return f"joint {leader!r} has an axis by now, and this joint has moved without it"
 
 
-def _would_act(element: Element, reference: str | None, model: Model) -> bool:
+def _would_act(element: Element, reference: str, standing: Standing) -> bool:
     """Whether an element of `<gazebo>`, which traveled because it set nothing, would set something by now."""
-    beside = (one for one in model.extensions if (one.reference or None) == (reference or None))
-    if any(each.name == element.name for one in beside for each in one.content):
+    if element.name in standing.extensions.get(reference, ()):
         return False
     if not reference:
         return element.name not in LINK_TAGS | JOINT_TAGS
-    link = next((each for each in model.links if each.name == reference), None)
-    if link is not None:
+    if (link := standing.links.get(reference)) is not None:
         return _would_act_on_shapes(element, link)
-    joint = next((each for each in model.joints if each.name == reference), None)
+    joint = standing.joints.get(reference)
     if joint is None or joint.type == "floating" or element.name in LINK_TAGS | MODEL_TAGS:
         return False
     tag = JOINT_TAGS.get(element.name)
@@ -99,7 +127,7 @@ def _would_act_on_shapes(element: Element, link: Link) -> bool:
     return (about_collisions and bool(link.collisions)) or (about_visuals and bool(link.visuals))
 
 
-def _misfit_of_model(piece: Opaque, model: Model) -> str:
+def _misfit_of_model(piece: Opaque, standing: Standing) -> str:
     """What an element at the level of the robot names and what is gone."""
     element = piece.element
     if element is None:
@@ -108,14 +136,17 @@ def _misfit_of_model(piece: Opaque, model: Model) -> str:
         return "the robot has no such link any more"
     if element.name == "material":
         return "it has nothing that URDF understands"
-    names = {joint.name for joint in model.joints}
-    names |= {each.get("name") or "" for one in model.extensions for each in one.content if each.name == "joint"}
-    reference = element.get("reference") if element.name == "gazebo" else None
-    if reference and reference not in names and all(link.name != reference for link in model.links):
-        return f"there is no link or joint {reference!r}"
-    idle = element.children if element.name == "gazebo" else ()
-    acting = next((each.name for each in idle if _would_act(each, reference, model)), None)
-    if acting is not None:
-        return f"<{acting}> set nothing in {repr(reference) if reference else 'the model'}, and would by now"
-    gone = next((name for name in joints_of(element) if name not in names), None)
+    if element.name == "gazebo":
+        return _misfit_of_gazebo(element, standing)
+    gone = next((name for name in joints_of(element) if name not in standing.named_joints), None)
     return "" if gone is None else f"there is no joint {gone!r}"
+
+
+def _misfit_of_gazebo(element: Element, standing: Standing) -> str:
+    reference = element.get("reference") or ""
+    if reference and reference not in standing.named_joints and reference not in standing.links:
+        return f"there is no link or joint {reference!r}"
+    acting = next((each.name for each in element.children if _would_act(each, reference, standing)), None)
+    return (
+        f"<{acting}> set nothing in {repr(reference) if reference else 'the model'}, and would by now" if acting else ""
+    )

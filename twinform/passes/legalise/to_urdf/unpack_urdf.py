@@ -11,7 +11,7 @@ from twinform.ir.frames import WORLD
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, is_dangling, is_overruled, unpack
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_urdf.overruled_tags import with_overruled
-from twinform.passes.legalise.urdf_pieces import misfit
+from twinform.passes.legalise.urdf_pieces import Standing, misfit
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -31,15 +31,14 @@ class UnpackUrdf(ModelPass):
         """The model without carriers of what URDF can express."""
         if sink.has_errors:
             return model
-        model = map_children(
-            model, lambda child: rewrite(child, Node, partial(_unpack, model, sink), having=bits_of_ours("urdf"))
-        )
+        change = partial(_unpack, Standing(model), sink)
+        model = map_children(model, lambda child: rewrite(child, Node, change, having=bits_of_ours("urdf")))
         model = _with_overruled(model, sink)
-        return _unpacked(_with_world(model), partial(misfit, node=model, model=model), sink)
+        return _unpacked(_with_world(model), partial(misfit, node=model, standing=Standing(model)), sink)
 
 
-def _unpack(model: Model, sink: DiagnosticSink, node: Node) -> Node:
-    return _unpacked(node, lambda piece: misfit(piece, node, model), sink)
+def _unpack(standing: Standing, sink: DiagnosticSink, node: Node) -> Node:
+    return _unpacked(node, lambda piece: misfit(piece, node, standing), sink)
 
 
 def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], sink: DiagnosticSink) -> AnyNode:
