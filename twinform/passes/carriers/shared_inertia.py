@@ -1,24 +1,23 @@
-"""The annotation on an inertial of SDF with the inertia that URDF has, of which others of the body have a part in SDF.
+"""The annotation on an inertial of SDF with what URDF has, of which others of the body have a part in SDF.
 
-<tf:shared ixx="1e-06" ixy="1e-06" ixz="1e-06" iyy="1e-06" iyz="1e-06" izz="1e-06"/>
+<tf:shared xyz="0 0 0.1" ixx="1e-06" ixy="1e-06" ixz="1e-06" iyy="1e-06" iyz="1e-06" izz="1e-06"/>
 """
 
-from twinform.ir import Inertia, Inertial
-from twinform.ir.principal_moments import Symmetric
-from twinform.ir.solids import ELEMENTS, tensor, with_tensor
+from twinform.ir import Inertia, Inertial, Pose
+from twinform.ir.node import Vector3
+from twinform.ir.solids import ELEMENTS, ORIGIN, tensor
 from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
 from twinform.schemas import format_value, parse_value
 
 SHARED = "shared"
 
 
-def with_share(inertial: Inertial, elements: Symmetric, *, annotated: bool) -> Inertial:
-    """The inertial with other elements, and the old ones in an annotation."""
-    written = dict(zip(ELEMENTS, tensor(inertial.inertia), strict=True))
-    made = inertial.model_copy(update={"inertia": with_tensor(inertial.inertia, elements)})
-    if not annotated:
-        return made
-    return with_annotation(made, SHARED, attributes={name: format_value(value) for name, value in written.items()})
+def with_share(made: Inertial, written: Inertial) -> Inertial:
+    """The inertial of SDF with the center of mass, if one is written, and the inertia of URDF in an annotation."""
+    numbers: dict[str, float | Vector3] = dict(zip(ELEMENTS, tensor(written.inertia), strict=True))
+    if written.pose is not None:
+        numbers = {"xyz": written.pose.xyz or ORIGIN, **numbers}
+    return with_annotation(made, SHARED, attributes={name: format_value(value) for name, value in numbers.items()})
 
 
 def without_share(inertial: Inertial) -> Inertial | None:
@@ -28,7 +27,9 @@ def without_share(inertial: Inertial) -> Inertial | None:
         return None
     try:
         old = {name: parse_value("double", found.get(name) or "") for name in ELEMENTS}
+        place = parse_value("vector3", found.get("xyz") or "0 0 0")
     except ValueError:
         return None
+    pose = (inertial.pose or Pose()).model_copy(update={"xyz": place}) if found.get("xyz") else None
     inertia = (inertial.inertia or Inertia()).model_copy(update=old)
-    return without_annotation(inertial, SHARED).model_copy(update={"inertia": inertia})
+    return without_annotation(inertial, SHARED).model_copy(update={"inertia": inertia, "pose": pose})

@@ -1,43 +1,44 @@
 """Inertias that no body has, where those of links that are fixed to theirs make up for them.
 
 libsdformat puts fixed links together when it reads URDF, and only then asks whether a body can have the inertia. In SDF
-every link is asked. What a link has too little of is taken from another of the same body, so that the body as a whole
-has the inertia that it had.
+every link is asked. So such a link and others of its body have in SDF what they are together, by their masses: each has
+its own mass, at the center of them all, and as much of their inertia as it has of their mass.
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections import defaultdict
+from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
+from contextlib import suppress
 
-from twinform.ir import Format, Inertial, Link, Model
+from twinform.ir import Format, Link, Model
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.principal_moments import Symmetric
-from twinform.ir.solids import combined, placed, turned
-from twinform.ir.transform import Transform
+from twinform.ir.solids import Solid, combined, placed, with_mass
 from twinform.ir.verify.inertia import inertia_matrix, is_plain
-from twinform.passes.inertia.physical_consistency import clearances, doubt, is_clearly_possible, nearest_possible
+from twinform.passes.inertia.physical_consistency import clearances, doubt, has_mass, is_clearly_possible
 from twinform.passes.structure.bodies import body_of
 from twinform.passes.structure.tagged_shapes import hosts_of
 
-_MARGIN = 1e-6
-"""The least second moment of mass along an axis, as a part of the trace: digits are cut off again."""
 _ROUNDING = 1e-12
 """How much of the largest moment the digits of a file may lack."""
 
 
-def shared_inertias(model: Model) -> dict[str, Symmetric]:
-    """The elements of the inertias of a URDF that have to change in SDF, by link."""
-    written = {link.name: link for link in model.links}
-    needy = [link for link in model.links if is_refused(_matrix(link))]
+def shared_inertias(model: Model) -> dict[str, Solid]:
+    """What links of a URDF have to be in SDF, in their own frames: those that have to change."""
+    needy = {link.name for link in model.links if is_refused(_matrix(link))}
     if not needy:
         return {}
     graph, hosts = FrameGraph(model), hosts_of(model)
-    found: dict[str, Symmetric] = {}
-    for host in dict.fromkeys(hosts[link.name] for link in needy):
-        members = [written[name] for name, other in hosts.items() if other == host and name in written]
-        try:
-            found |= _of_body(members, host, graph)
-        except FrameError:
-            continue
+    bodies = defaultdict[str, list[Link]](list)
+    for link in model.links:
+        if _matrix(link) and (has_mass(link.inertial) or hosts[link.name] == link.name):
+            bodies[hosts[link.name]].append(link)
+    found: dict[str, Solid] = {}
+    for members in bodies.values():
+        if any(link.name in needy for link in members):
+            with suppress(FrameError):
+                found |= _of_body(members, needy, graph)
     return found
 
 
@@ -55,42 +56,20 @@ def is_refused(matrix: Symmetric | None) -> bool:
     return min(clearances(matrix)) < -max(_ROUNDING, doubt(matrix))
 
 
-def _of_body(members: Sequence[Link], host: str, graph: FrameGraph) -> dict[str, Symmetric]:
-    """What changes in the links of one body; nothing where the body is not possible as a whole, or cannot be shared."""
-    matrices = {link.name: matrix for link in members if (matrix := _matrix(link))}
-    if not all(math.isfinite(number) for matrix in matrices.values() for number in matrix):
+def _of_body(members: Sequence[Link], needy: AbstractSet[str], graph: FrameGraph) -> dict[str, Solid]:
+    """What changes in the links of one body: impossible ones, and as many others, heavy ones first, as it takes.
+
+    Nothing where the body is not possible as a whole.
+    """
+    places = {link.name: graph.pose(link.name, members[0].name) for link in members}
+    solids = {link.name: placed(body_of(link, graph, Format.URDF), places[link.name]) for link in members}
+    group = {name: one for name, one in solids.items() if name in needy}
+    whole = combined([*group.values()])
+    for name in sorted(solids.keys() - needy, key=lambda each: (-solids[each].mass, each)):
+        if whole.mass and is_clearly_possible(whole.inertia):
+            break
+        group[name] = solids[name]
+        whole = combined([whole, solids[name]] if whole.mass else [*group.values()])
+    if not whole.mass or not all(map(math.isfinite, whole.inertia)) or is_refused(whole.inertia):
         return {}
-    whole = combined([placed(body_of(link, graph, Format.URDF), graph.pose(link.name, host)) for link in members])
-    if not is_clearly_possible(whole.inertia):
-        return {}
-    places = {link.name: _inertial_in(link.inertial, link.name, host, graph) for link in members}
-    found: dict[str, Symmetric] = {}
-    for name in [name for name, matrix in matrices.items() if is_refused(matrix)]:
-        made = nearest_possible(matrices[name], _MARGIN * abs(sum(matrices[name][:3])))
-        change = _minus(made, matrices[name])
-        giver = next(_givers(name, change, matrices, places), None)
-        if giver is None:
-            return {}
-        found |= {name: made, giver[0]: giver[1]}
-        matrices |= found
-    return found
-
-
-def _inertial_in(inertial: Inertial | None, link: str, host: str, graph: FrameGraph) -> Transform:
-    return graph.pose(link, host).compose(graph.resolve(inertial and inertial.pose, link, link))
-
-
-def _givers(
-    name: str, change: Symmetric, matrices: Mapping[str, Symmetric], places: Mapping[str, Transform]
-) -> Iterator[tuple[str, Symmetric]]:
-    """Other links, those with the most first, and what they have left without the change; one that is possible."""
-    for other in sorted(matrices, key=lambda each: -sum(matrices[each][:3])):
-        if other != name and is_clearly_possible(matrices[other]):
-            left = _minus(matrices[other], turned(change, places[other].inverse().compose(places[name])))
-            if is_clearly_possible(left):
-                yield other, left
-
-
-def _minus(one: Symmetric, other: Symmetric) -> Symmetric:
-    xx, yy, zz, xy, xz, yz = (a - b for a, b in zip(one, other, strict=True))
-    return xx, yy, zz, xy, xz, yz
+    return {name: placed(with_mass(whole, one.mass), places[name].inverse()) for name, one in group.items()}

@@ -49,10 +49,14 @@ def with_guests(link: Link, own: Solid, guests: Sequence[Solid], sink: Diagnosti
         )
         sink.report(INDEFINITE_INERTIA, message, link.location, severity=Severity.ERROR)
         return link
-    inertial = link.inertial or Inertial()
+    return link.model_copy(update={"inertial": with_solid(link.inertial or Inertial(), whole)})
+
+
+def with_solid(inertial: Inertial, whole: Solid) -> Inertial:
+    """The inertial with what a solid in the frame of its link has; the axes of the inertia stay as they are written."""
     written = None if inertial.auto else inertial.pose
     axes = Transform(rotation=Transform.from_pose(written).rotation)
-    made = inertial.model_copy(
+    return inertial.model_copy(
         update={
             "auto": None,
             "mass": whole.mass,
@@ -60,7 +64,6 @@ def with_guests(link: Link, own: Solid, guests: Sequence[Solid], sink: Diagnosti
             "inertia": with_tensor(inertial.inertia, turned(whole.inertia, axes.inverse())),
         }
     )
-    return link.model_copy(update={"inertial": made})
 
 
 def _pose(written: Pose | None, whole: Solid) -> Pose:

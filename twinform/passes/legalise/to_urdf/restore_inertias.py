@@ -5,16 +5,17 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import STALE_CARRIER
-from twinform.ir import Inertial, Model
-from twinform.ir.principal_moments import Symmetric
-from twinform.ir.solids import tensor
+from twinform.ir import Format, Inertial, Model
+from twinform.ir.frames import FrameGraph
+from twinform.ir.solids import Solid
 from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.shared_inertia import SHARED, without_share
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.shared_inertias import shared_inertias
+from twinform.passes.structure.bodies import body_of
 
 _CLOSE = 1e-9
-"""How far elements may be apart that were computed from one inertia, relative to the largest."""
+"""How far numbers may be apart that were computed from the same ones: in m, and relative to the largest."""
 
 
 class RestoreInertias(ModelPass):
@@ -37,8 +38,8 @@ class RestoreInertias(ModelPass):
         if not old:
             return model
         restored = _with(model, old)
-        shared = shared_inertias(restored)
-        now = {link.name: tensor(link.inertial.inertia) for link in model.links if link.inertial and link.name in old}
+        shared, graph = shared_inertias(restored), FrameGraph(model)
+        now = {link.name: body_of(link, graph, Format.URDF) for link in model.links if link.name in old}
         if shared.keys() == old.keys() and all(_are_close(shared[name], now[name]) for name in old):
             return restored
         for link in model.links:
@@ -61,6 +62,12 @@ def _with(model: Model, inertials: dict[str, Inertial]) -> Model:
     return model.model_copy(update={"links": tuple(links)})
 
 
-def _are_close(one: Symmetric, other: Symmetric) -> bool:
-    size = max(map(abs, one))
-    return all(math.isclose(a, b, rel_tol=0, abs_tol=_CLOSE * size) for a, b in zip(one, other, strict=True))
+def _are_close(one: Solid, other: Solid) -> bool:
+    return all(
+        math.isclose(a, b, rel_tol=0, abs_tol=_CLOSE * size)
+        for there, here, size in (
+            (one.center, other.center, max(1.0, *map(abs, one.center))),
+            (one.inertia, other.inertia, max(map(abs, one.inertia))),
+        )
+        for a, b in zip(there, here, strict=True)
+    )
