@@ -1,6 +1,6 @@
 """What two robots of libsdformat differ in beside bodies and joints: surfaces, materials, sensors, plugins, flags."""
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
@@ -58,7 +58,7 @@ def differences(before: RobotRow, after: RobotRow) -> Iterator[Difference]:
     yield from _unpaired(_shapes(after), [other for _, other in pairs], "missing", "there")
     names = {other.row["name"]: one.row["name"] for one, other in pairs if one.row["kind"] == "collision"}
     yield from _of_sensors(before, after, names)
-    yield from _only("plugin", Counter(_plugins(before)), Counter(_plugins(after)))
+    yield from _of_plugins(before, after, {_parts(other): _parts(one) for one, other in pairs})
 
 
 def _values(
@@ -100,15 +100,19 @@ def _unpaired(shapes: Iterable[_Placed], paired: Iterable[_Placed], there: str, 
 
 
 def _pairs(before: RobotRow, after: RobotRow) -> Iterator[tuple[_Placed, _Placed]]:
-    """Each shape, and the one that it is afterwards: at one place, that with its name in it, or its values."""
+    """Each shape, and the one that it is afterwards: at one place, with its values, or its name in it, or both."""
     waiting, rest = list(_shapes(before)), list(_shapes(after))
-    for is_it in (_is_named_after, _has_values_of, _is_at_place_of):
+    for is_it in (_is_equal, _has_values_of, _is_named_after, _is_at_place_of):
         for one in list(waiting):
             found = next((other for other in rest if _is_at_place_of(one, other) and is_it(one, other)), None)
             if found is not None:
                 yield one, found
                 waiting = [each for each in waiting if each is not one]
                 rest = [each for each in rest if each is not found]
+
+
+def _is_equal(one: _Placed, other: _Placed) -> bool:
+    return _is_named_after(one, other) and _has_values_of(one, other)
 
 
 def _is_named_after(one: _Placed, other: _Placed) -> bool:
@@ -143,10 +147,10 @@ def _of_sensors(before: RobotRow, after: RobotRow, names: Mapping[str, str]) -> 
         if not named:
             yield Difference("sensor", (row["inside"], row["name"]), "", "there", "missing")
             continue
-        content = _content(row["text"], {})
-        found = next((pair for pair in named if pair[1] == content), named[0])
+        content, places = _content(row["text"], {}), {row["inside"], hosts.get(row["inside"])}
+        found = min(named, key=lambda pair: (pair[1] != content, pair[0]["inside"] not in places))
         yield from _of_sensor(row, content, found[1])
-        if found[0]["inside"] not in {row["inside"], hosts.get(row["inside"])}:
+        if found[0]["inside"] not in places:
             yield Difference("sensor", (row["inside"], row["name"]), "parent", row["inside"], found[0]["inside"])
         poses = [frame @ pose_matrix(each["pose"]) for frame, each in zip(frames, (row, found[0]), strict=True)]
         if (far := float(np.abs(poses[0] - poses[1]).max())) > CUT_OFF:
@@ -162,14 +166,30 @@ def _of_sensor(row: SensorRow, content: list[str], seen: list[str]) -> Iterator[
             yield Difference("sensor", parts, path, "" if here else text, text if here else "")
 
 
-def _only(kind: str, here: Counter[tuple[str, ...]], there: Counter[tuple[str, ...]]) -> Iterator[Difference]:
-    yield from (Difference(kind, (key[0],), " ".join(key[1:])[:120], "there", "missing") for key in here - there)
-    yield from (Difference(kind, (key[0],), " ".join(key[1:])[:120], "missing", "there") for key in there - here)
+def _parts(shape: _Placed) -> tuple[str, ...]:
+    return shape.link, shape.row["name"]
 
 
-def _plugins(robot: RobotRow) -> Iterator[tuple[str, ...]]:
+def _of_plugins(
+    before: RobotRow, after: RobotRow, shapes: Mapping[tuple[str, ...], tuple[str, ...]]
+) -> Iterator[Difference]:
+    there, here = _plugins(before, {}), _plugins(after, shapes)
+    for key in sorted(there.keys() | here.keys()):
+        path, gone, new = " ".join(key[1:])[:120], there[key] - here[key], here[key] - there[key]
+        common = min(gone.total(), new.total())  # in links that have become a part of others
+        yield from (Difference("plugin", parts, path, "there", "missing") for parts in [*gone.elements()][common:])
+        yield from (Difference("plugin", parts, path, "missing", "there") for parts in [*new.elements()][common:])
+
+
+def _plugins(
+    robot: RobotRow, shapes: Mapping[tuple[str, ...], tuple[str, ...]]
+) -> defaultdict[tuple[str, ...], Counter[tuple[str, ...]]]:
+    """By what they are in and what is in them, the names around plugins; shapes by the names given for theirs."""
+    found = defaultdict[tuple[str, ...], Counter[tuple[str, ...]]](Counter)
     for row in robot["plugins"]:
-        yield (row["inside"], *_content(row["text"], {}))
+        parts = tuple(row["parts"])
+        found[row["inside"], *_content(row["text"], {})][shapes.get(parts, parts)] += 1
+    return found
 
 
 def _content(text: str, names: Mapping[str, str]) -> list[str]:

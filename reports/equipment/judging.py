@@ -49,20 +49,23 @@ def judge(file: CorpusFile) -> tuple[Outcome, ...]:
     if checked.document is None or not checked.accepted:
         return ()
     if file.kind is Kind.URDF:
-        return (_judged_urdf(file),)
+        return (judged_urdf(file),)
     _, rows = models_of(file.path, file.paths)
     among = {row["name"]: row for row in rows}
     named = (
         (robot, robot.rpartition("::")[2] if robot else next(iter(among), "")) for robot in robots(checked.document)
     )
-    return tuple(_judged(file, robot, among[name]) for robot, name in named if name in among)
+    return tuple(judged_sdf(file, robot, among[name]) for robot, name in named if name in among)
 
 
-def _judged(file: CorpusFile, robot: str | None, before: RobotRow) -> Outcome:
+def judged_sdf(
+    file: CorpusFile, robot: str | None, before: RobotRow, read: Callable[[Path], RobotRow] = describe
+) -> Outcome:
+    """What became of a robot of an SDF file; `before` is what `read` finds in it."""
     name, parts = f"{file.name} {robot or ''}".strip(), _parts(before)
     try:
         conversion = twinform.convert(file.path, to="urdf", model=robot, paths=file.paths)
-        after = _result(conversion, "robot.urdf")
+        after = _result(conversion, "robot.urdf", read)
     except twinform.CompileError as error:
         return Outcome(name, Verdict.REFUSED, parts, ", ".join(rules_of(error.diagnostics)))
     except RuntimeError as error:
@@ -70,12 +73,12 @@ def _judged(file: CorpusFile, robot: str | None, before: RobotRow) -> Outcome:
     return _outcome(name, before, after, lambda found: _is_listed(found, conversion.ledger))
 
 
-def _judged_urdf(file: CorpusFile) -> Outcome:
-    """The URDF is the robot afterwards, as libsdformat lumps links there."""
-    before = describe(file.path)
+def judged_urdf(file: CorpusFile, read: Callable[[Path], RobotRow] = describe) -> Outcome:
+    """What became of a URDF, which is the robot afterwards here, as libsdformat lumps links there."""
+    before = read(file.path)
     try:
         conversion = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION)
-        after = _result(conversion, "robot.sdf")
+        after = _result(conversion, "robot.sdf", read)
     except twinform.CompileError as error:
         return Outcome(file.name, Verdict.REFUSED, _parts(before), ", ".join(rules_of(error.diagnostics)))
     except RuntimeError as error:
@@ -83,11 +86,11 @@ def _judged_urdf(file: CorpusFile) -> Outcome:
     return _outcome(file.name, after, before, Said.by(conversion).explains)
 
 
-def _result(conversion: twinform.Conversion, name: str) -> RobotRow:
+def _result(conversion: twinform.Conversion, name: str, read: Callable[[Path], RobotRow]) -> RobotRow:
     with TemporaryDirectory() as folder:
         output = Path(folder, name)
         output.write_text(conversion.text, encoding="utf-8")
-        return describe(output)
+        return read(output)
 
 
 def _outcome(name: str, before: RobotRow, after: RobotRow, is_said: Callable[[Difference], bool]) -> Outcome:

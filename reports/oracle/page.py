@@ -31,15 +31,11 @@ _IN_FULL = frozenset({Verdict.DIFFERENT, Verdict.RESULT, Verdict.CRASH})
 
 @dataclass(frozen=True, slots=True)
 class Reader:
-    """What a reference parser reports about some results: its errors by file, empty where it has none; None without it.
-
-    `known` are the files for which it is known to have errors, with the reason.
-    """
+    """What a reference parser reports about results: errors by file, empty where it has none; None without it."""
 
     name: str
     reads: str
     verdicts: Mapping[str, str] | None
-    known: Mapping[str, str]
 
     @property
     def complaints(self) -> dict[str, str]:
@@ -71,11 +67,7 @@ def counts(outcomes: list[Outcome]) -> str:
 
 def _readers(readers: Sequence[Reader]) -> str:
     counted = [(reader.name, reader.reads, *_tally(reader)) for reader in readers]
-    bad = [
-        (reader.name, file, _explained(reader, file, text))
-        for reader in readers
-        for file, text in reader.complaints.items()
-    ]
+    bad = [(reader.name, file, text[:160]) for reader in readers for file, text in reader.complaints.items()]
     parts = [table(["parser", "reads", "results", "without an error"], counted)]
     parts += [table(["parser", "file", "errors"], bad)] if bad else []
     return section("The reference parsers", "\n".join(parts))
@@ -85,10 +77,6 @@ def _tally(reader: Reader) -> tuple[object, object]:
     if reader.verdicts is None:
         return ("not installed", "")
     return (len(reader.verdicts), len(reader.verdicts) - len(reader.complaints))
-
-
-def _explained(reader: Reader, file: str, errors: str) -> str:
-    return errors[:160] + (f" (known: {reader.known[file]})" if file in reader.known else "")
 
 
 def _group(outcomes: list[Outcome], verdict: Verdict, known: Mapping[str, str]) -> str:

@@ -3,7 +3,7 @@
 from collections import defaultdict
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink, rules
+from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.ir import Element, Format, Model
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
@@ -21,10 +21,10 @@ class NoteLumping(ModelPass):
     """Report `<gazebo>` tags that Gazebo applies to more, or to less, where it reads the URDF itself.
 
     1. It makes one body of links that are fixed to each other, and a flag of one of them, such as `turnGravityOff`,
-    is one of the body; in SDF it is one of the link. Links without mass do not count. 2. It applies tags about shapes
-    to those alone whose names begin with that of their link; in SDF all shapes have them.
+    is one of the body; in SDF it is one of the link. Links that become frames do not count. 2. It applies tags about
+    shapes to those alone whose names begin with that of their link; in SDF all shapes have them.
     Changes: nothing.
-    Diagnostics: `lumped-flag`, `unreached-shape`.
+    Diagnostics: `lumped-flag`, for information where the other link is a root without mass; `unreached-shape`.
     """
 
     name: ClassVar[str] = "note-lumping"
@@ -45,8 +45,9 @@ def _report_flags(model: Model, sink: DiagnosticSink) -> None:
         return
     hosts = hosts_of(model)
     alike = defaultdict[tuple[str, str], dict[str, list[str]]](dict)
-    for link in model.links:
-        if is_massless(link):
+    massless = {link.name for link in model.links if is_massless(link)}
+    for link in sorted(model.links, key=lambda link: link.name in massless):
+        if link.name in massless and hosts[link.name] != link.name:  # which becomes a frame
             continue
         for flag in set(FLAGS.values()):
             alike[hosts[link.name], flag].setdefault(own.get(link.name, {}).get(flag, ""), []).append(link.name)
@@ -57,11 +58,14 @@ def _report_flags(model: Model, sink: DiagnosticSink) -> None:
             mine = own.get(name, {}).get(flag)
             others = [names[0] for value, names in alike[hosts.get(name, ""), flag].items() if value != mine]
             if others and mine is not None:
+                other = min(others, key=massless.__contains__)
+                severity = Severity.INFO if other in massless else Severity.WARNING
                 message = (
                     f"<{element.name}> is about link {name!r} alone in SDF; where Gazebo reads the URDF, "
-                    f"it is also about what is fixed to it, such as {others[0]!r}"
+                    f"it is also about what is fixed to it, such as {other!r}"
                 )
-                sink.report(rules.LUMPED_FLAG, message, place_of(element, extension), found=element.name)
+                where = place_of(element, extension)
+                sink.report(rules.LUMPED_FLAG, message, where, found=element.name, severity=severity)
 
 
 def _settings(model: Model) -> dict[str, dict[str, str]]:

@@ -22,7 +22,8 @@ class SharedMaterials(ModelPass):
     has more. The name is an annotation on the visual, and which materials the robot defines are annotations on the
     model; only a definition that no visual uses as it stands is carried whole.
     Never touches: the appearance that a `<gazebo>` element sets.
-    Diagnostics: `gazebo-material`, once; ledger entries under `material-name`.
+    Diagnostics: `gazebo-material`, once; ledger entries under `material-name`, and under `gazebo-conflict` where Gazebo
+    takes the one color of a `<gazebo>` in place of both.
     """
 
     name: ClassVar[str] = "shared-materials"
@@ -66,6 +67,9 @@ class SharedMaterials(ModelPass):
         source = material
         if not (material.color or material.texture):
             source = defined.get(material.name or "", material)
+        if source.color and (material.ambient is None) != (material.diffuse is None):  # parser_urdf.cc, CreateVisual
+            message = f"where Gazebo reads the URDF, visual {visual.name!r} has the color of <gazebo> alone"
+            sink.account(Fate.APPROXIMATED, to_sdf.GAZEBO_CONFLICT, message, visual.location, weight=0)
         update: dict[str, object] = {"material": _sdf_material(material, source)}
         own = material.color is not None or material.texture is not None
         if not (own and material.name == material_name(link, visual)):

@@ -3,7 +3,8 @@
 import json
 import os
 import subprocess
-from collections.abc import Iterable
+from collections.abc import Callable, Generator, Iterable
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NotRequired, TypedDict
@@ -76,9 +77,10 @@ class SensorRow(TypedDict):
 
 
 class PluginRow(TypedDict):
-    """A plugin: its XML, and the tag of the element that it is in."""
+    """A plugin: its XML, the tag of the element that it is in, and the names of all elements around it in the model."""
 
     inside: str
+    parts: list[str]
     text: str
 
 
@@ -139,9 +141,27 @@ def describe(path: Path) -> RobotRow:
     Raises:
         RuntimeError: the library has errors for the file, or there is no model in it.
     """
-    command = [str(_PROGRAM.built()), "--robots", str(path)]
-    done = subprocess.run(command, stdout=subprocess.PIPE, check=True)
-    row: _Row = json.loads(done.stdout.decode(errors="replace"))
+    with describing() as describe_one:
+        return describe_one(path)
+
+
+@contextmanager
+def describing() -> Generator[Callable[[Path], RobotRow]]:
+    """A function that does what `describe` does, in one process for all files: the library takes long to start."""
+    command = [str(_PROGRAM.built()), "--robots"]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
+
+        def describe_one(path: Path) -> RobotRow:
+            assert process.stdin is not None
+            assert process.stdout is not None
+            process.stdin.write(f"{path.resolve()}\n".encode())
+            process.stdin.flush()
+            return _robot(json.loads(process.stdout.readline().decode(errors="replace")))
+
+        yield describe_one
+
+
+def _robot(row: _Row) -> RobotRow:
     if errors := _reading(row).errors:
         raise RuntimeError("; ".join(errors))
     if "robot" not in row:

@@ -197,15 +197,17 @@ void describe_sensors(const sdf::Model &model, const std::string &scope, const P
   }
 }
 
-// plugins at any depth, with the kind of element that they are in; those in an extension are its own
-void describe_plugins(const sdf::ElementPtr &element, const char *&separator) {
+// plugins at any depth, with the kind of element that they are in and the names around them, as elements of a list;
+// those in an extension are its own
+void describe_plugins(const sdf::ElementPtr &element, const std::string &names, const char *&separator) {
   for (sdf::ElementPtr child = element->GetFirstElement(); child; child = child->GetNextElement()) {
     if (child->GetName() == "plugin") {
-      std::cout << separator << "{\"inside\": " << json::quoted(element->GetName())
-                << ", \"text\": " << json::quoted(child->ToString("")) << "}";
+      std::cout << separator << "{\"inside\": " << json::quoted(element->GetName()) << ", \"parts\": [" << names
+                << "], \"text\": " << json::quoted(child->ToString("")) << "}";
       separator = ", ";
     } else if (child->GetName().find(':') == std::string::npos) {
-      describe_plugins(child, separator);
+      const std::string name = child->HasAttribute("name") ? json::quoted(child->Get<std::string>("name")) : "";
+      describe_plugins(child, names + (names.empty() || name.empty() ? "" : ", ") + name, separator);
     }
   }
 }
@@ -240,7 +242,7 @@ void describe(const sdf::Model &model) {
   describe_sensors(model, "", Pose3d::Zero, separator);
   separator = "";
   std::cout << "], \"plugins\": [";
-  describe_plugins(model.Element(), separator);
+  describe_plugins(model.Element(), "", separator);
   std::cout << "]}";
 }
 
