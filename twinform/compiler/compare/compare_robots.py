@@ -8,17 +8,27 @@ from typing import TypeVar
 from twinform.compiler.compare.alignment import Alignment, align
 from twinform.compiler.compare.comparison import Difference, Severity
 from twinform.compiler.compare.findings import Base, Findings, Subject, Terms
-from twinform.compiler.compare.fixed_bodies import FixedBodies, with_share
+from twinform.compiler.compare.fixed_bodies import FixedBodies
 from twinform.compiler.compare.frames import compare_frames
 from twinform.compiler.compare.joint_values import joint_type
 from twinform.compiler.compare.kinematics import compare_kinematics
 from twinform.compiler.compare.lumping import Lumped, lump
 from twinform.compiler.compare.matching import compare_leaves, compare_parts
 from twinform.compiler.compare.robot import Body, JointView, Leaves, Mass, Robot
-from twinform.compiler.compare.values import Delta, Direction, Flag, Numbers, Point, PoseValue, Tensor, Text, gaps
+from twinform.compiler.compare.values import (
+    Delta,
+    Direction,
+    Flag,
+    Numbers,
+    Point,
+    PoseValue,
+    Tensor,
+    Text,
+    Value,
+    gaps,
+)
 from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3
-from twinform.ir.solids import Solid
 from twinform.ir.transform import Transform
 
 Named = TypeVar("Named", Body, JointView)
@@ -110,21 +120,29 @@ class _Comparer:
             return
         one, other = a.solid, b.solid
         self.found.values(subject, "inertial/mass", Numbers((one.mass,), "kg"), Numbers((other.mass,), "kg"), places)
+        values: list[tuple[str, Value, Value]] = []
         if one.mass or other.mass:
-            self.found.values(subject, "inertial/center", Point(one.center), Point(other.center), places, base)
+            values.append(("center", Point(one.center), Point(other.center)))
         if any((*one.inertia, *other.inertia)):  # also of what weighs nothing
-            pair = Tensor(one.inertia), Tensor(other.inertia)
-            if self.terms.worst(*pair, base) and self._is_shared(subject.name, one, base):
-                message = f"{subject} has another inertia, and with the links that are fixed to it the same"
-                self.found.note(subject, "inertial/inertia", message, places)
-            else:
-                self.found.values(subject, "inertial/inertia", *pair, places, base)
+            values.append(("inertia", Tensor(one.inertia), Tensor(other.inertia)))
+        others = [name for name, here, there in values if self.terms.worst(here, there, base)]
+        if others and self._is_shared(subject.name, base):
+            message = f"{subject} has another {' and '.join(others)}, and with the links that are fixed to it the same"
+            self.found.note(subject, f"inertial/{others[0]}", message, places)
+            return
+        for name, here, there in values:
+            self.found.values(subject, f"inertial/{name}", here, there, places, base)
 
-    def _is_shared(self, link: str, solid: Solid, base: Base) -> bool:
-        """Whether what a link has less the others of its body have more, which is the same to any engine."""
-        own = Tensor(solid.inertia).seen_from(base.a)
-        shared = with_share(own.moments, link, base, self.fixed)
-        return shared is not None and not self.terms.worst(own, Tensor(shared))
+    def _is_shared(self, link: str, base: Base) -> bool:
+        """Whether the links of a body share its mass and inertia in another way, which is the same to any engine."""
+        if not any(bodies.is_shared(link) for bodies in self.fixed):
+            return False
+        one, other = (bodies.whole(link) for bodies in self.fixed)
+        return not (
+            self.terms.worst(Numbers((one.mass,), "kg"), Numbers((other.mass,), "kg"), base)
+            or self.terms.worst(Point(one.center), Point(other.center), base)
+            or self.terms.worst(Tensor(one.inertia), Tensor(other.inertia), base)
+        )
 
     def _joint(self, a: JointView, b: JointView) -> None:
         subject, places = Subject("joint", a.name), (a.where, b.where)

@@ -1,19 +1,14 @@
-"""Links that fixed joints make one body, which may share the inertia of that body in two ways.
+"""Links that fixed joints make one body, which may share the mass and inertia of that body in two ways.
 
 SDF of a URDF does so where one of them has an inertia that no body has, and a file that was edited need not.
 """
 
-import math
 from collections import defaultdict
-from collections.abc import Iterable
 from functools import cached_property
 
-from twinform.compiler.compare.findings import Base
-from twinform.compiler.compare.robot import Body, Robot
-from twinform.compiler.compare.values import Tensor
+from twinform.compiler.compare.robot import Robot
 from twinform.ir.motion import spanning_tree
-from twinform.ir.principal_moments import Symmetric
-from twinform.ir.transform import Transform
+from twinform.ir.solids import Solid, combined
 from twinform.passes.legalise.shared_inertias import is_refused
 
 
@@ -36,34 +31,24 @@ class FixedBodies:
         return found
 
     @cached_property
-    def _members(self) -> dict[str, list[Body]]:
-        members = defaultdict[str, list[Body]](list)
+    def _members(self) -> dict[str, list[Solid]]:
+        members = defaultdict[str, list[Solid]](list)
         for name, body in self.robot.bodies.items():
-            members[self._hosts[name]].append(body)
+            members[self._hosts[name]].append(body.mass.solid)
         return members
 
-    def of(self, link: str) -> list[Body]:
-        """The links of the body that a link is a part of."""
-        return self._members[self._hosts[link]]
+    @cached_property
+    def _wholes(self) -> dict[str, Solid]:
+        return {host: combined(members) for host, members in self._members.items()}
 
-    def inertia(self, link: str, base: Transform) -> Symmetric:
-        """The sum of the inertias of these links, each about its own center, in the axes of a frame."""
-        return _sum(Tensor(each.mass.solid.inertia).seen_from(base).moments for each in self.of(link))
+    @cached_property
+    def _impossible(self) -> set[str]:
+        return {host for host, members in self._members.items() if any(is_refused(each.inertia) for each in members)}
 
+    def whole(self, link: str) -> Solid:
+        """What the links of the body that a link is a part of are together."""
+        return self._wholes[self._hosts[link]]
 
-def with_share(inertia: Symmetric, link: str, base: Base, bodies: tuple[FixedBodies, FixedBodies]) -> Symmetric | None:
-    """The inertia that a link of the first robot has in the second one, if the two share those of a body otherwise.
-
-    Both are seen from `base`. None where they share none: no link of the body has an inertia that libsdformat refuses.
-    """
-    one, other = bodies
-    members = (*one.of(link), *other.of(link))
-    if not any(is_refused(each.mass.solid.inertia) for each in members):
-        return None
-    more = (b - a for a, b in zip(one.inertia(link, base.a), other.inertia(link, base.b), strict=True))
-    return _sum((inertia, tuple(more)))
-
-
-def _sum(parts: Iterable[Iterable[float]]) -> Symmetric:
-    xx, yy, zz, xy, xz, yz = map(math.fsum, zip(*parts, strict=True))
-    return xx, yy, zz, xy, xz, yz
+    def is_shared(self, link: str) -> bool:
+        """Whether SDF of a URDF shares the body of a link: one of its links has an inertia that libsdformat refuses."""
+        return self._hosts[link] in self._impossible

@@ -13,10 +13,10 @@ SHARED = "shared"
 
 
 def with_share(made: Inertial, written: Inertial) -> Inertial:
-    """The inertial of SDF with the center of mass, if one is written, and the inertia of URDF in an annotation."""
+    """The inertial of SDF with the inertia of URDF, and its center of mass if it has moved, in an annotation."""
     numbers: dict[str, float | Vector3] = dict(zip(ELEMENTS, tensor(written.inertia), strict=True))
-    if written.pose is not None:
-        numbers = {"xyz": written.pose.xyz or ORIGIN, **numbers}
+    if made.pose != written.pose:
+        numbers = {"xyz": (written.pose and written.pose.xyz) or ORIGIN, **numbers}
     return with_annotation(made, SHARED, attributes={name: format_value(value) for name, value in numbers.items()})
 
 
@@ -30,6 +30,7 @@ def without_share(inertial: Inertial) -> Inertial | None:
         place = parse_value("vector3", found.get("xyz") or "0 0 0")
     except ValueError:
         return None
-    pose = (inertial.pose or Pose()).model_copy(update={"xyz": place}) if found.get("xyz") else None
+    moved = (inertial.pose or Pose()).model_copy(update={"xyz": place})
+    pose = moved if found.get("xyz") else inertial.pose
     inertia = (inertial.inertia or Inertia()).model_copy(update=old)
     return without_annotation(inertial, SHARED).model_copy(update={"inertia": inertia, "pose": pose})

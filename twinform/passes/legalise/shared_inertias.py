@@ -1,25 +1,35 @@
 """Inertias that no body has, where those of links that are fixed to theirs make up for them.
 
 libsdformat puts fixed links together when it reads URDF, and only then asks whether a body can have the inertia. In SDF
-every link is asked. So such a link and others of its body have in SDF what they are together, by their masses: each has
-its own mass, at the center of them all, and as much of their inertia as it has of their mass.
+every link is asked. What a link has too little of is taken from another of the same body, so that the body as a whole
+has the inertia that it had. Where no other has enough, such links and others are in SDF what they are together: each
+has its own mass, at the center of them all, and as much of their inertia as it has of their mass.
 """
 
 import math
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from contextlib import suppress
+from dataclasses import replace
 
 from twinform.ir import Format, Link, Model
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.principal_moments import Symmetric
-from twinform.ir.solids import Solid, combined, placed, with_mass
+from twinform.ir.solids import Solid, combined, placed, turned, with_mass
 from twinform.ir.verify.inertia import inertia_matrix, is_plain
-from twinform.passes.inertia.physical_consistency import clearances, doubt, has_mass, is_clearly_possible
+from twinform.passes.inertia.physical_consistency import (
+    clearances,
+    doubt,
+    has_mass,
+    is_clearly_possible,
+    nearest_possible,
+)
 from twinform.passes.structure.bodies import body_of
 from twinform.passes.structure.tagged_shapes import hosts_of
 
+_MARGIN = 1e-6
+"""The least second moment of mass along an axis, as a part of the trace: digits are cut off again."""
 _ROUNDING = 1e-12
 """How much of the largest moment the digits of a file may lack."""
 
@@ -57,12 +67,42 @@ def is_refused(matrix: Symmetric | None) -> bool:
 
 
 def _of_body(members: Sequence[Link], needy: AbstractSet[str], graph: FrameGraph) -> dict[str, Solid]:
-    """What changes in the links of one body: impossible ones, and as many others, heavy ones first, as it takes.
+    """What changes in the links of one body; nothing where the body is not possible as a whole."""
+    own = {link.name: body_of(link, graph, Format.URDF) for link in members}
+    if not all(math.isfinite(number) for one in own.values() for number in one.inertia):
+        return {}
+    places = {name: graph.pose(name, members[0].name) for name in own}
+    solids = {name: placed(one, places[name]) for name, one in own.items()}
+    found = _with_givers(solids, needy)
+    if found:
+        return {name: replace(own[name], inertia=turned(each, places[name].inverse())) for name, each in found.items()}
+    return {name: placed(one, places[name].inverse()) for name, one in _together(solids, needy).items()}
 
-    Nothing where the body is not possible as a whole.
-    """
-    places = {link.name: graph.pose(link.name, members[0].name) for link in members}
-    solids = {link.name: placed(body_of(link, graph, Format.URDF), places[link.name]) for link in members}
+
+def _with_givers(solids: Mapping[str, Solid], needy: AbstractSet[str]) -> dict[str, Symmetric]:
+    """Possible inertias, of which others have as much less as they have more; nothing where none has enough."""
+    inertias: dict[str, Symmetric] = {name: one.inertia for name, one in solids.items()}
+    found: dict[str, Symmetric] = {}
+    for name in [name for name in inertias if name in needy]:
+        made = nearest_possible(inertias[name], _MARGIN * abs(sum(inertias[name][:3])))
+        change = _minus(made, inertias[name])
+        others = sorted(inertias.keys() - {name}, key=lambda each: (-sum(inertias[each][:3]), each))
+        rest = ((other, _minus(inertias[other], change)) for other in others if is_clearly_possible(inertias[other]))
+        giver = next(((other, left) for other, left in rest if is_clearly_possible(left)), None)
+        if giver is None:
+            return {}
+        found |= {name: made, giver[0]: giver[1]}
+        inertias |= found
+    return found
+
+
+def _minus(one: Symmetric, other: Symmetric) -> Symmetric:
+    xx, yy, zz, xy, xz, yz = (a - b for a, b in zip(one, other, strict=True))
+    return xx, yy, zz, xy, xz, yz
+
+
+def _together(solids: Mapping[str, Solid], needy: AbstractSet[str]) -> dict[str, Solid]:
+    """Impossible links, and as many others, heavy ones first, as it takes: each is its part of what they all are."""
     group = {name: one for name, one in solids.items() if name in needy}
     whole = combined([*group.values()])
     for name in sorted(solids.keys() - needy, key=lambda each: (-solids[each].mass, each)):
@@ -70,6 +110,6 @@ def _of_body(members: Sequence[Link], needy: AbstractSet[str], graph: FrameGraph
             break
         group[name] = solids[name]
         whole = combined([whole, solids[name]] if whole.mass else [*group.values()])
-    if not whole.mass or not all(map(math.isfinite, whole.inertia)) or is_refused(whole.inertia):
+    if not whole.mass or is_refused(whole.inertia):
         return {}
-    return {name: placed(with_mass(whole, one.mass), places[name].inverse()) for name, one in group.items()}
+    return {name: with_mass(whole, one.mass) for name, one in group.items()}

@@ -3,8 +3,8 @@
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, rules
-from twinform.ir import Format, Link, Model
-from twinform.ir.solids import ELEMENTS, Solid
+from twinform.ir import Format, Link, Model, Pose
+from twinform.ir.solids import ELEMENTS, ORIGIN, Solid
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.carriers.shared_inertia import with_share
 from twinform.passes.framework.base import ModelPass
@@ -15,9 +15,10 @@ from twinform.passes.structure.bodies import with_solid
 class ShareInertias(ModelPass):
     """Make inertias possible that no body has, with what links have that are fixed to theirs.
 
-    Changes: a link with an inertia that libsdformat would refuse in SDF, and takes in URDF, where fixed links are one
-    body, and as many others of that body as it takes. Each keeps its mass, at the center of them all, and has as much
-    of the inertia that they have together as it has of their mass, so that the body is what it was.
+    Changes: 1. the inertia of a link that libsdformat would refuse in SDF, and takes in URDF, where fixed links are one
+    body, becomes the nearest that a body can have; another link of that body has as much less. 2. Where no other has
+    enough, the link and as many others as it takes keep their masses, at the center of them all, and each has as much
+    of the inertia that they have together as it has of their mass. The body is what it was.
     Never touches: a body that is impossible as a whole.
     Diagnostics: `shared-inertia`; the ledger has each link. The old center and inertia are carried.
     """
@@ -35,16 +36,17 @@ class ShareInertias(ModelPass):
         return model.model_copy(update={"links": tuple(self._shared(link, found, sink) for link in model.links)})
 
     def _shared(self, link: Link, found: dict[str, Solid], sink: DiagnosticSink) -> Link:
-        if link.inertial is None or link.name not in found:
+        written = link.inertial
+        if written is None or link.name not in found:
             return link
-        message = (
-            f"link {link.name!r} has another center of mass and inertia in SDF, "
-            "and with the links that are fixed to it the same"
-        )
-        sink.report(rules.SHARED_INERTIA, message, link.inertial.location, found=link.name)
-        where, pose = link.inertial.location, link.inertial.pose
+        made, old = with_solid(written, found[link.name]), written.pose or Pose()
+        moved = found[link.name].center != (old.xyz or ORIGIN)
+        made = made if moved else made.model_copy(update={"pose": written.pose})
+        what = "center of mass and inertia" if moved else "inertia"
+        message = f"link {link.name!r} has another {what} in SDF, and with the links that are fixed to it the same"
+        sink.report(rules.SHARED_INERTIA, message, written.location, found=link.name)
+        where = written.location
         sink.account(Fate.APPROXIMATED, rules.SHARED_INERTIA, message, where.at("inertia"), len(ELEMENTS))
-        if pose and pose.xyz:
+        if moved and old.xyz:
             sink.account(Fate.APPROXIMATED, rules.SHARED_INERTIA, message, where.at("origin/@xyz"))
-        made = with_solid(link.inertial, found[link.name])
-        return link.model_copy(update={"inertial": with_share(made, link.inertial) if self.carriers else made})
+        return link.model_copy(update={"inertial": with_share(made, written) if self.carriers else made})

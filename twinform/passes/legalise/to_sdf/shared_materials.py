@@ -69,7 +69,7 @@ class SharedMaterials(ModelPass):
             source = defined.get(material.name or "", material)
         if source.color and (material.ambient is None) != (material.diffuse is None):  # parser_urdf.cc, CreateVisual
             message = f"where Gazebo reads the URDF, visual {visual.name!r} has the color of <gazebo> alone"
-            sink.account(Fate.APPROXIMATED, to_sdf.GAZEBO_CONFLICT, message, visual.location, weight=0)
+            sink.account(Fate.APPROXIMATED, rules.GAZEBO_CONFLICT, message, visual.location, weight=0)
         update: dict[str, object] = {"material": _sdf_material(material, source)}
         own = material.color is not None or material.texture is not None
         if not (own and material.name == material_name(link, visual)):

@@ -57,15 +57,23 @@ def _written(document: Document) -> dict[str, tuple[object, ...]]:
     return {name: (each.mass, tensor(each.inertia), Transform.from_pose(each.pose)) for name, each in inertials.items()}
 
 
+@pytest.mark.parametrize(("old", "new"), [("<mass>0.4", "<mass>0.5"), ("<pose>0.01", "<pose>0.02")])
+def test_links_that_are_their_part_of_a_body_stay_so_where_it_was_edited(old: str, new: str) -> None:
+    sdf = _sdf(_HANDS)
+    assert old in sdf
+    made = twinform.convert(sdf.replace(old, new).encode(), to="urdf")
+    assert "tf:shared" not in made.text
+    assert 'ixx="0.001"' not in made.text
+    assert "stale-carrier" in {each.rule.name for each in made.diagnostics}
+
+
 @pytest.mark.parametrize(
     ("old", "new"),
     [
         ("0.1 0 0 0 0.5 0.2", "0.1 0 0 0 0.9 0.2"),  # which turns the one link in the other
         ('<joint name="fix" type="fixed">', '<joint name="fix" type="ball">'),
-        ("<pose>0.0999", "<pose>0.0998"),
-        ("<mass>5", "<mass>6"),
-        ("<iyy>6.018", "<iyy>6.1"),
-        ("<iyy>0.30000", "<iyy>0.35"),
+        ("<iyy>1.333", "<iyy>1.4"),
+        ("<iyy>0.29999", "<iyy>0.25"),
     ],
 )
 def test_it_stays_where_the_body_was_edited(old: str, new: str) -> None:
