@@ -16,7 +16,7 @@ from reports.harness.sample import Sample
 from reports.loaders.judging import recalled
 from reports.loaders.report import absent
 from tests.corpus.files import CorpusFile, Kind
-from twinform.compiler.driver import convert_once
+from twinform.compiler.conversion import convert_once
 from twinform.compiler.fitting import assessed, fitted
 from twinform.compiler.input.options import LoadOptions
 from twinform.compiler.request import ConversionRequest

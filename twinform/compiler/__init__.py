@@ -6,7 +6,8 @@ from twinform.lazy import lazy_attributes
 
 if TYPE_CHECKING:
     from twinform.compiler.checking import check
-    from twinform.compiler.driver import Conversion, convert, plan, run_conversion
+    from twinform.compiler.conversion import Conversion
+    from twinform.compiler.driver import convert, plan, run_conversion
     from twinform.compiler.dumping import dump, dumps
     from twinform.compiler.errors import CompileError, ReadOnlyPassError
     from twinform.compiler.includes.expanding import expand
@@ -23,7 +24,8 @@ else:
         __name__,
         {
             "twinform.compiler.checking": "check",
-            "twinform.compiler.driver": "Conversion convert plan run_conversion",
+            "twinform.compiler.conversion": "Conversion",
+            "twinform.compiler.driver": "convert plan run_conversion",
             "twinform.compiler.dumping": "dump dumps",
             "twinform.compiler.errors": "CompileError ReadOnlyPassError",
             "twinform.compiler.includes.expanding": "expand",

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
-from twinform.compiler.driver import Conversion, convert_once
+from twinform.compiler.conversion import Conversion, convert_once
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.loading import read
 from twinform.compiler.input.options import Input, LoadOptions

@@ -4,7 +4,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
-from twinform.compiler.driver import Conversion, run_conversion
+from twinform.compiler.conversion import Conversion
+from twinform.compiler.driver import run_conversion
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.loading import LoadOptions, read, read_tree
 from twinform.compiler.input.parsing import UnreadableError, read_bytes

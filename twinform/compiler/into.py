@@ -5,7 +5,8 @@ from functools import partial
 from pathlib import Path
 
 from twinform.compiler.compare import ComparisonOptions, Difference, compare_files
-from twinform.compiler.driver import Conversion, run_conversion
+from twinform.compiler.conversion import Conversion
+from twinform.compiler.driver import run_conversion
 from twinform.compiler.errors import CompileError
 from twinform.compiler.in_place import Updated, file_bytes, updated
 from twinform.compiler.input.loading import LoadOptions, read

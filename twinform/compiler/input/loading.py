@@ -79,7 +79,7 @@ def read(source: Input, load_options: LoadOptions, *, name: str = "") -> LoadRes
         if isinstance(source, Document):
             from twinform.compiler.input.documents import check_document  # noqa: PLC0415 - it reads what it has written
 
-            return check_document(source, sink, load_options)
+            return check_document(source, sink, load_options, lower_tree)
         return _check(source, sink, load_options)
 
 

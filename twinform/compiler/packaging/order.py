@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import Self
 
-from twinform.compiler.driver import Conversion, run_conversion
+from twinform.compiler.conversion import Conversion
+from twinform.compiler.driver import run_conversion
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.loading import Input, LoadOptions
 from twinform.compiler.packaging.collect_files import CollectFiles

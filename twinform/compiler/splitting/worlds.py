@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from twinform.compiler.driver import has_mixed_words, mixed_words, written
+from twinform.compiler.conversion import has_mixed_words, mixed_words, written
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes.expanding import expand
 from twinform.compiler.includes.other_documents import OtherDocuments

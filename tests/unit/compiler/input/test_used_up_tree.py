@@ -5,7 +5,7 @@ from lxml import etree
 
 from benchmarks import robots
 from twinform.compiler import convert
-from twinform.compiler.driver import Conversion
+from twinform.compiler.conversion import Conversion
 from twinform.compiler.input import loading, used_up_tree
 from twinform.compiler.input.used_up_tree import used_up
 

@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from twinform.compiler.driver import Conversion
+from twinform.compiler.conversion import Conversion
 from twinform.compiler.errors import CompileError
 from twinform.compiler.gazebo_files import world_without_text
 from twinform.compiler.packaging.collecting import Collection

@@ -1,0 +1,238 @@
+"""One conversion: a file is loaded, goes through the user's passes and legalisation, and is written."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+
+from twinform.compiler.errors import CompileError
+from twinform.compiler.input.allowances import staying
+from twinform.compiler.input.comments import comments_of
+from twinform.compiler.input.loading import (
+    Input,
+    LoadOptions,
+    LoadResult,
+    garbage_collection_paused,
+    read,
+    read_tree_again,
+)
+from twinform.compiler.output.comments import Comments
+from twinform.compiler.output.emitting import emit, emit_legal
+from twinform.compiler.request import ConversionRequest
+from twinform.compiler.search.uris import LocalAssets
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile
+from twinform.diagnostics.rules import MISSING_ATTRIBUTE, MISSING_LIMIT, OUTSIDE_VERSION
+from twinform.ir import Document, Format, Include
+from twinform.ir.verify import verify
+from twinform.notebooks import draw
+from twinform.passes import PassError, PassInstrumentation, Pipeline
+from twinform.passes.analyses.candidates import candidates, name_once_expanded, wanted_includes
+from twinform.passes.sdf_versions import has_early_frames
+from twinform.schemas import XmlElement
+
+
+@dataclass(frozen=True)  # no slots: `source` is kept in the dictionary
+class Conversion:
+    """What `convert` made: the text, its document, the diagnostics and the ledger.
+
+    `origin` is what it was read from: the bytes of a file, or the XML of a document in memory. `side_files` are files
+    that passes made to lie beside the text.
+    """
+
+    text: str
+    document: Document
+    diagnostics: tuple[Diagnostic, ...]
+    ledger: Ledger
+    origin: bytes | XmlElement | None = field(default=None, repr=False, compare=False)
+    side_files: tuple[SideFile, ...] = ()
+
+    @cached_property
+    def source(self) -> XmlElement | None:
+        """The XML that it was made from, for those who count: `twinform.compiler.audit`. A file is parsed once more."""
+        return read_tree_again(self.origin) if isinstance(self.origin, bytes) else self.origin
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows of it."""
+        return draw("Conversion", self)
+
+
+def convert_once(
+    request: ConversionRequest,
+    source: Input,
+    load_options: LoadOptions,
+    *,
+    name: str = "",
+    instrumentation: PassInstrumentation | None = None,
+) -> Conversion:
+    """A conversion with the passes of the request, whoever the result is for.
+
+    Raises:
+        CompileError: the source, a pass or the result has an error.
+    """
+    with garbage_collection_paused():
+        load_options = replace(load_options, keep_tree=False).read_by(request.sdf_version)
+        loaded = read(source, load_options, name=name)
+        request = replace(request, assets=LocalAssets(load_options.search, Path(loaded.path)))
+        if loaded.accepted and (request.expand_includes or request.to == "urdf" or request.model is not None):
+            from twinform.compiler.includes.expanding import expand  # noqa: PLC0415 - most conversions need no includes
+
+            wanted = None if request.expand_includes else _wanted(loaded.document, request)
+            before = loaded.document
+            loaded = expand(loaded, load_options, wanted=wanted, carriers=request.carriers)
+            request = replace(request, model=name_once_expanded(before, loaded.document, request.model))
+        request = replace(request, mixed=has_mixed_words(loaded))
+        if loaded.document is None or not (loaded.accepted or _may_be_mended(loaded, request)):
+            raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
+        try:
+            return _run(loaded, loaded.document, request, load_options, instrumentation=instrumentation)
+        except (PassError, LookupError, ValueError, RecursionError) as error:
+            allowed = [each for each in loaded.allowed if each.is_error]
+            if not allowed:
+                raise
+            stays = staying(allowed, f"the model cannot be converted with it ({error})")
+            raise CompileError((*loaded.diagnostics, *stays)) from error
+
+
+def _wanted(document: Document | None, request: ConversionRequest) -> Callable[[Include], bool]:
+    """The includes that have to be put in their place; of a model that stays SDF, the one that stands for it."""
+    wanted = wanted_includes(document, request.model)
+    if request.to == "urdf" or document is None:
+        return wanted
+    placed = {id(one.model) for one in candidates(document)}
+    return lambda include: id(include) in placed and wanted(include)
+
+
+def has_mixed_words(loaded: LoadResult) -> bool:
+    """Whether files have elements that their version does not have, or frames where those have no meaning yet."""
+    early = loaded.document is not None and has_early_frames(loaded.document)
+    return loaded.mixed or bool(mixed_words(loaded)) or early
+
+
+def mixed_words(loaded: LoadResult) -> frozenset[str]:
+    """Elements and attributes in files that the versions of these do not have."""
+    found = (*loaded.diagnostics, *loaded.allowed)
+    return frozenset(each.found for each in found if _is_outside_version(each) and each.found)
+
+
+def _is_outside_version(found: Diagnostic) -> bool:
+    """Whether the version of the file does not have the part; the version of SDF in an extension of URDF is open."""
+    path = found.location.path
+    return found.rule is OUTSIDE_VERSION and not (
+        path.startswith("/robot") and ("/gazebo[" in path or "/gazebo/" in path)
+    )
+
+
+def _run(
+    loaded: LoadResult,
+    document: Document,
+    request: ConversionRequest,
+    load_options: LoadOptions,
+    *,
+    instrumentation: PassInstrumentation | None,
+) -> Conversion:
+    """The rest of the way of a document that was read."""
+    kept = [each for each in loaded.diagnostics if not each.is_error]
+    sink = DiagnosticSink(
+        loaded.path,
+        load_options.strict,
+        kept,
+        list(loaded.entries),
+        origins=dict(loaded.origins),
+        allows=loaded.allowances and loaded.allowances.in_conversion,
+        allowed=list(loaded.allowed),
+    )
+    passes = _with_files(request, load_options, loaded.path)
+    changed = passes.run(document, sink, instrumentation=instrumentation, verify=verify if loaded.accepted else None)
+    changed = _remedied(changed, request, sink, instrumentation, accepted=loaded.accepted)
+    if not loaded.accepted:
+        verify(changed, sink)
+    text = ""
+    if not sink.has_errors:
+        kept_words = mixed_words(loaded) if loaded.mixed else None
+        comments = _comments(loaded, document, request)
+        document, text = written(changed, request, sink, instrumentation, kept=kept_words, comments=comments)
+    if sink.has_errors:
+        raise CompileError(tuple(sink.diagnostics))
+    lost = sum(entry.weight for entry in sink.entries)
+    ledger = Ledger(max(0, loaded.size - lost), sink.traced_entries())
+    origin = loaded.tree if loaded.content is None else loaded.content
+    return Conversion(text, document, tuple(sink.diagnostics), ledger, origin, tuple(sink.side_files))
+
+
+def _remedied(
+    document: Document,
+    request: ConversionRequest,
+    sink: DiagnosticSink,
+    instrumentation: PassInstrumentation | None,
+    *,
+    accepted: bool,
+) -> Document:
+    """The document after the passes that consumers need; what these change in its physics is in the ledger."""
+    if not request.remedies:
+        return document
+    from twinform.profiles.physics import physics_changes  # noqa: PLC0415 - see `run_conversion`
+
+    for step in request.remedies.with_files(request.assets):
+        before = document
+        document = Pipeline((step,)).run(
+            before, sink, instrumentation=instrumentation, verify=verify if accepted else None
+        )
+        sink.entries.extend(physics_changes(before, document, step.name))
+    return document
+
+
+def _comments(loaded: LoadResult, document: Document, request: ConversionRequest) -> Comments | None:
+    """The comments that go along; JSON has no place for any."""
+    if not request.comments or request.to == "json":
+        return None
+    return comments_of(loaded, document, Format(request.to), request.model)
+
+
+def _with_files(request: ConversionRequest, load_options: LoadOptions, file: str) -> Pipeline:
+    """The user's passes; those that open files know where they are, and who reads them."""
+    if not request.passes:
+        return request.passes
+    from twinform.compiler.includes.other_documents import OtherDocuments  # noqa: PLC0415 - see `_pipeline`
+
+    return request.passes.with_files(request.assets, OtherDocuments(load_options, file).read)
+
+
+def written(
+    document: Document,
+    request: ConversionRequest,
+    sink: DiagnosticSink,
+    instrumentation: PassInstrumentation | None,
+    *,
+    kept: frozenset[str] | None,
+    comments: Comments | None = None,
+) -> tuple[Document, str]:
+    """What a document becomes, and its text, with the comments of its file.
+
+    One that was put together from several files has elements that are `kept` although its version does not have
+    them: the files had them too. It is None where there was one file.
+    """
+    document = request.selection(document).run(document, sink, instrumentation=instrumentation)
+    if sink.has_errors:
+        return document, ""
+    if request.to == "json":
+        from twinform.compiler.output.json import json_text  # noqa: PLC0415 - few conversions need it
+
+        emit(document, sink)
+        return document, json_text(document, sink)
+    legal = request.legalisation(document)
+    fit = (kept is not None or bool(len(legal))) and not request.target(document, Format(request.to)).mixed
+    kept = frozenset() if len(legal) or kept is None else kept
+    return emit_legal(document, legal, sink, instrumentation, fit=fit, kept=kept, comments=comments)
+
+
+def _may_be_mended(loaded: LoadResult, request: ConversionRequest) -> bool:
+    """Whether nothing is wrong but what a pass can put right: limits that are missing, and what remedies are for."""
+    if not (request.passes or request.remedies):
+        return False
+    errors = [each for each in loaded.diagnostics if each.is_error]
+    return all(
+        each.rule is MISSING_LIMIT
+        or (each.rule is MISSING_ATTRIBUTE and each.location.path.endswith("/limit"))
+        or each.rule.name in request.mends
+        for each in errors
+    )
