@@ -54,5 +54,11 @@ def _from(registered: RegisteredRule) -> str:
 def _page(rule: Rule, origin: str) -> str:
     title = f"{styled(rule.name)} ({severity_words(rule)}){origin}"
     return "\n\n".join(
-        [title, *(f"{styled(head)}\n{click.wrap_text(body, 100, '  ', '  ')}" for head, body in sections(rule))]
+        [
+            title,
+            *(
+                f"{styled(head)}\n{click.wrap_text(body, 100, '  ', '  ', preserve_paragraphs=True)}"
+                for head, body in sections(rule)
+            ),
+        ]
     )

@@ -16,8 +16,8 @@ HEADINGS = {
     "References": "references",
 }
 """The headings of a page, and the fields of `Rule` that they are. The last one may be left out."""
-_FILE = re.compile(r"---\n(?P<head>([a-z]+: .+\n)+)---\n(?P<page>(\n## .+\n\n([^#\n].*\n)+)+)")
-_SECTION = re.compile(r"^## (.+)\n\n((?:.+\n)+)", re.MULTILINE)
+_FILE = re.compile(r"---\n(?P<head>([a-z]+: .+\n)+)---\n(?P<page>(\n## .+\n(\n([^#\n].*\n)+)+)+)")
+_SECTION = re.compile(r"^## (.+)\n((?:\n(?:[^#\n].*\n)+)+)", re.MULTILINE)
 
 
 def rule_names() -> list[str]:
@@ -30,11 +30,11 @@ def read_head(name: str) -> dict[str, str]:
     """The head of a rule's file: what a `Rule` has besides its name and its page.
 
     Raises:
-        ValueError: the file is not a head and one paragraph below each heading, in their order.
+        ValueError: the file is not a head and paragraphs below each heading, in their order.
     """
     found = _FILE.fullmatch(_text(name))
     if found is None:
-        raise ValueError(f"{name}.md is not a head between two lines of --- and one paragraph below each heading")
+        raise ValueError(f"{name}.md is not a head between two lines of --- and paragraphs below each heading")
     headings = [heading for heading, _ in _SECTION.findall(found["page"])]
     if headings not in (list(HEADINGS), list(HEADINGS)[:-1]):
         raise ValueError(f"{name}.md has the headings {', '.join(headings)}; expected are {', '.join(HEADINGS)}")
@@ -42,9 +42,13 @@ def read_head(name: str) -> dict[str, str]:
 
 
 def read_page(name: str) -> dict[str, str]:
-    """The page of a built-in rule: a text in one line for each field of `Rule` that is a part of the page."""
+    """The page of a built-in rule: a text, of a line for each paragraph, by the field of `Rule` that it is."""
     sections = _SECTION.findall(_text(name))
-    return {"references": "", **{HEADINGS[heading]: " ".join(text.split()) for heading, text in sections}}
+    return {"references": "", **{HEADINGS[heading]: _unwrapped(text) for heading, text in sections}}
+
+
+def _unwrapped(text: str) -> str:
+    return "\n\n".join(" ".join(paragraph.split()) for paragraph in text.split("\n\n"))
 
 
 def _text(name: str) -> str:

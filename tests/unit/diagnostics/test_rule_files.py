@@ -18,6 +18,9 @@ not as it should be.
 
 So.
 
+And more
+so.
+
 ## Example
 
 `3`
@@ -47,7 +50,7 @@ def test_a_head_and_a_page_are_read(folder: Path) -> None:
     assert rule_line("odd-thing", head) == line
     assert read_page("odd-thing") == {
         "finds": "A thing that is not as it should be.",
-        "matters": "So.",
+        "matters": "So.\n\nAnd more so.",
         "example": "`3`",
         "better": "`2`",
         "references": "",
@@ -58,8 +61,8 @@ def test_a_head_and_a_page_are_read(folder: Path) -> None:
     ("text", "complaint"),
     [
         (_PAGE, "is not a head between two lines of ---"),
-        (f"---\nseverity: info\n---\n{_PAGE}\nAnother paragraph.\n", "one paragraph below each heading"),
-        (f"---\nseverity: info\n---\n{_PAGE}\n## References\n", "one paragraph below each heading"),
+        (f"---\nseverity: info\n---\n{_PAGE}\n### More\n\nMore.\n", "paragraphs below each heading"),
+        (f"---\nseverity: info\n---\n{_PAGE}\n## References\n", "paragraphs below each heading"),
         (
             f"---\nseverity: info\n---\n{_PAGE}\n## Reference\n\nA book.\n",
             "has the headings .*, Reference; expected are",
