@@ -3,7 +3,7 @@
 import sys
 
 from twinform.compiler.driver import ConversionOptions
-from twinform.compiler.input.options import FileOptions, ReadingOptions
+from twinform.compiler.input.options import CheckOptions, FileOptions, ReadingOptions
 from twinform.compiler.options import Option, declared_options
 from twinform.compiler.request_options import RequestOptions
 from twinform.diagnostics.generated_files import main
@@ -26,7 +26,7 @@ _OTHERS = {
     "keep_physics": Option(help="Refuse passes for consumers that change masses, inertias, joints or limits."),
 }
 """Options that commands declare themselves, each in its own way."""
-_OF = {"files": FileOptions, "conversions": RequestOptions}
+_OF = {"files": FileOptions, "checks": CheckOptions, "conversions": RequestOptions}
 
 
 def options_page() -> str:
@@ -37,7 +37,7 @@ def options_page() -> str:
 
 
 def _row(name: str, option: Option) -> str:
-    of = next((word for word, options in _OF.items() if name in options.__annotations__), "checks")
+    of = next(word for word, options in _OF.items() if name in options.__annotations__)
     flag = option.flag or f"--{name.replace('_', '-')}"
     return f"| `{name}` | {of} | `{flag}` | {'yes' if option.setting else ''} | {option.help} |\n"
 
