@@ -108,8 +108,14 @@ class FunctionWriter:
     part: Part
 
     def text(self) -> str:
-        """The function."""
+        """The function.
+
+        Raises:
+            ValueError: a row says something that no reader can do, such as to fill a field that there is not.
+        """
         part = self.part
+        for row in () if part.at else self._placed(part.fact):
+            self._require_field(row)
         steps = [self._attributes(), self._missing_attributes(), self._text(), self._children()]
         if not part.at:
             steps += self._finish()
@@ -267,6 +273,14 @@ class FunctionWriter:
         conditions = list(self._broken())
         if conditions:
             yield self._format(templates.BREAK, condition=" or ".join(conditions))
+
+    def _require_field(self, row: Fact) -> None:
+        place = str(row.place)
+        holder = Document if place.startswith("/") else self.part.node
+        for step in place.removeprefix("/").split("."):
+            if step not in holder.model_fields:
+                raise ValueError(f"{self.part.path}/{row.name}: {holder.__name__} has no field {step!r}")
+            holder = next(iter(classes_in(holder, step)), holder)
 
     def _inner(self, field: str) -> type[Node]:
         """The class of the node in a field, which has no element of its own."""
