@@ -53,12 +53,8 @@ def _from(registered: RegisteredRule) -> str:
 
 def _page(rule: Rule, origin: str) -> str:
     title = f"{styled(rule.name)} ({severity_words(rule)}){origin}"
-    return "\n\n".join(
-        [
-            title,
-            *(
-                f"{styled(head)}\n{click.wrap_text(body, 100, '  ', '  ', preserve_paragraphs=True)}"
-                for head, body in sections(rule)
-            ),
-        ]
-    )
+    return "\n\n".join([title, *(f"{styled(head)}\n{_wrapped(body)}" for head, body in sections(rule))])
+
+
+def _wrapped(body: str) -> str:
+    return click.wrap_text(body, 100, "  ", "  ", preserve_paragraphs=True)
