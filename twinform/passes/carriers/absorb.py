@@ -68,11 +68,24 @@ def _without_scope(model: Model, prefix: str) -> dict[str, object]:
 
 def _absorb(node: AnyNode, piece: Opaque, condition: VersionCondition, version: Version) -> AnyNode:
     data = _read(piece, definition_of(node) or "", version)
+    if condition.index and piece.at:
+        return _beside(node, piece.at.split("/"), piece)
     if condition.index and is_repeated(piece, node):
         return node.model_copy(update={"opaque": (*node.opaque, piece)})
     if piece.element is not None and piece.element.name == "pose" and not piece.at:
         node = node.model_copy(update={"pose": None})  # one pose stands for another
     return _merged(node, data, condition.index)
+
+
+def _beside(node: AnyNode, path: list[str], piece: Opaque) -> AnyNode:
+    """The node with an element deeper in it that repeats another one."""
+    if not path:
+        return node.model_copy(update={"opaque": (*node.opaque, piece.model_copy(update={"at": ""}))})
+    first, *rest = path
+    inner = node.__dict__.get(first)
+    if not isinstance(inner, Node):
+        raise CarrierError(f"there is no <{first}>")
+    return node.model_copy(update={first: _beside(inner, rest, piece)})
 
 
 def _read(piece: Opaque, definition: str, version: Version) -> dict[str, Any]:

@@ -55,9 +55,18 @@ def is_repeated(part: Opaque, node: Node) -> bool:
     return element.name in _single(definition_of(node))
 
 
+def inside(node: Node, at: str) -> Node | None:
+    """The single node at a path of elements below another one, such as the limit of a joint at `axis/limit`."""
+    holder: object = node
+    for step in filter(None, at.split("/")):
+        holder = holder.__dict__.get(step) if isinstance(holder, Node) else None
+    return holder if isinstance(holder, Node) else None
+
+
 def has_first(node: Node, name: str) -> bool:
     """Whether a node has the element that another one of this name repeats."""
-    place = _single(definition_of(node)).get(name)
+    definition = definition_of(node)
+    place = _single(definition).get(name) if definition else name
     if place:
         return node.__dict__.get(place) is not None
     return any(part.element.name == name for part in node.opaque if part.element)

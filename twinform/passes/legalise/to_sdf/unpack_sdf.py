@@ -22,7 +22,7 @@ from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, is_memory, unpack
-from twinform.passes.carriers.definitions import has_first, is_repeated
+from twinform.passes.carriers.definitions import has_first, inside, is_repeated
 from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.base import ModelPass
@@ -97,8 +97,9 @@ def _is_overruled(carrier: Opaque, node: Node) -> bool:
     at = (carrier.element.get("at") or "") if carrier.element else ""
     named = {piece.element.name for piece in unpack(carrier) if piece.element}
     if carrier.element and carrier.element.get("index") is not None:
-        again = isinstance(node, Joint) or any(is_repeated(piece, node) for piece in unpack(carrier))
-        return again and not all(has_first(node, name) for name in named)
+        holder = inside(node, at)
+        again = at or isinstance(node, Joint) or any(is_repeated(piece, node) for piece in unpack(carrier))
+        return bool(again) and not (holder and all(has_first(holder, name) for name in named))
     if isinstance(node, Joint):
         return at == "axis/limit" and node.type != "continuous" and bool(named & _ENDS)
     return isinstance(node, Visual) and at.startswith("material") and not _has_look(node.material)
@@ -169,6 +170,8 @@ def _absorbed(node: AnyNode, carriers: Iterable[Opaque]) -> AnyNode:
 def _with(node: AnyNode, carrier: Opaque) -> AnyNode | None:
     """The node with what is in a carrier; None where it has that already, or cannot have it."""
     try:
+        if carrier.element and carrier.element.get("at") and carrier.element.get("index") is not None:
+            return _absorbed(node, [carrier])
         other = _absorbed(node.model_copy(update=_defaults(node)), [carrier])
         has_pose = other.__dict__.get("pose") is not None
         return _absorbed(node, [carrier]) if not has_pose and _is_new(other, node) else None

@@ -4,11 +4,11 @@ from functools import partial
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, rules
-from twinform.ir import Document, Format, Joint, Link, Model, Node, replace_fields
+from twinform.ir import Document, Format, Joint, Link, Model, Node, Opaque, replace_fields
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import without_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SECOND, has_ours
-from twinform.passes.carriers.definitions import is_repeated
+from twinform.passes.carriers.definitions import has_first, inside, is_repeated
 from twinform.passes.carriers.provenance import came_from, with_provenance, without_provenance
 from twinform.passes.framework.base import Pass
 from twinform.passes.legalise.to_urdf.base import Keeper, UrdfVersion
@@ -126,8 +126,15 @@ class _RemainderCarrier:
         for piece in pieces:
             what = f"{piece.at}/{piece.name}" if piece.at else piece.name
             message = f"{what} of {of} has no equivalent in URDF"
-            kept = self.keeper.keep(kept, [piece], rules.SDF_ONLY, message, piece.location_in(node))
+            about = SECOND if _is_second(piece, kept) else ()
+            kept = self.keeper.keep(kept, [piece], rules.SDF_ONLY, message, piece.location_in(node), about=about)
         for path, text in endless:
             message = f"{path} of {of} is {text}, and numbers in URDF are finite"
             self.keeper.sink.report(rules.UNSAYABLE_NUMBER, message, node.location, found=text)
         return kept
+
+
+def _is_second(piece: Opaque, node: Node) -> bool:
+    """Whether it repeats an element deeper in a node, such as a second limit of an axis."""
+    holder = inside(node, piece.at) if piece.at else None
+    return holder is not None and piece.element is not None and has_first(holder, piece.element.name)
