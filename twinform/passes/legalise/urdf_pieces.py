@@ -6,7 +6,7 @@ from functools import cached_property
 
 from twinform.ir import Element, Joint, Link, Mimic, Model, Node, Opaque
 from twinform.ir.verify.joints import useless_leader
-from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS, is_part_of_axis
+from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 
 _ABOUT_JOINTS = frozenset({"transmission", "ros2_control"})
 OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})
@@ -113,10 +113,9 @@ def _would_act(element: Element, reference: str, standing: Standing) -> bool:
     if (link := standing.links.get(reference)) is not None:
         return _would_act_on_shapes(element, link)
     joint = standing.joints.get(reference)
-    if joint is None or joint.type == "floating" or element.name in LINK_TAGS | MODEL_TAGS:
-        return False
+    moves = joint is not None and joint.type not in {"fixed", "floating"}  # in SDF, others may be no joints at all
     tag = JOINT_TAGS.get(element.name)
-    return not (tag and tag.target == "ignored") and not (joint.type == "fixed" and is_part_of_axis(element))
+    return moves and element.name not in LINK_TAGS | MODEL_TAGS and not (tag and tag.target == "ignored")
 
 
 def _would_act_on_shapes(element: Element, link: Link) -> bool:

@@ -18,11 +18,6 @@ class Tag(NamedTuple):
     read: Callable[[str], object]
 
 
-def is_part_of_axis(element: Element) -> bool:
-    """Whether it is about an axis, which a fixed joint has not."""
-    return element.name in _OF_AXES
-
-
 def value_text(element: Element) -> str:
     """The value of a tag, which may be written as an attribute or as text."""
     value = element.get("value")
@@ -86,8 +81,6 @@ JOINT_TAGS = {
 """Fixed joints are never lumped here, so the two tags that prevent it have nothing to do."""
 
 MODEL_TAGS = {"static": Tag("model", "static", _truth)}
-
-_OF_AXES = frozenset({"axis", "axis2", "springReference", "springStiffness"})
 
 TRUTHS = frozenset({_truth, _gravity})
 """The readers of values that mean true or false."""

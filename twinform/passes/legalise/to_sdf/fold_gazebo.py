@@ -27,10 +27,11 @@ from twinform.passes.legalise.to_sdf.gazebo_sorting import (
     Blob,
     Sorter,
     TagValue,
+    is_part_of_axis,
     lacks_shapes,
     place_of,
 )
-from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS, is_part_of_axis
+from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

@@ -62,7 +62,7 @@ class FrameLinks(ModelPass):
         for name in moved:
             guests.setdefault(_anchor(name, moved, anchors), []).append(links[name])
         frames = [frame for joint in moved.values() for frame in self._frames(joint, links[joint.child or ""], sink)]
-        model = self._keep_physics(model, list(moved.values()), sink)
+        model = self._keep_physics(model, [(joint, links[joint.child or ""]) for joint in moved.values()], sink)
         model = self._keep_flags(model, [links[name] for name in moved if name], sink)
         made = model.model_copy(
             update={
@@ -109,14 +109,15 @@ class FrameLinks(ModelPass):
         ]
         return self._keep(frame, rest, f"the axis of the fixed joint {joint.name!r} has no effect", sink)
 
-    def _keep_physics(self, model: Model, joints: list[Joint], sink: DiagnosticSink) -> Model:
+    def _keep_physics(self, model: Model, joints: list[tuple[Joint, Link]], sink: DiagnosticSink) -> Model:
         """What `<gazebo>` sets for the physics of a joint that becomes a frame: it is carried in such an element."""
         kept: list[Opaque] = []
-        for joint in joints:
+        for joint, link in joints:
             parts = [part.element for part in joint.opaque if part.element and part not in _carriers(joint)]
             if not parts:
                 continue
-            element = Element.unchecked(name="gazebo", attributes=(("reference", joint.name),), children=tuple(parts))
+            reference = (("reference", _name_in_urdf(joint, link)),)
+            element = Element.unchecked(name="gazebo", attributes=reference, children=tuple(parts))
             message = f"joint {joint.name!r} becomes a frame, which has no <{parts[0].name}>"
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
             sink.account(fate, rules.FRAME_LINK, message, joint.location, element.weight)
@@ -152,6 +153,12 @@ class FrameLinks(ModelPass):
                 Fate.CARRIED if self.carriers else Fate.DROPPED, rules.FRAME_LINK, message, frame.location, part.weight
             )
         return carry(frame, rest, "urdf") if self.carriers else frame
+
+
+def _name_in_urdf(joint: Joint, link: Link) -> str:
+    """What a joint is called in the URDF that is made next: SDF has no name for one that fixes a frame."""
+    is_made = is_synthesized(joint) and find_annotation(link, FRAME) is not None
+    return f"{link.name}_joint" if is_made else joint.name
 
 
 def _attached(model: Model, parents: dict[str, str], sink: DiagnosticSink) -> Model:

@@ -9,6 +9,7 @@ from twinform.ir import Element, GazeboExtension, Link
 from twinform.passes.transforms.gazebo_tags import FALSE, LINK_TAGS, TRUE, TRUTHS, Tag, value_text
 
 _TOUCHED = frozenset({"surface", "collision"})
+_OF_AXES = frozenset({"axis", "axis2", "springReference", "springStiffness"})
 
 
 def place_of(element: Element, extension: GazeboExtension) -> Location:
@@ -52,6 +53,11 @@ class OverriddenTag(NamedTuple):
     element: Element
     extension: GazeboExtension
     message: str
+
+
+def is_part_of_axis(element: Element) -> bool:
+    """Whether it is about an axis, which a fixed joint has not."""
+    return element.name in _OF_AXES
 
 
 def lacks_shapes(link: Link, element: Element) -> bool:
