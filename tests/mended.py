@@ -12,7 +12,6 @@ from twinform.compiler.fixing.mending import kind_of
 from twinform.diagnostics import Safety, Span
 from twinform.text import SourceText, UndecodableError
 
-ANOTHER_ROBOT = "another robot after safe fixes"
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 """Characters that fixes delete, which may stand in the end of a comment."""
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
@@ -45,7 +44,7 @@ def mended_file(name: str, data: bytes) -> MendedFile:
     same = _same(data, safe.data, name) if safe.data != data and look(data).accepted else None
     faults = [*_faults(look, data, safe, unsafe=False), *(f"unsafe: {each}" for each in _faults(look, data, unsafe))]
     if same is False:
-        faults.append(ANOTHER_ROBOT)
+        faults.append("another robot after safe fixes")
     return MendedFile(
         name,
         safe.data != data,

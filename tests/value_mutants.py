@@ -143,15 +143,33 @@ def is_number(word: str) -> bool:
 
 def why_not_compared(spot: Spot) -> str:
     """What documents that a change at a place makes no difference; empty where nothing does."""
-    root, around = spot.element.getroottree(), (spot.element, *spot.element.iterancestors())
+    tree, around = spot.element.getroottree(), (spot.element, *spot.element.iterancestors())
+    again = _standing_again(tree.getroot())
+
+    def stands_again(_: object, nodes: list[XmlElement]) -> bool:
+        return nodes[0] in again
+
     for entry in NOT_COMPARED:
-        for found in cast("list[Any]", root.xpath(entry.xpath, namespaces={PREFIX: NAMESPACE})):
+        functions = {(NAMESPACE, "stands-again"): stands_again}
+        xpath = etree.XPath(entry.xpath, namespaces={PREFIX: NAMESPACE}, extensions=functions)
+        for found in cast("list[Any]", xpath(tree)):
             if isinstance(found, str):
                 if found.getparent() is spot.element and (found.attrname or "") == spot.name:  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] - what lxml makes of an attribute
                     return entry.what
             elif any(found is each for each in around):
                 return entry.what
     return ""
+
+
+def _standing_again(root: XmlElement) -> set[XmlElement]:
+    """The elements of a file behind another one of their name where the table allows one."""
+    return {
+        child
+        for each in described(root)
+        for name, row in each.rows.items()
+        if not row.repeats and not name.startswith("@")
+        for child in each.element.findall(name)[1:]
+    }
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
-from twinform.compiler.compare import ComparisonOptions, Difference, compare_files
+from twinform.compiler.compare import Difference, compare_files
 from twinform.compiler.conversion import Conversion
 from twinform.compiler.driver import run_conversion
 from twinform.compiler.errors import CompileError
@@ -76,7 +76,7 @@ def _built(request: ConversionRequest, edited: Path, into: Path, load_options: L
 
 
 def _require_the_robot(made: Updated, before: Conversion, path: Path, load_options: LoadOptions) -> None:
-    """Raise where a file that has followed the edits is another robot than the edited one.
+    """Raise where a file that has followed the edits is another robot than the edited one, to any reader.
 
     What differed between them before the edits may differ after them.
 
@@ -87,10 +87,9 @@ def _require_the_robot(made: Updated, before: Conversion, path: Path, load_optio
         return
     after, sink = made.conversion, DiagnosticSink(str(path), load_options.strict)
     name = next((each.name for each in after.document.models), None)
-    options, names = ComparisonOptions(carriers=True), (str(path), str(path))
-    compared = partial(compare_files, load_options=load_options, options=options, names=names, model=name)
+    compared = partial(compare_files, load_options=load_options, names=(str(path), str(path)), model=name)
     try:
-        found = compared(made.data, after.text.encode()).differences
+        found = compared(made.data, after.text.encode()).counted
     except CompileError as error:
         sink.report(
             EDIT_CONFLICT,
@@ -98,7 +97,7 @@ def _require_the_robot(made: Updated, before: Conversion, path: Path, load_optio
             Location(line=1, path="/"),
         )
         raise CompileError((*after.diagnostics, *sink.diagnostics)) from error
-    known = {_key(each) for each in compared(path, before.text.encode()).differences} if found else set[Key]()
+    known = {_key(each) for each in compared(path, before.text.encode()).counted} if found else set[Key]()
     for each in found:
         if _key(each) not in known:
             where = each.a.location

@@ -96,6 +96,16 @@ class FrameGraph:
         """
         return self._between(self._find(name, kind), self._find(relative_to, base))
 
+    def place(self, name: str, *, kind: Kind = "link") -> Transform:
+        """Where a frame is in the model or world itself, by way of all above it: of many frames, each is asked once.
+
+        Raises:
+            FrameError: a name is not known, or the frames go round in a circle.
+        """
+        vertex = self._find(name, kind)
+        self._settle(vertex)
+        return self._in_root(vertex)
+
     def resolve(
         self, pose: Pose | None, holder: str, relative_to: str, *, kind: Kind = "link", base: Kind = "link"
     ) -> Transform:

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from twinform.compiler import in_place
+from twinform.compiler import in_place, into
 from twinform.compiler.into import convert_into
 from twinform.file_access import readable
 from twinform.schemas import XmlElement
@@ -211,3 +211,25 @@ def test_a_file_that_cannot_be_read_any_more_is_an_error_with_a_message(
             assert Path(into).read_text() == before
         Path(into).write_text(before)
     assert failed > 2
+
+
+FOLLOWER = """<link name="finger"><inertial><mass value="1"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <joint name="k" type="continuous"><parent link="base"/><child link="finger"/><mimic joint="j"/></joint>"""
+
+
+def test_what_only_a_carrier_says_has_not_followed(run: Run, twins: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    _edit("r.urdf", "</robot>", f"{FOLLOWER}</robot>")
+    assert run("convert", "r.urdf", "-o", "r.sdf", "--sdf-version", "1.11").exit_code == 0
+    _edit("r.urdf", "1.50", "2.50")
+    assert run("convert", "r.urdf", "-o", "carried.sdf", "--sdf-version", "1.10").exit_code == 0
+    assert run("diff", "--carriers", "r.urdf", "carried.sdf").exit_code == 0
+    right = into.updated
+
+    def hide(*given: Any, **options: Any) -> in_place.Updated:
+        return right(*given, **options)._replace(data=Path("carried.sdf").read_bytes())
+
+    monkeypatch.setattr(into, "updated", hide)
+    done = run("convert", "r.urdf", "--into", "r.sdf")
+    assert done.exit_code == 1
+    assert "mimic" in done.stderr

@@ -32,6 +32,10 @@ class Alignment:
     moved: frozenset[str]
     placed: frozenset[str]
 
+    def of(self, link: str) -> tuple[Base | None, bool, bool]:
+        """All that is known of a link."""
+        return self.bases.get(link), link in self.moved, link in self.placed
+
 
 def align(a: Robot, b: Robot, terms: Terms) -> Alignment:
     """A base for every link that both robots have, from the roots on."""

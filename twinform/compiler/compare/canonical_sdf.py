@@ -1,19 +1,19 @@
 """The robots of a URDF or SDF file in the syntax of the newest SDF version, in which they are compared."""
 
-from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from twinform.compiler.compare.readers import Reader, as_read_by
 from twinform.compiler.compare.robot import Robot
-from twinform.compiler.compare.robot_builder import build_robot
+from twinform.compiler.compare.robot_builder import RobotBuilder
 from twinform.compiler.compare.surroundings import Surroundings, read_surroundings
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes.expanding import expand
 from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
 from twinform.compiler.search.uris import LocalAssets
-from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics import DiagnosticSink, Origins
 from twinform.ir import Document, Format, Model
 from twinform.ir.frames import FrameError
 from twinform.passes import Assets, Pass, Pipeline
@@ -36,6 +36,7 @@ class Robots:
     format: Format
     by_name: dict[str, Robot]
     around: dict[str, Surroundings]
+    origins: Mapping[str, Origins]
 
 
 def read_robots(
@@ -60,31 +61,43 @@ def read_robots(
     assets = LocalAssets(load_options.search, Path(loaded.path))
     known: dict[int, Robots] = {}
     found: dict[Reader, Robots] = {}
+    builders = defaultdict[str | None, RobotBuilder](lambda: RobotBuilder(document.format))
     for reader, seen in [(reader, as_read_by(document, reader)) for reader in readers]:
         if id(seen) not in known:
-            known[id(seen)] = _seen(loaded, seen, model, sink, assets)
+            known[id(seen)] = _seen(loaded, seen, model, builders, sink, assets)
         found[reader] = known[id(seen)]
     return found
 
 
-def _seen(loaded: LoadResult, document: Document, model: str | None, sink: DiagnosticSink, assets: Assets) -> Robots:
+def _seen(
+    loaded: LoadResult,
+    document: Document,
+    model: str | None,
+    builders: Mapping[str | None, RobotBuilder],
+    sink: DiagnosticSink,
+    assets: Assets,
+) -> Robots:
     canonical = Pipeline(_to_newest_sdf(document)).with_files(assets).run(document, sink)
     robots: dict[str, Robot] = {}
     around: dict[str, Surroundings] = {}
     try:
         if not sink.has_errors:
-            robots |= _robots(loaded, document, canonical, model, sink)
+            robots |= _robots(builders, document, canonical, model, sink)
         if document.format is Format.SDF and model is None and not sink.has_errors:
-            around = read_surroundings(canonical, loaded.origins)
+            around = read_surroundings(canonical)
     except FrameError as error:
         error.report(sink)
     if sink.has_errors:
         raise CompileError(tuple(sink.diagnostics))
-    return Robots(loaded.path, document.format, robots, around)
+    return Robots(loaded.path, document.format, robots, around, loaded.origins)
 
 
 def _robots(
-    loaded: LoadResult, document: Document, canonical: Document, model: str | None, sink: DiagnosticSink
+    builders: Mapping[str | None, RobotBuilder],
+    document: Document,
+    canonical: Document,
+    model: str | None,
+    sink: DiagnosticSink,
 ) -> Iterator[tuple[str, Robot]]:
     """Each robot by its name, with its world's where several are called so."""
     if document.format is Format.SDF:  # names that a model of URDF had, as far as these are unlike others
@@ -99,7 +112,7 @@ def _robots(
         chosen = UniqueNames().run(chosen, DiagnosticSink())  # before 1.7 a joint and a link could share theirs
         chosen = chosen.model_copy(update={"models": tuple(map(_comparable, chosen.models))})
         source = document.models[0] if document.format is Format.URDF else chosen.models[0]
-        robot = build_robot(chosen.models[0], source, document.format, loaded.origins)
+        robot = builders[name].build(chosen.models[0], source)
         yield (robot.name if called[robot.name] == 1 or name is None else name), robot
 
 

@@ -6,7 +6,7 @@ from copy import deepcopy
 from lxml import etree
 
 from twinform.compiler.compare.leaves import CARRIED
-from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.carriers import NAMESPACE, OVERRULED, SECOND
 from twinform.schemas import Fact, XmlElement, table
 
 _CARRIER = {name: f"{{{NAMESPACE}}}{name}" for name in ("sdf", "urdf", "version")}
@@ -43,6 +43,10 @@ def _is_in_pose(carrier: XmlElement) -> bool:
     return parent is not None and parent.tag == "pose"
 
 
+def _is_beside_another(carrier: XmlElement) -> bool:
+    return any(carrier.get(name) is not None for name, _ in (*SECOND, *OVERRULED))
+
+
 def _graft(child: XmlElement, parent: XmlElement, at: str, fact: Fact | None) -> None:
     if child.tag in _OF_THE_FILE or not isinstance(child.tag, str):
         return
@@ -66,9 +70,12 @@ def _holder(element: XmlElement, path: str) -> XmlElement:
 
 
 def urdf_pieces(element: XmlElement) -> Iterator[tuple[str, XmlElement]]:
-    """What the carriers of URDF in an element hold: where in it, and the carrier or an element in it."""
+    """What the carriers of URDF in an element hold: where in it, and the carrier or an element in it.
+
+    What stood beside another one of its kind, which readers take, is nothing to any of them.
+    """
     for carrier in element.iter(_CARRIER["urdf"]):
-        if _is_in_carrier(carrier) or _is_in_pose(carrier):
+        if _is_in_carrier(carrier) or _is_in_pose(carrier) or _is_beside_another(carrier):
             continue
         at = "/".join(filter(None, (*_steps(element, carrier), carrier.get("at"))))
         if carrier.get("attribute") is not None or carrier.get("text") is not None:

@@ -1,8 +1,10 @@
 """Compares two robots part by part: links, masses, joints, frames and placement."""
 
 import math
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
+from functools import cached_property
 from typing import TypeVar
 
 from twinform.compiler.compare.alignment import Alignment, align
@@ -11,8 +13,8 @@ from twinform.compiler.compare.findings import Base, Findings, Subject, Terms
 from twinform.compiler.compare.fixed_bodies import FixedBodies
 from twinform.compiler.compare.frames import compare_frames
 from twinform.compiler.compare.joint_values import joint_type
-from twinform.compiler.compare.kinematics import compare_kinematics
-from twinform.compiler.compare.lumping import Lumped, lump
+from twinform.compiler.compare.kinematics import KINEMATICS, compare_kinematics
+from twinform.compiler.compare.lumping import lump
 from twinform.compiler.compare.matching import compare_leaves, compare_parts
 from twinform.compiler.compare.robot import Body, JointView, Leaves, Mass, Robot
 from twinform.compiler.compare.values import (
@@ -32,41 +34,86 @@ from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
 
 Named = TypeVar("Named", Body, JointView)
+_SHARED = "inertial/inertia"
+"""What depends on other links too: those of one body may share it in two ways."""
 _ABOUT_A_LINE = frozenset({"revolute", "continuous", "screw", "gearbox"})
 _ABOUT_A_POINT = frozenset({"ball", "universal", "revolute2"})
 """Joints for which it matters where along the axis they are; others have no place at all, only directions."""
 
 
-def compare_robots(a: Robot, b: Robot, terms: Terms, *, several: bool) -> tuple[Difference, ...]:
-    """Everything in which two robots differ; where they are two of `several`, their place among these counts."""
-    return _Comparer(lump(a, b), terms, several=several).run()
+class RobotComparison:
+    """Two robots as one reader sees them; what the reader `before` saw alike is not compared again."""
 
-
-class _Comparer:
-    def __init__(self, lumped: Lumped, terms: Terms, *, several: bool) -> None:
-        self.a, self.b, self.lumped = lumped.a, lumped.b, lumped
+    def __init__(
+        self, a: Robot, b: Robot, terms: Terms, *, several: bool, before: "RobotComparison | None" = None
+    ) -> None:
+        self.robots = a, b
+        lumped = self.lumped = lump(a, b)
+        self.a, self.b = lumped.a, lumped.b
         self.terms = terms
         self.several = several
+        self.before = before
         self.subject = Subject("model", lumped.a.name if several else "")
         self.found = Findings(terms, lumped.a.name if several else "")
         self.alignment: Alignment = align(self.a, self.b, terms)
         self.fixed = (FixedBodies(self.a), FixedBodies(self.b))
 
     def run(self) -> tuple[Difference, ...]:
+        """Everything in which they differ; where they are two of `several`, their place among these counts."""
         self._model()
         self._note_lumped()
         self._each("link", self.a.bodies, self.b.bodies, self._body)
         self._each("joint", self.a.joints, self.b.joints, self._joint)
         compare_frames(self.found, self.a, self.b, self.alignment.bases)
-        compare_kinematics(self.found, self.a, self.b, self.alignment.bases)
+        if not self._moves_as_before():
+            compare_kinematics(self.found, self.a, self.b, self.alignment.bases)
         return tuple(self.found.items)
+
+    @cached_property
+    def items_of(self) -> Mapping[tuple[str, str], Iterable[Difference]]:
+        """What was found, by group and name."""
+        found = defaultdict[tuple[str, str], list[Difference]](list)
+        for item in self.found.items:
+            found[item.group, item.name if item.group != KINEMATICS else ""].append(item)
+        return found
+
+    def _moves_as_before(self) -> bool:
+        """Take what was found before where no joint and no frame of a link is another one."""
+        before = self.before
+        if before is None or before.alignment.bases != self.alignment.bases:
+            return False
+        if before.a.joints != self.a.joints or before.b.joints != self.b.joints:
+            return False
+        self.found.items += before.items_of[KINEMATICS, ""]
+        return True
+
+    def _is_as_before(self, group: str, one: Body | JointView, other: Body | JointView) -> bool:
+        """Take what was found before of parts that are seen as before, as the links that they hang on are."""
+        before = self.before
+        if before is None or before.views(group, one.name) != (one, other):
+            return False
+        links = (one.name,) if isinstance(one, Body) else (one.parent, one.child)
+        if any(before.alignment.of(link) != self.alignment.of(link) for link in links):
+            return False
+        items = before.items_of[group, one.name]
+        if any(item.aspect.startswith(_SHARED) for item in items):
+            return False
+        self.found.items += items
+        return True
+
+    def views(self, group: str, name: str) -> tuple[Body | JointView | None, Body | JointView | None]:
+        """The links or joints of a name."""
+        if group == "link":
+            return self.a.bodies.get(name), self.b.bodies.get(name)
+        return self.a.joints.get(name), self.b.joints.get(name)
 
     def _each(
         self, group: str, a: Mapping[str, Named], b: Mapping[str, Named], compare: Callable[[Named, Named], None]
     ) -> None:
         for name, one in a.items():
             if name in b:
-                compare(one, b[name])
+                if not self._is_as_before(group, one, b[name]):
+                    compare(one, b[name])
             else:
                 self.found.only_in_one(Subject(group, name), "", group, one.where, in_a=True)
         for name, other in b.items():

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Unpack
 
 from twinform.compiler.compare.canonical_sdf import Robots, read_robots
-from twinform.compiler.compare.compare_robots import compare_robots
+from twinform.compiler.compare.compare_robots import RobotComparison
 from twinform.compiler.compare.comparison import TOLERANCE, USUAL, Comparison, ComparisonOptions, Difference
 from twinform.compiler.compare.findings import Findings, Subject, Terms
 from twinform.compiler.compare.readers import Reader, reconcile
@@ -81,31 +81,43 @@ def _seen_by_all(a: Mapping[Reader, Robots], b: Mapping[Reader, Robots], toleran
     """What every reader finds, and what only some of them do."""
     first, *more = a
     pair = a[first], b[first]
-    found = list(_compared(*pair, tolerance))
+    known: dict[str, RobotComparison] = {}
+    found = list(_compared(*pair, tolerance, known))
     for reader in more:
         seen = a[reader], b[reader]
-        if seen != pair:
+        if seen[0] is not pair[0] or seen[1] is not pair[1]:
             files = pair[0].path, pair[1].path
-            found = reconcile(found, list(_compared(*seen, tolerance)), reader, files)
+            found = reconcile(found, list(_compared(*seen, tolerance, known)), reader, files)
         pair = seen
     return found
 
 
-def _compared(a: Robots, b: Robots, tolerance: float) -> Iterator[Difference]:
-    terms = Terms(a.path, b.path, a.format, b.format, tolerance)
+def _compared(a: Robots, b: Robots, tolerance: float, known: dict[str, RobotComparison]) -> Iterator[Difference]:
+    """What one reader finds; `known` are the robots as the reader before it has seen them."""
+    terms = Terms(a.path, b.path, a.format, b.format, tolerance, {**a.origins, **b.origins})
     yield from compare_surroundings(a.around, b.around, terms)
     if len(a.by_name) == len(b.by_name) == 1:
         (one,), (other,) = a.by_name.values(), b.by_name.values()
-        yield from compare_robots(one, other, terms, several=False)
+        yield from _compared_robots(one, other, terms, known, several=False)
         return
     for name, robot in a.by_name.items():
         if name in b.by_name:
-            yield from compare_robots(robot, b.by_name[name], terms, several=True)
+            yield from _compared_robots(robot, b.by_name[name], terms, known, several=True)
         else:
             yield from _missing(robot, terms, in_a=True)
     for name, robot in b.by_name.items():
         if name not in a.by_name:
             yield from _missing(robot, terms, in_a=False)
+
+
+def _compared_robots(
+    a: Robot, b: Robot, terms: Terms, known: dict[str, RobotComparison], *, several: bool
+) -> Iterable[Difference]:
+    before = known.get(a.name)
+    if before is not None and before.robots[0] is a and before.robots[1] is b:
+        return before.found.items
+    known[a.name] = comparison = RobotComparison(a, b, terms, several=several, before=before)
+    return comparison.run()
 
 
 def _missing(robot: Robot, terms: Terms, *, in_a: bool) -> list[Difference]:

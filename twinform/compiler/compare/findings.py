@@ -1,14 +1,18 @@
 """Collects the differences of two robots, and decides on their severity."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from twinform.compiler.compare.comparison import Difference, Severity, Side
 from twinform.compiler.compare.robot import Leaf
 from twinform.compiler.compare.values import Delta, Value, gaps, show
-from twinform.diagnostics import Location
+from twinform.diagnostics import NOWHERE, Location, Origins, Source
 from twinform.ir import Format
 from twinform.ir.transform import Transform
+
+Places = tuple[Source | None, Source | None]
+"""Where each of the files has what is compared."""
+UNKNOWN: Places = (None, None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,13 +36,25 @@ class Subject:
 
 @dataclass(frozen=True, slots=True)
 class Terms:
-    """What is the same for the whole comparison: the names and formats of the files, and the tolerance."""
+    """What is the same for the whole comparison: the names and formats of the files, and the tolerance.
+
+    `origins` tell where lines of expanded texts were written, by the names of the files.
+    """
 
     a: str
     b: str
     format_a: Format
     format_b: Format
     tolerance: float
+    origins: Mapping[str, Origins] = field(default_factory=dict[str, Origins])
+
+    def place(self, source: Source | None) -> Location:
+        """Where somebody has written what was read there."""
+        if source is None:
+            return NOWHERE
+        origins = self.origins.get(source.file)
+        place = origins.place(source.line) if origins else None
+        return place._replace(path=source.path) if place else source.location
 
     def differs(self, gap: Delta) -> bool:
         """Whether it is more than rounding."""
@@ -67,7 +83,7 @@ class Findings:
         aspect: str,
         a: Value,
         b: Value,
-        places: tuple[Location, Location],
+        places: Places,
         base: Base | None = None,
     ) -> None:
         """Add the differences between two values, if there are any."""
@@ -78,7 +94,7 @@ class Findings:
         subject: Subject,
         aspect: str,
         found: Iterable[Delta],
-        places: tuple[Location, Location],
+        places: Places,
         severity: Severity = Severity.DIFFERENCE,
         message: str = "",
     ) -> None:
@@ -87,18 +103,18 @@ class Findings:
             path = f"{aspect}/{gap.aspect}" if gap.aspect else aspect
             words = message or f"{path} of {subject} is {gap.a} in {self.terms.a}, and {gap.b} in {self.terms.b}"
             number = gap if gap.absolute != float("inf") or gap.unit else None
-            self._add(severity, subject, path, words, Side(gap.a, places[0]), Side(gap.b, places[1]), number)
+            self._add(severity, subject, path, words, self._sides((gap.a, gap.b), places), number)
 
-    def note(self, subject: Subject, aspect: str, message: str, places: tuple[Location, Location]) -> None:
+    def note(self, subject: Subject, aspect: str, message: str, places: Places) -> None:
         """Add a note."""
-        self._add(Severity.NOTE, subject, aspect, message, Side(None, places[0]), Side(None, places[1]))
+        self._add(Severity.NOTE, subject, aspect, message, self._sides((None, None), places))
 
     def only_in_one(
         self,
         subject: Subject,
         aspect: str,
         what: str,
-        where: Location,
+        where: Source | None,
         *,
         in_a: bool,
         only: Format | None = None,
@@ -113,8 +129,8 @@ class Findings:
             message, severity = f"{name} is only in {here}: {other.upper()} cannot express it", Severity.NOTE
         if carried:
             message = f"{name} is only in {here}, where it travels unseen by other readers"
-        side = Side(what, where)
-        self._add(severity, subject, aspect, message, side if in_a else Side(), Side() if in_a else side)
+        sides = self._sides((what, None), (where, None)) if in_a else self._sides((None, what), (None, where))
+        self._add(severity, subject, aspect, message, sides)
 
     def leaf(
         self,
@@ -122,7 +138,7 @@ class Findings:
         aspect: str,
         pair: tuple[Leaf | None, Leaf | None],
         base: Base,
-        places: tuple[Location, Location],
+        places: Places,
     ) -> bool:
         """Add the differences between two values; gives whether there are any.
 
@@ -136,9 +152,7 @@ class Findings:
             self._half_written(subject, aspect, one, places, in_a=a is not None)
         return len(self.items) > before
 
-    def _half_written(
-        self, subject: Subject, aspect: str, one: Leaf, places: tuple[Location, Location], *, in_a: bool
-    ) -> None:
+    def _half_written(self, subject: Subject, aspect: str, one: Leaf, places: Places, *, in_a: bool) -> None:
         if one.default is None:
             what = show(one.value)
             self.only_in_one(subject, aspect, what, one.where, in_a=in_a, only=one.only, carried=one.carried)
@@ -147,14 +161,16 @@ class Findings:
         else:
             self.values(subject, aspect, one.default, one.value, (places[0], one.where))
 
+    def _sides(self, texts: tuple[str | None, str | None], places: Places) -> tuple[Side, Side]:
+        return Side(texts[0], self.terms.place(places[0])), Side(texts[1], self.terms.place(places[1]))
+
     def _add(
         self,
         severity: Severity,
         subject: Subject,
         aspect: str,
         message: str,
-        a: Side,
-        b: Side,
+        sides: tuple[Side, Side],
         gap: Delta | None = None,
     ) -> None:
         self.items.append(
@@ -165,8 +181,8 @@ class Findings:
                 name=subject.name,
                 aspect=aspect,
                 message=message,
-                a=a,
-                b=b,
+                a=sides[0],
+                b=sides[1],
                 absolute=gap.absolute if gap else None,
                 relative=gap.relative if gap else None,
                 unit=gap.unit if gap else "",

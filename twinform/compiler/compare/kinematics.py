@@ -13,6 +13,8 @@ from twinform.ir.defaults import MULTIPLIER, SCREW_THREAD_PITCH
 from twinform.ir.motion import FULL_TURN, slide, spanning_tree, turn
 from twinform.ir.transform import Transform
 
+KINEMATICS = "kinematics"
+"""The group of differences in how links move."""
 SAMPLES = 5
 _AXES: tuple[Vector3, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _STILL = Transform()
@@ -33,7 +35,7 @@ def compare_kinematics(findings: Findings, a: Robot, b: Robot, bases: Mapping[st
     for gap, name in worst.values():
         message = f"link {name!r} is up to {gap.absolute:.3g} {gap.unit} elsewhere at sampled joint positions"
         places = (a.bodies[name].where, b.bodies[name].where)
-        findings.gaps(Subject("kinematics", name), "pose", [gap], places, message=message)
+        findings.gaps(Subject(KINEMATICS, name), "pose", [gap], places, message=message)
 
 
 class Moving:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from twinform.compiler.compare.robot import Leaf
 from twinform.compiler.compare.values import Flag, Numbers, PoseValue, Text, Value, typed_value
-from twinform.diagnostics import Location
+from twinform.diagnostics import Source
 from twinform.ir import Pose
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import NAMESPACE, from_xml
@@ -13,6 +13,7 @@ from twinform.passes.sdf_versions.name_the_nameless import plugin_stem
 from twinform.passes.transforms.element_poses import read_pose
 from twinform.passes.transforms.gazebo_tags import SCRIPT_URI
 from twinform.schemas import Fact, XmlElement, in_usual_namespaces, table
+from twinform.text import same_element
 
 CARRIED = f"{{{NAMESPACE}}}carried"
 """The attribute of elements that came out of a carrier."""
@@ -21,6 +22,8 @@ _MEANINGFUL_WHEN_EMPTY = frozenset({"geometry", "material", "mimic"})
 """Containers that mean something when they are empty; which shape is in a geometry is a value of it."""
 _WITHOUT_MEANING = frozenset({"frame"})
 """Elements of older versions that no reader uses."""
+_EACH_COUNTS = frozenset({("sensor", "camera"), ("pbr", "metal"), ("pbr", "specular")})
+"""What some reader takes where it stands again: Classic every camera, libsdformat the last workflow (`Pbr::Load`)."""
 _TRUTHS = frozenset({"true", "false"})
 _POSES = frozenset({"pose", "inertial_pose"})
 THERE = Text("there")
@@ -32,10 +35,10 @@ Resolve = Callable[[Pose, Transform], Transform]
 
 @dataclass(frozen=True, slots=True)
 class Walk:
-    """A walk over one XML tree; `where` gives the place in the file of the part at a path."""
+    """A walk over one XML tree; `where` gives the source of the part at a path."""
 
     resolve: Resolve
-    where: Callable[[str], Location]
+    where: Callable[[str], Source | None]
     skipped: frozenset[str] = frozenset()
     found: dict[str, Leaf] = field(default_factory=dict[str, Leaf])
 
@@ -51,8 +54,8 @@ class Walk:
             if f"{path}{child.tag}" not in self.skipped and (row is None or row.reference not in _WITHOUT_MEANING):
                 self._child(child, row, here, f"{path}{key}", carried=carried)
 
-    def enter_free(self, element: XmlElement, path: str, *, carried: bool = False) -> None:
-        """Take in content that no table describes."""
+    def enter_free(self, element: XmlElement, path: str, *, carried: bool = False, fact: Fact | None = None) -> None:
+        """Take in content that no table of SDF describes; what URDF's does has a `fact`."""
         for name, value in element.items():
             if not str(name).startswith(_OURS):
                 self._put(_join(path, f"@{name}"), _guess(str(value)), None, carried=carried)
@@ -60,7 +63,9 @@ class Walk:
         if text or not (len(element) or element.keys()):
             self._put(path or "text", _guess(text), None, carried=carried)
         for key, child in _keyed(element, {}):
-            self.enter_free(child, _join(path, key), carried=carried)
+            row = urdf_row(fact, str(child.tag)) if fact else None
+            if row is None or row.repeats or not _says_again(child):
+                self.enter_free(child, _join(path, key), carried=carried, fact=row)
 
     def _pose(
         self, element: XmlElement, rows: dict[str, Fact], holder: Transform, path: str, *, carried: bool
@@ -136,7 +141,7 @@ def _rows(fact: Fact) -> dict[str, Fact]:
 def _keyed(element: XmlElement, rows: dict[str, Fact]) -> Iterator[tuple[str, XmlElement]]:
     """The children, but for carriers, with what tells them from their like: a name, else a number.
 
-    A tag that may stand once gets a number too where it stands twice, as `<camera>` in a sensor of several.
+    Of those that may stand once the first one is given: `Element::GetElement` of libsdformat takes it.
     """
     seen: dict[str, int] = {}
     for child in element:
@@ -144,12 +149,31 @@ def _keyed(element: XmlElement, rows: dict[str, Fact]) -> Iterator[tuple[str, Xm
             continue
         row, name = rows.get(child.tag), child.get("name")
         if row is not None and not row.repeats:
-            yield numbered(child.tag, seen), child
+            key = numbered(child.tag, seen)
+            if key == child.tag or ((element.tag, child.tag) in _EACH_COUNTS and not _says_again(child)):
+                yield key, child
             continue
         if row is not None and not name and child.tag == "plugin":
             name = plugin_stem(child.get("filename"))
         key = f"{child.tag}[{name}]" if row is not None and name else child.tag
         yield numbered(key, seen), child
+
+
+def _says_again(element: XmlElement) -> bool:
+    """Whether it is what the first element of its name says, so that it does not matter who takes which."""
+    parent = element.getparent()
+    first = parent.find(str(element.tag)) if parent is not None else None
+    return first is not None and first is not element and same_element(first, element)
+
+
+def urdf_row(fact: Fact, *names: str) -> Fact | None:
+    """The row of an element of URDF below another one, by the names on the way, with the rows of what may be in it."""
+    found: Fact | None = fact
+    for name in names:
+        found = next((row for row in table("urdf").resolve(found).children if row.name == name), None)
+        if found is None:
+            return None
+    return found
 
 
 def numbered(key: str, seen: dict[str, int]) -> str:

@@ -1,14 +1,14 @@
 """Matches the parts of two robots: by name, and shapes, whose names mean little, by their geometry."""
 
 from collections import defaultdict, deque
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sized
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sized
+from dataclasses import replace
 from functools import partial
 from operator import attrgetter
 
-from twinform.compiler.compare.findings import Base, Findings, Subject, Terms
+from twinform.compiler.compare.findings import UNKNOWN, Base, Findings, Places, Subject, Terms
 from twinform.compiler.compare.robot import Leaf, Leaves, Part
-from twinform.compiler.compare.values import PoseValue, show
-from twinform.diagnostics import NOWHERE, Location
+from twinform.compiler.compare.values import PoseValue, Text, show
 from twinform.ir.transform import Transform
 
 _BY_CONTENT = frozenset({"visual", "collision"})
@@ -16,6 +16,7 @@ _BY_CONTENT = frozenset({"visual", "collision"})
 _NOT_COMPARED_IN_CARRIERS = frozenset({"pose"})
 """A carried shape is posed in the frame that its link had in the other file."""
 
+_WATCHED = "contact/collision"
 _MOST_PAIRS = 100
 """Of more shapes, not each is held against each: a link may have thousands."""
 
@@ -29,7 +30,7 @@ def compare_leaves(
     a: Leaves,
     b: Leaves,
     base: Base,
-    places: tuple[Location, Location] = (NOWHERE, NOWHERE),
+    places: Places = UNKNOWN,
     aspect: str = "",
     *,
     carried: bool = False,
@@ -61,17 +62,33 @@ def _is_absent_pose(pair: tuple[Leaf | None, Leaf | None]) -> bool:
 def compare_parts(findings: Findings, subject: Subject, a: Iterable[Part], b: Iterable[Part], base: Base) -> None:
     """Compare the parts of two links, joints or models."""
     groups_a, groups_b = _by_kind(a), _by_kind(b)
-    for kind in sorted(groups_a.keys() | groups_b.keys()):
+    renamed: dict[str, str] = {}
+    for kind in sorted(groups_a.keys() | groups_b.keys()):  # collisions, then sensors that name them
         pairs, only_a, only_b = match(groups_a.get(kind, []), groups_b.get(kind, []), findings.terms, base)
+        if kind == "collision":
+            renamed = {other.name: one.name for one, other in pairs if one.name != other.name}
         for one, other in pairs:
             name = f"{kind} {one.name!r}"
             carried, places = one.carried or other.carried, (one.where, other.where)
-            compare_leaves(findings, subject, one.leaves, other.leaves, base, places, name, carried=carried)
+            leaves = _with_names(other.leaves, renamed) if kind == "sensor" and renamed else other.leaves
+            compare_leaves(findings, subject, one.leaves, leaves, base, places, name, carried=carried)
             _note_renamed(findings, subject, one, other)
         for in_a, rest in ((True, only_a), (False, only_b)):
             for part in rest:
                 name = f"{kind} {part.name!r}"
                 findings.only_in_one(subject, name, kind, part.where, in_a=in_a, only=part.only, carried=part.carried)
+
+
+def _with_names(sensor: Leaves, renamed: Mapping[str, str]) -> Leaves:
+    """The values of a sensor, with the collisions that it watches called as in the other robot.
+
+    Which shapes these are is what counts: Gazebo and conversions give them new names, in the sensor too.
+    """
+    found = dict(sensor)
+    for path, leaf in sensor.items():
+        if path.startswith(_WATCHED) and isinstance(leaf.value, Text) and leaf.value.text in renamed:
+            found[path] = replace(leaf, value=Text(renamed[leaf.value.text]))
+    return found
 
 
 def _note_renamed(findings: Findings, subject: Subject, a: Part, b: Part) -> None:
@@ -202,7 +219,7 @@ def is_same(a: Part, b: Part, terms: Terms, base: Base) -> bool:
     """Whether two parts are equal but for their names."""
     found, nothing = Findings(terms), Subject("", "")
     pairs = _pairs_of_leaves(a.leaves, b.leaves, carried=a.carried or b.carried)
-    return not any(found.leaf(nothing, path, pair, base, (NOWHERE, NOWHERE)) for path, pair in pairs)
+    return not any(found.leaf(nothing, path, pair, base, UNKNOWN) for path, pair in pairs)
 
 
 def unmatched(a: Iterable[Part], b: Iterable[Part], terms: Terms, base: Base) -> Iterator[Part]:

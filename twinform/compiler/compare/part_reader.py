@@ -1,19 +1,20 @@
 """Reads nodes of the IR as parts: every value in them with its kind, its line in the file and its default."""
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cache
 
 from lxml import etree
 
 from twinform.compiler.compare.carried import CARRIER_OF_URDF, definition, unpack_sdf, urdf_pieces
-from twinform.compiler.compare.leaves import CARRIED, Resolve, Walk, numbered
+from twinform.compiler.compare.leaves import CARRIED, Resolve, Walk, numbered, urdf_row
 from twinform.compiler.compare.robot import Leaf, Leaves, Part
 from twinform.compiler.compare.values import Text
-from twinform.diagnostics import NOWHERE, Location, Origins
+from twinform.diagnostics import Source
 from twinform.ir import Document, Element, Format, Frame, Joint, Link, Model, Node, Sensor, World, node_fields
 from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.ir.transform import Transform
+from twinform.ir.visual import Collision, Visual
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, from_xml
 from twinform.passes.carriers.definitions import definition_of
@@ -22,6 +23,7 @@ from twinform.passes.legalise.to_sdf.joints import FLOATING
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS, WITHOUT_AXIS, joints_of
 from twinform.passes.sdf_versions.name_the_nameless import plugin_stem
 from twinform.schemas import Fact, XmlElement, table, writer
+from twinform.text import same_element
 
 _PARTS: Mapping[type[Node], Mapping[str, str]] = {
     Link: {"visuals": "visual", "collisions": "collision", "sensors": "sensor", "lights": "light"},
@@ -39,9 +41,12 @@ _APART: Mapping[type[Node], tuple[str, ...]] = {
 """What a model, world or file is made of is read by itself."""
 _ALWAYS_TYPED = frozenset({"visual", "collision"})
 """What has no typed form of these came out of a carrier."""
+_DIRECTION = ("xyz", "use_parent_model_frame")
 _RESOLVED: Mapping[type[Node], frozenset[str]] = {
     Link: frozenset({"pose", *(f"inertial/{each}" for each in ("mass", "pose", "inertia", "@auto"))}),
-    Joint: frozenset({"pose", "parent", "child", "@type", "axis/xyz", "axis2/xyz"}),
+    Joint: frozenset(
+        {"pose", "parent", "child", "@type", *(f"{axis}/{part}" for axis in ("axis", "axis2") for part in _DIRECTION)}
+    ),
     Model: frozenset(
         {"pose", "@canonical_link", "@placement_frame", "link", "joint", "frame", "model", "include", "model_state"}
     ),
@@ -50,8 +55,16 @@ _RESOLVED: Mapping[type[Node], frozenset[str]] = {
 }
 """What is compared in other terms than those in which it is written."""
 _NOTHING = Element(name="nothing")
-_NOT_OF_THE_ROBOT = frozenset({"material", "link", "inertial", "mass", "origin", "name", "type"})
+_NOT_OF_THE_ROBOT = frozenset({"material", "link", "name", "type"})
 """What URDF's carriers hold that is about how the file is written, or that the model has in SDF syntax."""
+_IN_URDF: Mapping[type[Node], tuple[str, ...]] = {
+    Model: (),
+    Link: ("link",),
+    Joint: ("joint",),
+    Visual: ("link", "visual"),
+    Collision: ("link", "collision"),
+}
+"""Where URDF has the element of a node."""
 _IDLE = "gazebo"
 """Of `<gazebo>`, carriers hold the tags that set nothing."""
 _NEW_NAMES = {**RENAMED_ELEMENTS, "gpu_ray": "gpu_lidar"}
@@ -62,26 +75,15 @@ _IGNORED_LIMITS = frozenset({"limit/@lower", "limit/@upper"})
 
 @dataclass(frozen=True, slots=True)
 class PartReader:
-    """How the nodes of one model are read: which frames there are, and in what format and where a line was written."""
+    """How the nodes of one model are read: which frames there are, and what the format of the file is."""
 
     resolve: Resolve
-    origins: Mapping[str, Origins] = field(default_factory=dict[str, Origins])
     format: Format = Format.SDF
 
     @property
     def _not_of_the_robot(self) -> frozenset[str]:
         """Tags of `<gazebo>` without effect count in the file that has them, and mean nothing in a carrier."""
         return _NOT_OF_THE_ROBOT if self.format is Format.URDF else _NOT_OF_THE_ROBOT | {_IDLE}
-
-    def place(self, node: Node | None) -> Location:
-        """Where a node was written."""
-        return self.traced(node.location) if node is not None else NOWHERE
-
-    def traced(self, location: Location) -> Location:
-        """Where a line of an expanded text was written; any other place itself."""
-        origins = self.origins.get(location.file)
-        place = origins.place(location.line) if origins else None
-        return place._replace(path=location.path) if place else location
 
     def parts(self, node: Link | Joint | Model | World | Document, frame: Transform) -> tuple[Leaves, tuple[Part, ...]]:
         """The values of a node itself, and the parts in it; poses are relative to its frame."""
@@ -90,11 +92,11 @@ class PartReader:
         parts = [self.part(child, fields[name], frame) for name in fields for child in getattr(node, name)]
         apart = (*fields, *_APART.get(type(node), ()))
         xml = _xml(node.model_copy(update=dict.fromkeys(apart, ())), tag)
-        leaves, inner = self._own(xml, tag, self._places(node), frame, skipped=_RESOLVED[type(node)])
+        leaves, inner = self._own(xml, tag, _places(node), frame, skipped=_RESOLVED[type(node)])
         expressed, carried = self._of_urdf(xml, node)
         return {**leaves, **expressed}, (*parts, *inner, *carried)
 
-    def element(self, xml: XmlElement, tag: str, where: Location, frame: Transform) -> Part:
+    def element(self, xml: XmlElement, tag: str, where: Source | None, frame: Transform) -> Part:
         """A part that is an element without a typed form."""
         walk = Walk(self.resolve, lambda _: where, _RESOLVED[Model] if tag == "model" else frozenset())
         unpack_sdf(xml, definition(tag))
@@ -108,7 +110,7 @@ class PartReader:
     def part(self, node: Node, tag: str, frame: Transform) -> Part:
         """A part with a typed form; a pose in it that names no frame is relative to `frame`."""
         xml = _xml(node, tag)
-        places = self._places(node)
+        places = _places(node)
         unpack_sdf(xml, definition(tag))
         walk = Walk(self.resolve, places)
         if definition(tag).any:
@@ -123,7 +125,7 @@ class PartReader:
         self,
         xml: XmlElement,
         tag: str,
-        places: Callable[[str], Location],
+        places: Callable[[str], Source | None],
         frame: Transform,
         *,
         skipped: frozenset[str],
@@ -144,14 +146,18 @@ class PartReader:
 
     def _of_urdf(self, xml: XmlElement, node: Node) -> tuple[dict[str, Leaf], list[Part]]:
         """What only URDF has elements for, which SDF holds in carriers: leaves, and named parts of the model."""
-        where = self.place(node)
+        where = node.source
         leaves: dict[str, Leaf] = {}
         parts: list[Part] = []
         seen: dict[str, int] = {}
         pieces = [*urdf_pieces(xml)]
         known = _names_of_joints(node) if pieces and isinstance(node, Model) else frozenset[str | None]()
+        firsts: dict[tuple[str, str], XmlElement] = {}
         for at, piece in pieces:
-            name = piece.get("attribute")
+            name, row = piece.get("attribute"), _row_of_urdf(node, at, str(piece.tag))
+            first = firsts.setdefault((at, str(piece.tag)), piece)
+            if first is not piece and row is not None and not row.repeats and same_element(first, piece):
+                continue  # whoever takes the one or the other takes the same
             if piece.tag == CARRIER_OF_URDF and name is None:
                 continue  # text between elements, which no reader looks at
             if name is not None:
@@ -165,9 +171,9 @@ class PartReader:
             ):
                 walk = Walk(self.resolve, lambda _: where)
                 named = isinstance(node, Model) and not _is_foreign(piece)
-                if isinstance(node, Model) and _is_about_nothing(piece, known):
+                if _is_about_nothing(piece, known) if isinstance(node, Model) else piece.tag in _typed_in_urdf():
                     continue
-                walk.enter_free(piece, "" if named else numbered(str(piece.tag), seen))
+                walk.enter_free(piece, "" if named else numbered(str(piece.tag), seen), fact=row)
                 if named:
                     walk.found.pop("@name", None)
                     parts.append(
@@ -186,22 +192,32 @@ class PartReader:
             leaves["joint"] = Leaf(Text(floating.get("joint") or ""), None, where)
         return {path: _only_urdf(leaf) for path, leaf in leaves.items()}, parts
 
-    def _places(self, node: Node) -> Callable[[str], Location]:
-        """Where what stands at a path of a node was written: the nearest node around it knows."""
-        known = {path: self.place(inner) for path, inner in _inner(node, "") if inner.source is not None}
-
-        def where(path: str) -> Location:
-            while path and path not in known:
-                path = path.rpartition("/")[0]
-            return known.get(path, NOWHERE)
-
-        return where
-
 
 @cache
 def _child_rows(tag: str) -> Mapping[str, Fact]:
     """The rows of the child elements of an element, by their names."""
     return {row.name: row for row in definition(tag).children}
+
+
+def _row_of_urdf(node: Node, at: str, tag: str) -> Fact | None:
+    """The row of an element that URDF has somewhere in what a node was read from."""
+    way = _IN_URDF.get(type(node))
+    robot = table("urdf").definitions["robot"]
+    return urdf_row(robot, *way, *filter(None, at.split("/")), tag) if way is not None else None
+
+
+@cache
+def _typed_in_urdf() -> frozenset[str]:
+    """Elements that fields of the IR stand for: in a carrier is the second one, and readers of URDF take the first."""
+    definitions = (table("urdf").definitions[name] for name in ("link", "joint"))
+    return frozenset(row.name for each in definitions for row in _below(each) if row.place and row.dialect is None)
+
+
+def _below(fact: Fact) -> Iterator[Fact]:
+    for row in fact.children:
+        inner = table("urdf").resolve(row)
+        yield row
+        yield from _below(inner)
 
 
 def _is_foreign(element: XmlElement) -> bool:
@@ -239,6 +255,18 @@ def _is_idle(at: str, piece: XmlElement, joint: Joint) -> bool:
     return joint.axis is None or joint.type == "fixed" or (not at and joint.type not in WITHOUT_AXIS)
 
 
+def _places(node: Node) -> Callable[[str], Source | None]:
+    """Where what stands at a path of a node was read: the nearest node around it knows."""
+    known = {path: inner.source for path, inner in _inner(node, "") if inner.source is not None}
+
+    def where(path: str) -> Source | None:
+        while path and path not in known:
+            path = path.rpartition("/")[0]
+        return known.get(path)
+
+    return where
+
+
 def _inner(node: Node, path: str) -> Iterator[tuple[str, Node]]:
     """A node and the single nodes in it, by the paths of their elements."""
     yield path, node
@@ -274,6 +302,8 @@ def _in_new_words(sensor: XmlElement) -> None:
     kind = sensor.get("type")
     if kind in _NEW_NAMES:
         sensor.set("type", _NEW_NAMES[kind])
+    written = {str(child.tag) for child in sensor}
     for child in sensor:
-        if isinstance(child.tag, str) and (word := _NEW_NAMES.get(child.tag)) and sensor.find(word) is None:
+        word = _NEW_NAMES.get(child.tag) if isinstance(child.tag, str) else None
+        if word is not None and word not in written:
             child.tag = word

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from twinform.compiler.compare.values import Value
-from twinform.diagnostics import NOWHERE, Location
+from twinform.diagnostics import Source
 from twinform.ir import Format, Vector3
 from twinform.ir.solids import NOTHING, Solid
 from twinform.ir.transform import Transform
@@ -23,7 +23,7 @@ class Leaf:
 
     value: Value
     default: Value | None = None
-    where: Location = NOWHERE
+    where: Source | None = None
     only: Format | None = None
     carried: bool = False
 
@@ -39,7 +39,7 @@ class Part:
     kind: str
     name: str
     leaves: Leaves
-    where: Location = NOWHERE
+    where: Source | None = None
     only: Format | None = None
     carried: bool = False
 
@@ -50,7 +50,7 @@ class Mass:
 
     solid: Solid = NOTHING
     automatic: bool = False
-    where: Location = NOWHERE
+    where: Source | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ class Body:
     mass: Mass
     leaves: Leaves = field(default_factory=dict[str, Leaf])
     parts: tuple[Part, ...] = ()
-    where: Location = NOWHERE
+    where: Source | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,7 @@ class JointView:
     axes: tuple[Vector3, ...] = ()
     leaves: Leaves = field(default_factory=dict[str, Leaf])
     parts: tuple[Part, ...] = ()
-    where: Location = NOWHERE
+    where: Source | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +94,7 @@ class NamedFrame:
     was_link: bool = False
     was_joint: bool = False
     lumped: bool = False
-    where: Location = NOWHERE
+    where: Source | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,4 +110,4 @@ class Robot:
     models: frozenset[str] = frozenset()
     leaves: Leaves = field(default_factory=dict[str, Leaf])
     parts: tuple[Part, ...] = ()
-    where: Location = NOWHERE
+    where: Source | None = None

@@ -1,13 +1,12 @@
 """Builds the robot that is compared from a model in the syntax of the newest SDF version."""
 
-from collections.abc import Collection, Iterable, Iterator, Mapping
-from functools import partial
+from collections.abc import Callable, Collection, Iterable, Iterator
+from typing import TypeVar
 
 from twinform.compiler.compare.joint_values import joint_leaves
 from twinform.compiler.compare.leaves import THERE
 from twinform.compiler.compare.part_reader import PartReader
 from twinform.compiler.compare.robot import Body, JointView, Leaf, Mass, NamedFrame, Part, Robot
-from twinform.diagnostics import Origins
 from twinform.ir import Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose, Vector3
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
@@ -19,12 +18,29 @@ from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.transforms.flattening import flatten
 from twinform.schemas import element_xml
 
+View = TypeVar("View", Body, JointView)
+Known = dict[str, tuple[tuple[object, ...], View]]
+"""What was built by name, after all that it was built of."""
 
-def build_robot(model: Model, source: Model, format: Format, origins: Mapping[str, Origins]) -> Robot:
-    """The robot of a model; `source` is the model as the file has it."""
-    shells: list[tuple[Frame, Model]] = []
-    model = _without_made_root(flatten(model, lambda frame, shell: _noted(shells, frame, shell)))
-    return _RobotBuilder(model, format, origins).robot(source, shells)
+
+class RobotBuilder:
+    """Builds a robot as one reader of a file sees it after another: what both see alike is one object."""
+
+    def __init__(self, format: Format) -> None:
+        self.format = format
+        self.bodies: Known[Body] = {}
+        self.joints: Known[JointView] = {}
+        self.last: tuple[Model, Model, Robot] | None = None
+
+    def build(self, model: Model, source: Model) -> Robot:
+        """The robot of a model; `source` is the model as the file has it."""
+        if self.last is not None and self.last[:2] == (model, source):
+            return self.last[2]
+        shells: list[tuple[Frame, Model]] = []
+        flat = _without_made_root(flatten(model, lambda frame, shell: _noted(shells, frame, shell)))
+        robot = _Reading(flat, self).robot(source, shells)
+        self.last = model, source, robot
+        return robot
 
 
 def _noted(shells: list[tuple[Frame, Model]], frame: Frame, shell: Model) -> Frame:
@@ -45,14 +61,17 @@ def _without_made_root(model: Model) -> Model:
     return model.model_copy(update={"links": (), "frames": tuple(frames), "canonical_link": None})
 
 
-class _RobotBuilder:
-    """The robot of one model."""
+class _Reading:
+    """The robot of one model, as one reader sees it."""
 
-    def __init__(self, model: Model, format: Format, origins: Mapping[str, Origins]) -> None:
+    def __init__(self, model: Model, builder: RobotBuilder) -> None:
         self.model = model
-        self.format = format
+        self.builder = builder
+        self.format = builder.format
         self.graph = FrameGraph(model)
-        self.reader = PartReader(partial(_resolve, self.graph), origins, format)
+        self.reader = PartReader(self._resolve, builder.format)
+        self.looked_around = False
+        """Whether a pose named another frame, so that more than its node says where it is."""
 
     def robot(self, source: Model, shells: Iterable[tuple[Frame, Model]]) -> Robot:
         """All of it."""
@@ -64,42 +83,51 @@ class _RobotBuilder:
         return Robot(
             name=model.name,
             format=self.format,
-            world=self.graph.pose(WORLD, MODEL, kind="world", base="model"),
-            bodies={link.name: self._body(link) for link in model.links},
-            joints={joint.name: self._joint(joint) for joint in model.joints if not _is_made_for_static(joint, model)},
+            world=self.graph.place(WORLD, kind="world"),
+            bodies={link.name: self._known_body(link) for link in model.links},
+            joints={one.name: self._known_joint(one) for one in model.joints if not _is_made_for_static(one, model)},
             frames={frame.name: self._frame(frame, links, joints) for frame in model.frames},
             models=frozenset(part.name for part in inner),
             leaves=leaves,
             parts=(*parts, *inner),
-            where=self.reader.place(model),
+            where=model.source,
         )
 
-    def _body(self, link: Link) -> Body:
-        frame = self.graph.pose(link.name, MODEL, base="model")
+    def _known_body(self, link: Link) -> Body:
+        frame = self.graph.place(link.name)
+        return self._once(self.builder.bodies, link.name, (link, frame), lambda: self._body(link, frame))
+
+    def _known_joint(self, joint: Joint) -> JointView:
+        frame, ends = self.graph.place(joint.name, kind="joint"), (self._end(joint.parent), self._end(joint.child))
+        axes = tuple(self._axes(joint, frame))
+        given, make = (joint, frame, *ends, axes), lambda: self._joint(joint, frame, ends, axes)
+        return self._once(self.builder.joints, joint.name, given, make)
+
+    def _once(self, known: Known[View], name: str, given: tuple[object, ...], make: Callable[[], View]) -> View:
+        found = known.get(name)
+        if found is not None and found[0] == given:
+            return found[1]
+        self.looked_around = False
+        view = make()
+        if not self.looked_around:
+            known[name] = given, view
+        return view
+
+    def _body(self, link: Link, frame: Transform) -> Body:
         leaves, parts = self.reader.parts(link, frame)
-        mass = self._mass(link.inertial, link.name)
-        return Body(link.name, frame, mass, leaves, parts, self.reader.place(link))
+        mass = self._mass(link.inertial, frame)
+        return Body(link.name, frame, mass, leaves, parts, link.source)
 
-    def _mass(self, inertial: Inertial | None, link: str) -> Mass:
+    def _mass(self, inertial: Inertial | None, frame: Transform) -> Mass:
         inertial = inertial or Inertial()
-        pose = self.graph.resolve(inertial.pose, link, MODEL, base="model")
+        pose = self._resolve(inertial.pose or Pose(), frame)
         solid = placed(written_solid(inertial, Format.SDF), pose)
-        return Mass(solid, bool(inertial.auto), self.reader.place(inertial))
+        return Mass(solid, bool(inertial.auto), inertial.source)
 
-    def _joint(self, joint: Joint) -> JointView:
-        frame = self.graph.pose(joint.name, MODEL, kind="joint", base="model")
+    def _joint(self, joint: Joint, frame: Transform, ends: tuple[str, str], axes: tuple[Vector3, ...]) -> JointView:
         leaves, parts = self.reader.parts(joint, frame)
-        return JointView(
-            joint.name,
-            joint.type,
-            self._end(joint.parent),
-            self._end(joint.child),
-            frame,
-            tuple(self._axes(joint, frame)),
-            joint_leaves(joint, leaves),
-            parts,
-            self.reader.place(joint),
-        )
+        values = joint_leaves(joint, leaves)
+        return JointView(joint.name, joint.type, *ends, frame, axes, values, parts, joint.source)
 
     def _end(self, name: str | None) -> str:
         """The link that an end of a joint moves with."""
@@ -109,7 +137,7 @@ class _RobotBuilder:
         for axis in axes_of(joint):
             turn = frame
             if axis.expressed_in:
-                turn = self.graph.pose(axis.expressed_in, MODEL, kind="frame", base="model")
+                turn = self.graph.place(axis.expressed_in, kind="frame")
             yield unit(turn.rotate(direction(axis, Format.SDF)))
 
     def _frame(self, frame: Frame, links: Collection[str], joints: Collection[str]) -> NamedFrame:
@@ -117,10 +145,10 @@ class _RobotBuilder:
         return NamedFrame(
             frame.name,
             self.graph.body(frame.name, kind="frame"),
-            self.graph.pose(frame.name, MODEL, kind="frame", base="model"),
+            self.graph.place(frame.name, kind="frame"),
             was_link=frame.name in links,
             was_joint=frame.name in joints,
-            where=self.reader.place(frame),
+            where=frame.source,
         )
 
     def _shell(self, shell: Model, name: str) -> Part:
@@ -128,22 +156,22 @@ class _RobotBuilder:
         leaves, parts = self.reader.parts(shell, Transform())
         inside = {f"{part.kind}[{part.name}]": Leaf(THERE, where=part.where) for part in parts}
         inside |= {f"{part.kind}[{part.name}]/{path}": leaf for part in parts for path, leaf in part.leaves.items()}
-        return Part("model", name, {**leaves, **inside}, self.reader.place(shell))
+        return Part("model", name, {**leaves, **inside}, shell.source)
 
     def _carried_shells(self) -> Iterator[Part]:
         """The same of nested models that traveled in URDF."""
         for frame in self.model.frames:
             for element in _carried(frame):
                 if element.name == "model":
-                    part = self.reader.element(element_xml(element), "model", self.reader.place(frame), Transform())
+                    part = self.reader.element(element_xml(element), "model", frame.source, Transform())
                     yield Part("model", frame.name, part.leaves, part.where, carried=True)
 
-
-def _resolve(graph: FrameGraph, pose: Pose, holder: Transform) -> Transform:
-    """Where a pose is in the model, which is in the frame that `holder` places unless it names another."""
-    if pose.relative_to:
-        holder = graph.pose(pose.relative_to, MODEL, kind="joint", base="model")
-    return holder.compose(Transform.from_pose(pose))
+    def _resolve(self, pose: Pose, holder: Transform) -> Transform:
+        """Where a pose is in the model, which is in the frame that `holder` places unless it names another."""
+        if pose.relative_to:
+            self.looked_around = True
+            holder = self.graph.place(pose.relative_to, kind="joint")
+        return holder.compose(Transform.from_pose(pose))
 
 
 def _carried(node: Node) -> Iterator[Element]:

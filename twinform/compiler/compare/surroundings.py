@@ -9,7 +9,7 @@ from twinform.compiler.compare.findings import Base, Findings, Subject, Terms
 from twinform.compiler.compare.matching import compare_leaves, compare_parts
 from twinform.compiler.compare.part_reader import PartReader
 from twinform.compiler.compare.robot import Leaves, Part
-from twinform.diagnostics import Location, Origins
+from twinform.diagnostics import Source
 from twinform.ir import Document, Frame, Joint, Pose, World
 from twinform.ir.frames import WORLD, FrameGraph
 from twinform.ir.transform import Transform
@@ -25,7 +25,7 @@ class Surroundings:
     name: str
     leaves: Leaves
     parts: tuple[Part, ...]
-    where: Location
+    where: Source | None
 
     @property
     def subject(self) -> Subject:
@@ -33,32 +33,33 @@ class Surroundings:
         return Subject("world", self.name) if self.name else Subject("file", "")
 
 
-def read_surroundings(document: Document, origins: Mapping[str, Origins]) -> dict[str, Surroundings]:
+def read_surroundings(document: Document) -> dict[str, Surroundings]:
     """The worlds of a document by their names, and what stands beside them, of a document in the newest SDF version."""
-    found = {world.name: _of_world(world, origins) for world in document.worlds}
-    beside = _of_file(document, origins)
+    found = {world.name: _of_world(world) for world in document.worlds}
+    beside = _of_file(document)
     return {**found, _FILE: beside} if beside.parts or beside.leaves else found
 
 
-def _of_world(world: World, origins: Mapping[str, Origins]) -> Surroundings:
+def _of_world(world: World) -> Surroundings:
     graph = FrameGraph(world)
-    reader = PartReader(partial(_resolve, graph), origins)
+    reader = PartReader(partial(_resolve, graph))
     leaves, parts = reader.parts(world, Transform())
     members = (*(_placed(reader, graph, each) for each in (*world.frames, *world.joints)),)
-    return Surroundings(world.name, leaves, (*parts, *members), reader.place(world))
+    return Surroundings(world.name, leaves, (*parts, *members), world.source)
 
 
-def _of_file(document: Document, origins: Mapping[str, Origins]) -> Surroundings:
-    reader = PartReader(lambda pose, holder: holder.compose(Transform.from_pose(pose)), origins)
+def _of_file(document: Document) -> Surroundings:
+    reader = PartReader(lambda pose, holder: holder.compose(Transform.from_pose(pose)))
     leaves, parts = reader.parts(document, Transform())
-    return Surroundings(_FILE, leaves, parts, reader.place(document))
+    return Surroundings(_FILE, leaves, parts, document.source)
 
 
 def _placed(reader: PartReader, graph: FrameGraph, node: Frame | Joint) -> Part:
     """A frame or joint of a world, posed in the world, whatever frame it was posed in."""
     kind = "frame" if isinstance(node, Frame) else "joint"
     there = graph.pose(node.name, WORLD, kind=kind, base="world")
-    return reader.part(node.model_copy(update={"pose": None}), kind, there)
+    opaque = tuple(part for part in node.opaque if part.name != "<pose>")  # a second one, which no reader looks at
+    return reader.part(node.model_copy(update={"pose": None, "opaque": opaque}), kind, there)
 
 
 def _resolve(graph: FrameGraph, pose: Pose, holder: Transform) -> Transform:

@@ -13,7 +13,8 @@ from twinform.diagnostics.rules import MALFORMED_SUPPRESSION
 from twinform.diagnostics.suppressions import NO_SUPPRESSIONS, Suppressions
 from twinform.file_access import Readable
 
-_MARKS = (b"twinform", "twinform".encode("utf-16-le"), "twinform".encode("utf-16-be"))
+_MARKS = tuple(("twinform".encode(code), "urn:twinform:".encode(code)) for code in ("utf-8", "utf-16-le", "utf-16-be"))
+"""What stands in a comment that allows something, and where else it stands, in each encoding."""
 _WITHOUT_MODEL = "without this part there is no model, and nothing else could be checked"
 
 
@@ -104,7 +105,7 @@ def staying(errors: Iterable[Diagnostic], reason: str) -> Iterator[Diagnostic]:
 
 def suppressions(text: bytes) -> Suppressions:
     """The suppressions in a file."""
-    if not any(mark in text for mark in _MARKS):
+    if not any(text.count(mark) > text.count(namespace) for mark, namespace in _MARKS):
         return NO_SUPPRESSIONS
     from twinform.diagnostics.suppressions import parse_suppressions  # noqa: PLC0415 - few files have any
     from twinform.text import SourceText, UndecodableError  # noqa: PLC0415 - as above

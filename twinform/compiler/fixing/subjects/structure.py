@@ -15,7 +15,7 @@ from twinform.text import same_element
 _ZERO = frozenset({"ixy", "ixz", "iyz"})
 """Products of inertia: who leaves them out means none."""
 _NUMBERS_TO_FIND = frozenset({"effort", "velocity"})
-_OF_THEIR_OWN = frozenset({"actor", "joint", "light", "link", "model", "world"})
+_OF_THEIR_OWN = frozenset({"actor", "camera", "joint", "light", "link", "model", "world"})
 """What is a thing by itself: a second one is not the first one said again."""
 _SHOWN = 40
 

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, TypeVar
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, Severity, rules
 from twinform.ir import Element, Format, Frame, GazeboExtension, Joint, Link, Model, Node, Opaque
 from twinform.passes.carriers.annotations import EXTENSION, is_synthesized, with_annotation
-from twinform.passes.carriers.carriers import DANGLING, OVERRULED, Attributes, pack, to_element
+from twinform.passes.carriers.carriers import DANGLING, OVERRULED, SECOND, Attributes, pack, to_element
 from twinform.passes.carriers.material_annotations import with_look
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
@@ -290,7 +290,7 @@ class _Fold:
             return
         message = self._conflict(node, field, "the first one", again[0][1].location, accounted=False)
         for extension, element in again:
-            self._keep(extension, [element], rules.GAZEBO_CONFLICT, message)
+            self._keep(extension, [element], rules.GAZEBO_CONFLICT, message, SECOND)
 
     def _conflict(self, node: Node, field: str, winner: str, where: Location, *, accounted: bool = True) -> str:
         message = f"<gazebo> sets {field!r} of {node.__dict__['name']!r} again; {winner} is used"
