@@ -6,7 +6,7 @@ from copy import deepcopy
 from lxml import etree
 
 from twinform.compiler.compare.leaves import CARRIED
-from twinform.passes.carriers.carriers import NAMESPACE, OVERRULED, SECOND
+from twinform.passes.carriers.carriers import NAMESPACE, SECOND
 from twinform.schemas import Fact, XmlElement, table
 
 _CARRIER = {name: f"{{{NAMESPACE}}}{name}" for name in ("sdf", "urdf", "version")}
@@ -44,7 +44,7 @@ def _is_in_pose(carrier: XmlElement) -> bool:
 
 
 def _is_beside_another(carrier: XmlElement) -> bool:
-    return any(carrier.get(name) is not None for name, _ in (*SECOND, *OVERRULED))
+    return any(carrier.get(name) is not None for name, _ in SECOND)
 
 
 def _graft(child: XmlElement, parent: XmlElement, at: str, fact: Fact | None) -> None:

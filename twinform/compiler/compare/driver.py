@@ -98,11 +98,11 @@ def _compared(a: Robots, b: Robots, tolerance: float, known: dict[str, RobotComp
     yield from compare_surroundings(a.around, b.around, terms)
     if len(a.by_name) == len(b.by_name) == 1:
         (one,), (other,) = a.by_name.values(), b.by_name.values()
-        yield from _compared_robots(one, other, terms, known, several=False)
+        yield from _compared_robots(one, other, terms, known)
         return
     for name, robot in a.by_name.items():
         if name in b.by_name:
-            yield from _compared_robots(robot, b.by_name[name], terms, known, several=True)
+            yield from _compared_robots(robot, b.by_name[name], terms, known, name)
         else:
             yield from _missing(robot, terms, in_a=True)
     for name, robot in b.by_name.items():
@@ -111,12 +111,13 @@ def _compared(a: Robots, b: Robots, tolerance: float, known: dict[str, RobotComp
 
 
 def _compared_robots(
-    a: Robot, b: Robot, terms: Terms, known: dict[str, RobotComparison], *, several: bool
+    a: Robot, b: Robot, terms: Terms, known: dict[str, RobotComparison], name: str = ""
 ) -> Iterable[Difference]:
-    before = known.get(a.name)
+    """What differs between two robots; of several they have a name."""
+    before = known.get(name)
     if before is not None and before.robots[0] is a and before.robots[1] is b:
         return before.found.items
-    known[a.name] = comparison = RobotComparison(a, b, terms, several=several, before=before)
+    known[name] = comparison = RobotComparison(a, b, terms, several=bool(name), before=before)
     return comparison.run()
 
 

@@ -282,7 +282,8 @@ class _Fold:
     def _again(self, node: Node, field: str, extensions: list[GazeboExtension]) -> None:
         """Report what is repeated, and carry the elements that repeat it."""
         again = [(extension, each) for extension in extensions for each in extension.content if each.name == field]
-        if again and node.__dict__.get(field) is None:  # of what the node itself does not have, the first one is used
+        is_own = node.__dict__.get(field) is not None
+        if again and not is_own:  # the first one is used
             again = again[1:]
         if not again:
             # it is deeper inside, beside what was merged
@@ -290,7 +291,7 @@ class _Fold:
             return
         message = self._conflict(node, field, "the first one", again[0][1].location, accounted=False)
         for extension, element in again:
-            self._keep(extension, [element], rules.GAZEBO_CONFLICT, message, SECOND)
+            self._keep(extension, [element], rules.GAZEBO_CONFLICT, message, () if is_own else SECOND)
 
     def _conflict(self, node: Node, field: str, winner: str, where: Location, *, accounted: bool = True) -> str:
         message = f"<gazebo> sets {field!r} of {node.__dict__['name']!r} again; {winner} is used"
