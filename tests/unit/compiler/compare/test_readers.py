@@ -8,7 +8,10 @@ from lxml import etree
 import twinform
 from twinform import Comparison
 from twinform.compiler.compare import Difference, Severity
+from twinform.compiler.compare.part_reader import PartReader
 from twinform.compiler.compare.readers import Reader, reconcile
+from twinform.ir import Document, Joint, Link, Model, World
+from twinform.ir.transform import Transform
 from twinform.testing.oracles.readers.judging import without_carriers
 
 _CASES = Path(__file__).parents[3] / "cases/convert"
@@ -64,3 +67,24 @@ def test_what_gazebo_alone_sees_stays_carried_for_it():
 def test_notes_of_the_other_readers_stay():
     notes = [_item("frame", Severity.NOTE)]
     assert reconcile(notes, [_item("name", Severity.NOTE)], Reader.TWINFORM, ("a", "b")) == notes
+
+
+def test_what_readers_see_alike_is_read_once(monkeypatch: pytest.MonkeyPatch):
+    solid = '<mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+    links = "".join(f'<link name="l{i}"><inertial>{solid}</inertial></link>' for i in range(40))
+    joint = '<joint name="j{1}" type="fixed"><parent link="l{0}"/><child link="l{1}"/><origin xyz="0 0 1"/></joint>'
+    text = f'<robot name="r">{links}{"".join(joint.format(i, i + 1) for i in range(39))}</robot>'.encode()
+    made = twinform.convert(text, to="sdf").text.encode()
+    assert b"urn:twinform:1" in made
+    nodes: list[Link | Joint | Model | World | Document] = []
+    read = PartReader.parts
+
+    def parts(self: PartReader, node: Link | Joint | Model | World | Document, frame: Transform):
+        nodes.append(node)
+        return read(self, node, frame)
+
+    monkeypatch.setattr(PartReader, "parts", parts)
+    assert twinform.diff(text, made, carriers=True).same
+    once = len(nodes)
+    assert twinform.diff(text, made).same
+    assert len(nodes) - once <= 1.15 * once
