@@ -12,11 +12,13 @@ from twinform.passes.carriers.definitions import has_first, inside, is_repeated
 from twinform.passes.carriers.provenance import came_from, with_provenance, without_provenance
 from twinform.passes.framework.base import Pass
 from twinform.passes.legalise.to_urdf.base import Keeper, UrdfVersion
+from twinform.passes.legalise.to_urdf.map_surfaces import OF_ALL_COLLISIONS
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, take_remainder, urdf_fields
 from twinform.passes.transforms.notation import BODY
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
+_NO_EQUIVALENT = "has no equivalent in URDF"
 _IMPLIED = KnownFields({"relative_to": None})
 """The frame of a joint's or link's pose, which URDF does not write because it cannot be another."""
 
@@ -125,7 +127,9 @@ class _RemainderCarrier:
         of = f"{tag} {name!r}" if name else f"an {tag}"
         for piece in pieces:
             what = f"{piece.at}/{piece.name}" if piece.at else piece.name
-            message = f"{what} of {of} has no equivalent in URDF"
+            unshared = tag == "collision" and what.partition("/")[0].strip("<>") in OF_ALL_COLLISIONS
+            why = "is not that of all collisions of its link: Gazebo reads none of it" if unshared else _NO_EQUIVALENT
+            message = f"{what} of {of} {why}"
             about = SECOND if _is_second(piece, kept) else ()
             kept = self.keeper.keep(kept, [piece], rules.SDF_ONLY, message, piece.location_in(node), about=about)
         for path, text in endless:

@@ -19,7 +19,8 @@ _TAGS = {
     "min_depth": "minDepth",
 }
 _NOT_FIELDS = NOT_CONTENT | {"opaque"}
-_FIELDS = ("surface", "max_contacts", "laser_retro")
+OF_ALL_COLLISIONS = ("surface", "max_contacts", "laser_retro")
+"""Fields of collisions that a link's tags set for all of them."""
 
 
 class MapSurfaces(ToUrdfPass):
@@ -51,7 +52,7 @@ def _shared(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]
     if not collisions:
         return [], []
     first, content, fields = collisions[0], list[Element](), list[str]()
-    for field in _FIELDS:
+    for field in OF_ALL_COLLISIONS:
         value = getattr(first, field)
         if value is None or any(getattr(other, field) != value for other in collisions[1:]):
             continue
@@ -66,7 +67,7 @@ def _shared(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]
 
 def _note_unshared(link: Link, keeper: Keeper) -> None:
     """A warning where collisions keep something for themselves, which is lost to Gazebo."""
-    left = [(field, one) for field in _FIELDS for one in link.collisions if getattr(one, field) is not None]
+    left = [(field, one) for field in OF_ALL_COLLISIONS for one in link.collisions if getattr(one, field) is not None]
     if left:
         names = ", ".join(repr(name) for name in dict.fromkeys(one.name for _, one in left))
         what = " and ".join(dict.fromkeys(field for field, _ in left))
