@@ -10,8 +10,11 @@ import twinform
 from tests.corpus.files import CorpusFile, Kind, chunks
 from tests.corpus.there_and_back import SDF_VERSION
 from twinform.testing.oracles import libsdformat
+from twinform.testing.oracles.libsdformat.library import describe
 
 CASES = Path(__file__).parents[1] / "cases" / "convert"
+_FIXED = 3
+"""The number that libsdformat has for a fixed joint."""
 URDF, SDF = chunks(Kind.URDF), chunks(Kind.SDF)
 
 
@@ -102,6 +105,17 @@ def test_names_with_scopes_are_refused_but_in_plugins_and_behind_prefixes(tmp_pa
     assert taken == {"plugin", "prefix"}
     ours = {name for name, path in paths.items() if not any(d.is_error for d in twinform.check(path).diagnostics)}
     assert taken == ours
+
+
+@pytest.mark.parametrize("static", ["", "<static>false</static>"])
+def test_static_models_that_are_flattened_are_fixed_to_the_world(static: str, tmp_path: Path):
+    inner = "<model name='in'><static>true</static><link name='b'/></model>"
+    text = f"<sdf version='1.9'><model name='m'>{static}<link name='a'/>{inner}</model></sdf>"
+    path = tmp_path / "flat.sdf"
+    path.write_text(twinform.convert(text.encode(), to="sdf", passes="flatten-models").text)
+    assert [(joint["kind"], joint["parent"], joint["child"]) for joint in describe(path)["joints"]] == [
+        (_FIXED, "world", "in_b")
+    ]
 
 
 @pytest.mark.parametrize("name", ["frame_link", "gazebo_joint", "gazebo_tags", "scoped_elements", "world_link"])

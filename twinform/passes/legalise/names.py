@@ -93,7 +93,7 @@ class RestoreNames(ModelPass):
                 why = "would share that name with another"
             elif node.name in sensed and any(old == link.name for link in model.links):
                 why = "has a sensor now, which would be one of the link of that name"
-            elif kind == SCOPED_NAME and not (wrote_scopes(model) or scopes.issuperset(_scopes_in(old))):
+            elif kind == SCOPED_NAME and not (wrote_scopes(model) or scopes.issuperset(scopes_in(old))):
                 why = "is in a nested model that the file no longer describes"
             if why:
                 message = f"{part} {node.name!r} was called {old!r}, and {why}"
@@ -117,7 +117,7 @@ def _scopes(model: Model) -> set[str]:
     return {(annotation.text or "") if annotation else name for annotation, name in annotations}
 
 
-def _scopes_in(name: str) -> set[str]:
+def scopes_in(name: str) -> set[str]:
     """The models that a scoped name is in: `a` and `a::b` of `a::b::link`."""
     parts = name.split("::")[:-1]
     return {"::".join(parts[: count + 1]) for count in range(len(parts))}

@@ -15,11 +15,11 @@ from twinform.passes.structure.renaming import renamed_in_world, renamed_model, 
 from twinform.passes.structure.scopes import Part, Scope, report_clashes, scope_of
 from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.joint_ends import report_self_joint, resolve_ends
+from twinform.passes.transforms.static_models import with_static_models_fixed
 
 _SCOPE = "::"
 _LAST_WITH_COLONS = "1.7"
 """The last version of SDF in which names may have `::` in them."""
-_OF_THE_WHOLE = ("static", "allow_auto_disable")
 _OF_LINKS = ("self_collide", "enable_wind")
 
 
@@ -29,12 +29,13 @@ class FlattenModels(ModelEdit):
     Changes: 1. they are called `inner_name`, with `separator` between, and what names them follows; 2. a frame called
     `inner` stands for the nested model's own, and poses that were relative to it name it; 3. plugins and other parts of
     the nested model become those of the outer one, with names followed; its `self_collide` and `enable_wind` become
-    those of its links; 4. joints and frames of the world that name what was nested follow. With `separator="::"` names
+    those of its links; 4. the roots of a static one are fixed to the world, unless the outer model is static; 5. joints
+    and frames of the world that name what was nested follow. With `separator="::"` names
     are as libsdformat writes them before 1.8, with the frame called `inner::__model__`, and the result is SDF 1.7,
     since later versions forbid `::` in names.
     Never touches: where anything is; URDF, which has no models in models.
-    Diagnostics: `include-not-expanded`; `nested-setting` where a nested model is static, or may not rest, and the outer
-    one is set otherwise; `self-joint`; `name-clash`; `unfollowed-name`.
+    Diagnostics: `include-not-expanded`; `nested-setting` where a nested model may rest and the outer one may not, or
+    the other way round; `self-joint`; `name-clash`; `unfollowed-name`.
     """
 
     name: ClassVar[str] = "flatten-models"
@@ -58,7 +59,7 @@ class FlattenModels(ModelEdit):
         if place.format is Format.URDF or not model.models or _has_includes(model, place.sink):
             return model
         _report_settings(model, place)
-        flat = without_synthesized(flatten(_prepared(model), _plain))
+        flat = without_synthesized(flatten(with_static_models_fixed(_prepared(model)), _plain))
         flat = _with_rest(flat, model, place)
         if _has_self_joint(flat, place.sink):
             return model
@@ -123,19 +124,13 @@ def _has_self_joint(model: Model, sink: DiagnosticSink) -> bool:
 
 
 def _report_settings(model: Model, place: EditContext) -> None:
+    rests = model.allow_auto_disable is not False
     for nested in model.models:
-        for field in _OF_THE_WHOLE:
-            mine, theirs = getattr(model, field), getattr(nested, field)
-            if theirs is not None and bool(theirs) != _usual(field, mine):
-                message = (
-                    f"nested model {nested.name!r} sets {field} to {str(theirs).lower()}, and {model.name!r} does not"
-                )
-                place.sink.report(rules.NESTED_SETTING, message, nested.location.at(field), found=str(theirs).lower())
-        _report_settings(nested.model_copy(update={field: getattr(model, field) for field in _OF_THE_WHOLE}), place)
-
-
-def _usual(field: str, value: bool | None) -> bool:
-    return field == "allow_auto_disable" if value is None else value
+        if nested.allow_auto_disable is not None and nested.allow_auto_disable != rests:
+            value, where = str(nested.allow_auto_disable).lower(), nested.location.at("allow_auto_disable")
+            message = f"nested model {nested.name!r} sets allow_auto_disable to {value}, and {model.name!r} does not"
+            place.sink.report(rules.NESTED_SETTING, message, where, found=value)
+        _report_settings(nested.model_copy(update={"allow_auto_disable": model.allow_auto_disable}), place)
 
 
 def _prepared(model: Model) -> Model:

@@ -12,6 +12,7 @@ from twinform.passes.legalise.to_sdf.fold_gearboxes import FoldGearboxes
 from twinform.passes.legalise.to_sdf.fold_joints import FoldJoints
 from twinform.passes.legalise.to_sdf.follow_lumped_names import FollowLumpedNames
 from twinform.passes.legalise.to_sdf.frame_links import FrameLinks
+from twinform.passes.legalise.to_sdf.free_static_models import FreeStaticModels
 from twinform.passes.legalise.to_sdf.hide_scoped_elements import HideScopedElements
 from twinform.passes.legalise.to_sdf.joints import UrdfJoints
 from twinform.passes.legalise.to_sdf.leave_inertias import LeaveInertias
@@ -59,6 +60,7 @@ def to_sdf(
         UnpackSdf.unchecked(of="bodies"),
         FoldJoints.unchecked(),
         LeaveInertias.unchecked(version=version),
+        FreeStaticModels.unchecked(),
         WorldLink.unchecked(carriers=carriers),
         UniqueNames.unchecked(carriers=carriers),
         NameShapes.unchecked(carriers=carriers),

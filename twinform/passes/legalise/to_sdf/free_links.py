@@ -18,7 +18,7 @@ def links_in_static_models(model: Model) -> frozenset[str]:
     if model.static:
         return frozenset(link.name for link in model.links)
     frames = (*model.links, *model.frames)  # a frame of SDF is a link at first
-    scopes = tuple(f"{scoped_name(frame)}::" for frame in frames if _is_static(find_annotation(frame, NESTED)))
+    scopes = tuple(f"{scoped_name(frame)}::" for frame in frames if is_static(find_annotation(frame, NESTED)))
     return frozenset(link.name for link in model.links if scoped_name(link).startswith(scopes))
 
 
@@ -52,6 +52,7 @@ def are_at_one_place(frame: Frame, other: Frame) -> bool:
     return all(abs(a - b) <= _CLOSE * max(1.0, abs(a)) for a, b in numbers)
 
 
-def _is_static(nested: Element | None) -> bool:
+def is_static(nested: Element | None) -> bool:
+    """Whether the annotation of a nested model says that it is static."""
     static = nested.find("static") if nested else None
     return static is not None and (static.text or "").strip() in {"true", "1"}

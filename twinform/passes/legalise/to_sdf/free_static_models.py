@@ -1,0 +1,62 @@
+"""Static models in a model that an edit of the URDF has set free."""
+
+from collections.abc import Set as AbstractSet
+from typing import ClassVar
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules import STALE_CARRIER
+from twinform.ir import Element, Link, Model, Opaque
+from twinform.ir.frames import WORLD
+from twinform.passes.carriers.annotations import find_annotation, is_annotation
+from twinform.passes.framework.base import ModelPass
+from twinform.passes.legalise.names import scoped_name, scopes_in
+from twinform.passes.legalise.to_sdf.free_links import is_static
+from twinform.passes.transforms.notation import NESTED
+
+
+class FreeStaticModels(ModelPass):
+    """Let go of the static models of SDF that the URDF does not hold to the world.
+
+    Changes: the annotation of a nested model says no more that it is static, if one of its links hangs from something
+    else than the world or one of its own, by a joint that moves or by none.
+    Never touches: nested models in a static one.
+    Diagnostics: `stale-carrier`.
+    """
+
+    name: ClassVar[str] = "free-static-models"
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model whose nested static models are held."""
+        static = [link for link in model.links if is_static(find_annotation(link, NESTED))]
+        if not static or model.static:
+            return model
+        free = _free_models(model, frozenset(map(scoped_name, static)))
+        for link in static:
+            if scoped_name(link) in free:
+                message = f"model {scoped_name(link)!r} is not static any more: the joints of the URDF let it move"
+                sink.report(STALE_CARRIER, message, link.location, found=link.name)
+        links = tuple(_without_static(link) if scoped_name(link) in free else link for link in model.links)
+        return model.model_copy(update={"links": links})
+
+
+def _free_models(model: Model, static: AbstractSet[str]) -> AbstractSet[str]:
+    """Those of the nested models with a link that is neither fixed to the world nor hangs from another one in them."""
+    above = {joint.child: joint for joint in model.joints}
+    names = {link.name: scoped_name(link) for link in model.links}
+    free = set[str]()
+    for link, scoped in names.items():
+        joint = above.get(link)
+        if joint is None or joint.type != "fixed" or joint.parent != WORLD:
+            free |= (scopes_in(scoped) & static) - scopes_in(names.get((joint and joint.parent) or "", ""))
+    return free
+
+
+def _without_static(link: Link) -> Link:
+    opaque = tuple(_moving(part) if is_annotation(part, NESTED) else part for part in link.opaque)
+    return link.model_copy(update={"opaque": opaque})
+
+
+def _moving(part: Opaque) -> Opaque:
+    element = part.element or Element(name="")
+    children = tuple(child for child in element.children if child.name != "static")
+    return part.model_copy(update={"element": element.model_copy(update={"children": children})})
