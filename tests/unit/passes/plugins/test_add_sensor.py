@@ -192,6 +192,12 @@ def test_the_frame_of_a_camera_looks_along_z_where_the_camera_looks(model: str) 
     assert FrameGraph(there.model).pose("camera_optical_frame", "base").translation == pytest.approx((1, 2, 3))
 
 
+@pytest.mark.parametrize("type_", ["camera", "thermal_camera", "segmentation_camera", "wideanglecamera"])
+def test_cameras_with_nothing_but_images_look_along_z(type_: str) -> None:
+    made = run(pipeline(type_, "sensor-name=eye"), twinform.loads(URDF))[0]
+    assert made.models[0].links[-1].name == "eye_optical_frame"
+
+
 def test_a_frame_that_is_there_is_taken_and_a_joint_of_its_name_is_none() -> None:
     once = run(pipeline("camera"), twinform.loads(URDF.replace('"hand"', '"camera_optical_frame"')))[0]
     assert [link.name for link in once.models[0].links] == ["base", "camera_optical_frame"]
