@@ -1,6 +1,7 @@
 """Unpacking carriers of SDF parts into the nodes that they came from."""
 
 from collections.abc import Iterable
+from functools import partial
 from typing import ClassVar, Literal, TypeVar, cast
 
 from twinform.diagnostics import DiagnosticSink
@@ -74,7 +75,7 @@ def _without_carriers(node: AnyNode) -> AnyNode:
     if not carriers:
         return node
     node = node.model_copy(update={"opaque": tuple(part for part in node.opaque if not is_carrier(part, "sdf"))})
-    for carrier in carriers:
+    for carrier in sorted(carriers, key=partial(_is_second, node)):  # after what it repeats, which may travel too
         if _is_blank_pose(carrier):
             continue
         more = None if is_memory(carrier) or _is_overruled(carrier, node) else _with(node, carrier)
@@ -99,10 +100,23 @@ def _is_overruled(carrier: Opaque, node: Node) -> bool:
     if carrier.element and carrier.element.get("index") is not None:
         holder = inside(node, at)
         again = at or isinstance(node, Joint) or any(is_repeated(piece, node) for piece in unpack(carrier))
-        return bool(again) and not (holder and all(has_first(holder, name) for name in named))
+        return bool(again) and not (holder and all(_is_there(holder, name) for name in named))
     if isinstance(node, Joint):
         return at == "axis/limit" and node.type != "continuous" and bool(named & _ENDS)
     return isinstance(node, Visual) and at.startswith("material") and not _has_look(node.material)
+
+
+def _is_second(node: Node, carrier: Opaque) -> bool:
+    """Whether what is in a carrier repeats something of the node."""
+    has_index = carrier.element is not None and carrier.element.get("index") is not None
+    return has_index and any(is_repeated(piece, node) for piece in unpack(carrier))
+
+
+def _is_there(holder: Node, name: str) -> bool:
+    """Whether a node has the element that another one repeats; a material of URDF may be no more than a name."""
+    if isinstance(holder, Visual) and name == "material":
+        return _has_look(holder.material)
+    return has_first(holder, name)
 
 
 def _has_look(material: Material | None) -> bool:
