@@ -124,7 +124,8 @@ def _covers(path: str, found: Difference) -> bool:
     wanted = [name for part in found.parts for name in part.split("::")]
     if names[1::2][-len(wanted) :] != wanted:
         return False
-    steps = zip(_steps(without_names(rest)), _steps(found.path), strict=False)
+    here = ["plugin"] if found.kind == "plugin" else _steps(found.path)  # whose path is all that is in it
+    steps = zip(_steps(without_names(rest)), here, strict=False)
     return all(one == other for one, other in steps)
 
 
