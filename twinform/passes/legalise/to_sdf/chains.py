@@ -48,11 +48,12 @@ class Chain:
 
 
 class Neighbors(NamedTuple):
-    """The links of a model by name, the joints by their children, and the names of joints by their parents."""
+    """The links of a model by name, joints by their children, names of joints by their parents, and those mimicked."""
 
     links: dict[str, Link]
     above: dict[str | None, Joint]
     below: dict[str | None, list[str]]
+    leaders: frozenset[str | None]
 
     @classmethod
     def of(cls, model: Model) -> "Neighbors":
@@ -61,7 +62,9 @@ class Neighbors(NamedTuple):
         for joint in model.joints:
             below.setdefault(joint.parent, []).append(joint.name)
         links = {link.name: link for link in model.links}
-        return cls(links, {joint.child: joint for joint in model.joints}, below)
+        mimics = (joint.axis.mimic for joint in model.joints if joint.axis and joint.axis.mimic)
+        leaders = frozenset(mimic.joint for mimic in mimics)
+        return cls(links, {joint.child: joint for joint in model.joints}, below, leaders)
 
 
 def find_chain(last: Joint, kind: str, around: Neighbors) -> Chain:
@@ -81,6 +84,8 @@ def find_chain(last: Joint, kind: str, around: Neighbors) -> Chain:
     for joint in chain.above:
         if joint.sensors or not all(is_ours(part) or is_of_axis(part.at) for part in joint.opaque):
             raise StaleChainError(f"joint {joint.name!r} has more than an axis")
+        if known not in TWO_AXES and joint.name in around.leaders:
+            raise StaleChainError(f"a joint mimics {joint.name!r}")
     _check_limits(chain)
     _CHECKS[known](chain)
     return chain
