@@ -62,7 +62,7 @@ def read_robots(
     known: dict[int, Robots] = {}
     found: dict[Reader, Robots] = {}
     builders = defaultdict[str | None, RobotBuilder](lambda: RobotBuilder(document.format))
-    for reader, seen in [(reader, as_read_by(document, reader)) for reader in readers]:
+    for reader, seen in as_read_by(document, readers).items():
         if id(seen) not in known:
             known[id(seen)] = _seen(loaded, seen, model, builders, sink, assets)
         found[reader] = known[id(seen)]

@@ -24,12 +24,13 @@ class Reader(StrEnum):
 _ALONE = {Reader.GAZEBO: "only Gazebo and twinform read", Reader.TWINFORM: "only twinform reads"}
 
 
-def as_read_by(document: Document, reader: Reader) -> Document:
-    """The document without what a reader skips; the same object where that is nothing."""
-    if reader is Reader.TWINFORM:
-        return document
-    seen = without_ours(document)
-    return seen if reader is Reader.GAZEBO else without_bodies_for_gazebo(seen)
+def as_read_by(document: Document, readers: Iterable[Reader]) -> dict[Reader, Document]:
+    """The document without what each reader skips; one object for readers that skip the same."""
+    if (wanted := [*readers]) == [Reader.TWINFORM]:
+        return {Reader.TWINFORM: document}
+    bare = without_ours(document)
+    seen = {Reader.ANY: without_bodies_for_gazebo(bare), Reader.GAZEBO: bare, Reader.TWINFORM: document}
+    return {reader: seen[reader] for reader in wanted}
 
 
 def reconcile(
