@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from twinform.compiler import CompileError, Conversion, check, convert, dump, dumps, load, loads, write_atomically
     from twinform.compiler.compare import Comparison, Difference, diff
     from twinform.compiler.normal_form import Discrepancy, NormalForm, normal_form
+    from twinform.compiler.scene import forward_kinematics
     from twinform.diagnostics import Diagnostic, Ledger
     from twinform.ir import Document
 else:
@@ -25,6 +26,7 @@ else:
         {
             "twinform.compiler": "CompileError Conversion check convert dump dumps load loads write_atomically",
             "twinform.compiler.compare": "Comparison Difference diff",
+            "twinform.compiler.scene": "forward_kinematics",
             "twinform.compiler.normal_form": "Discrepancy NormalForm normal_form",
             "twinform.diagnostics": "Diagnostic Ledger",
             "twinform.ir": "Document",
@@ -50,6 +52,7 @@ __all__ = [
     "diff",
     "dump",
     "dumps",
+    "forward_kinematics",
     "load",
     "loads",
     "normal_form",

@@ -3,9 +3,8 @@
 from typing import cast
 
 from twinform.ir import Element, Node, Opaque
-from twinform.ir.sourced import NOT_CONTENT
+from twinform.ir.record import field_values
 
-_UNSEEN = NOT_CONTENT | {"namespaces"}
 _MOST = 60
 
 
@@ -23,8 +22,8 @@ def first_difference(one: object, other: object, path: str = "") -> str | None:
 
 
 def _in_fields(one: Node | Opaque | Element, other: Node | Opaque | Element, path: str) -> str | None:
-    for name, value in one.__dict__.items():
-        if name not in _UNSEEN and (found := first_difference(value, other.__dict__[name], f"{path}/{name}")):
+    for name, value in field_values(one).items():
+        if name != "namespaces" and (found := first_difference(value, getattr(other, name), f"{path}/{name}")):
             return found
     return None
 

@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-import pydantic  # noqa: F401 # pyright: ignore[reportUnusedImport] - decisions: near the top of the stack
 
 from twinform.cli.baseline import baseline_of, baseline_options
 from twinform.cli.check_report import CheckReport

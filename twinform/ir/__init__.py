@@ -1,4 +1,4 @@
-"""The intermediate representation: frozen Pydantic nodes, one family in each file, and pure functions over them."""
+"""The intermediate representation: frozen nodes, one family in each file, and pure functions over them."""
 
 from twinform.ir.census import OPAQUE, PLAIN, PREFIXED, bits_named, bits_of, census_of, holds_opaque, untyped_elements
 from twinform.ir.document import Document, Format
@@ -27,6 +27,7 @@ from twinform.ir.model import Include, Model
 from twinform.ir.node import Color, Node, Quaternion, Vector3
 from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Frame, Pose
+from twinform.ir.record import field_values
 from twinform.ir.references import IN_MODELS, ReferenceChange, ReferenceKind, map_references
 from twinform.ir.rewrite import map_children, replace_fields, replace_node, rewrite
 from twinform.ir.sensor import Sensor
@@ -91,6 +92,7 @@ __all__ = [
     "census_of",
     "children_of",
     "count_parts",
+    "field_values",
     "holds_opaque",
     "map_children",
     "map_references",

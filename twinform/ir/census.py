@@ -3,9 +3,9 @@
 There is a bit for each class of nodes, one for each field that few models write, and some for untyped parts.
 """
 
-from collections.abc import Callable, Iterable, Iterator
-from functools import cache, lru_cache, partial
-from typing import Any, NamedTuple, TypeVar
+from collections.abc import Iterable, Iterator
+from functools import cache, lru_cache
+from typing import Any, NamedTuple
 from zlib import crc32
 
 from twinform.ir.element import Element, Opaque
@@ -17,13 +17,11 @@ from twinform.ir.link import Inertial, Link
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Node
 from twinform.ir.pose import Frame, Pose
+from twinform.ir.record import Record
 from twinform.ir.sensor import Sensor
-from twinform.ir.sourced import Sourced, maker
 from twinform.ir.tree import children_of, node_fields
 from twinform.ir.visual import Material, Visual
 from twinform.ir.world import World
-
-AnyNode = TypeVar("AnyNode", bound=Node)
 
 RARE: dict[type[Node], tuple[str, ...]] = {
     Axis: ("expressed_in", "mimic", "use_parent_model_frame"),
@@ -57,8 +55,8 @@ OPAQUE = PLAIN | PREFIXED
 ANYTHING = -1
 _FIRST_BIT = 1 + _BUCKETS
 
-_SLOT: Any = Sourced.__dict__["_census"]
-"""Where a node keeps what was found; asked for in the usual way, pydantic would look for an unset one in vain."""
+_SLOT: Any = Record.__dict__["_census"]
+"""Where a node keeps what was found; nodes that Pydantic has made have none yet."""
 _get, _set = _SLOT.__get__, _SLOT.__set__
 
 
@@ -102,7 +100,7 @@ def census_of(node: Node) -> int:
     """The bits of what is in a node, itself included."""
     try:
         found: int | None = _get(node)
-    except AttributeError:  # pydantic has made it
+    except AttributeError:  # Pydantic has made it
         found = None
     if found is None:
         found = _count(node)
@@ -112,21 +110,20 @@ def census_of(node: Node) -> int:
 
 def _count(node: Node) -> int:
     _, found, children, rare = PLANS[node.__class__]
-    values = node.__dict__
     for name in children:
-        value: Any = values[name]
+        value: Any = getattr(node, name)
         if not value:
             continue
         for each in value if value.__class__ is tuple else (value,):
             try:
                 found |= _get(each) or census_of(each)
-            except AttributeError:  # pydantic has made it
+            except AttributeError:  # Pydantic has made it
                 found |= census_of(each)
     for name, bit in rare:
-        value = values[name]
+        value = getattr(node, name)
         if value is not None and value != () and not (value.__class__ is Pose and _is_plain(value)):
             found |= bit
-    if values["opaque"] or node.__class__ is GazeboExtension:
+    if node.opaque or node.__class__ is GazeboExtension:
         found |= _count_untyped(node)
     return found
 
@@ -180,19 +177,6 @@ def union_of(bits: Iterable[int]) -> int:
     for each in bits:
         found |= each
     return found
-
-
-def node_maker(kind: type[AnyNode]) -> Callable[[dict[str, Any]], AnyNode]:
-    """The `maker` of a class of nodes: those in which there is nothing else come with their census."""
-    return maker(kind, partial(_census_by_fields, kind))
-
-
-def _census_by_fields(kind: type[Node], fields: tuple[str, ...]) -> int | None:
-    """The census of a node in which these fields were written; None where that depends on what is in them."""
-    _, found, children, rare = PLANS[kind]
-    if children or "opaque" in fields or kind is GazeboExtension:
-        return None
-    return found | union_of(bit for name, bit in rare if name in fields)
 
 
 def holds_opaque(node: Node) -> bool:

@@ -11,7 +11,8 @@ from enum import StrEnum
 from typing import NamedTuple, TypeVar, cast
 
 from twinform.ir.node import Node
-from twinform.ir.sourced import NOT_CONTENT, Sourced
+from twinform.ir.record import field_values
+from twinform.ir.sourced import Sourced
 
 _NAMES = ("name", "reference", "uri")
 """Fields that tell nodes of one kind apart, the best first."""
@@ -53,9 +54,9 @@ def changes(old: Node, new: Node) -> Iterator[Change]:
 def _inside(old: Node, new: Node, path: str) -> Iterator[Change]:
     if old is new:
         return
-    for name, before in old.__dict__.items():
-        after = new.__dict__[name]
-        if before is not after and name not in NOT_CONTENT:
+    for name, before in field_values(old).items():
+        after = getattr(new, name)
+        if before is not after:
             yield from _field(before, after, path, f"{path}/{name}")
 
 
@@ -81,8 +82,8 @@ def _whole(how: ChangeKind, part: object, path: str) -> Iterator[Change]:
     if not isinstance(part, Node):
         return
     yield Change(how, path, path)
-    for name, value in part.__dict__.items():
-        if name in NOT_CONTENT or value is None or value == ():
+    for name, value in field_values(part).items():
+        if value is None or value == ():
             continue
         inner = f"{path}/{name}"
         if isinstance(value, Node):

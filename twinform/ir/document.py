@@ -5,6 +5,7 @@ from enum import StrEnum
 from twinform.ir.light import Light
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Node
+from twinform.ir.record import record
 from twinform.ir.world import World
 from twinform.notebooks import draw
 
@@ -16,6 +17,7 @@ class Format(StrEnum):
     SDF = "sdf"
 
 
+@record
 class Document(Node):
     """All that one file holds, in the terms of `format`.
 

@@ -4,11 +4,13 @@ from collections.abc import Iterator
 from typing import Self
 
 from twinform.diagnostics import Location
+from twinform.ir.record import record
 from twinform.ir.sourced import Sourced
 
 Attributes = tuple[tuple[str, str], ...]
 
 
+@record
 class Element(Sourced):
     """A subtree without a typed form.
 
@@ -54,6 +56,7 @@ class Element(Sourced):
         return sum(1 + len(element.attributes) for element in self.walk())
 
 
+@record
 class Opaque(Sourced):
     """A part of a node that has no typed field, kept where it was: an element, an attribute or text.
 

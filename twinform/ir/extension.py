@@ -2,8 +2,10 @@
 
 from twinform.ir.element import Element
 from twinform.ir.node import Node
+from twinform.ir.record import record
 
 
+@record
 class GazeboExtension(Node):
     """A `<gazebo>` element: what URDF has no elements for and Gazebo reads.
 

@@ -1,25 +1,39 @@
 """Shapes. Lengths are in meters, in the frame of the visual or collision that holds them."""
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import Field, SerializerFunctionWrapHandler, model_serializer
-
+from twinform.ir.annotations import Constraint
 from twinform.ir.node import Node, Vector3
+from twinform.ir.record import fields_of, record
+
+if TYPE_CHECKING:
+    from pydantic import GetCoreSchemaHandler, SerializerFunctionWrapHandler
+    from pydantic_core import CoreSchema
 
 Vector2 = tuple[float, float]
 
 
+@record
 class ShapeNode(Node):
     """What all shapes share: their kind is always written out, because it is what tells them apart.
 
     Each declares it, `kind`, as a field with one value.
     """
 
-    @model_serializer(mode="wrap")
-    def _with_kind(self, serialize: SerializerFunctionWrapHandler) -> dict[str, object]:
-        return {"kind": type(self).model_fields["kind"].default, **serialize(self)}
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: "GetCoreSchemaHandler") -> "CoreSchema":
+        from pydantic_core import core_schema  # noqa: PLC0415 - only Pydantic calls this
+
+        schema = handler(source)
+        schema["serialization"] = core_schema.wrap_serializer_function_ser_schema(_with_kind)
+        return schema
 
 
+def _with_kind(shape: ShapeNode, serialize: "SerializerFunctionWrapHandler") -> dict[str, object]:
+    return {"kind": fields_of(type(shape))["kind"].default, **serialize(shape)}
+
+
+@record
 class Box(ShapeNode):
     """A box about the origin.
 
@@ -32,6 +46,7 @@ class Box(ShapeNode):
     size: Vector3 | None = None
 
 
+@record
 class Cylinder(ShapeNode):
     """A cylinder about the origin with its axis along z.
 
@@ -46,6 +61,7 @@ class Cylinder(ShapeNode):
     length: float | None = None
 
 
+@record
 class Sphere(ShapeNode):
     """A sphere about the origin.
 
@@ -58,6 +74,7 @@ class Sphere(ShapeNode):
     radius: float | None = None
 
 
+@record
 class Capsule(ShapeNode):
     """A cylinder along z with half spheres on both ends, about the origin.
 
@@ -72,6 +89,7 @@ class Capsule(ShapeNode):
     length: float | None = None
 
 
+@record
 class Cone(ShapeNode):
     """A cone along z, its base at -length/2 and its tip at +length/2.
 
@@ -86,6 +104,7 @@ class Cone(ShapeNode):
     length: float | None = None
 
 
+@record
 class Ellipsoid(ShapeNode):
     """An ellipsoid about the origin.
 
@@ -98,6 +117,7 @@ class Ellipsoid(ShapeNode):
     radii: Vector3 | None = None
 
 
+@record
 class Plane(ShapeNode):
     """A plane through the origin.
 
@@ -112,6 +132,7 @@ class Plane(ShapeNode):
     size: Vector2 | None = None
 
 
+@record
 class Mesh(ShapeNode):
     """A mesh file. Which part of it is meant, `<submesh>`, stays in `opaque`.
 
@@ -126,6 +147,7 @@ class Mesh(ShapeNode):
     scale: Vector3 | None = None
 
 
+@record
 class Empty(ShapeNode):
     """No shape, written explicitly.
 
@@ -136,6 +158,7 @@ class Empty(ShapeNode):
     kind: Literal["empty"] = "empty"
 
 
+@record
 class Heightmap(ShapeNode):
     """A terrain; its parameters stay as they are written.
 
@@ -148,6 +171,7 @@ class Heightmap(ShapeNode):
     uri: str | None = None
 
 
+@record
 class Image(ShapeNode):
     """An image that is extruded into boxes; its parameters stay as they are written.
 
@@ -160,6 +184,7 @@ class Image(ShapeNode):
     uri: str | None = None
 
 
+@record
 class Polyline(ShapeNode):
     """An extruded outline; its points stay as they are written.
 
@@ -174,10 +199,11 @@ class Polyline(ShapeNode):
 
 Shape = Annotated[
     Box | Cylinder | Sphere | Capsule | Cone | Ellipsoid | Plane | Mesh | Empty | Heightmap | Image | Polyline,
-    Field(discriminator="kind"),
+    Constraint(discriminator="kind"),
 ]
 
 
+@record
 class Geometry(Node):
     """The one shape of a visual or collision.
 

@@ -4,6 +4,7 @@ from typing import Literal
 
 from twinform.ir.node import Node, Vector3
 from twinform.ir.pose import Pose
+from twinform.ir.record import record
 from twinform.ir.sensor import Sensor
 
 JointType = Literal[
@@ -12,6 +13,7 @@ JointType = Literal[
 ]  # fmt: skip
 
 
+@record
 class Limit(Node):
     """Limits of one degree of freedom, of which lengths are meant along an axis and angles about one.
 
@@ -38,6 +40,7 @@ class Limit(Node):
     dissipation: float | None = None
 
 
+@record
 class Dynamics(Node):
     """Passive forces along one degree of freedom.
 
@@ -54,6 +57,7 @@ class Dynamics(Node):
     spring_stiffness: float | None = None
 
 
+@record
 class Mimic(Node):
     """A position that follows another joint: multiplier * (leader - reference) + offset.
 
@@ -72,6 +76,7 @@ class Mimic(Node):
     reference: float | None = None
 
 
+@record
 class Axis(Node):
     """One degree of freedom, along or about a direction.
 
@@ -92,6 +97,7 @@ class Axis(Node):
     mimic: Mimic | None = None
 
 
+@record
 class Joint(Node):
     """What connects two frames and lets them move.
 

@@ -4,10 +4,10 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeVar
 
-from twinform.diagnostics.did_you_mean import did_you_mean
 from twinform.ir.frames import WORLD, FrameGraph
 from twinform.ir.joint import Joint
 from twinform.ir.link import Link
+from twinform.ir.lookup import look_up
 from twinform.ir.model import Model
 from twinform.ir.motion import spanning_tree
 from twinform.ir.world import World
@@ -64,7 +64,7 @@ class KinematicTree:
         Raises:
             KeyError: there is none; the message has the name that may be meant.
         """
-        return _found(self.links, name, "link")
+        return look_up(self.links, name, "link")
 
     def joint(self, name: str) -> Joint:
         """The joint of a name.
@@ -72,7 +72,7 @@ class KinematicTree:
         Raises:
             KeyError: there is none; the message has the name that may be meant.
         """
-        return _found(self.joints, name, "joint")
+        return look_up(self.joints, name, "joint")
 
     @property
     def roots(self) -> tuple[str, ...]:
@@ -173,10 +173,3 @@ def _by_name(parts: Iterable[tuple[str, AnyPart]]) -> dict[str, AnyPart]:
     for name, part in parts:
         found.setdefault(name, part)
     return found
-
-
-def _found(parts: Mapping[str, AnyPart], name: str, kind: str) -> AnyPart:
-    if name in parts:
-        return parts[name]
-    help_ = did_you_mean(name, parts)
-    raise KeyError(f"there is no {kind} {name!r}{f'; {help_}' if help_ else ''}")

@@ -2,8 +2,10 @@
 
 from twinform.ir.node import Color, Node, Vector3
 from twinform.ir.pose import Pose
+from twinform.ir.record import record
 
 
+@record
 class Light(Node):
     """A light of a world or on a link.
 

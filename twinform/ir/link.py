@@ -3,10 +3,12 @@
 from twinform.ir.light import Light
 from twinform.ir.node import Node
 from twinform.ir.pose import Pose
+from twinform.ir.record import record
 from twinform.ir.sensor import Sensor
 from twinform.ir.visual import Collision, Visual
 
 
+@record
 class Inertia(Node):
     """The rotational inertia about the center of mass, in the axes of the inertial frame.
 
@@ -27,6 +29,7 @@ class Inertia(Node):
     izz: float | None = None
 
 
+@record
 class Inertial(Node):
     """The mass of a link and how it is spread.
 
@@ -43,6 +46,7 @@ class Inertial(Node):
     auto: bool | None = None
 
 
+@record
 class Link(Node):
     """A rigid body.
 

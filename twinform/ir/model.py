@@ -5,12 +5,15 @@ from typing import Self
 from twinform.ir.extension import GazeboExtension
 from twinform.ir.joint import Joint
 from twinform.ir.link import Link
+from twinform.ir.lookup import look_up
 from twinform.ir.node import Node
 from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Frame, Pose
+from twinform.ir.record import record
 from twinform.ir.visual import Material
 
 
+@record
 class Include(Node):
     """Another file's model, put here by its URI.
 
@@ -33,6 +36,7 @@ class Include(Node):
     plugins: tuple[Plugin, ...] = ()
 
 
+@record
 class Model(Node):
     """Links and joints that belong together: a robot or a thing.
 
@@ -71,3 +75,27 @@ class Model(Node):
     includes: tuple[Include, ...] = ()
     plugins: tuple[Plugin, ...] = ()
     extensions: tuple[GazeboExtension, ...] = ()
+
+    def link(self, name: str) -> Link:
+        """The link of a name; of several, the first.
+
+        Raises:
+            KeyError: there is none; the message has the name that may be meant.
+        """
+        return look_up({each.name: each for each in reversed(self.links)}, name, "link")
+
+    def joint(self, name: str) -> Joint:
+        """The joint of a name; of several, the first.
+
+        Raises:
+            KeyError: there is none; the message has the name that may be meant.
+        """
+        return look_up({each.name: each for each in reversed(self.joints)}, name, "joint")
+
+    def frame(self, name: str) -> Frame:
+        """The named frame (`<frame>` of SDF) of a name; of several, the first.
+
+        Raises:
+            KeyError: there is none; the message has the name that may be meant.
+        """
+        return look_up({each.name: each for each in reversed(self.frames)}, name, "frame")

@@ -1,21 +1,22 @@
 """`Node`: the base class of the IR."""
 
 from collections.abc import Mapping
+from dataclasses import field
 from typing import Annotated
 
-from pydantic import Field, SkipValidation
-from pydantic.json_schema import SkipJsonSchema
-
+from twinform.ir.annotations import Constraint, Unseen
 from twinform.ir.element import Opaque
+from twinform.ir.record import record
 from twinform.ir.sourced import Sourced
 
 Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
 """x, y, z, w"""
-Color = Annotated[tuple[float, ...], Field(min_length=3, max_length=4)]
+Color = Annotated[tuple[float, ...], Constraint(min_length=3, max_length=4)]
 """red, green, blue and perhaps alpha, each from 0 to 1"""
 
 
+@record
 class Node(Sourced):
     """A part of a model. A field that is `None` was not written; a default is never filled in.
 
@@ -26,6 +27,6 @@ class Node(Sourced):
     """
 
     opaque: tuple[Opaque, ...] = ()
-    spelling: SkipJsonSchema[Annotated[Mapping[str, str] | None, SkipValidation]] = Field(
-        default=None, exclude=True, repr=False
+    spelling: Annotated[Mapping[str, str] | None, Unseen()] = field(
+        default=None, repr=False, compare=False, metadata={"exclude": True}
     )

@@ -2,8 +2,10 @@
 
 from twinform.ir.element import Element
 from twinform.ir.node import Node
+from twinform.ir.record import record
 
 
+@record
 class Plugin(Node):
     """Code that a simulator loads, with parameters that only the plugin understands.
 

@@ -1,8 +1,10 @@
 """Poses, in the notation in which they were written, and named frames."""
 
 from twinform.ir.node import Node, Quaternion, Vector3
+from twinform.ir.record import record
 
 
+@record
 class Pose(Node):
     """Where a frame is, in another frame.
 
@@ -25,6 +27,7 @@ class Pose(Node):
     relative_to: str | None = None
 
 
+@record
 class Frame(Node):
     """A frame that moves with what it is attached to.
 

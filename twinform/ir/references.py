@@ -78,7 +78,7 @@ class _Mapper:
         """The node with the references that are its own fields."""
         update: dict[str, str] = {}
         for field, kind in kinds.items():
-            name = node.__dict__[field]
+            name = getattr(node, field)
             if name and (new := self.change(kind, name)) != name:
                 update[field] = new
         return node.model_copy(update=update) if update else node

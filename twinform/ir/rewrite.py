@@ -53,21 +53,21 @@ def replace_node(node: AnyNode, old: Wanted, new: Wanted) -> AnyNode:
 
 def replace_fields(part: AnyPart, **fields: object) -> AnyPart:
     """The node or element with other values in some fields; itself where they hold the objects that are there."""
-    values = part.__dict__
-    update = {name: new for name, new in fields.items() if new is not values[name] and not _are_same(new, values[name])}
+    update = {name: new for name, new in fields.items() if not _is_same(new, getattr(part, name))}
     return part.model_copy(update=update) if update else part
 
 
-def _are_same(new: Any, old: Any) -> bool:
-    """Whether two tuples hold the same objects."""
+def _is_same(new: Any, old: Any) -> bool:
+    """Whether it is one object, or two tuples that hold the same objects."""
+    if new is old:
+        return True
     return new.__class__ is tuple is old.__class__ and len(new) == len(old) and all(map(is_, new, old))
 
 
 def _with_changed(node: AnyNode, fields: tuple[str, ...], change: Callable[[Node], Node]) -> AnyNode:
-    values = node.__dict__
     update: dict[str, Node | tuple[Node, ...]] = {}
     for name in fields:
-        old: Node | tuple[Node, ...] | None = values[name]
+        old: Node | tuple[Node, ...] | None = getattr(node, name)
         if not old:
             continue
         if isinstance(old, tuple):

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from twinform.ir.node import Node
 from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Pose
+from twinform.ir.record import record
 
 _CAMERAS = (
     "boundingbox", "boundingbox_camera", "camera", "depth", "depth_camera", "multicamera", "rgbd", "rgbd_camera",
@@ -27,6 +28,7 @@ RENAMED_ELEMENTS: Mapping[str, str] = {"ray": "lidar", "gps": "navsat"}
 """Of elements with the parameters of a sensor that have two names, the new one by the old one."""
 
 
+@record
 class Sensor(Node):
     """A sensor on a link or joint.
 

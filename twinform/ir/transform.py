@@ -10,6 +10,9 @@ from twinform.ir.scaling import common_exponent
 
 Matrix3 = tuple[float, float, float, float, float, float, float, float, float]
 """A rotation, row by row."""
+Row4 = tuple[float, float, float, float]
+Matrix4 = tuple[Row4, Row4, Row4, Row4]
+"""A homogeneous matrix, row by row."""
 
 _ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 _UNTURNED: Matrix3 = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
@@ -50,6 +53,12 @@ class Transform:
         xyz = rounded(self.translation) if self.translation != _ORIGIN else None
         rpy = rounded(self.rpy()) if self.rotation != _UNTURNED else None
         return Pose.unchecked(xyz=xyz, rpy=rpy, relative_to=relative_to)
+
+    @property
+    def matrix(self) -> Matrix4:
+        """The homogeneous matrix, row by row, which `numpy.array` takes as it is."""
+        r, (x, y, z) = self.rotation, self.translation
+        return ((*r[0:3], x), (*r[3:6], y), (*r[6:9], z), (0.0, 0.0, 0.0, 1.0))
 
     @property
     def is_identity(self) -> bool:

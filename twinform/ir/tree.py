@@ -6,21 +6,21 @@ from typing import Any, Self, get_args
 
 from twinform.ir.element import Element, Opaque
 from twinform.ir.node import Node
-from twinform.ir.sourced import NOT_CONTENT
+from twinform.ir.record import field_values, fields_of
 
-_ABOUT = NOT_CONTENT | {"namespaces", "format", "kind", "version"}
+_ABOUT = frozenset({"namespaces", "format", "kind", "version"})
 
 
 @cache
 def node_fields(kind: type[Node]) -> tuple[str, ...]:
     """The fields of a class of nodes that may hold nodes."""
-    return tuple(name for name in kind.model_fields if classes_in(kind, name))
+    return tuple(name for name in fields_of(kind) if classes_in(kind, name))
 
 
 @cache
 def classes_in(kind: type[Node], field: str) -> frozenset[type[Node]]:
     """The classes of the nodes that a field may hold."""
-    return frozenset(_classes(kind.model_fields[field].annotation, kind))
+    return frozenset(_classes(fields_of(kind)[field].type, kind))
 
 
 def _classes(annotation: Any, own: type[Node]) -> Iterator[type[Node]]:
@@ -47,18 +47,16 @@ def classes_below(kind: type[Node]) -> frozenset[type[Node]]:
 
 def node_values(node: Node) -> Iterator[tuple[str, Node | tuple[Node, ...]]]:
     """The fields of a node that hold nodes, each with the one or the several in it."""
-    values = node.__dict__
     for name in node_fields(type(node)):
-        value = values[name]
+        value = getattr(node, name)
         if value:
             yield name, value
 
 
 def children_of(node: Node) -> Iterator[Node]:
     """The nodes directly inside a node, in the order of its fields."""
-    values = node.__dict__
     for name in node_fields(type(node)):
-        value = values[name]
+        value = getattr(node, name)
         if isinstance(value, tuple):
             yield from value
         elif value:
@@ -82,7 +80,7 @@ def count_parts(node: Node) -> int:
 
 
 def _count_values(node: Node) -> int:
-    return sum(_weight(value) for name, value in node.__dict__.items() if name not in _ABOUT)
+    return sum(_weight(value) for name, value in field_values(node).items() if name not in _ABOUT)
 
 
 def _weight(value: object) -> int:

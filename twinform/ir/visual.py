@@ -4,8 +4,10 @@ from twinform.ir.geometry import Geometry
 from twinform.ir.node import Color, Node, Vector3
 from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Pose
+from twinform.ir.record import record
 
 
+@record
 class Script(Node):
     """A material of Gazebo Classic by name.
 
@@ -18,6 +20,7 @@ class Script(Node):
     name: str | None = None
 
 
+@record
 class Material(Node):
     """The colors and textures of a visual. Colors are red, green, blue and perhaps alpha, each from 0 to 1.
 
@@ -44,6 +47,7 @@ class Material(Node):
     albedo_map: str | None = None
 
 
+@record
 class Surface(Node):
     """Contact parameters of a collision, for the ODE solver.
 
@@ -76,6 +80,7 @@ class Surface(Node):
     threshold: float | None = None
 
 
+@record
 class Visual(Node):
     """A shape that is seen.
 
@@ -94,6 +99,7 @@ class Visual(Node):
     plugins: tuple[Plugin, ...] = ()
 
 
+@record
 class Collision(Node):
     """A shape that touches.
 

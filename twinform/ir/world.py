@@ -6,8 +6,10 @@ from twinform.ir.model import Include, Model
 from twinform.ir.node import Node, Vector3
 from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Frame
+from twinform.ir.record import record
 
 
+@record
 class World(Node):
     """Models, lights and frames in one frame. Physics, scene and the like stay in `opaque`.
 

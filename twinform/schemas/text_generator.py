@@ -36,35 +36,30 @@ _KINDS = Template("$name: dict[str, Write] = {\n$writers\n}\n")
 _NODE = Template('''\
 def $name(node: Any, out: TextOutput, indent: str) -> str:
     """`<$tag>`."""
-    values = node.__dict__
 ''')
 _CONTAINER = Template('''\
-def $name(values: dict[str, Any], indent: str) -> str:
+def $name(node: Any, indent: str) -> str:
     """`<$tag>`, of fields of the node around it."""
 ''')
 _INNER = '    inner = indent + "  "\n'
 _BEFORE_ROOT = "    attributes += out.declarations\n"
 _BEHIND_ROOT = "    attributes += out.root_attributes\n"
-_POSE = "    text = pose_numbers(values)\n"
+_POSE = "    text = pose_numbers(node)\n"
 
-_IF = Template('    if (value := values["$field"]) is not None:\n')
-_IF_INSIDE = Template(
-    '    if (holder := values["$holder"]) is not None and (value := holder.__dict__["$field"]) is not None:\n'
-)
-_IF_KIND = Template(
-    '    if (value := values["$field"]) is not None and (write := $kinds.get(value.kind)) is not None:\n'
-)
-_EACH = Template('    for value in values["$field"]:\n')
+_IF = Template("    if (value := node.$field) is not None:\n")
+_IF_INSIDE = Template("    if (holder := node.$holder) is not None and (value := holder.$field) is not None:\n")
+_IF_KIND = Template("    if (value := node.$field) is not None and (write := $kinds.get(value.kind)) is not None:\n")
+_EACH = Template("    for value in node.$field:\n")
 
 _ADD_ATTRIBUTE = Template("        attributes += f' $name=\"$value\"'\n")
 _ADD_LEAF = Template('        body += f"{inner}<$name>$value</$name>"\n')
 _ADD_WITH_ATTRIBUTE = Template("        body += f'{inner}<$name $attribute=\"$value\"/>'\n")
 _ADD_NODE = Template("        body += $write(value, out, inner)\n")
 _ADD_NODE_BY_VERSION = Template("        body += ($write if out.version >= $since else $older)(value, out, inner)\n")
-_ADD_CONTAINER = Template("    body += $write(values, inner)\n")
-_ADD_ALL = Template('    if values["$field"]:\n        body += out.parts(node, inner, (values["$field"], $write))\n')
+_ADD_CONTAINER = Template("    body += $write(node, inner)\n")
+_ADD_ALL = Template("    if node.$field:\n        body += out.parts(node, inner, (node.$field, $write))\n")
 _ADD_ALL_IN_ORDER = Template("    body += out.parts(\n        node,\n        inner,\n$groups\n    )\n")
-_GROUP = Template('        (values["$field"], $write),')
+_GROUP = Template("        (node.$field, $write),")
 
 _UNTYPED = Template("    if $condition:\n        return out.with_untyped($arguments)\n")
 _END = {
@@ -92,7 +87,7 @@ _END_OF_TEXT = Template("""\
 """)
 
 _SHOWN = {
-    "bool": "{bool$escape(values, $quote$field$quote)}",
+    "bool": "{bool$escape(node, $quote$field$quote)}",
     "string": "{in$escape(value)}",
     "double": "{format_number(value)}",
     "vector3": "{vector3(value)}",
@@ -183,7 +178,7 @@ class _Generator:
 
     def _code_of_leaf(self, row: Fact) -> str:
         code = "".join([self._row(inner, "") for inner in self._rows(row.attributes)])
-        text = f'(value := values["{row.place}"])'
+        text = f"(value := node.{row.place})"
         return code + _END_OF_TEXT.substitute(tag=row.name, text=text, shown=_shown(row, "_text"))
 
     def _row(self, row: Fact, path: str) -> str:
@@ -293,8 +288,8 @@ def _written(code: str) -> list[str]:
 
 def _untyped(part: _Part, written: Iterable[str]) -> str:
     """The code for parts of a node that have no typed field."""
-    content = f'values["{part.fact.place}"]' if part.fact.any and part.fact.place else ""
-    condition = f'{content} or values["opaque"]' if content else 'values["opaque"]'
+    content = f"node.{part.fact.place}" if part.fact.any and part.fact.place else ""
+    condition = f"{content} or node.opaque" if content else "node.opaque"
     arguments = ["node", f'"{part.path}"', "indent", *(f"{each}={each}" for each in written)]
     arguments += [f"content={content}"] * bool(content) + ["keep=True"] * part.keep
     return _UNTYPED.substitute(condition=condition, arguments=", ".join(arguments))

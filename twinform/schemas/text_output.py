@@ -58,19 +58,19 @@ def _reference(found: re.Match[str]) -> str:
     return _REFERENCES[found[0]]
 
 
-def bool_text(values: Mapping[str, Any], field: str) -> str:
+def bool_text(node: Any, field: str) -> str:
     """A truth value of a node, in its own spelling, as the text of an element."""
-    return in_text(_spelling(values, field))
+    return in_text(_spelling(node, field))
 
 
-def bool_attribute(values: Mapping[str, Any], field: str) -> str:
+def bool_attribute(node: Any, field: str) -> str:
     """A truth value of a node, in its own spelling, as the value of an attribute."""
-    return in_attribute(_spelling(values, field))
+    return in_attribute(_spelling(node, field))
 
 
-def _spelling(values: Mapping[str, Any], field: str) -> str:
-    spelt = values["spelling"].get(field) if values["spelling"] else None
-    return spelt if spelt is not None and parse_bool(spelt) == values[field] else format_value(values[field])
+def _spelling(node: Any, field: str) -> str:
+    spelt, value = node.spelling.get(field) if node.spelling else None, getattr(node, field)
+    return spelt if spelt is not None and parse_bool(spelt) == value else format_value(value)
 
 
 def vector3(values: Sequence[float]) -> str:
@@ -79,11 +79,11 @@ def vector3(values: Sequence[float]) -> str:
     return f"{x!r} {y!r} {z!r} ".replace(".0 ", " ")[:-1]
 
 
-def pose_numbers(values: Mapping[str, Any]) -> str | None:
+def pose_numbers(pose: Any) -> str | None:
     """The six or seven numbers of a pose; nothing where it has none."""
-    xyz, rotation = values["xyz"], values["quat_xyzw"]
+    xyz, rotation = pose.xyz, pose.quat_xyzw
     if rotation is None:
-        rotation = values["rpy"]
+        rotation = pose.rpy
         if xyz is None and rotation is None:
             return None
     turn = vector3(rotation or _ZERO) if not rotation or len(rotation) == 3 else format_numbers(rotation)
@@ -168,7 +168,7 @@ class TextOutput:
         `path` leads to its facts; `attributes`, `body` and `text` are what of it is written already. An element that
         is empty is nothing unless it is kept.
         """
-        parts = node.__dict__["opaque"]
+        parts = node.opaque
         try:
             attributes += self._untyped_attributes(parts, attributes)
             elements = [*content, *(part.element for part in parts if part.element is not None)]
@@ -191,11 +191,10 @@ class TextOutput:
 
     def _element(self, element: Any, indent: str) -> str:
         """The text of an untyped element. Text behind it or before its children would change what indents there are."""
-        values = element.__dict__
-        name, text, children = self._names[values["name"]], values["text"], values["children"]
-        if values["tail"] is not None or (text and children):
+        name, text, children = self._names[element.name], element.text, element.children
+        if element.tail is not None or (text and children):
             raise _OddPart
-        attributes = self._attributes(values["attributes"]) if values["attributes"] else ""
+        attributes = self._attributes(element.attributes) if element.attributes else ""
         if not children:
             return f"{indent}<{name}{attributes}" + ("/>" if text is None else f">{in_text(text)}</{name}>")
         inner, body = indent + _STEP, ""

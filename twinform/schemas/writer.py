@@ -109,24 +109,23 @@ class Writer:
         content = fact.place if fact.any else None
 
         def write(node: Any, element: XmlElement) -> None:
-            values: dict[str, Any] = node.__dict__
             _note(node, element)
             if text is not None:
                 element.text = text(node)
             for field, write_value in steps:
-                value = values[field]
+                value = getattr(node, field)
                 if value is not None:
                     write_value(value, node, element)
             if many:
                 for child, write_one in in_order(
-                    [(one, write_one) for field, write_one in many for one in values[field]]
+                    [(one, write_one) for field, write_one in many for one in getattr(node, field)]
                 ):
                     write_one(child, element)
             if content is not None:
-                for child in values[content]:
+                for child in getattr(node, content):
                     element_xml(child, element)
-            if values["opaque"]:
-                _write_opaque(values["opaque"], element)
+            if node.opaque:
+                _write_opaque(node.opaque, element)
 
         return write
 
@@ -148,7 +147,7 @@ class Writer:
             return field, write
 
         def write_inner(holder: Any, node: Any, element: XmlElement) -> None:
-            value = holder.__dict__[field]
+            value = getattr(holder, field)
             if value is not None:
                 write(value, node, element)
 
@@ -193,15 +192,14 @@ class Writer:
         attributes = [(inner.place or "", self._attribute(inner)) for inner in self._rows(row.attributes)]
 
         def write(_: Any, node: Any, element: XmlElement) -> None:
-            values = node.__dict__
-            value, written = values[field], [each for each in attributes if values[each[0]] is not None]
+            value, written = getattr(node, field), [each for each in attributes if getattr(node, each[0]) is not None]
             if value is None and not written:
                 return
             leaf = SubElement(element, name)
             if value is not None:
                 leaf.text = show(value, node)
             for place, write_attribute in written:
-                write_attribute(values[place], node, leaf)
+                write_attribute(getattr(node, place), node, leaf)
 
         return write
 
@@ -212,9 +210,9 @@ class Writer:
         def write(_: Any, node: Any, element: XmlElement) -> None:
             if all(_value(node, place) is None for place in places):
                 return
-            made, values = SubElement(element, name), node.__dict__
+            made = SubElement(element, name)
             for field, write_value in steps:
-                value = values[field]
+                value = getattr(node, field)
                 if value is not None:
                     write_value(value, node, made)
 
@@ -272,7 +270,7 @@ def is_empty(element: XmlElement) -> bool:
 
 def _value(node: Any, place: list[str]) -> Any:
     for field in place:
-        node = None if node is None else node.__dict__[field]
+        node = None if node is None else getattr(node, field)
     return node
 
 
@@ -331,7 +329,7 @@ def in_order(items: list[tuple[Any, _Each]]) -> list[tuple[Any, _Each]]:
     keys: list[int] = []
     file, line = None, 0
     for child, _ in items:
-        source = child.__dict__["source"]
+        source = child.source
         if source is not None:
             file = source.file if file is None else file
             line = source.line if source.file == file else line

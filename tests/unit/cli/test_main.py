@@ -62,7 +62,13 @@ def test_the_package_runs_as_the_command() -> None:
 
 
 _UNUSED = {
-    "check": ["twinform.passes.legalise", "twinform.passes.framework.base", "twinform.cli.config.settings", "difflib"],
+    "check": [
+        "pydantic",
+        "twinform.passes.legalise",
+        "twinform.passes.framework.base",
+        "twinform.cli.config.settings",
+        "difflib",
+    ],
     "convert": ["twinform.passes.legalise.to_urdf", "twinform.compiler.includes", "twinform.compiler.audit", "difflib"],
     "stats": ["subprocess"],
 }

@@ -6,6 +6,7 @@ import pytest
 
 from twinform.ir import Axis, Box, Cone, Format, Limit, Mimic, Node
 from twinform.ir import defaults as ir
+from twinform.ir.record import field_values
 from twinform.ir.sensor import RENAMED_ELEMENTS, SENSOR_ELEMENTS
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS
 from twinform.passes.plugins.catalog import sensors
@@ -62,7 +63,8 @@ def test_couplings_of_joints() -> None:
 def test_inertials() -> None:
     assert ir.MASS[Format.SDF] == ir.INERTIAL.mass == default(Format.SDF, "inertial/mass")
     assert ir.MASS[Format.URDF] == default(Format.URDF, "link/inertial/mass/@value")
-    for name, value in dict(ir.INERTIAL.inertia or ()).items():
+    assert ir.INERTIAL.inertia
+    for name, value in field_values(ir.INERTIAL.inertia).items():
         if name in {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}:
             assert value == default(Format.SDF, f"inertial/inertia/{name}")
     for name in ("ixx", "iyy", "izz"):

@@ -1,27 +1,18 @@
 """Every field of every node is described where `help` and the reference of the IR read it: in the class's docstring."""
 
-import importlib
 import inspect
-import pkgutil
 import pydoc
 import re
-from collections.abc import Iterator
+from dataclasses import MISSING
 
 import pytest
 from griffe import Docstring, DocstringSectionAttributes
 
 import twinform.ir
+from twinform.ir.record import fields_of
 from twinform.ir.sourced import Sourced
 
-for _each in pkgutil.iter_modules(twinform.ir.__path__, "twinform.ir."):
-    importlib.import_module(_each.name)
-
-
-def _kinds(kind: type[Sourced] = Sourced) -> Iterator[type[Sourced]]:
-    yield kind
-    for each in kind.__subclasses__():
-        if each.__module__.startswith("twinform.ir."):
-            yield from _kinds(each)
+from .kinds import kinds
 
 
 def _described(kind: type[Sourced]) -> dict[str, str]:
@@ -30,14 +21,14 @@ def _described(kind: type[Sourced]) -> dict[str, str]:
     return {attribute.name: attribute.description for section in found for attribute in section.value}
 
 
-KINDS = {kind.__name__: kind for kind in _kinds()}
+KINDS = {kind.__name__: kind for kind in kinds()}
 
 
 @pytest.mark.parametrize("name", sorted(KINDS))
 def test_every_field_is_described(name: str):
     kind = KINDS[name]
     described = _described(kind)
-    assert list(described) == [name for name in kind.model_fields if name in vars(kind).get("__annotations__", {})]
+    assert list(described) == [name for name in fields_of(kind) if name in vars(kind).get("__annotations__", {})]
     assert all(description.endswith(".") for description in described.values())
 
 
@@ -49,7 +40,7 @@ def test_every_number_has_a_unit_or_says_that_it_has_none(name: str):
     kind = KINDS[name]
     described = _described(kind)
     numbers = {
-        field for field, info in kind.model_fields.items() if re.search(r"\bfloat\b", str(info.annotation))
+        field for field, info in fields_of(kind).items() if re.search(r"\bfloat\b", str(info.type))
     } & described.keys()
     assert [field for field in numbers if not _UNIT.search(described[field])] == []
 
@@ -63,11 +54,7 @@ def test_help_begins_with_the_fields():
 def test_help_has_the_types_and_defaults_of_the_fields(name: str):
     kind = KINDS[name]
     parameters = inspect.signature(kind).parameters
-    for field, info in kind.model_fields.items():
-        if not info.exclude:
+    for field, info in fields_of(kind).items():
+        if info.compare:
             assert parameters[field].annotation is not inspect.Parameter.empty
-            assert (parameters[field].default is inspect.Parameter.empty) == info.is_required()
-
-
-def test_a_part_itself_has_no_signature():
-    assert not hasattr(twinform.ir.Link(name="base"), "__signature__")
+            assert (parameters[field].default is inspect.Parameter.empty) == (info.default is MISSING)

@@ -1,6 +1,7 @@
 """The table of references: nothing is missing in it, and who follows or judges references goes by it."""
 
-from collections.abc import Callable, Iterator
+import re
+from collections.abc import Callable
 
 import pytest
 from hypothesis import given
@@ -8,9 +9,12 @@ from hypothesis import given
 from twinform.compiler import check
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Node, ReferenceKind, map_references, walk
+from twinform.ir.record import field_values, fields_of
 from twinform.ir.references import REFERENCES
 from twinform.ir.verify import verify
 from twinform.testing import strategies
+
+from .kinds import kinds
 
 NOT_IN_SCOPE = {"Include.placement_frame"}
 """Names what is in another file."""
@@ -24,19 +28,12 @@ NO_REFERENCES = {
 """Names of a node itself, values of a fixed list, and files, topics and texts, which name nothing in the document."""
 
 
-def _kinds(kind: type[Node] = Node) -> Iterator[type[Node]]:
-    for each in kind.__subclasses__():
-        yield each
-        yield from _kinds(each)
-
-
 def test_every_text_of_the_ir_is_known_to_be_a_reference_or_none() -> None:
     texts = {
         f"{kind.__name__}.{name}"
-        for kind in _kinds()
-        if kind.__module__.startswith("twinform.ir.")
-        for name, field in kind.model_fields.items()
-        if name not in {"source", "spelling"} and "str" in str(field.annotation)
+        for kind in kinds(Node)
+        for name, field in fields_of(kind).items()
+        if field.compare and re.search(r"\bstr\b", str(field.type))
     }
     references = {f"{kind.__name__}.{name}" for kind, names in REFERENCES.items() for name in names}
     assert references.isdisjoint(NO_REFERENCES)
@@ -63,10 +60,10 @@ def test_every_reference_of_a_robot_is_changed_and_nothing_else(robot: Document)
     (model,) = robot.models
     changed = map_references(model, _prefixed, robot.format)
     for old, new in zip(walk(model), walk(changed), strict=True):
-        for name, value in old.__dict__.items():
+        for name, value in field_values(old).items():
             if isinstance(value, str):
                 follows = bool(value) and name in REFERENCES.get(type(old), {}) and old is not model.pose
-                assert new.__dict__[name].endswith(f"-{value}") == follows
+                assert getattr(new, name).endswith(f"-{value}") == follows
 
 
 LINK = """<link name="a"><pose relative_to="a"/>

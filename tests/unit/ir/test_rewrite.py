@@ -138,5 +138,5 @@ def test_a_field_with_the_same_objects_is_not_replaced() -> None:
 
 
 def test_a_field_that_there_is_not_cannot_be_replaced() -> None:
-    with pytest.raises(KeyError):
+    with pytest.raises(AttributeError):
         replace_fields(Link(name="a"), color=1)

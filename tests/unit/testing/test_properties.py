@@ -40,7 +40,7 @@ class _Talks(_Broken):
 
 class _Grows(_Broken):
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        return map_children(document, lambda node: node.model_copy(update={"name": node.__dict__["name"] + "x"}))
+        return map_children(document, lambda node: node.model_copy(update={"name": f"{getattr(node, 'name', None)}x"}))
 
 
 FAULTS: dict[type[_Broken], str] = {

@@ -1,6 +1,8 @@
 """Loads a file into a verified document: parse, read by the schema, validate with the XSD, build the IR."""
 
+import errno
 import gc
+import os
 import re
 from collections import defaultdict
 from collections.abc import Callable, Generator
@@ -38,7 +40,7 @@ from twinform.compiler.input.used_up_tree import LARGE, used_up
 from twinform.compiler.options import require_options
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format
-from twinform.ir.sourced import amend
+from twinform.ir.record import amend
 from twinform.ir.verify import verify
 from twinform.schemas import (
     Context,
@@ -197,10 +199,14 @@ def load(source: str | Path, **options: Unpack[FileOptions]) -> Document:
 
     Raises:
         CompileError: the file has an error; what was found is in its diagnostics.
+        FileNotFoundError: there is no such file.
         TypeError: there is no such option.
     """
     require_options(options, FileOptions)
-    return _document(read(source, LoadOptions.of(options)))
+    loaded = read(source, LoadOptions.of(options))
+    if loaded.unreadable and not Path(source).exists():
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(source))
+    return _document(loaded)
 
 
 def loads(text: str | bytes, name: str = "<string>", **options: Unpack[FileOptions]) -> Document:

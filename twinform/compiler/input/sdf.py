@@ -1,7 +1,7 @@
 """SDF front end: from an `<sdf>` tree to the IR."""
 
 from twinform.ir import Document
-from twinform.ir.sourced import maker
+from twinform.ir.record import maker
 from twinform.schemas import Context, XmlElement
 
 _make_document = maker(Document)

@@ -4,12 +4,11 @@ A joint's origin is in the frame of its parent link, and the child link's frame 
 """
 
 from twinform.ir import Document, Format, Model, Pose
-from twinform.ir.census import node_maker
-from twinform.ir.sourced import amend
+from twinform.ir.record import amend, maker
 from twinform.schemas import Context, XmlElement
 
-_make_pose = node_maker(Pose)
-_make_document = node_maker(Document)
+_make_pose = maker(Pose)
+_make_document = maker(Document)
 
 
 def build(root: XmlElement, context: Context) -> Document | None:

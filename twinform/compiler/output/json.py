@@ -55,7 +55,7 @@ def _order(node: Node, format_: Format) -> list[str]:
     facts = table(format_)
     name = facts.root if isinstance(node, _ROOTS[format_]) else type(node).__name__.lower()
     fields = writer(format_, facts.newest).repeated.get(name, ())
-    items = [(child, field) for field in fields for child in node.__dict__.get(field, ())]
+    items = [(child, field) for field in fields for child in getattr(node, field, ())]
     kinds = [field for _, field in in_order(items)]
     return kinds if kinds != [field for _, field in items] else []
 

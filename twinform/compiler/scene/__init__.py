@@ -1,6 +1,7 @@
 """Scenes: what there is to see of a model or world, and where it is at any joint positions."""
 
 from twinform.compiler.scene.building import build_scene
+from twinform.compiler.scene.forward_kinematics import forward_kinematics
 from twinform.compiler.scene.moving import Kinematics, Positions
 from twinform.compiler.scene.scene import (
     Degree,
@@ -31,4 +32,5 @@ __all__ = [
     "SceneSensor",
     "SceneShape",
     "build_scene",
+    "forward_kinematics",
 ]

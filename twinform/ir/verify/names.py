@@ -15,7 +15,7 @@ _NEED_NAMES = frozenset({"world", "link", "joint", "model", "frame", "visual", "
 
 def name_of(node: Node) -> str:
     """The name of a node that has one."""
-    return str(node.__dict__["name"])
+    return str(getattr(node, "name", None))
 
 
 def report_names(kind: str, nodes: Iterable[Node], sink: DiagnosticSink) -> None:
@@ -34,7 +34,7 @@ def report_names(kind: str, nodes: Iterable[Node], sink: DiagnosticSink) -> None
 
 def report_unprintable(kind: str, node: Node, sink: DiagnosticSink) -> None:
     """Report a name with a character that nobody can see."""
-    name = node.__dict__["name"]
+    name: str | None = getattr(node, "name", None)
     if name is not None and not name.isprintable():
         message = f"{kind} {name!r} has characters in its name that cannot be seen"
         sink.report(rules.UNPRINTABLE_NAME, message, node.location, found=name)
@@ -44,7 +44,7 @@ def report_scope(kinds: Kinds, shared: Severity, sink: DiagnosticSink) -> None:
     """Report names that several kinds of one scope share, beside what is wrong within each kind."""
     owners: dict[str, tuple[str, Node]] = {}
     for kind, nodes in kinds:
-        named = [node for node in nodes if node.__dict__["name"] is not None]
+        named = [node for node in nodes if getattr(node, "name", None) is not None]
         report_names(kind, named, sink)
         for node in named:
             name = name_of(node)
@@ -62,7 +62,7 @@ def report_reserved(kinds: Kinds, severity: Severity, sink: DiagnosticSink, *, s
     """
     for kind, nodes in kinds:
         for node in nodes:
-            name: str | None = node.__dict__["name"]
+            name: str | None = getattr(node, "name", None)
             if name is None or not (name == "world" or "__" in name or "::" in name):
                 continue
             where = node.location.at("@name")

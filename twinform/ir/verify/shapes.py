@@ -47,13 +47,12 @@ def _verify_sizes(geometry: Geometry, kind: str, link: Link, sink: DiagnosticSin
     shape = geometry.shape
     if shape is None:
         return
-    values = shape.__dict__
     if isinstance(shape, Plane):
         if shape.normal is not None and not any(shape.normal):
             _flat(f"the normal of a plane of link {link.name!r} has length zero", shape.location, sink)
         return
     for name in _SIZES.get(shape.kind, ()):
-        value = values[name]
+        value: float | tuple[float, ...] | None = getattr(shape, name)
         if value is not None and (0.0 in value if isinstance(value, tuple) else value == 0.0):
             message = f"the {name} of a {kind} of link {link.name!r}, a {shape.kind}, is zero"
             _flat(message, shape.location, sink)

@@ -8,6 +8,7 @@ from pydantic import ValidationError
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Model, Node, Opaque
+from twinform.ir.record import field_value, fields_of
 from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.definitions import definition_of, is_repeated
 from twinform.passes.carriers.sdf_versions import VersionCondition
@@ -53,7 +54,7 @@ def _blanked(node: AnyNode, path: list[str]) -> AnyNode:
     value = getattr(node, first, None)
     if value is None:
         return node
-    inner = _blanked(value, rest) if rest else type(node).model_fields[first].default
+    inner = _blanked(value, rest) if rest else fields_of(type(node))[first].default
     return node.model_copy(update={first: inner})
 
 
@@ -82,7 +83,7 @@ def _beside(node: AnyNode, path: list[str], piece: Opaque) -> AnyNode:
     if not path:
         return node.model_copy(update={"opaque": (*node.opaque, piece.model_copy(update={"at": ""}))})
     first, *rest = path
-    inner = node.__dict__.get(first)
+    inner = field_value(node, first)
     if not isinstance(inner, Node):
         raise CarrierError(f"there is no <{first}>")
     return node.model_copy(update={first: _beside(inner, rest, piece)})
@@ -116,7 +117,7 @@ def _put(piece: Opaque, holder: XmlElement) -> None:
 
 def _merged(node: AnyNode, data: Mapping[str, Any], index: int | None = None) -> AnyNode:
     """The node with what was read: one of several is put in its place, a part of a part into that."""
-    required = {name: getattr(node, name) for name in type(node).model_fields if name in _REQUIRED}
+    required = {name: getattr(node, name) for name in fields_of(type(node)) if name in _REQUIRED}
     try:
         read = type(node).model_validate({**required, **data})
     except ValidationError as error:
@@ -144,7 +145,7 @@ def _merged_value(node: Node, name: str, value: object, index: int | None) -> ob
 
 def _written(node: Node) -> dict[str, Any]:
     """The fields of a node, as the data of another one."""
-    fields = type(node).model_fields
+    fields = fields_of(type(node))
     return {
         name: getattr(node, name) for name in fields if name != "source" and getattr(node, name) != fields[name].default
     }

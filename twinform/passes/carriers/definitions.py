@@ -25,6 +25,7 @@ from twinform.ir import (
     Visual,
     World,
 )
+from twinform.ir.record import field_value
 from twinform.schemas import table
 
 _DEFINITIONS: dict[type[Node], str] = {
@@ -41,7 +42,7 @@ _DEFINITIONS: dict[type[Node], str] = {
 
 def definition_of(node: Node) -> str | None:
     """The definition of a node; None for one that only a row of another definition describes, such as a limit."""
-    kind = node.__dict__.get("kind")
+    kind = getattr(node, "kind", None)
     if kind is not None:
         return None if isinstance(node, Empty) else f"{kind}_shape"
     return _DEFINITIONS.get(type(node))
@@ -59,7 +60,7 @@ def inside(node: Node, at: str) -> Node | None:
     """The single node at a path of elements below another one, such as the limit of a joint at `axis/limit`."""
     holder: object = node
     for step in filter(None, at.split("/")):
-        holder = holder.__dict__.get(step) if isinstance(holder, Node) else None
+        holder = field_value(holder, step) if isinstance(holder, Node) else None
     return holder if isinstance(holder, Node) else None
 
 
@@ -68,7 +69,7 @@ def has_first(node: Node, name: str) -> bool:
     definition = definition_of(node)
     place = _single(definition).get(name) if definition else name
     if place:
-        return node.__dict__.get(place) is not None
+        return field_value(node, place) is not None
     return any(part.element.name == name for part in node.opaque if part.element)
 
 

@@ -8,7 +8,7 @@ An annotation has the name that it was made for: where that was edited since, th
 """
 
 from collections.abc import Iterator
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import STALE_CARRIER
@@ -140,7 +140,7 @@ def _old_name(found: Element) -> str:
 
 def with_old_name(node: AnyNode, name: str) -> AnyNode:
     """The node with its name in an annotation, since it will be renamed; a text would lose blanks."""
-    old: str = node.__dict__["name"]
+    old: Any = getattr(node, "name", None)
     is_plain = old == old.strip()
     return with_annotation(
         node, NAME, old if old and is_plain else None, {"instead_of": name, "was": None if is_plain else old}

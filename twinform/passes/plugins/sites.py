@@ -141,7 +141,7 @@ class _Walk:
         site = _site_in(node, site)
         update: dict[str, Any] = {}
         for field in node_fields(type(node)):
-            old = node.__dict__[field]
+            old = getattr(node, field)
             if not old:
                 continue
             if isinstance(old, Node):

@@ -3,7 +3,7 @@
 from typing import TypeVar
 
 from twinform.ir import Element, Node, Opaque, node_fields, rewrite
-from twinform.ir.sourced import NOT_CONTENT
+from twinform.ir.record import field_values, fields_of
 from twinform.passes.carriers.removal import without_parts
 from twinform.passes.carriers.sdf_versions import carried, is_version_carrier
 
@@ -32,8 +32,8 @@ def _is_empty(value: object) -> bool:
     """Whether it is a node of which nothing would be written."""
     if not isinstance(value, Node):
         return False
-    fields = type(value).model_fields
-    return all(getattr(value, name) == field.default for name, field in fields.items() if name not in NOT_CONTENT)
+    fields = fields_of(type(value))
+    return all(each == fields[name].default for name, each in field_values(value).items())
 
 
 def _place(part: Opaque) -> tuple[str, ...]:

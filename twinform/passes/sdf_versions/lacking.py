@@ -5,6 +5,7 @@ from functools import cache
 
 from twinform.ir import PLAIN, Document, Node, Pose, bits_of
 from twinform.ir.census import RARE, union_of
+from twinform.ir.record import fields_of
 from twinform.ir.tree import classes_in
 from twinform.passes.sdf_versions.spans import Shape, Span, shape
 from twinform.schemas import Version, table
@@ -43,7 +44,7 @@ def _bits(kinds: _Kinds, form: Shape, version: Version) -> Iterator[int]:
     for place, span in form.fields.items():
         holders, field = _holders(kinds, place), _field(place)
         if span.row(version) is None:
-            yield from (bits_of(holder, field) for holder in holders if field in holder.model_fields)
+            yield from (bits_of(holder, field) for holder in holders if field in fields_of(holder))
         elif place in form.lacking(version):
             yield from (bits_of(kind, place) for kind in kinds if _is_pose_of_its_own(kind, place))
         if span.repetition(version):
@@ -69,10 +70,10 @@ def _field(place: str) -> str:
 
 
 def _classes_in(kinds: Iterable[type[Node]], field: str) -> _Kinds:
-    return frozenset(inner for kind in kinds if field in kind.model_fields for inner in classes_in(kind, field))
+    return frozenset(inner for kind in kinds if field in fields_of(kind) for inner in classes_in(kind, field))
 
 
 def _of_kind(kinds: _Kinds, span: Span, kind: str) -> _Kinds:
     """The classes of one of the kinds that a field may hold."""
     every = _classes_in(kinds, span.rows[0][2].place or "")
-    return frozenset(each for each in every if each.model_fields["kind"].default == kind)
+    return frozenset(each for each in every if fields_of(each)["kind"].default == kind)

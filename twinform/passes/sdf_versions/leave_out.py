@@ -4,6 +4,7 @@ from typing import Any, ClassVar
 
 from twinform.diagnostics import Location, rules
 from twinform.ir import Collision, Document, Element, Node, Opaque, Pose, Visual, census_of, node_fields, replace_fields
+from twinform.ir.record import fields_of
 from twinform.passes.carriers.definitions import definition_of
 from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition, is_version_carrier
 from twinform.passes.sdf_versions.base import VersionPass, is_foreign
@@ -55,9 +56,8 @@ class _UndefinedRemover:
         """The node without what the version lacks, and that; the last of several comes first."""
         update: dict[str, Any] = {}
         left: list[Leftover] = []
-        values = node.__dict__
         for field in form.lacking(self.version):
-            value = values[field]
+            value = getattr(node, field)
             if value is None or value == () or _is_plain_pose(value):
                 continue
             span = form.kinds[value.kind] if field == _OF_KINDS else form.fields[field]
@@ -73,7 +73,7 @@ class _UndefinedRemover:
         if field in node_fields(type(node)) and not isinstance(value, Node):
             return self._many(field, value, span, row)
         if row is None:
-            return type(node).model_fields[field].default, [Leftover((field,), value, span.condition(self.version))]
+            return fields_of(type(node))[field].default, [Leftover((field,), value, span.condition(self.version))]
         if isinstance(value, Node) and (row.reference not in self.whole or span.is_split):
             return self._inner(field, value, span, row)
         return value, []

@@ -6,6 +6,7 @@ from typing import cast
 
 from twinform.diagnostics import NOWHERE, Location
 from twinform.ir import Element, Node, Opaque, count_parts
+from twinform.ir.record import fields_of
 from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.definitions import definition_of
@@ -68,7 +69,7 @@ def node_pieces(node: Node, left: Leftover) -> list[Opaque]:
 def _with_only(node: Node, fields: tuple[str, ...], value: object) -> Node:
     first, *rest = fields
     inner = _with_only(getattr(node, first), tuple(rest), value) if rest else value
-    blank = {name: type(node).model_fields[name].default for name in node.__dict__ if name not in _ABOUT}
+    blank = {name: each.default for name, each in fields_of(type(node)).items() if name not in _ABOUT}
     return node.model_copy(update={**blank, first: inner})
 
 

@@ -36,7 +36,7 @@ class WritePlainPoses(VersionPass):
 
 def _plain(keeper: Keeper, node: Node) -> Node:
     node = map_own_elements(node, partial(map_inside, change=partial(_element, keeper)))
-    pose: Pose | None = node.__dict__.get("pose")
+    pose: Pose | None = getattr(node, "pose", None)
     if pose is None or not (pose.quat_xyzw or pose.degrees is not None or pose.rotation_format is not None):
         return node
     made = in_radians(Transform.from_pose(pose), pose.relative_to).model_copy(update={"opaque": pose.opaque})

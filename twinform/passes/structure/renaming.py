@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Element, Format, GazeboExtension, Model, Node, Plugin, World, map_children, map_references
@@ -53,7 +53,7 @@ class _Renamer:
 
     def named(self, part: Part, node: AnyNode) -> AnyNode:
         """A part of the model by its new name; a nested model has a scope of its own."""
-        old = node.__dict__["name"]
+        old: Any = getattr(node, "name", None)
         if isinstance(node, Model):
             node = _Renamer(self.scope.inner[old], self.format, self.sink).model(node)
         return _changed(node, {"name": self.scope.own[part].get(old, old)})
@@ -145,8 +145,7 @@ Changed = TypeVar("Changed", bound=Sourced)
 
 def _changed(node: Changed, update: dict[str, object]) -> Changed:
     """The node with these fields; the same object where they are what they were."""
-    values = node.__dict__
-    different = {name: value for name, value in update.items() if value != values[name]}
+    different = {name: value for name, value in update.items() if value != getattr(node, name)}
     return node.model_copy(update=different) if different else node
 
 

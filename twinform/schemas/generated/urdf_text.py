@@ -16,113 +16,105 @@ from twinform.schemas.values import (
 
 def write_origin(node: Any, out: TextOutput, indent: str) -> str:
     """`<origin>`."""
-    values = node.__dict__
     attributes = ""
-    if (value := values["xyz"]) is not None:
+    if (value := node.xyz) is not None:
         attributes += f' xyz="{vector3(value)}"'
-    if (value := values["rpy"]) is not None:
+    if (value := node.rpy) is not None:
         attributes += f' rpy="{vector3(value)}"'
-    if (value := values["quat_xyzw"]) is not None:
+    if (value := node.quat_xyzw) is not None:
         attributes += f' quat_xyzw="{format_numbers(value)}"'
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "origin", indent, attributes=attributes)
     return f"{indent}<origin{attributes}/>" if attributes else ""
 
 
 def write_link_inertial_inertia(node: Any, out: TextOutput, indent: str) -> str:
     """`<inertia>`."""
-    values = node.__dict__
     attributes = ""
-    if (value := values["ixx"]) is not None:
+    if (value := node.ixx) is not None:
         attributes += f' ixx="{format_number(value)}"'
-    if (value := values["ixy"]) is not None:
+    if (value := node.ixy) is not None:
         attributes += f' ixy="{format_number(value)}"'
-    if (value := values["ixz"]) is not None:
+    if (value := node.ixz) is not None:
         attributes += f' ixz="{format_number(value)}"'
-    if (value := values["iyy"]) is not None:
+    if (value := node.iyy) is not None:
         attributes += f' iyy="{format_number(value)}"'
-    if (value := values["iyz"]) is not None:
+    if (value := node.iyz) is not None:
         attributes += f' iyz="{format_number(value)}"'
-    if (value := values["izz"]) is not None:
+    if (value := node.izz) is not None:
         attributes += f' izz="{format_number(value)}"'
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "link/inertial/inertia", indent, attributes=attributes)
     return f"{indent}<inertia{attributes}/>" if attributes else ""
 
 
 def write_link_inertial(node: Any, out: TextOutput, indent: str) -> str:
     """`<inertial>`."""
-    values = node.__dict__
     inner = indent + "  "
     body = ""
-    if (value := values["pose"]) is not None:
+    if (value := node.pose) is not None:
         body += write_origin(value, out, inner)
-    if (value := values["mass"]) is not None:
+    if (value := node.mass) is not None:
         body += f'{inner}<mass value="{format_number(value)}"/>'
-    if (value := values["inertia"]) is not None:
+    if (value := node.inertia) is not None:
         body += write_link_inertial_inertia(value, out, inner)
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "link/inertial", indent, body=body)
     return f"{indent}<inertial>{body}{indent}</inertial>" if body else ""
 
 
 def write_geometry_box(node: Any, out: TextOutput, indent: str) -> str:
     """`<box>`."""
-    values = node.__dict__
     attributes = ""
-    if (value := values["size"]) is not None:
+    if (value := node.size) is not None:
         attributes += f' size="{vector3(value)}"'
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "geometry/box", indent, attributes=attributes, keep=True)
     return f"{indent}<box{attributes}/>"
 
 
 def write_geometry_cylinder(node: Any, out: TextOutput, indent: str) -> str:
     """`<cylinder>`."""
-    values = node.__dict__
     attributes = ""
-    if (value := values["radius"]) is not None:
+    if (value := node.radius) is not None:
         attributes += f' radius="{format_number(value)}"'
-    if (value := values["length"]) is not None:
+    if (value := node.length) is not None:
         attributes += f' length="{format_number(value)}"'
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "geometry/cylinder", indent, attributes=attributes, keep=True)
     return f"{indent}<cylinder{attributes}/>"
 
 
 def write_geometry_sphere(node: Any, out: TextOutput, indent: str) -> str:
     """`<sphere>`."""
-    values = node.__dict__
     attributes = ""
-    if (value := values["radius"]) is not None:
+    if (value := node.radius) is not None:
         attributes += f' radius="{format_number(value)}"'
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "geometry/sphere", indent, attributes=attributes, keep=True)
     return f"{indent}<sphere{attributes}/>"
 
 
 def write_geometry_capsule(node: Any, out: TextOutput, indent: str) -> str:
     """`<capsule>`."""
-    values = node.__dict__
     attributes = ""
-    if (value := values["radius"]) is not None:
+    if (value := node.radius) is not None:
         attributes += f' radius="{format_number(value)}"'
-    if (value := values["length"]) is not None:
+    if (value := node.length) is not None:
         attributes += f' length="{format_number(value)}"'
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "geometry/capsule", indent, attributes=attributes, keep=True)
     return f"{indent}<capsule{attributes}/>"
 
 
 def write_geometry_mesh(node: Any, out: TextOutput, indent: str) -> str:
     """`<mesh>`."""
-    values = node.__dict__
     attributes = ""
-    if (value := values["uri"]) is not None:
+    if (value := node.uri) is not None:
         attributes += f' filename="{in_attribute(value)}"'
-    if (value := values["scale"]) is not None:
+    if (value := node.scale) is not None:
         attributes += f' scale="{vector3(value)}"'
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "geometry/mesh", indent, attributes=attributes, keep=True)
     return f"{indent}<mesh{attributes}/>"
 
@@ -138,28 +130,26 @@ GEOMETRY_SHAPES: dict[str, Write] = {
 
 def write_geometry(node: Any, out: TextOutput, indent: str) -> str:
     """`<geometry>`."""
-    values = node.__dict__
     inner = indent + "  "
     body = ""
-    if (value := values["shape"]) is not None and (write := GEOMETRY_SHAPES.get(value.kind)) is not None:
+    if (value := node.shape) is not None and (write := GEOMETRY_SHAPES.get(value.kind)) is not None:
         body += write(value, out, inner)
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "geometry", indent, body=body)
     return f"{indent}<geometry>{body}{indent}</geometry>" if body else ""
 
 
 def write_material(node: Any, out: TextOutput, indent: str) -> str:
     """`<material>`."""
-    values = node.__dict__
     inner = indent + "  "
     attributes = body = ""
-    if (value := values["name"]) is not None:
+    if (value := node.name) is not None:
         attributes += f' name="{in_attribute(value)}"'
-    if (value := values["color"]) is not None:
+    if (value := node.color) is not None:
         body += f'{inner}<color rgba="{format_numbers(value)}"/>'
-    if (value := values["texture"]) is not None:
+    if (value := node.texture) is not None:
         body += f'{inner}<texture filename="{in_attribute(value)}"/>'
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "material", indent, attributes=attributes, body=body)
     if body:
         return f"{indent}<material{attributes}>{body}{indent}</material>"
@@ -168,18 +158,17 @@ def write_material(node: Any, out: TextOutput, indent: str) -> str:
 
 def write_link_visual(node: Any, out: TextOutput, indent: str) -> str:
     """`<visual>`."""
-    values = node.__dict__
     inner = indent + "  "
     attributes = body = ""
-    if (value := values["name"]) is not None:
+    if (value := node.name) is not None:
         attributes += f' name="{in_attribute(value)}"'
-    if (value := values["pose"]) is not None:
+    if (value := node.pose) is not None:
         body += write_origin(value, out, inner)
-    if (value := values["geometry"]) is not None:
+    if (value := node.geometry) is not None:
         body += write_geometry(value, out, inner)
-    if (value := values["material"]) is not None:
+    if (value := node.material) is not None:
         body += write_material(value, out, inner)
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "link/visual", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<visual{attributes}>{body}{indent}</visual>"
@@ -188,16 +177,15 @@ def write_link_visual(node: Any, out: TextOutput, indent: str) -> str:
 
 def write_link_collision(node: Any, out: TextOutput, indent: str) -> str:
     """`<collision>`."""
-    values = node.__dict__
     inner = indent + "  "
     attributes = body = ""
-    if (value := values["name"]) is not None:
+    if (value := node.name) is not None:
         attributes += f' name="{in_attribute(value)}"'
-    if (value := values["pose"]) is not None:
+    if (value := node.pose) is not None:
         body += write_origin(value, out, inner)
-    if (value := values["geometry"]) is not None:
+    if (value := node.geometry) is not None:
         body += write_geometry(value, out, inner)
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "link/collision", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<collision{attributes}>{body}{indent}</collision>"
@@ -206,20 +194,19 @@ def write_link_collision(node: Any, out: TextOutput, indent: str) -> str:
 
 def write_link(node: Any, out: TextOutput, indent: str) -> str:
     """`<link>`."""
-    values = node.__dict__
     inner = indent + "  "
     attributes = body = ""
-    if (value := values["name"]) is not None:
+    if (value := node.name) is not None:
         attributes += f' name="{in_attribute(value)}"'
-    if (value := values["inertial"]) is not None:
+    if (value := node.inertial) is not None:
         body += write_link_inertial(value, out, inner)
     body += out.parts(
         node,
         inner,
-        (values["visuals"], write_link_visual),
-        (values["collisions"], write_link_collision),
+        (node.visuals, write_link_visual),
+        (node.collisions, write_link_collision),
     )
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "link", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<link{attributes}>{body}{indent}</link>"
@@ -228,79 +215,75 @@ def write_link(node: Any, out: TextOutput, indent: str) -> str:
 
 def write_joint_limit(node: Any, out: TextOutput, indent: str) -> str:
     """`<limit>`."""
-    values = node.__dict__
     attributes = ""
-    if (value := values["lower"]) is not None:
+    if (value := node.lower) is not None:
         attributes += f' lower="{format_number(value)}"'
-    if (value := values["upper"]) is not None:
+    if (value := node.upper) is not None:
         attributes += f' upper="{format_number(value)}"'
-    if (value := values["effort"]) is not None:
+    if (value := node.effort) is not None:
         attributes += f' effort="{format_number(value)}"'
-    if (value := values["velocity"]) is not None:
+    if (value := node.velocity) is not None:
         attributes += f' velocity="{format_number(value)}"'
-    if (value := values["acceleration"]) is not None:
+    if (value := node.acceleration) is not None:
         attributes += f' acceleration="{format_number(value)}"'
-    if (value := values["deceleration"]) is not None:
+    if (value := node.deceleration) is not None:
         attributes += f' deceleration="{format_number(value)}"'
-    if (value := values["jerk"]) is not None:
+    if (value := node.jerk) is not None:
         attributes += f' jerk="{format_number(value)}"'
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "joint/limit", indent, attributes=attributes)
     return f"{indent}<limit{attributes}/>" if attributes else ""
 
 
 def write_joint_dynamics(node: Any, out: TextOutput, indent: str) -> str:
     """`<dynamics>`."""
-    values = node.__dict__
     attributes = ""
-    if (value := values["damping"]) is not None:
+    if (value := node.damping) is not None:
         attributes += f' damping="{format_number(value)}"'
-    if (value := values["friction"]) is not None:
+    if (value := node.friction) is not None:
         attributes += f' friction="{format_number(value)}"'
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "joint/dynamics", indent, attributes=attributes)
     return f"{indent}<dynamics{attributes}/>" if attributes else ""
 
 
 def write_joint_mimic(node: Any, out: TextOutput, indent: str) -> str:
     """`<mimic>`."""
-    values = node.__dict__
     attributes = ""
-    if (value := values["joint"]) is not None:
+    if (value := node.joint) is not None:
         attributes += f' joint="{in_attribute(value)}"'
-    if (value := values["multiplier"]) is not None:
+    if (value := node.multiplier) is not None:
         attributes += f' multiplier="{format_number(value)}"'
-    if (value := values["offset"]) is not None:
+    if (value := node.offset) is not None:
         attributes += f' offset="{format_number(value)}"'
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "joint/mimic", indent, attributes=attributes)
     return f"{indent}<mimic{attributes}/>" if attributes else ""
 
 
 def write_joint(node: Any, out: TextOutput, indent: str) -> str:
     """`<joint>`."""
-    values = node.__dict__
     inner = indent + "  "
     attributes = body = ""
-    if (value := values["name"]) is not None:
+    if (value := node.name) is not None:
         attributes += f' name="{in_attribute(value)}"'
-    if (value := values["type"]) is not None:
+    if (value := node.type) is not None:
         attributes += f' type="{in_attribute(value)}"'
-    if (value := values["parent"]) is not None:
+    if (value := node.parent) is not None:
         body += f'{inner}<parent link="{in_attribute(value)}"/>'
-    if (value := values["child"]) is not None:
+    if (value := node.child) is not None:
         body += f'{inner}<child link="{in_attribute(value)}"/>'
-    if (value := values["pose"]) is not None:
+    if (value := node.pose) is not None:
         body += write_origin(value, out, inner)
-    if (holder := values["axis"]) is not None and (value := holder.__dict__["xyz"]) is not None:
+    if (holder := node.axis) is not None and (value := holder.xyz) is not None:
         body += f'{inner}<axis xyz="{vector3(value)}"/>'
-    if (holder := values["axis"]) is not None and (value := holder.__dict__["limit"]) is not None:
+    if (holder := node.axis) is not None and (value := holder.limit) is not None:
         body += write_joint_limit(value, out, inner)
-    if (holder := values["axis"]) is not None and (value := holder.__dict__["dynamics"]) is not None:
+    if (holder := node.axis) is not None and (value := holder.dynamics) is not None:
         body += write_joint_dynamics(value, out, inner)
-    if (holder := values["axis"]) is not None and (value := holder.__dict__["mimic"]) is not None:
+    if (holder := node.axis) is not None and (value := holder.mimic) is not None:
         body += write_joint_mimic(value, out, inner)
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "joint", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<joint{attributes}>{body}{indent}</joint>"
@@ -309,16 +292,15 @@ def write_joint(node: Any, out: TextOutput, indent: str) -> str:
 
 def write_robot_material(node: Any, out: TextOutput, indent: str) -> str:
     """`<material>`."""
-    values = node.__dict__
     inner = indent + "  "
     attributes = body = ""
-    if (value := values["name"]) is not None:
+    if (value := node.name) is not None:
         attributes += f' name="{in_attribute(value)}"'
-    if (value := values["color"]) is not None:
+    if (value := node.color) is not None:
         body += f'{inner}<color rgba="{format_numbers(value)}"/>'
-    if (value := values["texture"]) is not None:
+    if (value := node.texture) is not None:
         body += f'{inner}<texture filename="{in_attribute(value)}"/>'
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "material", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<material{attributes}>{body}{indent}</material>"
@@ -327,33 +309,31 @@ def write_robot_material(node: Any, out: TextOutput, indent: str) -> str:
 
 def write_gazebo(node: Any, out: TextOutput, indent: str) -> str:
     """`<gazebo>`."""
-    values = node.__dict__
     attributes = ""
-    if (value := values["reference"]) is not None:
+    if (value := node.reference) is not None:
         attributes += f' reference="{in_attribute(value)}"'
-    if values["content"] or values["opaque"]:
-        return out.with_untyped(node, "gazebo", indent, attributes=attributes, content=values["content"], keep=True)
+    if node.content or node.opaque:
+        return out.with_untyped(node, "gazebo", indent, attributes=attributes, content=node.content, keep=True)
     return f"{indent}<gazebo{attributes}/>"
 
 
 def write_robot(node: Any, out: TextOutput, indent: str) -> str:
     """`<robot>`."""
-    values = node.__dict__
     inner = indent + "  "
     attributes = body = ""
     attributes += out.declarations
-    if (value := values["name"]) is not None:
+    if (value := node.name) is not None:
         attributes += f' name="{in_attribute(value)}"'
     body += out.parts(
         node,
         inner,
-        (values["links"], write_link),
-        (values["joints"], write_joint),
-        (values["materials"], write_robot_material),
-        (values["extensions"], write_gazebo),
+        (node.links, write_link),
+        (node.joints, write_joint),
+        (node.materials, write_robot_material),
+        (node.extensions, write_gazebo),
     )
     attributes += out.root_attributes
-    if values["opaque"]:
+    if node.opaque:
         return out.with_untyped(node, "robot", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<robot{attributes}>{body}{indent}</robot>"

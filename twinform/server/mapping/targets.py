@@ -6,6 +6,7 @@ from functools import cache
 from typing import Self, cast, get_args
 
 from twinform.ir import Document, Model, Node
+from twinform.ir.record import fields_of
 from twinform.schemas import table
 from twinform.schemas.facts import Fact
 from twinform.server.mapping.rows import FORMATS, FormatName, Row, rows
@@ -91,14 +92,14 @@ def _follow(row: Fact, kind: type[Node], around: Chain) -> tuple[Chain, type[Nod
         if inner is None:
             break
         around = (*around, f"{inner.__name__}.{name}" + (f":{row.kind}" if row.kind else ""))
-        inner = _class_of(inner.model_fields[name].annotation, kind, row.kind)
+        inner = _class_of(fields_of(inner)[name].type, kind, row.kind)
     return around, inner
 
 
 def _class_of(annotation: object, around: type[Node], kind: str | None) -> type[Node] | None:
     """The class of nodes in an annotation; of several, the one of that kind."""
     for one in _classes(annotation, around):
-        if kind is None or get_args(one.model_fields["kind"].annotation) == (kind,):
+        if kind is None or get_args(fields_of(one)["kind"].type) == (kind,):
             return one
     return None
 

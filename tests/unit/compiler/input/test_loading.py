@@ -205,7 +205,10 @@ def test_a_file_is_loaded_as_strictly_as_one_asks(tmp_path: Path) -> None:
     assert [str(each.location) for each in caught.value.diagnostics] == [
         str(Location(str(path), 1, "/robot[@name='r']/link[@name='a']/@strange"))
     ]
-    with pytest.raises(twinform.CompileError, match="cannot read the file: No such file") as caught:
+    with pytest.raises(FileNotFoundError, match=r"s\.urdf"):
+        load(tmp_path / "s.urdf")
+    (tmp_path / "s.urdf").touch()
+    with pytest.raises(twinform.CompileError, match="the file is empty") as caught:
         load(tmp_path / "s.urdf")
     assert caught.value.unreadable
 

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, cast
 from twinform.compiler.output.json import Data, json_data
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Node
+from twinform.ir.record import field_value
 from twinform.schemas.json_check import JsonPath, is_array, is_object, json_faults
 
 MOST = 20
@@ -46,7 +47,7 @@ def _nearest(node: Node, path: JsonPath) -> Node:
     values: Any = node
     for step in path:
         if isinstance(values, Node):
-            values = values.__dict__.get(str(step))
+            values = field_value(values, str(step))
         elif isinstance(values, tuple) and isinstance(step, int):
             values = cast("tuple[object, ...]", values)[step]
         else:

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import MISSING, dataclass, field
 from typing import Any
 
 from twinform.compiler.input.readers import templates, values
@@ -17,6 +17,7 @@ from twinform.compiler.input.readers.branches import (
     value_conditions,
 )
 from twinform.ir import Document, Model, Node
+from twinform.ir.record import fields_of
 from twinform.ir.tree import classes_in
 from twinform.schemas import Fact, Table, Version, parse_version
 
@@ -97,7 +98,7 @@ def maker_name(node: type[Node]) -> str:
 
 def _classes(parts: list[Part]) -> set[type[Node]]:
     found = {part.node for part in parts}
-    return found | {inner for node in found for name in node.model_fields for inner in classes_in(node, name)}
+    return found | {inner for node in found for name in fields_of(node) for inner in classes_in(node, name)}
 
 
 @dataclass(slots=True)
@@ -278,7 +279,7 @@ class FunctionWriter:
         place = str(row.place)
         holder = Document if place.startswith("/") else self.part.node
         for step in place.removeprefix("/").split("."):
-            if step not in holder.model_fields:
+            if step not in fields_of(holder):
                 raise ValueError(f"{self.part.path}/{row.name}: {holder.__name__} has no field {step!r}")
             holder = next(iter(classes_in(holder, step)), holder)
 
@@ -297,9 +298,9 @@ class FunctionWriter:
 
     def _broken(self) -> Iterator[str]:
         """The conditions under which a node lacks what its class needs."""
-        for name, each in self.part.node.model_fields.items():
-            if each.is_required() and name != _FORMAT:
-                listed = getattr(each.annotation, "__args__", ())
+        for name, each in fields_of(self.part.node).items():
+            if each.default is MISSING and name != _FORMAT:
+                listed = getattr(each.type, "__args__", ())
                 yield f"node.get({name!r}) not in {set_of(listed)}" if listed else f"{name!r} not in node"
 
 
@@ -314,7 +315,7 @@ def _tag(row: Fact) -> tuple[str, ...]:
 
 
 def _kind(node: type[Node]) -> object:
-    return node.model_fields["kind"].default
+    return fields_of(node)["kind"].default
 
 
 def _key(row: Fact, fact: Fact) -> str:

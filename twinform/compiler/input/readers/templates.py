@@ -12,7 +12,7 @@ from twinform.compiler.input.readers.reading import Reading
 from twinform.compiler.input.readers.values import {parsers}
 from twinform.diagnostics import Source
 from twinform.ir import {classes}
-from twinform.ir.census import node_maker
+from twinform.ir.record import maker
 from twinform.schemas import Data, XmlElement, locate
 
 {makers}
@@ -21,7 +21,7 @@ from twinform.schemas import Data, XmlElement, locate
 {functions}
 '''
 
-MAKER = "make_{name} = node_maker({node})"
+MAKER = "make_{name} = maker({node})"
 
 READ = '''
 def {function}(element: XmlElement, above: Source | None, step: str, key: str | int | None, reading: Reading) -> Data:

@@ -1,15 +1,11 @@
 """Makes the nodes of untyped parts, `Element` and `Opaque`, from an XML tree."""
 
-from itertools import compress, product
-
 from twinform.diagnostics import Source
 from twinform.ir import Element, Opaque
-from twinform.ir.sourced import assembled, maker
+from twinform.ir.record import maker
 from twinform.schemas import Data, XmlElement, locate
 
-_OPTIONAL = ("source", "attributes", "text", "children", "tail")
-_WRITTEN = {given: {"name", *compress(_OPTIONAL, given)} for given in product((False, True), repeat=len(_OPTIONAL))}
-"""Which fields were written, by which of the optional ones were."""
+_make_element = maker(Element)
 _make_opaque = maker(Opaque)
 
 
@@ -45,5 +41,4 @@ def read_element(element: XmlElement, file: str, above: Source | None, *, kept: 
         "children": children,
         "tail": tail,
     }
-    given = (above is not None, bool(attributes), text is not None, bool(children), kept or tail is not None)
-    return assembled(Element, values, _WRITTEN[given])
+    return _make_element(values)

@@ -30,29 +30,29 @@ from twinform.ir import (
     Sphere,
     Visual,
 )
-from twinform.ir.census import node_maker
+from twinform.ir.record import maker
 from twinform.schemas import Data, XmlElement, locate
 
-make_axis = node_maker(Axis)
-make_box = node_maker(Box)
-make_capsule = node_maker(Capsule)
-make_collision = node_maker(Collision)
-make_cylinder = node_maker(Cylinder)
-make_dynamics = node_maker(Dynamics)
-make_gazebo_extension = node_maker(GazeboExtension)
-make_geometry = node_maker(Geometry)
-make_inertia = node_maker(Inertia)
-make_inertial = node_maker(Inertial)
-make_joint = node_maker(Joint)
-make_limit = node_maker(Limit)
-make_link = node_maker(Link)
-make_material = node_maker(Material)
-make_mesh = node_maker(Mesh)
-make_mimic = node_maker(Mimic)
-make_model = node_maker(Model)
-make_pose = node_maker(Pose)
-make_sphere = node_maker(Sphere)
-make_visual = node_maker(Visual)
+make_axis = maker(Axis)
+make_box = maker(Box)
+make_capsule = maker(Capsule)
+make_collision = maker(Collision)
+make_cylinder = maker(Cylinder)
+make_dynamics = maker(Dynamics)
+make_gazebo_extension = maker(GazeboExtension)
+make_geometry = maker(Geometry)
+make_inertia = maker(Inertia)
+make_inertial = maker(Inertial)
+make_joint = maker(Joint)
+make_limit = maker(Limit)
+make_link = maker(Link)
+make_material = maker(Material)
+make_mesh = maker(Mesh)
+make_mimic = maker(Mimic)
+make_model = maker(Model)
+make_pose = maker(Pose)
+make_sphere = maker(Sphere)
+make_visual = maker(Visual)
 
 
 def read_robot(element: XmlElement, above: Source | None, step: str, key: str | int | None, reading: Reading) -> Data:

@@ -68,7 +68,7 @@ class CarryUrdf(ModelPass):
 
     def _swept(self, node: AnyNode, sink: DiagnosticSink, back: bool) -> AnyNode:
         """The node with its own parts in carriers, or out of them."""
-        pose: Pose | None = node.__dict__.get("pose")
+        pose: Pose | None = getattr(node, "pose", None)
         if not node.opaque and not (pose and pose.opaque):
             return node
         kept: list[Opaque] = []

@@ -7,6 +7,7 @@ from typing import Any, ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, Severity, rules
 from twinform.ir import Element, Format, Frame, GazeboExtension, Joint, Link, Model, Node, Opaque
+from twinform.ir.record import field_value
 from twinform.passes.carriers.annotations import EXTENSION, is_synthesized, with_annotation
 from twinform.passes.carriers.carriers import DANGLING, OVERRULED, SECOND, Attributes, pack, to_element
 from twinform.passes.carriers.material_annotations import with_look
@@ -268,7 +269,7 @@ class _Fold:
         content = [extension for extension in extensions if extension.content]
         if not content:
             return node
-        name = str(node.__dict__["name"]) if kind != "model" else self.robot.name
+        name = str(getattr(node, "name", None)) if kind != "model" else self.robot.name
         conflicts: list[str] = []
         merged = merge(node, read_content(kind, name, self.robot.name, content, self.sink), conflicts)
         again = [part for part in merged.opaque if _is_second(part) and part not in node.opaque]
@@ -282,7 +283,7 @@ class _Fold:
     def _again(self, node: Node, field: str, extensions: list[GazeboExtension]) -> None:
         """Report what is repeated, and carry the elements that repeat it."""
         again = [(extension, each) for extension in extensions for each in extension.content if each.name == field]
-        is_own = node.__dict__.get(field) is not None
+        is_own = field_value(node, field) is not None
         if again and not is_own:  # the first one is used
             again = again[1:]
         if not again:
@@ -294,7 +295,7 @@ class _Fold:
             self._keep(extension, [element], rules.GAZEBO_CONFLICT, message, () if is_own else SECOND)
 
     def _conflict(self, node: Node, field: str, winner: str, where: Location, *, accounted: bool = True) -> str:
-        message = f"<gazebo> sets {field!r} of {node.__dict__['name']!r} again; {winner} is used"
+        message = f"<gazebo> sets {field!r} of {getattr(node, 'name', None)!r} again; {winner} is used"
         self.sink.report(rules.GAZEBO_CONFLICT, message, where, found=field)
         if accounted:
             self.sink.account(Fate.DROPPED, rules.GAZEBO_CONFLICT, message, where)

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any, TypeVar
 
 from twinform.ir import Element, Node, Opaque
+from twinform.ir.record import field_value
 from twinform.ir.sourced import NOT_CONTENT
 from twinform.ir.tree import node_fields
 
@@ -20,7 +21,7 @@ def merge(mine: AnyNode, fields: Mapping[str, Any], conflicts: list[str], *, rep
     update: dict[str, Any] = {}
     lists = node_fields(type(mine))
     for field, value in fields.items():
-        old = mine.__dict__.get(field)
+        old = field_value(mine, field)
         if field in NOT_CONTENT:
             continue
         if field == "opaque":
@@ -40,8 +41,9 @@ def merge(mine: AnyNode, fields: Mapping[str, Any], conflicts: list[str], *, rep
 
 
 def written(node: Node) -> dict[str, Any]:
-    """The fields that are written in a node."""
-    return {name: value for name, value in node.__dict__.items() if value is not None and value != ()}
+    """The fields that are written in a node, with how they are spelt and where they were read."""
+    values = ((name, getattr(node, name)) for name in node.field_names)
+    return {name: value for name, value in values if value is not None and value != ()}
 
 
 def _join(mine: tuple[Opaque, ...], more: tuple[Opaque, ...]) -> tuple[Opaque, ...]:

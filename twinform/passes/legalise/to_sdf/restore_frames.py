@@ -290,7 +290,7 @@ def _with_noted_frames(model: Model) -> Model:
     """The model with an annotation on all that is posed in a frame that it names: there its pose is to be written."""
 
     def note(node: Node) -> Node:
-        pose: Pose | None = node.__dict__.get("pose")
+        pose: Pose | None = getattr(node, "pose", None)
         noted = replace_fields(node, opaque=map_elements(node.opaque, note_element))
         if pose is None or not pose.relative_to or find_annotation(node, POSE) is not None:
             return noted

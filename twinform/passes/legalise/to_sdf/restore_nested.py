@@ -175,7 +175,7 @@ def _tidy(model: Model) -> Model:
 
 def _posed(node: AnyNode) -> AnyNode:
     """The node without an empty pose, or a frame that is the usual one."""
-    pose: Pose | None = node.__dict__["pose"]
+    pose: Pose | None = getattr(node, "pose", None)
     if pose is None:
         return node
     own = pose.relative_to == MODEL and isinstance(node, Link | Model)

@@ -1,6 +1,7 @@
 """Unpacking carriers of SDF parts into the nodes that they came from."""
 
 from collections.abc import Iterable
+from dataclasses import MISSING
 from functools import partial
 from typing import ClassVar, Literal, TypeVar, cast
 
@@ -19,6 +20,7 @@ from twinform.ir import (
     census_of,
     map_children,
 )
+from twinform.ir.record import fields_of
 from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
@@ -187,7 +189,7 @@ def _with(node: AnyNode, carrier: Opaque) -> AnyNode | None:
         if carrier.element and carrier.element.get("at") and carrier.element.get("index") is not None:
             return _absorbed(node, [carrier])
         other = _absorbed(node.model_copy(update=_defaults(node)), [carrier])
-        has_pose = other.__dict__.get("pose") is not None
+        has_pose = getattr(other, "pose", None) is not None
         return _absorbed(node, [carrier]) if not has_pose and _is_new(other, node) else None
     except CarrierError:
         return None
@@ -195,8 +197,8 @@ def _with(node: AnyNode, carrier: Opaque) -> AnyNode | None:
 
 def _defaults(node: Node) -> dict[str, object]:
     """The field values of an empty node."""
-    fields = type(node).model_fields.items()
-    return {name: field.default for name, field in fields if name not in _ABOUT and not field.is_required()}
+    fields = fields_of(type(node)).items()
+    return {name: field.default for name, field in fields if name not in _ABOUT and field.default is not MISSING}
 
 
 def _is_new(other: Node, node: Node) -> bool:

@@ -5,6 +5,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import rules
 from twinform.ir import Joint, Limit, Link, Model, Opaque
+from twinform.ir.record import fields_of
 from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.annotations import SYNTHESIZED, is_synthesized, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
@@ -107,7 +108,7 @@ def _is_as_made(turn: Joint, chain: tuple[Joint, Joint], links: dict[str, Link],
 
 def _bare(part: Joint | Link) -> dict[str, object]:
     """What a part has about the motion; a pose of nothing is none, and so is a limit."""
-    written = {name: getattr(part, name) for name in type(part).model_fields if name not in _BESIDE}
+    written = {name: getattr(part, name) for name in fields_of(type(part)) if name not in _BESIDE}
     if isinstance(part, Joint) and part.axis is not None:
         limit = None if part.axis.limit == Limit() else part.axis.limit
         written["axis"] = part.axis.model_copy(update={"limit": limit, "opaque": ()})

@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from twinform.diagnostics.rules import UNSHARED_SURFACE
 from twinform.ir import Collision, Element, GazeboExtension, Link, Model, Surface
-from twinform.ir.sourced import NOT_CONTENT
+from twinform.ir.record import field_values
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.schemas import format_value
@@ -18,7 +18,6 @@ _TAGS = {
     "max_vel": "maxVel",
     "min_depth": "minDepth",
 }
-_NOT_FIELDS = NOT_CONTENT | {"opaque"}
 OF_ALL_COLLISIONS = ("surface", "max_contacts", "laser_retro")
 """Fields of collisions that a link's tags set for all of them."""
 
@@ -77,7 +76,7 @@ def _note_unshared(link: Link, keeper: Keeper) -> None:
 
 
 def _surface(surface: Surface) -> list[Element]:
-    written = {name: value for name, value in surface.__dict__.items() if value is not None and name not in _NOT_FIELDS}
+    written = {name: value for name, value in field_values(surface).items() if value is not None and name != "opaque"}
     if surface.opaque or not written.keys() <= _TAGS.keys():
         return [Element.unchecked(name="collision", children=(to_element(surface, "surface", "sdf"),))]
     return [Element.unchecked(name=_TAGS[name], text=format_value(value)) for name, value in written.items()]

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from typing import NamedTuple, TypeVar, Union
 
 from twinform.ir import Element, Node, Opaque
+from twinform.ir.record import field_values, fields_of
 from twinform.ir.sourced import NOT_CONTENT
 from twinform.ir.tree import classes_in
 from twinform.passes.carriers.carriers import is_ours, to_element
@@ -36,9 +37,7 @@ class _Questions(NamedTuple):
 
 
 _IDENTITY = frozenset({"name", "type", "kind"})
-_ABOUT = NOT_CONTENT | {"opaque"}
-_APART = _IDENTITY | _ABOUT
-_EVEN_IF_EMPTY = NOT_CONTENT | {"kind"}
+_APART = _IDENTITY | NOT_CONTENT | {"opaque"}
 _NONE: tuple[()] = ()
 """There is only one empty tuple."""
 
@@ -115,7 +114,7 @@ def take_remainder(node: AnyNode, tag: str, known: KnownFields) -> tuple[AnyNode
         return node, [], split.endless
     kept = node.model_copy(update=split.kept)
     left = _only(node, split.left)
-    pieces = _pieces(to_element(left, tag, "sdf"), "", frozenset(split.paths), _IDENTITY & node.__dict__.keys())
+    pieces = _pieces(to_element(left, tag, "sdf"), "", frozenset(split.paths), _IDENTITY & fields_of(type(node)).keys())
     return kept, list(pieces), split.endless
 
 
@@ -125,19 +124,19 @@ def fits(node: Node, known: KnownFields) -> bool:
 
 
 def _fits(node: Node, known: KnownFields) -> bool:
-    values, kind = node.__dict__, type(node)
+    kind = type(node)
     unknown, numbers, nodes = known.questions.get(kind) or _questions(kind, known)
     for name in unknown:
-        value = values[name]
+        value = getattr(node, name)
         if value is not None and value is not _NONE:
             return False
     for name in numbers:
-        if _is_endless(values[name]):
+        if _is_endless(getattr(node, name)):
             return False
     for name, fields in nodes:
-        value = values[name]
+        value = getattr(node, name)
         if isinstance(value, Node):
-            shape = value.__dict__.get("kind")
+            shape = getattr(value, "kind", None)
             found = fields if shape is None else fields.get(shape)
             if found is None or value.opaque or not _fits(value, found):
                 return False
@@ -145,8 +144,8 @@ def _fits(node: Node, known: KnownFields) -> bool:
 
 
 def _questions(kind: type[Node], known: KnownFields) -> _Questions:
-    names = [name for name in kind.model_fields if name not in _APART]
-    numbers = (name for name in names if name in known and "float" in str(kind.model_fields[name].annotation))
+    names = [name for name in fields_of(kind) if name not in _APART]
+    numbers = (name for name in names if name in known and "float" in str(fields_of(kind)[name].type))
     nodes = ((name, inner) for name in names if (inner := known.get(name)) is not None and classes_in(kind, name))
     made = _Questions(tuple(name for name in names if name not in known), tuple(numbers), tuple(nodes))
     known.questions[kind] = made
@@ -155,7 +154,7 @@ def _questions(kind: type[Node], known: KnownFields) -> _Questions:
 
 def _split(node: Node, known: KnownFields, path: str, *, own_element: bool) -> Split:
     split = Split()
-    for name, value in node.__dict__.items():
+    for name, value in field_values(node).items():
         if value is None or value is _NONE or name in _APART:
             continue
         if name not in known:
@@ -172,7 +171,7 @@ def _split(node: Node, known: KnownFields, path: str, *, own_element: bool) -> S
 
 
 def _split_inner(split: Split, name: str, value: Node, known: KnownFields, path: str) -> None:
-    kind = value.__dict__.get("kind")
+    kind = getattr(value, "kind", None)
     if kind is not None:
         found = known.get(str(kind))
         if found is None:
@@ -195,7 +194,7 @@ def _split_inner(split: Split, name: str, value: Node, known: KnownFields, path:
 
 def _is_empty(node: Node) -> bool:
     """Whether there is nothing in a node but its own fields."""
-    return all(value in (None, ()) for name, value in node.__dict__.items() if name not in _EVEN_IF_EMPTY)
+    return all(value in (None, ()) for name, value in field_values(node).items() if name != "kind")
 
 
 def _is_endless(value: object) -> bool:
@@ -229,9 +228,7 @@ def _qualified(part: Opaque) -> str:
 
 def _only(node: Node, fields: dict[str, object]) -> Node:
     """The node with these fields alone."""
-    blank: dict[str, object] = {
-        name: _blank(node, name) for name in node.__dict__ if name not in _ABOUT and name not in _IDENTITY
-    }
+    blank = {name: _blank(node, name) for name in fields_of(type(node)) if name not in _APART}
     return node.model_copy(update={**blank, "opaque": (), **fields})
 
 
@@ -242,7 +239,7 @@ def _blank(node: Node, name: str) -> object:
 
 @cache
 def _blanks(kind: type[Node]) -> dict[str, object]:
-    return {name: field.default for name, field in kind.model_fields.items()}
+    return {name: field.default for name, field in fields_of(kind).items()}
 
 
 def _pieces(

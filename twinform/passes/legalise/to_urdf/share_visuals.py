@@ -5,7 +5,7 @@ from functools import cache
 from typing import ClassVar
 
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual, replace_fields
-from twinform.ir.sourced import NOT_CONTENT
+from twinform.ir.record import field_values
 from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.material_annotations import LOOK, look_of
@@ -85,9 +85,8 @@ def _without_look(visual: Visual, look: tuple[str, ...]) -> Visual:
 
 def _written(material: Material | None) -> Iterator[tuple[str, object]]:
     """The fields of SDF that a material has, and their values."""
-    for name in Material.model_fields if material else ():
-        value = getattr(material, name)
-        if name not in NOT_CONTENT and value not in (None, ()):
+    for name, value in field_values(material).items() if material else ():
+        if value not in (None, ()):
             yield name, value
 
 

@@ -63,19 +63,12 @@ def _differences_of_documents(data: Any, document: Document | None) -> Iterator[
 
 
 def differences_of_parts(one: object, other: object, where: str) -> Iterator[str]:
-    """What differs between two values, down to where they were read and which fields were written."""
+    """What differs between two values, down to where they were read."""
     if type(one) is not type(other):
         yield f"{where}: {one!r} and {other!r}"
     elif isinstance(one, Sourced) and isinstance(other, Sourced):
-        if one.model_fields_set != other.model_fields_set:
-            yield f"{where}: written are {one.model_fields_set} and {other.model_fields_set}"
-        if one.__pydantic_extra__ != other.__pydantic_extra__ or one.__pydantic_private__ != other.__pydantic_private__:
-            yield f"{where}: something is private or extra"
-        mine, theirs = one.__dict__, other.__dict__
-        if [*mine] != [*theirs]:
-            yield f"{where}: {[*mine]} and {[*theirs]}"
-        for name in mine.keys() & theirs.keys():
-            yield from differences_of_parts(mine[name], theirs[name], f"{where}.{name}")
+        for name in one.field_names:
+            yield from differences_of_parts(getattr(one, name), getattr(other, name), f"{where}.{name}")
     elif isinstance(one, tuple) and not isinstance(one, Source):
         yield from _differences_of_tuples(cast("Parts", one), cast("Parts", other), where)
     elif repr(one) != repr(other):  # -0 is not 0, and NaN is NaN

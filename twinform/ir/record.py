@@ -1,0 +1,243 @@
+"""`Record`: frozen objects with slots, whose values Pydantic validates where they come from people.
+
+Fields are those of dataclasses, which type checkers, `help` and Pydantic know. To import Pydantic takes longer than
+most of what a short command does, so that this waits until something is validated.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, field, fields
+from functools import cache, partial
+from inspect import Parameter, Signature
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any, ClassVar, ParamSpec, Self, TypeVar, cast, dataclass_transform
+
+if TYPE_CHECKING:
+    from pydantic import TypeAdapter
+
+Values = ParamSpec("Values")
+AnyRecord = TypeVar("AnyRecord", bound="Record")
+_MOST_SHOWN = 60
+
+
+@dataclass_transform(frozen_default=True, kw_only_default=True, eq_default=True, field_specifiers=(field,))
+def record(kind: type[AnyRecord]) -> type[AnyRecord]:
+    """Make a class of records of a class body with annotated fields.
+
+    `dataclass` would compile an initializer, `__eq__` and others for each class, which takes longer than to read a
+    robot; `Record` has them once. As `slots` makes each class a second time, methods cannot call `super()`.
+    """
+    made = cast(
+        "type[Any]", dataclass(init=False, repr=False, eq=False, slots=True, kw_only=True, match_args=False)(kind)
+    )
+    own = fields(made)
+    compared = [each.name for each in own if each.compare]
+    made.field_names = tuple(each.name for each in own)
+    made.compared_values = attrgetter(*compared or ("__class__",))
+    made.__signature__ = Signature([_parameter(each) for each in own if each.repr])
+    return made
+
+
+def _parameter(each: Field[Any]) -> Parameter:
+    default = Parameter.empty if each.default is MISSING else each.default
+    return Parameter(each.name, Parameter.KEYWORD_ONLY, default=default, annotation=each.type)
+
+
+class Record:
+    """The base class of frozen objects with slots; classes derived from it have the decorator `record`.
+
+    Objects are equal if they are of one class and their fields are, but for those with `compare=False`.
+    """
+
+    __slots__ = ("_census",)  # what `twinform.ir.census` has found, once it was asked
+
+    field_names: ClassVar[tuple[str, ...]]
+    compared_values: "ClassVar[attrgetter[Any]]"
+
+    def __init__(self, /, **values: Any) -> None:
+        _adapter(type(self)).validator.validate_python(values, self_instance=self)
+
+    @classmethod  # pyright: ignore[reportArgumentType] - a class is a callable that makes its objects
+    def unchecked(cls: Callable[Values, AnyRecord], *_: Values.args, **values: Values.kwargs) -> AnyRecord:
+        """An object of values that need no validation: they come from parts or trees that had it, or from our code.
+
+        Raises:
+            TypeError: there is no such field, or one is missing.
+        """
+        kind = cast("type[AnyRecord]", cls)
+        if missing := required_fields(kind) - values.keys():
+            raise TypeError(f"{kind.__name__} lacks {', '.join(sorted(missing))}")
+        return _maker(kind)(values)
+
+    def replace(self, **changes: Any) -> Self:
+        """The same object with other values, which are validated.
+
+        Raises:
+            ValidationError: there is no such field, or it does not take such a value.
+        """
+        return type(self)(**{name: getattr(self, name) for name in self.field_names} | changes)
+
+    def copy(self, **changes: Any) -> Self:
+        """The same object with other values that need no validation.
+
+        Raises:
+            AttributeError: there is no such field.
+        """
+        kind = self.__class__
+        new, fill, values = _copying(kind)
+        made = new()
+        fill(made, values(self))
+        for name, value in changes.items():
+            setattr(made, name, value)
+        made.__class__ = kind
+        return made
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise FrozenInstanceError(f"cannot assign to field {name!r} of a {type(self).__name__}; use replace")
+
+    def __delattr__(self, name: str) -> None:
+        raise FrozenInstanceError(f"cannot delete field {name!r} of a {type(self).__name__}")
+
+    def __eq__(self, other: object) -> bool:
+        if self.__class__ is not other.__class__:
+            return NotImplemented
+        return self.compared_values(self) == self.compared_values(other)
+
+    def __hash__(self) -> int:
+        return hash((self.__class__, self.compared_values(self)))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (self.__class__, *(getattr(self, name) for name in self.field_names))
+
+    def __repr__(self) -> str:
+        """What is written in it, on one line, without what is in the records inside it."""
+        own = ((each, getattr(self, each.name)) for each in fields(self) if each.repr)  # pyright: ignore[reportArgumentType]
+        shown = ", ".join(f"{each.name}={_brief(value)}" for each, value in own if value != each.default)
+        return f"{type(self).__name__}({shown})"
+
+    # under the names that Pydantic's models have
+
+    @classmethod
+    def model_validate(cls, obj: Any) -> Self:
+        """The object that data make, such as those of `model_dump`; one of this class stays as it is."""
+        return obj if isinstance(obj, cls) else _adapter(cls).validate_python(obj)
+
+    @classmethod
+    def model_validate_json(cls, json_data: str | bytes) -> Self:
+        """The object that a text of JSON makes."""
+        return _adapter(cls).validate_json(json_data)
+
+    @classmethod
+    def model_json_schema(cls) -> dict[str, Any]:
+        """The JSON Schema of such objects."""
+        return _adapter(cls).json_schema()
+
+    def model_dump(self, **options: Any) -> dict[str, Any]:
+        """The object as data; options are those of Pydantic."""
+        return _adapter(type(self)).dump_python(self, **options)
+
+    def model_dump_json(self, **options: Any) -> str:
+        """The object as a text of JSON; options are those of Pydantic."""
+        return _adapter(type(self)).dump_json(self, **options).decode()
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None) -> Self:
+        """A copy with other values, which are not validated; `replace` validates them."""
+        return self.copy(**(update or {}))
+
+
+def _brief(value: object) -> str:
+    if isinstance(value, Record):
+        name = getattr(value, "name", None)
+        return f"{type(value).__name__}({repr(name) if isinstance(name, str) else '...'})"
+    if isinstance(value, tuple) and value and isinstance(value[0], Record):
+        parts = cast("tuple[Record, ...]", value)
+        return f"<{len(parts)} {type(parts[0]).__name__}>"
+    text = repr(cast("object", value))
+    return text if len(text) <= _MOST_SHOWN else f"{text[: _MOST_SHOWN - 3]}..."
+
+
+@cache
+def fields_of(kind: type[Record]) -> Mapping[str, Field[Any]]:
+    """The fields of a class of records, by their names."""
+    return {each.name: each for each in fields(kind)}  # pyright: ignore[reportArgumentType]
+
+
+@cache
+def required_fields(kind: type[Record]) -> frozenset[str]:
+    """The fields that every object of a class has to be given."""
+    return frozenset(name for name, each in fields_of(kind).items() if each.default is MISSING)
+
+
+def field_values(part: Record) -> dict[str, Any]:
+    """The values of a record by their fields, but for those that take no part in equality."""
+    return {name: getattr(part, name) for name in _compared_fields(part.__class__)}
+
+
+def field_value(part: Record, name: str) -> Any:
+    """The value of a field; None where the class has no field of this name."""
+    return getattr(part, name) if name in part.field_names else None
+
+
+@cache
+def _compared_fields(kind: type[Record]) -> tuple[str, ...]:
+    """The fields that take part in equality, in their order."""
+    return tuple(name for name, each in fields_of(kind).items() if each.compare)
+
+
+def maker(kind: type[AnyRecord]) -> Callable[[dict[str, Any]], AnyRecord]:
+    """What makes objects of a class from values that need no validation and that are all there."""
+    return _maker(kind)
+
+
+@cache
+def _maker(kind: type[Any]) -> Callable[[dict[str, Any]], Any]:
+    new, fill, _ = _copying(kind)
+    defaults = {name: each.default for name, each in fields_of(kind).items()}
+
+    def make(values: dict[str, Any]) -> Any:
+        made = new()
+        try:
+            fill(made, (defaults | values).values())
+        except ValueError:
+            unknown = ", ".join(sorted(values.keys() - defaults.keys()))
+            raise TypeError(f"{kind.__name__} has no field {unknown}") from None
+        made.__class__ = kind
+        return made
+
+    return make
+
+
+def _restored(kind: type[AnyRecord], *values: object) -> AnyRecord:
+    """The object that was pickled."""
+    return _maker(kind)(dict(zip(kind.field_names, values, strict=True)))
+
+
+@cache
+def _copying(kind: type[Record]) -> tuple[Callable[[], Any], Callable[[Any, Any], None], Callable[[Any], Any]]:
+    """What makes an empty draft of an object, what fills it, and what gives the values that it is filled with.
+
+    A frozen object could be filled by `object.__setattr__`, field by field, which takes three times as long. A draft
+    has the same slots and is not frozen; it becomes the object by `__class__`. It has its own `__delattr__`, as both
+    methods share one slot of the type: with either of them in Python, each store would take the slow way.
+    """
+    if "__slots__" not in vars(kind):
+        raise TypeError(f"{kind.__name__} needs the decorator `record`")
+    writable = {"__setattr__": object.__setattr__, "__delattr__": object.__delattr__}
+    draft = type(kind.__name__, kind.__bases__, {"__slots__": vars(kind)["__slots__"], **writable})
+    names = kind.field_names
+    scope: dict[str, Any] = {}
+    targets = ", ".join(f"made.{name}" for name in names)
+    exec(f"def fill(made, values):\n    {targets}, = values\n    made._census = None", scope)  # noqa: S102 - our field names, as in namedtuple
+    return partial(object.__new__, draft), scope["fill"], attrgetter(*names)
+
+
+def amend(part: Record, name: str, value: object) -> None:
+    """Write a value into an object that was just made and that nobody else has seen: others are frozen."""
+    object.__setattr__(part, name, value)
+    object.__setattr__(part, "_census", None)
+
+
+@cache
+def _adapter(kind: type[AnyRecord]) -> "TypeAdapter[AnyRecord]":
+    from pydantic import TypeAdapter  # noqa: PLC0415 - see the docstring of the module
+
+    return TypeAdapter(kind)
