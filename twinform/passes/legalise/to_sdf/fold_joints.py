@@ -19,7 +19,8 @@ class FoldJoints(ModelPass):
     Changes: 1. the last joint of a chain has its type, parent and place again, and the axes as the chain has them now;
     2. the other joints and the links between go; 3. what mimics the first joint of two mimics `axis` of the one, what
     mimics the last `axis2`.
-    Never touches: chains that were edited so that they are not such a joint any more; their annotations go, and
+    Never touches: chains that were edited so that they are not such a joint any more, or of which another joint mimics
+    a part that the one joint has no axis for; their annotations go, and
     so does the mimic of a slide that has nothing to follow any more.
     Diagnostics: `stale-carrier`, also for parts whose own names get lost.
     """
