@@ -75,7 +75,7 @@ def test_what_is_no_size_is_an_error(text: str) -> None:
         parse_size(text)
 
 
-@pytest.mark.parametrize("value", [0, -1, True, 1.5, "64MB", None])
+@pytest.mark.parametrize("value", [0, -1, True, 1.5, "64MB"])
 def test_limits_are_positive_whole_numbers(value: Any) -> None:
     with pytest.raises(ValueError, match="max_size has to be a positive whole number"):
         twinform.check(b"<robot/>", max_size=value)
