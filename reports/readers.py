@@ -14,9 +14,9 @@ from reports.harness.pages import section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample, judged_files
 from tests.corpus.files import CORPUS, ROOT, CorpusFile, Kind
+from tests.engines.readers import READERS, Reader
+from tests.engines.readers.judging import Effect, effect, without_carriers
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
-from twinform.testing.oracles.readers import READERS, Reader
-from twinform.testing.oracles.readers.judging import Effect, effect, without_carriers
 
 SAMPLE = 25
 """How many corpus files of each kind are converted and read."""

@@ -13,9 +13,9 @@ import pytest
 
 import twinform
 from tests.corpus.files import ROOT
-from twinform.testing import Edit
-from twinform.testing.edits.judging import Outcome, judge, judge_edits, unedited
-from twinform.testing.edits.plainly import Plainly
+from tests.edits import Edit
+from tests.edits.judging import Outcome, judge, judge_edits, unedited
+from tests.edits.plainly import Plainly
 
 CASES = Path(__file__).parent / "cases" / "edits"
 _WISH = re.compile(r"<!-- (edit|refused|pass): (.*?) -->")

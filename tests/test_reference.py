@@ -19,7 +19,6 @@ _ELSEWHERE = {
     "twinform.view.Subject": "what `read_subject` gives to the viewer",
     "twinform.view.ViewerMissingError": "a ViewError",
     "twinform.testing.CheckOptions": "a part of a `Case`",
-    "twinform.testing.Edit": "drawn by a strategy",
     "twinform.testing.Finding": "a part of a `Case`",
 }
 

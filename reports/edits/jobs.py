@@ -17,11 +17,11 @@ from reports.harness.files import kept
 from tests.corpus.examine import rules_of
 from tests.corpus.files import CORPUS, CorpusFile, Kind, models
 from tests.corpus.there_and_back import robots
-from twinform.testing.edits import Edit, apply_all, draw_edits
-from twinform.testing.edits.judging import Converted, Outcome, Verdict, judge, judge_edits, unedited
-from twinform.testing.edits.mistakes import KIND as MISTAKE
-from twinform.testing.edits.plainly import Plainly
-from twinform.testing.edits.trips import TRIPS, Draw, trips
+from tests.edits import Edit, apply_all, draw_edits
+from tests.edits.judging import Converted, Outcome, Verdict, judge, judge_edits, unedited
+from tests.edits.mistakes import KIND as MISTAKE
+from tests.edits.plainly import Plainly
+from tests.edits.trips import TRIPS, Draw, trips
 
 OUT = files.OUT / "edits"
 MOST_BYTES = 400_000

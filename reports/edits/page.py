@@ -13,11 +13,11 @@ from reports.harness.known import Known
 from reports.harness.pages import listing, section, table
 from reports.harness.sample import Sample
 from reports.oracle.judging import DRAKE
+from tests.edits.judging import Outcome
 from twinform.compiler.workers import Failure
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.transforms.notation import OFFSET
 from twinform.testing import oracles
-from twinform.testing.edits.judging import Outcome
 from twinform.testing.oracles.comparison import chained, renamed
 from twinform.testing.oracles.in_process import read_robot, verdict_on
 from twinform.testing.oracles.robot import Robot, View

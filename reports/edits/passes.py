@@ -8,7 +8,7 @@ from random import Random
 from lxml import etree
 
 from tests.corpus.files import ROOT
-from twinform.testing.edits.scene import Scene, name_of
+from tests.edits.scene import Scene, name_of
 
 _GUESTS = ("examples/crate/model.sdf", "examples/gripper.urdf", "reports/edits/nested.sdf")
 _ALWAYS = {

@@ -15,13 +15,13 @@ from lxml import etree
 import twinform
 from reports.edits.jobs import MOST_BYTES, Job
 from tests.corpus.examine import rules_of
+from tests.edits import Edit, draw_edits
+from tests.edits.mistakes import KIND as MISTAKE
 from twinform.compiler import ConversionRequest, Language, LoadOptions, SearchPath
 from twinform.compiler.compare import ComparisonOptions, compare_files
 from twinform.compiler.in_place import Updated
 from twinform.compiler.into import convert_into
 from twinform.schemas import XmlElement, versions_of
-from twinform.testing.edits import Edit, draw_edits
-from twinform.testing.edits.mistakes import KIND as MISTAKE
 
 _VERSIONS = ("1.11",) * 7 + ("1.9", "1.8", "1.6")
 _ELEMENT = re.compile(r"<\w")

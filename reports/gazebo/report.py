@@ -10,8 +10,8 @@ from reports.harness.needs import need
 from reports.harness.pages import section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample
-from twinform.testing.oracles import gazebo
-from twinform.testing.oracles.gazebo.differing import short
+from tests.engines import gazebo
+from tests.engines.gazebo.differing import short
 
 _ABOUT = """\
 Each row is a small model that was loaded into the engines of gz-physics 5 with libsdformat 12, those of Gazebo

@@ -14,9 +14,9 @@ from reports.harness import files
 from reports.harness.files import kept
 from reports.harness.known import Known
 from tests.corpus.files import CorpusFile
+from tests.engines import gazebo
 from twinform.compiler.workers import Failure, run
 from twinform.schemas import XmlElement
-from twinform.testing.oracles import gazebo
 
 OUT = files.OUT / "gazebo_ready"
 KNOWN = Known.beside(__file__)

@@ -11,10 +11,10 @@ from reports.harness import files
 from reports.harness.files import SDF_VERSION, converted, kept
 from reports.harness.known import Known
 from tests.corpus.files import CorpusFile, Kind
+from tests.engines import gazebo
+from tests.engines.gazebo.comparison import differences
+from tests.engines.gazebo.differing import Difference, Tolerances
 from twinform.compiler.workers import Failure, run
-from twinform.testing.oracles import gazebo
-from twinform.testing.oracles.gazebo.comparison import differences
-from twinform.testing.oracles.gazebo.differing import Difference, Tolerances
 
 OUT = files.OUT / "gazebo"
 KNOWN = Known.beside(__file__)

@@ -10,7 +10,7 @@ from reports.harness.needs import corpus, gazebo
 from reports.harness.pages import grouped, listing, section, table
 from reports.harness.report import Findings, Report
 from reports.harness.sample import Sample, judged_files
-from twinform.testing.oracles.gazebo.differing import AT_REST, MOVED
+from tests.engines.gazebo.differing import AT_REST, MOVED
 
 MOST_SHOWN = 60
 _ABOUT = f"""\

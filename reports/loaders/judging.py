@@ -10,12 +10,12 @@ from pathlib import Path
 from lxml import etree
 
 from reports.harness.files import OUT
+from tests.engines.readers import LOADERS, Kept, Loader, Reading, Verdict
+from tests.engines.readers.recalled import Recalled
 from twinform.compiler.input.options import LoadOptions
 from twinform.compiler.profiling import assess_file
 from twinform.profiles import Assessment, Effect, Judgment, names, parse
 from twinform.schemas import XmlElement
-from twinform.testing.oracles.readers import LOADERS, Kept, Loader, Reading, Verdict
-from twinform.testing.oracles.readers.recalled import Recalled
 
 _MOVING = frozenset({"revolute", "continuous", "prismatic"})
 _LOSING = frozenset({Effect.DROPS, Effect.MISREADS})

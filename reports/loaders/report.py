@@ -13,8 +13,8 @@ from reports.harness.sample import Sample
 from reports.loaders.judging import Difference, Job, Pair, asked, pairs
 from tests.corpus.files import Kind
 from tests.differential.mutated import mutated
-from twinform.testing.oracles.readers import LOADERS, Verdict
-from twinform.testing.oracles.readers.meshless import without_meshes
+from tests.engines.readers import LOADERS, Verdict
+from tests.engines.readers.meshless import without_meshes
 
 KNOWN = Known(Path(__file__).with_name("known.toml"), lambda text, pattern: re.search(pattern, text))
 MUTATED = 2000

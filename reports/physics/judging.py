@@ -10,6 +10,7 @@ from reports.harness import files
 from reports.harness.files import kept
 from reports.physics.applying import NotApplicableError, applied, reshaped
 from tests.corpus.files import CorpusFile, Kind
+from tests.engines.readers.meshless import without_meshes
 from twinform import Conversion
 from twinform.compiler import Language, LoadOptions, expand, read
 from twinform.compiler.fitting import assessed, newest_sdf
@@ -20,7 +21,6 @@ from twinform.profiles import load, names
 from twinform.profiles.physics import of_ledger
 from twinform.profiles.remedies import remedies
 from twinform.testing import oracles
-from twinform.testing.oracles.readers.meshless import without_meshes
 
 OUT = files.OUT / "physics"
 _TOLERANT = LoadOptions(tolerant=True)

@@ -16,13 +16,13 @@ from reports.harness.sample import Sample
 from reports.loaders.judging import recalled
 from reports.loaders.report import absent
 from tests.corpus.files import CorpusFile, Kind
+from tests.engines.readers import LOADERS
+from tests.engines.readers.meshless import without_meshes
 from twinform.compiler.conversion import convert_once
 from twinform.compiler.fitting import assessed, fitted
 from twinform.compiler.input.options import LoadOptions
 from twinform.compiler.request import ConversionRequest
 from twinform.profiles import findings, parse
-from twinform.testing.oracles.readers import LOADERS
-from twinform.testing.oracles.readers.meshless import without_meshes
 
 KNOWN = Known(Path(__file__).with_name("known.toml"), lambda text, pattern: re.search(pattern, text))
 _SECONDS = 600

@@ -9,6 +9,7 @@ from lxml import etree
 
 from tests.differential.mutants import mutant
 from tests.profile import DEEP
+from tests.schema_documents import document
 from twinform.diagnostics import DiagnosticSink
 from twinform.schemas import (
     Context,
@@ -21,7 +22,6 @@ from twinform.schemas import (
     xmlschema_errors,
 )
 from twinform.schemas.packaged import schema_text
-from twinform.testing.documents import document
 
 CHUNKS = 20
 EACH = 5000 if DEEP else 50

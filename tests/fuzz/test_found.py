@@ -9,8 +9,8 @@ from lxml import etree
 from tests.differential.mutants import mutant
 from tests.fuzz.table import TARGETS
 from tests.profile import DEEP
+from tests.schema_documents import document
 from twinform.schemas import table
-from twinform.testing.documents import document
 
 _FOUND = Path(__file__).with_name("found")
 _VERSIONS = [(format, version) for format in ("urdf", "sdf") for version in table(format).versions]

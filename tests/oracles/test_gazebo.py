@@ -8,12 +8,12 @@ from click.testing import CliRunner
 from lxml import etree
 
 import twinform
+from tests.engines import gazebo
+from tests.engines.gazebo.comparison import differences
+from tests.engines.gazebo.differing import Tolerances, short
+from tests.engines.gazebo.joints import chains
+from tests.engines.gazebo.reading import console
 from twinform.cli import main
-from twinform.testing.oracles import gazebo
-from twinform.testing.oracles.gazebo.comparison import differences
-from twinform.testing.oracles.gazebo.differing import Tolerances, short
-from twinform.testing.oracles.gazebo.joints import chains
-from twinform.testing.oracles.gazebo.reading import console
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SDF_VERSION = "1.9"

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from lxml import etree
 
 import twinform
+from tests.engines.readers import READERS, Reader
+from tests.engines.readers.judging import Effect, effect, without_carriers
 from twinform.schemas import XmlElement
-from twinform.testing.oracles.readers import READERS, Reader
-from twinform.testing.oracles.readers.judging import Effect, effect, without_carriers
 
 SDF_VERSION = "1.9"
 """The newest that libsdformat 12 reads."""

@@ -6,11 +6,11 @@ from typing import Any
 
 import pytest
 
+from tests.engines.readers import LOADERS, Loader
 from tests.profile import DEEP
 from twinform.compiler.input.options import LoadOptions
 from twinform.compiler.profiling import assess_file
 from twinform.profiles import Assessment, Effect, parse
-from twinform.testing.oracles.readers import LOADERS, Loader
 
 _INERTIAL = '<inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 _LIMIT = '<limit lower="-1" upper="1" effort="10" velocity="1"/>'

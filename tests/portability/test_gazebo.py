@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 
 import twinform
+from tests.engines import gazebo
 from twinform.compiler.input.options import LoadOptions
 from twinform.compiler.profiling import assess_file
 from twinform.profiles import Assessment, Effect, parse
-from twinform.testing.oracles import gazebo
 
 _PROFILE = "gazebo@fortress"
 _INERTIAL = (

@@ -13,9 +13,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.engines.readers import LOADERS, Loader
 from tests.profile import DEEP
 from twinform.profiles.reading import read_as
-from twinform.testing.oracles.readers import LOADERS, Loader
 
 FOLDER = Path(__file__).with_name("probes")
 PROFILES = (

@@ -7,40 +7,42 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.edits import Edit, apply_all, draw_edits
+from tests.edits.judging import unedited
+from tests.edits.properties import assert_edits_win
+from tests.edits.strategies import edited_files
+from tests.edits.trips import TRIPS, trips
 from tests.profile import examples
-from twinform.testing import Edit, assert_edits_of_a_file_win, strategies
-from twinform.testing.edits import apply_all, draw_edits
-from twinform.testing.edits.judging import unedited
-from twinform.testing.edits.trips import TRIPS, trips
+from twinform.testing import strategies
 
 _SETTINGS = examples(2)
 _FEW = examples(0.4)
 
 
 @_SETTINGS
-@given(strategies.edited_files(models=strategies.robots(max_links=4)))
+@given(edited_files(models=strategies.robots(max_links=4)))
 def test_an_edit_of_sdf_that_was_urdf_wins(edited: tuple[bytes, tuple[Edit, ...]]) -> None:
-    assert_edits_of_a_file_win(*edited)
+    assert_edits_win(*edited)
 
 
 @_SETTINGS
-@given(strategies.edited_files(models=strategies.sdf_models(max_links=4)))
+@given(edited_files(models=strategies.sdf_models(max_links=4)))
 def test_an_edit_of_urdf_that_was_sdf_wins(edited: tuple[bytes, tuple[Edit, ...]]) -> None:
-    assert_edits_of_a_file_win(*edited)
+    assert_edits_win(*edited)
 
 
 @pytest.mark.parametrize("version", ["1.6", "1.8", "1.9"])
 def test_an_edit_of_older_sdf_wins(version: str) -> None:
     @_FEW
-    @given(strategies.edited_files(models=strategies.robots(max_links=3), sdf_version=version))
+    @given(edited_files(models=strategies.robots(max_links=3), sdf_version=version))
     def wins(edited: tuple[bytes, tuple[Edit, ...]]) -> None:
-        assert_edits_of_a_file_win(*edited)
+        assert_edits_win(*edited)
 
     wins()
 
 
 @_FEW
-@given(strategies.edited_files())
+@given(edited_files())
 def test_an_edit_that_is_printed_and_read_is_itself(edited: tuple[bytes, tuple[Edit, ...]]) -> None:
     text, edits = edited
     again = [Edit.from_text(str(edit)) for edit in edits]
@@ -49,7 +51,7 @@ def test_an_edit_that_is_printed_and_read_is_itself(edited: tuple[bytes, tuple[E
 
 
 @_FEW
-@given(strategies.edited_files(), st.randoms(use_true_random=False))
+@given(edited_files(), st.randoms(use_true_random=False))
 def test_edits_between_trips_win(edited: tuple[bytes, tuple[Edit, ...]], random: Random) -> None:
     made = list(trips(unedited(edited[0]), [partial(draw_edits, random=random)] * TRIPS))
     assert made[-1].verdict.differences == (), "\n".join(str(edit) for trip in made for edit in trip.edits)

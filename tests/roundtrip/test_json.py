@@ -13,13 +13,13 @@ from hypothesis import strategies as st
 import twinform
 from tests.json_judge import complaints
 from tests.profile import examples
+from tests.schema_documents import document as xml_document
 from twinform.compiler import CompileError
 from twinform.compiler.output.json import json_data
 from twinform.ir import Document
 from twinform.schemas import table
 from twinform.schemas.json_check import is_array, is_object, json_faults
 from twinform.testing import strategies
-from twinform.testing.documents import document as xml_document
 
 _VALUES: tuple[Any, ...] = (
     None, True, False, 0, 1, -1, 1.5, 1e300, 10**400, "", "a", "Infinity", "inf", "1", " ", "a\x00", "\ud800", [], {},

@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 from lxml import etree
 
 import twinform
+from tests.edits.strategies import mutations
+from tests.mutations import Mutation
 from tests.profile import examples
 from twinform.compiler.normal_form import Discrepancy, NormalForm
 from twinform.compiler.output.emitting import emit
@@ -14,7 +16,6 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.schemas import XmlElement
 from twinform.testing import strategies
-from twinform.testing.mutations import Mutation
 
 _SETTINGS = examples(0.5)
 _MODELS = strategies.robots(max_links=6) | strategies.sdf_models(max_links=6)
@@ -74,8 +75,8 @@ def test_what_may_be_left_out_of_a_normal_form_changes_no_robot(model: Document,
 
 @_SETTINGS
 @given(
-    st.tuples(strategies.robots(max_links=6), strategies.mutations(format="urdf"))
-    | st.tuples(strategies.sdf_models(max_links=6), strategies.mutations(format="sdf"))
+    st.tuples(strategies.robots(max_links=6), mutations(format="urdf"))
+    | st.tuples(strategies.sdf_models(max_links=6), mutations(format="sdf"))
 )
 def test_another_robot_has_another_normal_form(drawn: tuple[Document, Mutation]) -> None:
     model, mutation = drawn

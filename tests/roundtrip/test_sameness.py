@@ -5,13 +5,13 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import twinform
+from tests.mutations import MUTATIONS, OF_SDF, OF_URDF, mutate
 from tests.profile import examples
 from twinform import Comparison
 from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.testing import strategies
-from twinform.testing.mutations import MUTATIONS, OF_SDF, OF_URDF, mutate
 
 _SETTINGS = examples(0.5)
 _FEW = examples(0.05)

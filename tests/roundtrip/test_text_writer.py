@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import twinform
+from tests.edits.strategies import xml_documents
 from tests.profile import examples
 from twinform.compiler.output.emitting import document_tree, serialized, text_without_tree
 from twinform.ir import Document, Element, Opaque, Pose
@@ -54,7 +55,7 @@ def test_a_model_in_urdf_is_written_as_by_the_tree_writer(model: Document) -> No
 @pytest.mark.parametrize("version", table("sdf").versions)
 def test_every_version_is_written_as_by_the_tree_writer(version: str) -> None:
     @examples(0.1)
-    @given(strategies.xml_documents(version=version))
+    @given(xml_documents(version=version))
     def is_written(text: bytes) -> None:
         document = twinform.check(text).document
         assert document is None or _assert_same(document) != ""
@@ -63,7 +64,7 @@ def test_every_version_is_written_as_by_the_tree_writer(version: str) -> None:
 
 
 @examples(0.3)
-@given(strategies.xml_documents(format="urdf"))
+@given(xml_documents(format="urdf"))
 def test_urdf_that_the_schema_takes_is_written_as_by_the_tree_writer(text: bytes) -> None:
     document = twinform.check(text).document
     assert document is None or _assert_same(document) != ""

@@ -15,11 +15,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from twinform.testing import strategies
     from twinform.testing.case_files import Case, CheckOptions, Finding, cases
-    from twinform.testing.edits import Edit
     from twinform.testing.pass_case_files import PassCase, pass_cases
     from twinform.testing.properties import (
-        assert_edits_of_a_file_win,
-        assert_edits_win,
         assert_pass_contract,
         assert_round_trip,
         assert_same_robot,
@@ -29,11 +26,8 @@ if TYPE_CHECKING:
 __all__ = [
     "Case",
     "CheckOptions",
-    "Edit",
     "Finding",
     "PassCase",
-    "assert_edits_of_a_file_win",
-    "assert_edits_win",
     "assert_pass_contract",
     "assert_round_trip",
     "assert_same_robot",
@@ -46,8 +40,6 @@ __all__ = [
 _MODULES = {
     **dict.fromkeys(("Case", "CheckOptions", "Finding", "cases"), "case_files"),
     **dict.fromkeys(("PassCase", "pass_cases"), "pass_case_files"),
-    "Edit": "edits",
-    **dict.fromkeys(("assert_edits_of_a_file_win", "assert_edits_win"), "properties"),
     **dict.fromkeys(("assert_pass_contract", "assert_round_trip", "assert_same_robot", "assert_valid"), "properties"),
 }
 

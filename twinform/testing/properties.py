@@ -3,7 +3,6 @@
 A model is a document, a path, or the text or bytes of a file.
 """
 
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Literal
 
@@ -16,8 +15,6 @@ from twinform.diagnostics.reporters import REPORTERS, Findings
 from twinform.ir import Document
 from twinform.ir.verify import verify
 from twinform.passes import Pass
-from twinform.testing.edits import Edit, apply_all
-from twinform.testing.edits.judging import judge_edits, unedited
 from twinform.testing.round_trips import RoundTrip
 
 Model = Document | Path | str | bytes
@@ -60,26 +57,6 @@ def assert_same_robot(one: Model, other: Model) -> None:
     """Two models describe the same robot, of whatever formats."""
     found = diff(_text(one)[0], _text(other)[0], carriers=True).differences
     assert not found, "they are not the same robot:\n" + "\n".join(each.message for each in found[:20])
-
-
-def assert_edits_win(model: Model, edits: Iterable[Edit], *, sdf_version: str | None = None) -> None:
-    """What stands in a file is what counts: a model is converted, edited, and converted on.
-
-    The edited file and its result are the same robot, also for those who do not know our carriers, or the edited file
-    is refused by an error with a line.
-    """
-    text, _ = _text(model)
-    is_urdf = assert_valid(model).format == "urdf"
-    there = _converted(text, "sdf" if is_urdf else "urdf", sdf_version if is_urdf else None)
-    assert_edits_of_a_file_win(there.encode(), edits)
-
-
-def assert_edits_of_a_file_win(converted: bytes, edits: Iterable[Edit]) -> None:
-    """The same of a file that was converted before."""
-    every = tuple(edits)
-    verdict = judge_edits(unedited(converted), every, apply_all(every, converted))
-    history = "\n".join(map(str, every))
-    assert not verdict.is_fault, "\n".join((f"{verdict.outcome} after {history}:", *verdict.differences[:20]))
 
 
 def assert_pass_contract(step: Pass, model: Model, *, idempotent: bool = False) -> Document:

@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, Phase, find, given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
+from tests.edits.strategies import mutations, xml_documents
 from tests.profile import DEEP
 from twinform.ir import Document, Format, Inertial, Joint, Link, Model, Node, Pose
 from twinform.schemas import libxml2_errors, parse_version, table
@@ -45,7 +46,7 @@ VERSIONS = [(format, version) for format in LANGUAGES for version in table(forma
 @pytest.mark.parametrize(("format", "version"), VERSIONS)
 def test_an_xml_document_is_accepted_by_the_schema_of_its_version(format: Literal["urdf", "sdf"], version: str) -> None:
     @_FEW
-    @given(strategies.xml_documents(format=format, version=version))
+    @given(xml_documents(format=format, version=version))
     def accepted(text: bytes) -> None:
         assert libxml2_errors(etree.fromstring(text), format, parse_version(version)) == []
 
@@ -53,7 +54,7 @@ def test_an_xml_document_is_accepted_by_the_schema_of_its_version(format: Litera
 
 
 @_FEW
-@given(strategies.robots(), strategies.mutations(format="urdf"))
+@given(strategies.robots(), mutations(format="urdf"))
 def test_a_mutation_makes_another_document(robot: Document, mutation: Callable[[Document], Document | None]) -> None:
     assert mutation(robot) != robot
 
@@ -78,7 +79,7 @@ IMPOSSIBLE: dict[str, Callable[[], Any]] = {
     "a shape that there is not": lambda: strategies.geometries(shapes=(Link,)),
     "a joint that URDF does not have": lambda: strategies.joints(types=("ball",)),
     "a joint that SDF does not have": lambda: strategies.joints(format="sdf", types=("floating",)),
-    "a version that there is not": lambda: strategies.xml_documents(version="3.0"),
+    "a version that there is not": lambda: xml_documents(version="3.0"),
     "a format that there is not": lambda: strategies.links(format="mjcf"),
 }
 

@@ -6,24 +6,19 @@ Arguments are keyword-only and describe valid values; one that no value can sati
 """
 
 from twinform.testing.strategies._bodies import geometries, inertials, links
-from twinform.testing.strategies._edits import edited_files, edits, mutations, xml_documents
 from twinform.testing.strategies._joints import joints
 from twinform.testing.strategies._models import robots, sdf_models, worlds
 from twinform.testing.strategies._values import numbers, poses, vectors
 
 __all__ = [
-    "edited_files",
-    "edits",
     "geometries",
     "inertials",
     "joints",
     "links",
-    "mutations",
     "numbers",
     "poses",
     "robots",
     "sdf_models",
     "vectors",
     "worlds",
-    "xml_documents",
 ]

@@ -6,13 +6,13 @@ import pytest
 from lxml import etree
 
 import twinform
+from tests.engines.readers.judging import without_carriers
 from twinform import Comparison
 from twinform.compiler.compare import Difference, Severity
 from twinform.compiler.compare.part_reader import PartReader
 from twinform.compiler.compare.readers import Reader, reconcile
 from twinform.ir import Document, Joint, Link, Model, World
 from twinform.ir.transform import Transform
-from twinform.testing.oracles.readers.judging import without_carriers
 
 _CASES = Path(__file__).parents[3] / "cases/convert"
 _RESULTS = sorted(each for each in _CASES.glob("*.expected.*") if b"urn:twinform:1" in each.read_bytes())

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 import twinform
+from tests.edits import Edit
 from twinform.ir.kinematic_tree import KinematicTree
-from twinform.testing import Edit
 
 _CASE = Path(__file__).parents[4] / "cases" / "edits" / "moved_tool.urdf"
 _EDITS = re.findall(r"<!-- edit: (.*?) -->", _CASE.read_text(encoding="utf-8"))

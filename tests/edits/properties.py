@@ -1,0 +1,17 @@
+"""What has to hold for edits of a converted file: what stands in it is what counts."""
+
+from collections.abc import Iterable
+
+from tests.edits.edit import Edit, apply_all
+from tests.edits.judging import judge_edits, unedited
+
+
+def assert_edits_win(converted: bytes, edits: Iterable[Edit]) -> None:
+    """The edited file and what it is converted to are the same robot, or the edited file is refused with a line.
+
+    It is the same robot also for those who do not know our carriers.
+    """
+    every = tuple(edits)
+    verdict = judge_edits(unedited(converted), every, apply_all(every, converted))
+    history = "\n".join(map(str, every))
+    assert not verdict.is_fault, "\n".join((f"{verdict.outcome} after {history}:", *verdict.differences[:20]))

@@ -1,0 +1,74 @@
+"""Strategies for edits of converted files, mutations of models, and XML documents that a schema accepts."""
+
+from random import Random
+from typing import Literal
+
+from hypothesis import strategies as st
+
+from tests.edits import Edit, draw_edits
+from tests.edits.drawing import MOST
+from tests.mutations import MUTATIONS, OF_SDF, OF_URDF, Mutation
+from tests.schema_documents import document
+from twinform.compiler import convert
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import DiagnosticSink
+from twinform.ir import Document, Format
+from twinform.schemas import versions_of
+from twinform.testing.strategies._models import robots, sdf_models
+
+EditedFile = tuple[bytes, tuple[Edit, ...]]
+
+
+def edits(*, text: bytes, max_size: int = MOST) -> st.SearchStrategy[tuple[Edit, ...]]:
+    """One edit of a URDF or SDF file, or a few that are made one after the other."""
+    if max_size < 1:
+        raise ValueError(f"at most {max_size} edits: there is at least one")
+
+    def draw(random: Random) -> tuple[Edit, ...]:
+        return draw_edits(text, random, most=max_size)[0]
+
+    return st.builds(draw, st.randoms(use_true_random=False))
+
+
+def edited_files(
+    *, models: st.SearchStrategy[Document] | None = None, max_size: int = MOST, sdf_version: str | None = None
+) -> st.SearchStrategy[EditedFile]:
+    """What a model becomes in the other format, and edits of that file."""
+
+    def edit(text: bytes) -> st.SearchStrategy[EditedFile]:
+        return st.tuples(st.just(text), edits(text=text, max_size=max_size))
+
+    def convert_(model: Document) -> bytes:
+        to_sdf = model.format is Format.URDF
+        made = convert(
+            emit(model, DiagnosticSink()).encode(),
+            to="sdf" if to_sdf else "urdf",
+            sdf_version=sdf_version if to_sdf else None,
+        )
+        return made.text.encode()
+
+    drawn = models if models is not None else robots(max_links=4) | sdf_models(max_links=4)
+    return drawn.map(convert_).flatmap(edit)
+
+
+def mutations(*, format: Format | str | None = None) -> st.SearchStrategy[Mutation]:
+    """Changes that make another robot: each takes a document and gives the changed one, or None if it has no place."""
+    foreign = {None: frozenset[str](), Format.URDF: OF_SDF, Format.SDF: OF_URDF}[Format(format) if format else None]
+    return st.sampled_from([Mutation(name) for name in MUTATIONS if name not in foreign])
+
+
+def xml_documents(*, format: Literal["urdf", "sdf"] = "sdf", version: str | None = None) -> st.SearchStrategy[bytes]:
+    """Documents that the schema of a version accepts, of any version where none is given.
+
+    They have all elements and attributes of the format, with values that fit; names need not refer to anything, so
+    that such a document need not be a model.
+    """
+    versions = versions_of(format)
+    if version is not None and version not in versions:
+        raise ValueError(f"{format} has no version {version!r}; it has {', '.join(versions)}")
+
+    def make(random: Random, chosen: str) -> bytes:
+        return document(random, format, chosen)
+
+    chosen = st.sampled_from(versions) if version is None else st.just(version)
+    return st.builds(make, st.randoms(use_true_random=False), chosen)

@@ -1,0 +1,1 @@
+"""Programs that judge what we write and need more than a wheel: Gazebo's physics, and nine loaders of models."""
