@@ -44,9 +44,10 @@ class Report:
         """The page of all that there is."""
         return ROOT / "docs" / self.folder / f"{self.name}.md"
 
-    def text(self, found: Findings) -> str:
-        """The page."""
-        origin = f"Made by `make report NAME={self.name}`."
+    def text(self, found: Findings, every: int = 1) -> str:
+        """The page, of one of `every` models."""
+        share = f' ARGS="--every {every}"`, from one of {every} models.' if every != 1 else "`."
+        origin = f"Made by `make report NAME={self.name}{share}"
         return paragraphs(f"# {self.title}", origin, self.about, *found.sections) + "\n"
 
 
@@ -63,7 +64,7 @@ def run(report: Report, arguments: Sequence[str]) -> int:
     sample = Sample(given.every, tuple(given.file), given.seed, given.jobs, tuple(given.inputs))
     is_whole = sample.every == 1 and not sample.files and sample.seed == report.seed
     found = report.measure(sample)
-    text = report.text(found)
+    text = report.text(found, sample.every)
     if given.check:
         return _check(report.page, text)
     page: Path | None = given.output or (report.page if is_whole else None)

@@ -74,8 +74,9 @@ def _report(faults: tuple[str, ...] = (), missing: str = "") -> Report:
 
 def test_a_sample_is_printed_and_written_where_the_option_says(capsys: pytest.CaptureFixture[str], tmp_path: Path):
     text = "# Nothing\n\nMade by `make report NAME=none`.\n\nAbout.\n\nText.\n"
+    part = text.replace("none`.", 'none ARGS="--every 2"`, from one of 2 models.')
     assert run(_report(), ["--every", "2"]) == 0
-    assert capsys.readouterr().out == f"{text}\n"
+    assert capsys.readouterr().out == f"{part}\n"
     assert run(_report(), ["--output", str(tmp_path / "new" / "page.md")]) == 0
     assert (tmp_path / "new" / "page.md").read_text() == text
     assert not _report().page.exists()
