@@ -34,7 +34,7 @@ Change = Callable[[Any], Node | None]
 
 
 def _set(**fields: object) -> Change:
-    return lambda node: node.model_copy(update=fields)
+    return lambda node: node.copy(**fields)
 
 
 def _by(field: str, change: Callable[[Any], object]) -> Change:
@@ -42,7 +42,7 @@ def _by(field: str, change: Callable[[Any], object]) -> Change:
 
     def apply(node: Any) -> Node | None:
         value = getattr(node, field)
-        return None if value is None else node.model_copy(update={field: change(value)})
+        return None if value is None else node.copy(**{field: change(value)})
 
     return apply
 
@@ -50,13 +50,13 @@ def _by(field: str, change: Callable[[Any], object]) -> Change:
 def _pushed(node: Any) -> Node:
     pose = node.pose or Pose()
     x, y, z = pose.xyz or (0.0, 0.0, 0.0)
-    return node.model_copy(update={"pose": pose.model_copy(update={"xyz": (x, y + 0.001, z)})})
+    return node.copy(pose=pose.copy(xyz=(x, y + 0.001, z)))
 
 
 def _turned(node: Any) -> Node:
     pose = node.pose or Pose()
     roll, pitch, yaw = pose.rpy or (0.0, 0.0, 0.0)
-    return node.model_copy(update={"pose": pose.model_copy(update={"rpy": (roll, pitch, yaw + 0.001)})})
+    return node.copy(pose=pose.copy(rpy=(roll, pitch, yaw + 0.001)))
 
 
 def _of_type(*types: str) -> Callable[[Joint], bool]:
@@ -68,7 +68,7 @@ _TURNING = {"revolute": "prismatic", "prismatic": "revolute"}
 
 
 def _other_type(joint: Joint) -> Joint | None:
-    return joint.model_copy(update={"type": _TURNING[joint.type]}) if joint.type in _TURNING else None
+    return joint.copy(type=_TURNING[joint.type]) if joint.type in _TURNING else None
 
 
 def _in_axis(change: Change) -> Change:
@@ -76,7 +76,7 @@ def _in_axis(change: Change) -> Change:
 
     def apply(joint: Joint) -> Node | None:
         axis = change(joint.axis) if _MOVING(joint) and joint.axis else None
-        return joint.model_copy(update={"axis": axis}) if axis else None
+        return joint.copy(axis=axis) if axis else None
 
     return apply
 
@@ -85,8 +85,8 @@ def _in_limit(field: str, step: float) -> Change:
     def apply(axis: Axis) -> Node | None:
         limit = axis.limit or Limit()
         value = getattr(limit, field)
-        made = None if value is None else limit.model_copy(update={field: value + step})
-        return axis.model_copy(update={"limit": made}) if made else None
+        made = None if value is None else limit.copy(**{field: value + step})
+        return axis.copy(limit=made) if made else None
 
     return _in_axis(apply)
 
@@ -94,22 +94,22 @@ def _in_limit(field: str, step: float) -> Change:
 def _in_dynamics(field: str) -> Change:
     def apply(axis: Axis) -> Node | None:
         dynamics = axis.dynamics or Dynamics()
-        made = dynamics.model_copy(update={field: (getattr(dynamics, field) or 0.0) + 0.01})
-        return axis.model_copy(update={"dynamics": made})
+        made = dynamics.copy(**{field: (getattr(dynamics, field) or 0.0) + 0.01})
+        return axis.copy(dynamics=made)
 
     return _in_axis(apply)
 
 
 def _skewed(axis: Axis) -> Axis:
-    return axis.model_copy(update={"xyz": (0.0, 0.6, 0.8)})
+    return axis.copy(xyz=(0.0, 0.6, 0.8))
 
 
 def _heavier(inertia: Inertia) -> Inertia | None:
-    return inertia.model_copy(update={"izz": inertia.izz * (1 - 1e-6)}) if inertia.izz else None
+    return inertia.copy(izz=inertia.izz * (1 - 1e-6)) if inertia.izz else None
 
 
 def _without(field: str) -> Change:
-    return lambda node: node.model_copy(update={field: getattr(node, field)[1:]}) if getattr(node, field) else None
+    return lambda node: node.copy(**{field: getattr(node, field)[1:]}) if getattr(node, field) else None
 
 
 def _longer(size: tuple[float, ...]) -> tuple[float, ...]:
@@ -129,7 +129,7 @@ MUTATIONS: Mapping[str, tuple[type[Node], Change]] = {
     "an element of the inertia": (Inertia, _heavier),
     "a product of inertia": (
         Inertia,
-        lambda node: node.model_copy(update={"ixy": (node.ixy or 0.0) + node.ixx * 1e-6}),
+        lambda node: node.copy(ixy=(node.ixy or 0.0) + node.ixx * 1e-6),
     ),
     "center of mass": (Inertial, _pushed),
     "joint type": (Joint, _other_type),
@@ -157,7 +157,7 @@ MUTATIONS: Mapping[str, tuple[type[Node], Change]] = {
     "file of a mesh": (Mesh, _set(uri="package://p/other.stl")),
     "scale of a mesh": (Mesh, _set(scale=(0.001, 0.001, 0.0011))),
     "color": (Material, _by("color", _paler)),
-    "gravity": (Link, lambda link: link.model_copy(update={"gravity": not (link.gravity is not False)})),
+    "gravity": (Link, lambda link: link.copy(gravity=not (link.gravity is not False))),
     "place of a frame": (Frame, _pushed),
     "turn of a frame": (Frame, _turned),
 }

@@ -44,7 +44,7 @@ def _unpruned(source: Path | Document, to: Language, version: str | None) -> obj
 
 def _forgetful(node: AnyNode) -> AnyNode:
     """The same without any census that was found before."""
-    return map_children(node.model_copy(update={"source": node.source}), _forgetful)
+    return map_children(node.copy(source=node.source), _forgetful)
 
 
 @pytest.mark.parametrize(("to", "version"), TARGETS)

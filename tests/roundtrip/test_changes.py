@@ -12,8 +12,8 @@ _DOCUMENTS = strategies.robots() | strategies.sdf_models()
 
 
 def _changed(document: Document, **update: object) -> Document:
-    model: Model = document.models[0].model_copy(update=update)
-    return document.model_copy(update={"models": (model,)})
+    model: Model = document.models[0].copy(**update)
+    return document.copy(models=(model,))
 
 
 @_SETTINGS

@@ -161,8 +161,8 @@ def test_a_prefix_changes_names_alone(model: Document) -> None:
     pose=strategies.poses(whole=True),
 )
 def test_flattening_keeps_every_link_where_it_is(separator: str, outer: Document, inner: Document, pose: Pose) -> None:
-    nested = inner.models[0].model_copy(update={"name": "inner", "pose": pose})
-    document = outer.model_copy(update={"models": (outer.models[0].model_copy(update={"models": (nested,)}),)})
+    nested = inner.models[0].copy(name="inner", pose=pose)
+    document = outer.copy(models=(outer.models[0].copy(models=(nested,)),))
     flat = run(FlattenModels(separator=separator), document)
     names = [f"inner::{link.name}" for link in nested.links]
     there = places(document.models[0], names)

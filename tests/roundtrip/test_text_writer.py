@@ -100,11 +100,11 @@ def test_odd_parts_are_written_as_by_the_tree_writer(
     model: Document, parts: list[Opaque], name: str, namespaces: tuple[tuple[str, str], ...]
 ) -> None:
     def with_parts(pose: Pose) -> Pose:
-        return pose.model_copy(update={"opaque": tuple(parts)})
+        return pose.copy(opaque=tuple(parts))
 
-    models = [each.model_copy(update={"name": name, "opaque": tuple(parts)}) for each in model.models]
-    changed = model.model_copy(update={"models": tuple(models), "namespaces": namespaces})
-    for document in (changed, rewrite(model.model_copy(update={"namespaces": namespaces}), Pose, with_parts)):
+    models = [each.copy(name=name, opaque=tuple(parts)) for each in model.models]
+    changed = model.copy(models=tuple(models), namespaces=namespaces)
+    for document in (changed, rewrite(model.copy(namespaces=namespaces), Pose, with_parts)):
         _assert_same(document)
 
 

@@ -46,28 +46,28 @@ def world_text(document: Document, release: str, sink: DiagnosticSink, name: str
         sink.report(rules.NOTHING_TO_ADD_TO, message, document.location)
         return ""
     template, world = _world(document, release, name)
-    world = world.model_copy(update={"models": (*world.models, _on_the_ground(document.models[0]))})
+    world = world.copy(models=(*world.models, _on_the_ground(document.models[0])))
     namespaces, version = document.namespaces, document.version
-    return emit(template.model_copy(update={"worlds": (world,), "version": version, "namespaces": namespaces}), sink)
+    return emit(template.copy(worlds=(world,), version=version, namespaces=namespaces), sink)
 
 
 def world_without_text(document: Document, release: str, sink: DiagnosticSink, name: str) -> str:
     """An SDF file with such a world for the models of a document, URDF or SDF, which are put there by somebody else."""
     template, world = _world(document, release, name)
-    return emit(template.model_copy(update={"worlds": (world,)}), sink)
+    return emit(template.copy(worlds=(world,)), sink)
 
 
 def _world(document: Document, release: str, name: str) -> tuple[Document, World]:
     """A file with a world, and the world with light, ground, and what the models of a document need."""
     template = loads(resources.files("twinform.compiler").joinpath("world.sdf").read_bytes())
     needed = _needed(document, release)
-    world = with_systems(with_defaults(template.worlds[0].model_copy(update={"name": name})), needed.systems)
+    world = with_systems(with_defaults(template.worlds[0].copy(name=name)), needed.systems)
     return template, _with_place(world) if "spherical_coordinates" in needed.elements else world
 
 
 def _on_the_ground(model: Model) -> Model:
     depth = lowest_point(model) if model.pose is None and not model.static else None
-    return model if not depth else model.model_copy(update={"pose": Pose(xyz=(0.0, 0.0, round(-depth, 9)))})
+    return model if not depth else model.copy(pose=Pose(xyz=(0.0, 0.0, round(-depth, 9))))
 
 
 def _needed(document: Document, release: str) -> WorldRequirements:
@@ -83,4 +83,4 @@ def _needed(document: Document, release: str) -> WorldRequirements:
 def _with_place(world: World) -> World:
     children = tuple(Element(name=name, text=text) for name, text in _EQUATOR)
     place = Opaque(element=Element(name="spherical_coordinates", children=children))
-    return world.model_copy(update={"opaque": (*world.opaque, place)})
+    return world.copy(opaque=(*world.opaque, place))

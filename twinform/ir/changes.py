@@ -158,7 +158,7 @@ def _name(part: Sourced) -> Hashable | None:
 
 def _rest(part: Sourced) -> Hashable:
     """All but the name."""
-    return part.model_copy(update={"name": None}) if isinstance(part, Node) and hasattr(part, "name") else part
+    return part.copy(name=None) if isinstance(part, Node) and hasattr(part, "name") else part
 
 
 def _kind(part: Sourced) -> Hashable | None:

@@ -56,7 +56,7 @@ SIZES: Mapping[type[Node], Mapping[str, float | Vector3]] = {
 def filled(node: AnyNode, values: Mapping[str, object]) -> AnyNode:
     """The node with these values in the fields that are not written; the same one where there are none."""
     missing = {name: value for name, value in values.items() if getattr(node, name) is None}
-    return node.model_copy(update=missing) if missing else node
+    return node.copy(**missing) if missing else node
 
 
 def with_range(limit: Limit, format_: Format) -> Limit:

@@ -71,7 +71,7 @@ class _Mapper:
             return child if isinstance(holder, Model) else self.own(child, {"relative_to": kind})
         if isinstance(child, Model | Include):
             pose = child.pose and self.own(child.pose, REFERENCES[Pose])
-            return child if pose is child.pose else child.model_copy(update={"pose": pose})
+            return child if pose is child.pose else child.copy(pose=pose)
         return self.inside(child)
 
     def own(self, node: AnyNode, kinds: dict[str, ReferenceKind]) -> AnyNode:
@@ -81,7 +81,7 @@ class _Mapper:
             name = getattr(node, field)
             if name and (new := self.change(kind, name)) != name:
                 update[field] = new
-        return node.model_copy(update=update) if update else node
+        return node.copy(**update) if update else node
 
 
 @cache

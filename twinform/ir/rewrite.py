@@ -54,7 +54,7 @@ def replace_node(node: AnyNode, old: Wanted, new: Wanted) -> AnyNode:
 def replace_fields(part: AnyPart, **fields: object) -> AnyPart:
     """The node or element with other values in some fields; itself where they hold the objects that are there."""
     update = {name: new for name, new in fields.items() if not _is_same(new, getattr(part, name))}
-    return part.model_copy(update=update) if update else part
+    return part.copy(**update) if update else part
 
 
 def _is_same(new: Any, old: Any) -> bool:
@@ -76,7 +76,7 @@ def _with_changed(node: AnyNode, fields: tuple[str, ...], change: Callable[[Node
                 update[name] = many
         elif (one := change(old)) is not old:
             update[name] = one
-    return node.model_copy(update=update) if update else node
+    return node.copy(**update) if update else node
 
 
 @cache

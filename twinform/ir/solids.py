@@ -129,7 +129,7 @@ def tensor(inertia: Inertia | None, moment: float = 0.0) -> Symmetric:
 def with_tensor(inertia: Inertia | None, elements: Symmetric) -> Inertia:
     """The inertia with these elements, and with what else is written in it."""
     update: dict[str, float] = dict(zip(ELEMENTS, elements, strict=True))
-    return (inertia or Inertia()).model_copy(update=update)
+    return (inertia or Inertia()).copy(**update)
 
 
 def written_solid(inertial: Inertial | None, format_: Format) -> Solid:

@@ -49,7 +49,7 @@ class Transform:
         """The pose, in the notation that it was read in, or else with the angles in radians. Zeros are left out."""
         written = self.notation
         if written is not None:
-            return written.model_copy(update={"relative_to": relative_to, "opaque": ()})
+            return written.copy(relative_to=relative_to, opaque=())
         xyz = rounded(self.translation) if self.translation != _ORIGIN else None
         rpy = rounded(self.rpy()) if self.rotation != _UNTURNED else None
         return Pose.unchecked(xyz=xyz, rpy=rpy, relative_to=relative_to)

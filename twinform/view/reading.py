@@ -50,5 +50,5 @@ def _each_alone(document: Document) -> Iterator[Document]:
         yield document
         return
     for model in found:
-        alone = model.model_copy(update={"pose": None})
-        yield document.model_copy(update={"worlds": (), "includes": (), "models": (alone,)})
+        alone = model.copy(pose=None)
+        yield document.copy(worlds=(), includes=(), models=(alone,))

@@ -37,7 +37,7 @@ class Breaking(Pass):
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         model = document.models[0]
         links = (*model.links, *model.links)
-        return document.model_copy(update={"models": (model.model_copy(update={"links": links}),)})
+        return document.copy(models=(model.copy(links=links),))
 
 
 class Homesick(Pass):

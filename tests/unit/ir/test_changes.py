@@ -106,7 +106,7 @@ def test_parts_are_added_to_and_taken_from_lists_that_have_none() -> None:
 
 def with_links(change: Callable[[tuple[Link, ...]], tuple[Link, ...]]) -> Document:
     model: Model = OLD.models[0]
-    return OLD.model_copy(update={"models": (model.model_copy(update={"links": change(model.links)}),)})
+    return OLD.copy(models=(model.copy(links=change(model.links)),))
 
 
 def test_another_order_is_one_change() -> None:
@@ -115,7 +115,7 @@ def test_another_order_is_one_change() -> None:
 
 
 def test_nodes_are_counted_once() -> None:
-    new = with_links(lambda links: (links[0].model_copy(update={"kinematic": True, "gravity": False}), *links[1:]))
+    new = with_links(lambda links: (links[0].copy(kinematic=True, gravity=False), *links[1:]))
     assert count_changes(OLD, new) == (1, 0, 0)
     assert count_changes(OLD, with_links(lambda links: links[1:])) == (0, 0, 5)
     assert count_changes(with_links(lambda links: links[1:]), OLD) == (0, 5, 0)

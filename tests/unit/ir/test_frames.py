@@ -136,7 +136,7 @@ def test_nested_models_have_scopes_and_are_placed_by_their_frame(frame: str, exp
 def test_a_nested_model_moves_with_its_canonical_link() -> None:
     assert FrameGraph(OUTER).body("inner") == "inner::root"
     assert FrameGraph(Model(name="m", models=OUTER.models)).body("__model__") == "inner::root"
-    assert FrameGraph(OUTER.model_copy(update={"canonical_link": "inner::hand"})).body("__model__") == "inner::hand"
+    assert FrameGraph(OUTER.copy(canonical_link="inner::hand")).body("__model__") == "inner::hand"
     assert FrameGraph(Model(name="empty", static=True)).body("__model__") == "__model__"
 
 
@@ -202,7 +202,7 @@ def test_long_chains_are_no_recursion() -> None:
             Model(
                 name="m",
                 links=(Link(name="a"), Link(name="b", pose=Pose(relative_to="j"))),
-                joints=(joint("j", "a", "b").model_copy(update={"source": Source("", 8, None, "joint")}),),
+                joints=(joint("j", "a", "b").copy(source=Source("", 8, None, "joint")),),
             ),
             "j",
             "frame-cycle",
@@ -235,9 +235,9 @@ def source(line: int, tag: str) -> Source:
     ids=["the pose that names it", "the model where the pose was not written"],
 )
 def test_an_unknown_frame_is_reported_where_it_is_named(where: Source | None, line: int) -> None:
-    graph = FrameGraph(ARM.model_copy(update={"source": source(3, "model")}))
+    graph = FrameGraph(ARM.copy(source=source(3, "model")))
     with pytest.raises(FrameError) as caught:
-        graph.resolve(at(1, relative_to="nowhere").model_copy(update={"source": where}), "a", "b")
+        graph.resolve(at(1, relative_to="nowhere").copy(source=where), "a", "b")
     error = caught.value
     assert (error.rule.name, error.message, error.found) == (
         "dangling-frame",

@@ -94,7 +94,7 @@ def test_a_tip_that_does_not_hang_from_the_base_is_an_error():
 
 def test_an_end_that_is_not_known_is_an_error():
     model = twinform.loads(NESTED).models[0]
-    broken = model.model_copy(update={"frames": ()})
+    broken = model.copy(frames=())
     with pytest.raises(FrameError, match="mount"):
         KinematicTree(broken)
 

@@ -79,7 +79,7 @@ def test_a_misspelt_field_is_an_error_in_every_way() -> None:
     with pytest.raises(AttributeError, match="'Link' object has no attribute 'inertal'"):
         LINK.copy(**wrong)
     with pytest.raises(AttributeError, match="inertal"):
-        LINK.model_copy(update=wrong)
+        LINK.copy(**wrong)
     with pytest.raises(TypeError, match="Link has no field inertal"):
         Link.unchecked(name="a", **wrong)
     with pytest.raises(TypeError, match="Link lacks name"):

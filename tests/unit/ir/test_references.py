@@ -100,13 +100,13 @@ class _Breaker:
 
 def _of_world(document: Document, breaker: _Breaker) -> Document:
     (world,) = document.worlds
-    return document.model_copy(update={"worlds": (map_references(world, breaker.change),)})
+    return document.copy(worlds=(map_references(world, breaker.change),))
 
 
 def _of_model(document: Document, breaker: _Breaker) -> Document:
     (world,) = document.worlds
     models = tuple(map_references(model, breaker.change) for model in world.models)
-    return document.model_copy(update={"worlds": (world.model_copy(update={"models": models}),)})
+    return document.copy(worlds=(world.copy(models=models),))
 
 
 @pytest.mark.parametrize(("change", "count"), [(_of_world, 6), (_of_model, 19)])

@@ -52,7 +52,7 @@ def noted(seen: list[AnyNode]) -> Callable[[AnyNode], AnyNode]:
 
 
 def copied(node: AnyNode) -> AnyNode:
-    return node.model_copy(update={"opaque": node.opaque})
+    return node.copy(opaque=node.opaque)
 
 
 def ids(nodes: list[Node]) -> list[int]:
@@ -94,7 +94,7 @@ def test_only_what_is_around_a_change_is_copied(document: Document, data: st.Dat
 def test_a_change_sees_what_was_changed_inside(document: Document) -> None:
     def renamed(model: Model) -> Model:
         assert all(inner.name.endswith("!") for inner in model.models)
-        return model.model_copy(update={"name": f"{model.name}!"})
+        return model.copy(name=f"{model.name}!")
 
     made = rewrite(document, Model, renamed)
     assert all(node.name.endswith("!") for node in walk(made) if isinstance(node, Model))
@@ -102,7 +102,7 @@ def test_a_change_sees_what_was_changed_inside(document: Document) -> None:
 
 @given(DOCUMENTS)
 def test_copies_that_nothing_checks_are_those_that_validation_makes(document: Document) -> None:
-    made = rewrite(document, Joint, lambda joint: joint.model_copy(update={"pose": Pose(xyz=(1.0, 2.0, 3.0))}))
+    made = rewrite(document, Joint, lambda joint: joint.copy(pose=Pose(xyz=(1.0, 2.0, 3.0))))
     assert Document.model_validate(made.model_dump()) == made
 
 

@@ -105,7 +105,7 @@ def test_the_identity_leaves_a_pose_in_its_notation() -> None:
     pose = Pose(xyz=(0.1, 0.2, 0.3), rpy=(10, 20, 30), degrees=True)
     transform = Transform.from_pose(pose)
     assert Transform().compose(transform).compose(Transform()).to_pose() == pose
-    assert transform.to_pose("there") == pose.model_copy(update={"relative_to": "there"})
+    assert transform.to_pose("there") == pose.copy(relative_to="there")
 
 
 def test_a_computed_pose_leaves_out_zeros_and_has_no_negative_ones() -> None:

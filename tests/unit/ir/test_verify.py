@@ -44,10 +44,10 @@ def test_a_pose_that_a_pass_made_is_where_its_link_is() -> None:
     document = check(b'<sdf version="1.9"><model name="m">\n<link name="a"/></model></sdf>').document
     assert document is not None
     (link,) = document.models[0].links
-    link = link.model_copy(update={"pose": Pose(relative_to="nowhere")})
-    model = document.models[0].model_copy(update={"links": (link,)})
+    link = link.copy(pose=Pose(relative_to="nowhere"))
+    model = document.models[0].copy(links=(link,))
     sink = DiagnosticSink()
-    verify(document.model_copy(update={"models": (model,)}), sink)
+    verify(document.copy(models=(model,)), sink)
     (found,) = sink.diagnostics
     assert found.location.line == 2
     assert found.location.path == "/sdf/model[@name='m']/link[@name='a']/pose/@relative_to"

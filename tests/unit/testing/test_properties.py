@@ -22,13 +22,13 @@ class _Broken(Pass):
 
 class _Forgets(_Broken):
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        return map_children(document, lambda node: node.model_copy(update={"links": ()}))
+        return map_children(document, lambda node: node.copy(links=()))
 
 
 class _Counts(_Broken):
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         self.seen.append(1)
-        return map_children(document, lambda node: node.model_copy(update={"name": f"r{len(self.seen)}"}))
+        return map_children(document, lambda node: node.copy(name=f"r{len(self.seen)}"))
 
 
 class _Talks(_Broken):
@@ -40,7 +40,7 @@ class _Talks(_Broken):
 
 class _Grows(_Broken):
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        return map_children(document, lambda node: node.model_copy(update={"name": f"{getattr(node, 'name', None)}x"}))
+        return map_children(document, lambda node: node.copy(name=f"{getattr(node, 'name', None)}x"))
 
 
 FAULTS: dict[type[_Broken], str] = {

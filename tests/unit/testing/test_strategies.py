@@ -35,7 +35,7 @@ def test_documents_are_valid(document: Document) -> None:
 def test_parts_make_a_valid_model(format: Literal["urdf", "sdf"], data: st.DataObject) -> None:
     one, other = (data.draw(strategies.links(format=format, name=name)) for name in ("one", "other"))
     joint = data.draw(strategies.joints(format=format, parent="one", child="other", types=("revolute",)))
-    placed = other.model_copy(update={"pose": Pose(relative_to="joint")}) if format == "urdf" else other
+    placed = other.copy(pose=Pose(relative_to="joint")) if format == "urdf" else other
     model = Model(name="m", links=(one, placed), joints=(joint,))
     assert_valid(Document(format=Format(format), version="1.11" if format == "sdf" else None, models=(model,)))
 

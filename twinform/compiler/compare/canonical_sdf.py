@@ -110,7 +110,7 @@ def _robots(
         if sink.has_errors:
             return
         chosen = UniqueNames().run(chosen, DiagnosticSink())  # before 1.7 a joint and a link could share theirs
-        chosen = chosen.model_copy(update={"models": tuple(map(_comparable, chosen.models))})
+        chosen = chosen.copy(models=tuple(map(_comparable, chosen.models)))
         source = document.models[0] if document.format is Format.URDF else chosen.models[0]
         robot = builders[name].build(chosen.models[0], source)
         yield (robot.name if called[robot.name] == 1 or name is None else name), robot

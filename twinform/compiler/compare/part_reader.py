@@ -91,7 +91,7 @@ class PartReader:
         tag = definition_of(node) or ""
         parts = [self.part(child, fields[name], frame) for name in fields for child in getattr(node, name)]
         apart = (*fields, *_APART.get(type(node), ()))
-        xml = _xml(node.model_copy(update=dict.fromkeys(apart, ())), tag)
+        xml = _xml(node.copy(**dict.fromkeys(apart, ())), tag)
         leaves, inner = self._own(xml, tag, _places(node), frame, skipped=_RESOLVED[type(node)])
         expressed, carried = self._of_urdf(xml, node)
         return {**leaves, **expressed}, (*parts, *inner, *carried)

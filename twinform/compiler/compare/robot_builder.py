@@ -54,11 +54,8 @@ def _without_made_root(model: Model) -> Model:
     if link is None or not is_synthesized(link) or (link.inertial and link.inertial.mass):
         return model
     name = link.name
-    frames = (
-        frame.model_copy(update={"attached_to": MODEL}) if frame.attached_to == name else frame
-        for frame in model.frames
-    )
-    return model.model_copy(update={"links": (), "frames": tuple(frames), "canonical_link": None})
+    frames = (frame.copy(attached_to=MODEL) if frame.attached_to == name else frame for frame in model.frames)
+    return model.copy(links=(), frames=tuple(frames), canonical_link=None)
 
 
 class _Reading:

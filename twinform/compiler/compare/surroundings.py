@@ -59,7 +59,7 @@ def _placed(reader: PartReader, graph: FrameGraph, node: Frame | Joint) -> Part:
     kind = "frame" if isinstance(node, Frame) else "joint"
     there = graph.pose(node.name, WORLD, kind=kind, base="world")
     opaque = tuple(part for part in node.opaque if part.name != "<pose>")  # a second one, which no reader looks at
-    return reader.part(node.model_copy(update={"pose": None, "opaque": opaque}), kind, there)
+    return reader.part(node.copy(pose=None, opaque=opaque), kind, there)
 
 
 def _resolve(graph: FrameGraph, pose: Pose, holder: Transform) -> Transform:

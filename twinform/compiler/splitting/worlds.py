@@ -166,10 +166,10 @@ class _Files:
             apart = detach(world, dict(self._bases(world.models)), self.sink)
             placed = zip(world.models, apart.models, strict=True)
             includes = tuple(self._include(document, model, now.pose) for model, now in placed)
-            worlds.append(apart.model_copy(update={"models": (), "includes": (*apart.includes, *includes)}))
+            worlds.append(apart.copy(models=(), includes=(*apart.includes, *includes)))
         self._choose(document, document.models, {})
         includes = (*document.includes, *(self._include(document, each, each.pose) for each in document.models))
-        rest = document.model_copy(update={"worlds": tuple(worlds), "models": (), "includes": includes})
+        rest = document.copy(worlds=tuple(worlds), models=(), includes=includes)
         models = (*document.models, *(each for world in document.worlds for each in world.models))
         self.texts[self.name] = self._sdf(rest, self.name, self._comments_around(models))
 
@@ -194,7 +194,7 @@ class _Files:
 
     def _as_urdf(self, document: Document, model: Model, named: frozenset[str]) -> tuple[_Urdf | None, str]:
         """The model as URDF, or why it cannot be."""
-        alone = _alone(document, model.model_copy(update={"pose": None, "placement_frame": None}))
+        alone = _alone(document, model.copy(pose=None, placement_frame=None))
         sink = DiagnosticSink(self.sink.file, self.sink.strict, origins=self.sink.origins, allows=self.sink.allows)
         comments = self._comments_in(model, foreign=True)
         made, text = emit_legal(alone, self.request.legalisation(alone), sink, self.instrumentation, comments=comments)
@@ -216,7 +216,7 @@ class _Files:
         made = self.urdf.get(id(model))
         file = self._name(model.name, "sdf" if made is None else "urdf")
         if made is None:
-            alone = _alone(document, model.model_copy(update={"pose": None}))
+            alone = _alone(document, model.copy(pose=None))
             self.texts[file] = self._sdf(alone, file, self._comments_in(model))
             pose = pose or (Pose() if model.placement_frame else None)  # its frame is in the file, and its pose is here
             return Include(uri=self.placement.uri(file), name=model.name, pose=pose, source=model.source)
@@ -260,7 +260,7 @@ class _Files:
 
 
 def _alone(document: Document, model: Model) -> Document:
-    return document.model_copy(update={"models": (model,), "worlds": (), "lights": (), "includes": (), "opaque": ()})
+    return document.copy(models=(model,), worlds=(), lights=(), includes=(), opaque=())
 
 
 def _root(robot: Model) -> str:

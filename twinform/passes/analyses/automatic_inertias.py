@@ -32,7 +32,7 @@ def map_automatic(model: Model, write: Callable[[Link, Inertial, FrameGraph], Li
     links = (
         write(link, link.inertial, graph) if link.inertial and link.inertial.auto else link for link in model.links
     )
-    return model.model_copy(update={"links": tuple(links)})
+    return model.copy(links=tuple(links))
 
 
 def automatic(
@@ -61,7 +61,7 @@ def written_out(inertial: Inertial, found: Solid) -> tuple[Inertial, list[Opaque
     With it, as pieces of SDF, that it was automatic, and the pose and inertia that readers of SDF overlook; and the
     names of the fields that are computed.
     """
-    overlooked = to_element(inertial.model_copy(update={"mass": None, "opaque": ()}), "inertial", "sdf")
+    overlooked = to_element(inertial.copy(mass=None, opaque=()), "inertial", "sdf")
     pieces = [Opaque.unchecked(attribute=pair) for pair in overlooked.attributes]
     pieces += [Opaque.unchecked(element=child) for child in overlooked.children]
     made = ("pose", "inertia") if inertial.mass is not None else ("mass", "pose", "inertia")

@@ -137,11 +137,9 @@ def own_density(node: Node) -> float | None:
 
 def inertial_of(found: Solid, written: Inertial | None) -> Inertial:
     """An inertial with the numbers of a solid in the link frame; what else is written in the old one stays."""
-    return (written or Inertial()).model_copy(
-        update={
-            "auto": None,
-            "mass": found.mass,
-            "pose": Pose(xyz=found.center, rpy=ORIGIN) if any(found.center) else None,
-            "inertia": with_tensor(None, found.inertia),
-        }
+    return (written or Inertial()).copy(
+        auto=None,
+        mass=found.mass,
+        pose=Pose(xyz=found.center, rpy=ORIGIN) if any(found.center) else None,
+        inertia=with_tensor(None, found.inertia),
     )

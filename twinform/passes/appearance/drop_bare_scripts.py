@@ -45,4 +45,4 @@ def _without(material: Material, sink: DiagnosticSink) -> Material:
     message = f"the material script{called} has no {what}: it is left out"
     sink.report(DROPPED_BARE_SCRIPT, message, script.location)
     sink.account(Fate.DROPPED, DROPPED_BARE_SCRIPT, message, script.location)
-    return material.model_copy(update={"script": None})
+    return material.copy(script=None)

@@ -47,30 +47,30 @@ def _with_content(
             continue
         first.setdefault(name, index)
         wanted[name] += extension.content
-        extensions.append(extension.model_copy(update={"content": change(extension.content)}))
+        extensions.append(extension.copy(content=change(extension.content)))
     for name, content in wanted.items():
         more = missing(content)
         if more and name in first:
             old = extensions[first[name]]
-            extensions[first[name]] = old.model_copy(update={"content": (*old.content, *more)})
+            extensions[first[name]] = old.copy(content=(*old.content, *more))
         elif more:
             extensions.append(GazeboExtension(reference=name, content=more))
-    return model.model_copy(update={"extensions": tuple(extensions)})
+    return model.copy(extensions=tuple(extensions))
 
 
 def _changed(element: Element, tags: Mapping[str, str]) -> Element:
     if element.name not in tags:
         return element
     kept = tuple(pair for pair in element.attributes if pair[0] != "value")
-    return element.model_copy(update={"text": tags[element.name], "attributes": kept})
+    return element.copy(text=tags[element.name], attributes=kept)
 
 
 def _deep(element: Element, path: tuple[str, ...], text: str) -> Element:
     """The element with a text at the end of a path below it."""
     if not path:
-        return element.model_copy(update={"text": text, "attributes": ()})
+        return element.copy(text=text, attributes=())
     name, rest = path[0], path[1:]
     if element.find(name) is None:
-        return element.model_copy(update={"children": (*element.children, _deep(Element(name=name), rest, text))})
+        return element.copy(children=(*element.children, _deep(Element(name=name), rest, text)))
     children = tuple(_deep(each, rest, text) if each.name == name else each for each in element.children)
-    return element.model_copy(update={"children": children})
+    return element.copy(children=children)

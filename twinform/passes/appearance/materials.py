@@ -82,7 +82,7 @@ class Materials(Pass):
             for name, value in numbers.items()
             if value is not None
         )
-        return material.model_copy(update={"opaque": (*material.opaque, *parts)})
+        return material.copy(opaque=(*material.opaque, *parts))
 
     def _roughness(self, script: ClassicMaterial | None) -> float | None:
         """B. Karis 2013, Specular BRDF reference: the roughness of Blinn and Phong's highlight with this exponent."""
@@ -130,14 +130,12 @@ def _known(name: str, where: Location, sink: DiagnosticSink) -> ClassicMaterial 
 
 def _colored(material: Material, found: ClassicMaterial) -> Material:
     """The material with the colors of a script, where it has none itself."""
-    return material.model_copy(
-        update={
-            "script": None,
-            "ambient": material.ambient or found.ambient,
-            "diffuse": material.diffuse or found.diffuse,
-            "specular": material.specular or found.specular,
-            "emissive": material.emissive or found.emissive,
-        }
+    return material.copy(
+        script=None,
+        ambient=material.ambient or found.ambient,
+        diffuse=material.diffuse or found.diffuse,
+        specular=material.specular or found.specular,
+        emissive=material.emissive or found.emissive,
     )
 
 

@@ -90,11 +90,11 @@ class SetSurface(Pass):
             return link
         chosen = {id(one) for one in meant}
         collisions = tuple(self._set(one) if id(one) in chosen else one for one in link.collisions)
-        return link if collisions == link.collisions else link.model_copy(update={"collisions": collisions})
+        return link if collisions == link.collisions else link.copy(collisions=collisions)
 
     def _set(self, collision: Collision) -> Collision:
-        surface = (collision.surface or Surface()).model_copy(update=self._values())
-        return collision.model_copy(update={"surface": surface})
+        surface = (collision.surface or Surface()).copy(**self._values())
+        return collision.copy(surface=surface)
 
     def _in_urdf(self, model: Model, matched: list[Collision], sink: DiagnosticSink) -> Model:
         links: list[str] = []

@@ -63,7 +63,7 @@ def _without_empty_texture(material: Material, sink: DiagnosticSink) -> Material
     message = f"material {material.name!r} has a texture without a file: it is left out"
     sink.report(TIDIED_MATERIAL, message, material.location, found=material.name)
     sink.account(Fate.DROPPED, TIDIED_MATERIAL, message, material.location.at("texture"))
-    return material.model_copy(update={"texture": material.texture or None, "opaque": kept})
+    return material.copy(texture=material.texture or None, opaque=kept)
 
 
 def _without_texture(material: Material, sink: DiagnosticSink) -> Material:
@@ -72,7 +72,7 @@ def _without_texture(material: Material, sink: DiagnosticSink) -> Material:
     message = f"the texture {material.texture!r} of material {material.name!r} is left out"
     sink.report(TIDIED_MATERIAL, message, material.location, found=material.texture)
     sink.account(Fate.DROPPED, TIDIED_MATERIAL, message, material.location.at("texture"))
-    return material.model_copy(update={"texture": None, "color": material.color or _GRAY})
+    return material.copy(texture=None, color=material.color or _GRAY)
 
 
 _GRAY = (0.5, 0.5, 0.5, 1.0)
@@ -128,7 +128,7 @@ class _Materials:
         defined = self.later[name]
         self._report(material, f"material {name!r} is defined further down, and here too now")
         self.known[name] = defined
-        return material.model_copy(update={"color": defined.color, "texture": defined.texture})
+        return material.copy(color=defined.color, texture=defined.texture)
 
     def _fresh(self, material: Material) -> str:
         name = self._unused(_PLAIN)

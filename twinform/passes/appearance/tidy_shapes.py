@@ -68,7 +68,7 @@ def _made(link: Link, part: Part, names: set[str], sink: DiagnosticSink) -> Iter
         message = f"what is beside the shape of a {kind} of link {link.name!r} is left out"
         sink.report(REPLACED_SHAPE, message, part.location)
         sink.account(Fate.DROPPED, REPLACED_SHAPE, message, part.location)
-        yield replace_fields(part, geometry=geometry.model_copy(update={"opaque": ()}))
+        yield replace_fields(part, geometry=geometry.copy(opaque=()))
     else:
         yield part
 
@@ -87,7 +87,7 @@ def _of_capsule(part: Part, shape: Capsule, names: set[str]) -> Iterator[Part]:
             name = unique_name(f"{part.name}_end", names)
             names.add(name)
         pose = _above(part.pose, height)
-        yield part.model_copy(update={"name": name, "pose": pose, "geometry": Geometry(shape=Sphere(radius=radius))})
+        yield part.copy(name=name, pose=pose, geometry=Geometry(shape=Sphere(radius=radius)))
 
 
 def _above(pose: Pose | None, height: float) -> Pose:

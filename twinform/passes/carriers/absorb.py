@@ -33,7 +33,7 @@ def absorb(node: AnyNode, pieces: tuple[Opaque, ...], condition: VersionConditio
     for path in condition.without:
         node = _blanked(node, path.split("."))
     if condition.instead and isinstance(node, Model):
-        node = node.model_copy(update=_without_scope(node, condition.instead))
+        node = node.copy(**_without_scope(node, condition.instead))
     for piece in pieces:
         node = _absorb(node, piece, condition, version)
     return node
@@ -55,7 +55,7 @@ def _blanked(node: AnyNode, path: list[str]) -> AnyNode:
     if value is None:
         return node
     inner = _blanked(value, rest) if rest else fields_of(type(node))[first].default
-    return node.model_copy(update={first: inner})
+    return node.copy(**{first: inner})
 
 
 def _without_scope(model: Model, prefix: str) -> dict[str, object]:
@@ -72,21 +72,21 @@ def _absorb(node: AnyNode, piece: Opaque, condition: VersionCondition, version: 
     if condition.index and piece.at:
         return _beside(node, piece.at.split("/"), piece)
     if condition.index and is_repeated(piece, node):
-        return node.model_copy(update={"opaque": (*node.opaque, piece)})
+        return node.copy(opaque=(*node.opaque, piece))
     if piece.element is not None and piece.element.name == "pose" and not piece.at:
-        node = node.model_copy(update={"pose": None})  # one pose stands for another
+        node = node.copy(pose=None)  # one pose stands for another
     return _merged(node, data, condition.index)
 
 
 def _beside(node: AnyNode, path: list[str], piece: Opaque) -> AnyNode:
     """The node with an element deeper in it that repeats another one."""
     if not path:
-        return node.model_copy(update={"opaque": (*node.opaque, piece.model_copy(update={"at": ""}))})
+        return node.copy(opaque=(*node.opaque, piece.copy(at="")))
     first, *rest = path
     inner = field_value(node, first)
     if not isinstance(inner, Node):
         raise CarrierError(f"there is no <{first}>")
-    return node.model_copy(update={first: _beside(inner, rest, piece)})
+    return node.copy(**{first: _beside(inner, rest, piece)})
 
 
 def _read(piece: Opaque, definition: str, version: Version) -> dict[str, Any]:
@@ -127,7 +127,7 @@ def _merged(node: AnyNode, data: Mapping[str, Any], index: int | None = None) ->
     }
     if read.spelling:
         update["spelling"] = {**(node.spelling or {}), **read.spelling}
-    return node.model_copy(update=update)
+    return node.copy(**update)
 
 
 def _merged_value(node: Node, name: str, value: object, index: int | None) -> object:
@@ -140,7 +140,7 @@ def _merged_value(node: Node, name: str, value: object, index: int | None) -> ob
         return value
     if isinstance(mine, Node) and type(value) is type(mine):
         return _merged(mine, _written(value))
-    return value.model_copy(update={"source": mine.source if isinstance(mine, Node) else node.source})
+    return value.copy(source=mine.source if isinstance(mine, Node) else node.source)
 
 
 def _written(node: Node) -> dict[str, Any]:
@@ -159,5 +159,5 @@ def _inserted(mine: tuple[Node, ...], value: tuple[Node, ...], index: int | None
     place = len(mine) if index is None else min(index, len(mine))
     # it stands where its neighbor stands, so that it is written there
     beside = mine[place] if place < len(mine) else mine[-1] if mine else node
-    placed = tuple(one.model_copy(update={"source": beside.source}) for one in value)
+    placed = tuple(one.copy(source=beside.source) for one in value)
     return (*mine[:place], *placed, *mine[place:])

@@ -41,7 +41,7 @@ def with_annotation(
     node: AnyNode, kind: str, text: str | None = None, attributes: Mapping[str, str | None] | None = None
 ) -> AnyNode:
     """The node with one more annotation, before its other opaque parts."""
-    return node.model_copy(update={"opaque": (annotation(kind, text, attributes), *node.opaque)})
+    return node.copy(opaque=(annotation(kind, text, attributes), *node.opaque))
 
 
 def is_annotation(part: Opaque, kind: str) -> bool:
@@ -62,7 +62,7 @@ def without_annotation(node: AnyNode, *kinds: str) -> AnyNode:
     if not node.opaque:
         return node
     kept = tuple(part for part in node.opaque if not any(is_annotation(part, kind) for kind in kinds))
-    return node if len(kept) == len(node.opaque) else node.model_copy(update={"opaque": kept})
+    return node if len(kept) == len(node.opaque) else node.copy(opaque=kept)
 
 
 def annotate_synthesized(node: AnyNode) -> AnyNode:

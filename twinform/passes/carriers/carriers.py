@@ -48,7 +48,7 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 def carry(node: AnyNode, pieces: Iterable[Opaque], dialect: str, about: Attributes = ()) -> AnyNode:
     """The node with these pieces of the other format in carriers; `about` are more attributes of the carriers."""
     carriers = pack(pieces, dialect, about)
-    return node.model_copy(update={"opaque": (*node.opaque, *carriers)}) if carriers else node
+    return node.copy(opaque=(*node.opaque, *carriers)) if carriers else node
 
 
 def pack(pieces: Iterable[Opaque], dialect: str, about: Attributes = ()) -> tuple[Opaque, ...]:
@@ -167,7 +167,7 @@ def _without_empty(element: Element) -> Element:
     ]
     attributes = tuple(pair for pair in element.attributes if pair not in empty)
     children = (*annotations, *map(_without_empty, element.children))
-    return element.model_copy(update={"attributes": attributes, "children": children})
+    return element.copy(attributes=attributes, children=children)
 
 
 def _with_empty(element: Element) -> Element:
@@ -177,4 +177,4 @@ def _with_empty(element: Element) -> Element:
     empty = [(child.get("attribute"), _blank_value(child)) for child in element.children if child.name == _EMPTY]
     added = tuple((name, value) for name, value in empty if name and element.get(name) is None)
     children = tuple(_with_empty(child) for child in element.children if child.name != _EMPTY)
-    return element.model_copy(update={"attributes": (*element.attributes, *added), "children": children})
+    return element.copy(attributes=(*element.attributes, *added), children=children)

@@ -51,9 +51,9 @@ def _with_path(part: Opaque, path: str) -> Opaque:
     if path == _path(part):
         return part
     if not (is_ours(part) and part.element):
-        return part.model_copy(update={"at": path})
+        return part.copy(at=path)
     attributes = tuple((name, path if name == "at" else value) for name, value in part.element.attributes)
-    return part.model_copy(update={"element": part.element.model_copy(update={"attributes": attributes})})
+    return part.copy(element=part.element.copy(attributes=attributes))
 
 
 def _is_called(part: Opaque, name: str) -> bool:
@@ -64,4 +64,4 @@ def _with_name(part: Opaque, name: str, to: str) -> Opaque:
     """The part with another name, if it is an element of this one."""
     if part.element is None or part.element.name != name:
         return part
-    return part.model_copy(update={"element": part.element.model_copy(update={"name": to})})
+    return part.copy(element=part.element.copy(name=to))

@@ -38,12 +38,12 @@ def followed(element: Element, names: Mapping[str, Followed], *, carriers: bool)
         if found is None or child.children:
             children.append(followed(child, names, carriers=carriers))
             continue
-        children.append(child.model_copy(update={"text": found.name}))
+        children.append(child.copy(text=found.name))
         if carriers:
             text = (child.text or "").strip()
             children.append(Element.unchecked(name=_LUMPED, attributes=(("instead_of", found.name),), text=text))
     same = len(children) == len(element.children) and all(map(_is_same, children, element.children))
-    return element if same else element.model_copy(update={"children": tuple(children)})
+    return element if same else element.copy(children=tuple(children))
 
 
 def has_annotations(model: Model) -> bool:
@@ -67,10 +67,10 @@ def restored(element: Element, names: Mapping[str, Followed], stale: list[Elemen
         meant = names.get(child.text or "")
         text = (children[-1].text or "").strip() if children else None
         if meant and text == child.get("instead_of") == meant.name:
-            children[-1] = children[-1].model_copy(update={"text": child.text})
+            children[-1] = children[-1].copy(text=child.text)
         else:
             stale.append(child)
-    return element.model_copy(update={"children": tuple(children)})
+    return element.copy(children=tuple(children))
 
 
 def _is_same(one: Element, other: Element) -> bool:

@@ -73,7 +73,7 @@ class Keeper:
         self.account(rule, message, where, weight)
         if not self.carriers:
             return node
-        return node.model_copy(update={"opaque": (*node.opaque, *version_carriers(pieces, condition))})
+        return node.copy(opaque=(*node.opaque, *version_carriers(pieces, condition)))
 
     def keep_element(
         self, piece: Opaque, condition: VersionCondition, rule: Rule, message: str, where: Location

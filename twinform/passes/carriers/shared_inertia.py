@@ -30,7 +30,7 @@ def without_share(inertial: Inertial) -> Inertial | None:
         place = parse_value("vector3", found.get("xyz") or "0 0 0")
     except ValueError:
         return None
-    moved = (inertial.pose or Pose()).model_copy(update={"xyz": place})
+    moved = (inertial.pose or Pose()).copy(xyz=place)
     pose = moved if found.get("xyz") else inertial.pose
-    inertia = (inertial.inertia or Inertia()).model_copy(update=old)
-    return without_annotation(inertial, SHARED).model_copy(update={"inertia": inertia, "pose": pose})
+    inertia = (inertial.inertia or Inertia()).copy(**old)
+    return without_annotation(inertial, SHARED).copy(inertia=inertia, pose=pose)

@@ -16,18 +16,15 @@ TOKEN = Inertial.unchecked(
     mass=TOKEN_MASS,
     inertia=Inertia.unchecked(ixx=TOKEN_MOMENT, ixy=0.0, ixz=0.0, iyy=TOKEN_MOMENT, iyz=0.0, izz=TOKEN_MOMENT),
 )
-CHAIN_TOKEN = TOKEN.model_copy(update={"mass": CHAIN_MASS})
+CHAIN_TOKEN = TOKEN.copy(mass=CHAIN_MASS)
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 def without_tokens(model: Model) -> Model:
     """The model with nothing where links have a token: what is weighed and compared."""
-    links = tuple(
-        link.model_copy(update={"inertial": _without_token(link.inertial)}) if link.inertial else link
-        for link in model.links
-    )
+    links = tuple(link.copy(inertial=_without_token(link.inertial)) if link.inertial else link for link in model.links)
     models = tuple(map(without_tokens, model.models))
-    return model.model_copy(update={"links": links, "models": models})
+    return model.copy(links=links, models=models)
 
 
 def _without_token(inertial: Inertial) -> Inertial:
@@ -36,8 +33,8 @@ def _without_token(inertial: Inertial) -> Inertial:
         update["mass"] = 0.0
     if inertial.inertia is not None:
         tokens = [name for name in MOMENTS if getattr(inertial.inertia, name) == TOKEN_MOMENT]
-        update["inertia"] = inertial.inertia.model_copy(update=dict.fromkeys(tokens, 0.0))
-    return inertial.model_copy(update=update) if update else inertial
+        update["inertia"] = inertial.inertia.copy(**dict.fromkeys(tokens, 0.0))
+    return inertial.copy(**update) if update else inertial
 
 
 def has_token_mass(inertial: Inertial) -> bool:

@@ -52,11 +52,11 @@ class DeferredEdits:
             return document
         models = tuple(self._model(model, ("",)) for model in document.models)
         worlds = tuple(self._world(world) for world in document.worlds)
-        return document.model_copy(update={"models": models, "worlds": worlds})
+        return document.copy(models=models, worlds=worlds)
 
     def _world(self, world: World) -> World:
         models = tuple(self._model(model, (world.name,)) for model in world.models)
-        world = world.model_copy(update={"models": models})
+        world = world.copy(models=models)
         for plugin in self.worlds.get(world.name, ()):
             world = add_world_plugin(world, plugin)
         return world
@@ -81,7 +81,7 @@ def _with_sensor(model: Model, holder: str, sensor: Sensor, format_: Format) -> 
         return model
     # libsdformat merges links on fixed joints, and the joint goes with its sensor
     preserve = GazeboExtension(reference=holder, content=(Element(name="preserveFixedJoint", text="true"),))
-    return model.model_copy(update={"extensions": (*model.extensions, preserve)})
+    return model.copy(extensions=(*model.extensions, preserve))
 
 
 def _is_preserved(model: Model, joint: str) -> bool:
@@ -95,6 +95,6 @@ def _with_mimic(model: Model, follower: str, mimic: Mimic) -> Model:
     def follow(joint: Joint) -> Joint:
         if joint.name != follower:
             return joint
-        return joint.model_copy(update={"axis": (joint.axis or Axis()).model_copy(update={"mimic": mimic})})
+        return joint.copy(axis=(joint.axis or Axis()).copy(mimic=mimic))
 
-    return model.model_copy(update={"joints": tuple(map(follow, model.joints))})
+    return model.copy(joints=tuple(map(follow, model.joints)))

@@ -22,9 +22,9 @@ def with_text(element: Element, path: str, text: str) -> Element:
     step, _, rest = path.partition("/")
     if step.startswith("@"):
         others = tuple(each for each in element.attributes if each[0] != step[1:])
-        return element.model_copy(update={"attributes": (*others, (step[1:], text))})
+        return element.copy(attributes=(*others, (step[1:], text)))
     child = element.find(step) or Element(name=step)
-    new = with_text(child, rest, text) if rest else child.model_copy(update={"text": text})
+    new = with_text(child, rest, text) if rest else child.copy(text=text)
     return with_child(element, child, new)
 
 
@@ -34,9 +34,9 @@ def with_child(element: Element, old: Element, new: Element) -> Element:
         children = tuple(new if child is old else child for child in element.children)
     else:
         children = (*element.children, new)
-    return element.model_copy(update={"children": children})
+    return element.copy(children=children)
 
 
 def added(element: Element, child: Element) -> Element:
     """The element with one more child."""
-    return element.model_copy(update={"children": (*element.children, child)})
+    return element.copy(children=(*element.children, child))

@@ -34,7 +34,7 @@ def _modern(element: Element) -> Element:
     attributes = tuple((name, _words(value)) for name, value in element.attributes)
     children = tuple(map(_modern, element.children))
     update = {"name": _ELEMENTS.get(element.name, element.name), "text": text, "attributes": attributes}
-    changed = element.model_copy(update={**update, "children": children})
+    changed = element.copy(**{**update, "children": children})
     return element if changed == element else changed
 
 

@@ -66,7 +66,7 @@ class Moved:
         elif move.first and parameter.name in self.moved:
             self.lost.append(DroppedParameter(parameter, "the system has one value for all", harmless=False))
         elif parameter.children or parameter.attributes:
-            self.element = added(self.element, parameter.model_copy(update={"name": move.to or parameter.name}))
+            self.element = added(self.element, parameter.copy(name=move.to or parameter.name))
         else:
             self._write_all(parameter, text, move)
 

@@ -97,7 +97,7 @@ class PluginMigration:
                 for reason in missing:
                     report.missing(reason)
             else:
-                placed = each.model_copy(update={"content": (*each.content, *offset)}) if offset else each
+                placed = each.copy(content=(*each.content, *offset)) if offset else each
                 here.append(self._controlled(placed, site, report) if migration.control else placed)
         return here
 
@@ -108,7 +108,7 @@ class PluginMigration:
             return plugin
         if self.controllers is not None:
             parameters = Element(name="parameters", text=self.controllers)
-            return plugin.model_copy(update={"content": (*plugin.content, parameters)})
+            return plugin.copy(content=(*plugin.content, parameters))
         report.missing("it needs <parameters>, the file of its controllers; the option `controllers` writes it")
         return plugin
 
@@ -206,4 +206,4 @@ def with_measures(plugin: Plugin, system: str, model: Model, format_: Format) ->
             found.append(Element(name=name, text=format_value(measure(measured))))
         except NotMeasuredError as error:
             missing.append(f"it needs <{name}>, which cannot be read off the model: {error}")
-    return plugin.model_copy(update={"content": (*plugin.content, *found)}), missing
+    return plugin.copy(content=(*plugin.content, *found)), missing

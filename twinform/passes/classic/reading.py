@@ -29,4 +29,4 @@ def as_read(plugin: Plugin) -> Plugin:
     if kind is None or kind.free:
         return plugin
     content = tuple(child for child in plugin.content if kind.parameter(child.name) is not None)
-    return plugin if len(content) == len(plugin.content) else plugin.model_copy(update={"content": content})
+    return plugin if len(content) == len(plugin.content) else plugin.copy(content=content)

@@ -128,7 +128,7 @@ class SensorMigration:
                 element = teller.move(plugin, migration, element, here, called)
             made = sensor_of(complete_lens(with_frame(element, self.release)))
             if made is not None:
-                yield made.model_copy(update={"plugins": rest if number == 0 else (), "source": sensor.source})
+                yield made.copy(plugins=rest if number == 0 else (), source=sensor.source)
         message = f"sensor {sensor.name!r} on {site.holder!r} had the type {_MANY} and is now {len(cameras)} cameras"
         self._account_type(message, sensor.location, sensor.type)
         where = sensor.location
@@ -154,10 +154,10 @@ def with_frame(element: Element, release: Release) -> Element:
     """A sensor whose frame is named as the release wants it."""
     wanted = release.frame_element or _FRAME_BEFORE
     children = tuple(
-        child.model_copy(update={"name": wanted}) if child.name in _FRAMES and _is_newer(child.name, wanted) else child
+        child.copy(name=wanted) if child.name in _FRAMES and _is_newer(child.name, wanted) else child
         for child in element.children
     )
-    return element if children == element.children else element.model_copy(update={"children": children})
+    return element if children == element.children else element.copy(children=children)
 
 
 def complete_lens(element: Element) -> Element:
@@ -184,15 +184,15 @@ def modern_types() -> dict[str, str]:
 
 def _bare(sensor: Sensor, type_: str) -> Element:
     """The element of a sensor without its plugins, with a type."""
-    element = sensor_element(sensor.model_copy(update={"plugins": ()}))
+    element = sensor_element(sensor.copy(plugins=()))
     if type_ == sensor.type:
         return element
     element = with_text(element, "@type", type_)
     children = tuple(
-        child.model_copy(update={"name": RENAMED_ELEMENTS[child.name]}) if child.name in RENAMED_ELEMENTS else child
+        child.copy(name=RENAMED_ELEMENTS[child.name]) if child.name in RENAMED_ELEMENTS else child
         for child in element.children
     )
-    return element.model_copy(update={"children": children})
+    return element.copy(children=children)
 
 
 def _is_newer(old: str, wanted: str) -> bool:
@@ -223,15 +223,15 @@ def _with_sets(element: Element, migration: Migration, row: SensorRow, moved: se
 
 def _one_camera(whole: Element, name: str, camera: Element, shared: tuple[Element, ...]) -> Element:
     """A camera by itself; its pose in the sensor stays in it, as SDF has it there too."""
-    bare = camera.model_copy(update={"attributes": ()})
-    return with_text(whole.model_copy(update={"children": (*shared, bare)}), "@name", name)
+    bare = camera.copy(attributes=())
+    return with_text(whole.copy(children=(*shared, bare)), "@name", name)
 
 
 def _unless_same(sensor: Sensor, element: Element, plugins: tuple[Plugin, ...]) -> Sensor | None:
-    if element == sensor_element(sensor.model_copy(update={"plugins": ()})):
-        return sensor if plugins == sensor.plugins else sensor.model_copy(update={"plugins": plugins})
+    if element == sensor_element(sensor.copy(plugins=())):
+        return sensor if plugins == sensor.plugins else sensor.copy(plugins=plugins)
     made = sensor_of(element)
-    return made and made.model_copy(update={"plugins": plugins, "source": sensor.source})
+    return made and made.copy(plugins=plugins, source=sensor.source)
 
 
 def _is_sensor(element: Element) -> bool:

@@ -33,7 +33,7 @@ def ship_models(document: Document, sink: DiagnosticSink) -> Document:
         message = f"{old} came with Gazebo Classic; it is {new} now"
         sink.report(rules.SHIPPED_MODEL, message, include.location, found=old)
         sink.account(Fate.APPROXIMATED, rules.SHIPPED_MODEL, message, include.location)
-        return include.model_copy(update={"uri": new})
+        return include.copy(uri=new)
 
     return rewrite(document, Include, change)
 
@@ -41,7 +41,7 @@ def ship_models(document: Document, sink: DiagnosticSink) -> Document:
 def complete_worlds(document: Document, release: Release, sink: DiagnosticSink) -> Document:
     """The document with the systems that its worlds need: those of sensors, and all defaults once one is written."""
     worlds = tuple(_complete(world, release, sink) for world in document.worlds)
-    return document if worlds == document.worlds else document.model_copy(update={"worlds": worlds})
+    return document if worlds == document.worlds else document.copy(worlds=worlds)
 
 
 def report_needs(document: Document, release: Release, sink: DiagnosticSink) -> None:

@@ -43,7 +43,7 @@ def replace(model: Model, gone: Iterable[Opaque], new: Iterable[Opaque], *, afte
             parts.append(part)
         if part is after:
             parts.extend(new)
-    return model.model_copy(update={"opaque": tuple(parts)})
+    return model.copy(opaque=tuple(parts))
 
 
 def declare_carriers(document: Document) -> Document:
@@ -51,7 +51,7 @@ def declare_carriers(document: Document) -> Document:
     pair = (PREFIX, NAMESPACE)
     if document.format is Format.URDF or pair in document.namespaces:
         return document
-    return document.model_copy(update={"namespaces": (*document.namespaces, pair)})
+    return document.copy(namespaces=(*document.namespaces, pair))
 
 
 def place_of(part: Opaque, model: Model) -> Location:

@@ -90,14 +90,14 @@ def _complete(element: Element, names: set[str], actuators: set[str]) -> Element
         elif child.name not in {"type", "mechanicalReduction"}:
             children.append(child)
     attributes = (("name", name), *(pair for pair in element.attributes if pair[0] not in {"name", "type"}))
-    return element.model_copy(update={"attributes": attributes, "children": tuple(children), "text": None})
+    return element.copy(attributes=attributes, children=tuple(children), text=None)
 
 
 def _joint(element: Element, interfaces: list[Element]) -> Element:
     if any(_all(element, "hardwareInterface")):
         return element
     wanted = tuple(interfaces[:1]) or (Element(name="hardwareInterface", text=_INTERFACE),)
-    return element.model_copy(update={"children": (*element.children, *wanted)})
+    return element.copy(children=(*element.children, *wanted))
 
 
 def _actuator(element: Element, reduction: Element | None, taken: set[str]) -> Element:
@@ -107,7 +107,7 @@ def _actuator(element: Element, reduction: Element | None, taken: set[str]) -> E
     if reduction is not None and not any(each.name == "mechanicalReduction" for each in kept):
         kept.append(reduction)
     attributes = tuple((key, name if key == "name" else value) for key, value in element.attributes)
-    return element.model_copy(update={"attributes": attributes, "children": tuple(kept)})
+    return element.copy(attributes=attributes, children=tuple(kept))
 
 
 def _all(element: Element, name: str) -> Iterator[Element]:

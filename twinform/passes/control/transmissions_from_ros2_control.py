@@ -98,7 +98,7 @@ def _interfaces(joint: Element) -> tuple[str, ...]:
 def _rest(system: Element) -> tuple[Element, ...]:
     """The system without what became transmissions; nothing where nothing is left but its hardware."""
     left = tuple(child for child in system.children if child.name not in {"joint", "transmission"})
-    return (system.model_copy(update={"children": left}),) if any(child.name != "hardware" for child in left) else ()
+    return (system.copy(children=left),) if any(child.name != "hardware" for child in left) else ()
 
 
 def _report(

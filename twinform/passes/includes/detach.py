@@ -36,9 +36,9 @@ class _Detached:
         """All but the models, whose own poses are not theirs to keep."""
         frames = tuple(self._frame(frame) for frame in world.frames)
         joints = tuple(self._joint(joint) for joint in world.joints)
-        rest = world.model_copy(update={"frames": frames, "joints": joints, "models": ()})
-        models = tuple(model.model_copy(update={"pose": self._own(model.pose)}) for model in world.models)
-        return rewrite(rest, Pose, self._pose).model_copy(update={"models": models})
+        rest = world.copy(frames=frames, joints=joints, models=())
+        models = tuple(model.copy(pose=self._own(model.pose)) for model in world.models)
+        return rewrite(rest, Pose, self._pose).copy(models=models)
 
     def _base_for(self, name: str | None) -> str | None:
         """The frame that stays of the model that a name is, or is inside of; None where that frame may stay."""
@@ -63,7 +63,7 @@ class _Detached:
             return frame
         body = self.graph.body(frame.attached_to)
         placed = self._relative(frame.pose, frame.attached_to, base)
-        return frame.model_copy(update={"attached_to": body, "pose": placed})
+        return frame.copy(attached_to=body, pose=placed)
 
     def _joint(self, joint: Joint) -> Joint:
         update: dict[str, object] = {}
@@ -73,7 +73,7 @@ class _Detached:
         base = self._base_for(joint.child)
         if base is not None and joint.child is not None and not (joint.pose and joint.pose.relative_to):
             update["pose"] = self._relative(joint.pose, joint.child, base)
-        return joint.model_copy(update=update) if update else joint
+        return joint.copy(**update) if update else joint
 
 
 def links_named_around(world: World) -> dict[str, frozenset[str]]:

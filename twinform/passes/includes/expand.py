@@ -61,7 +61,7 @@ def expand_includes(document: Document, resolve: Resolver, sink: DiagnosticSink,
     by_identity = {id(include): each for include, each in zip(_includes(document), found, strict=True)}
     document = _Expansion(by_identity, version, sink, carriers).document(document)
     namespaces = joined(document.namespaces, (each.document.namespaces for each in found if each))
-    return document.model_copy(update={"namespaces": namespaces})
+    return document.copy(namespaces=namespaces)
 
 
 def _needs(document: Document) -> Iterator[str]:
@@ -104,23 +104,23 @@ class _Expansion:
     def document(self, document: Document) -> Document:
         models = tuple(map(self.model, document.models))
         worlds = tuple(map(self.world, document.worlds))
-        document = document.model_copy(update={"models": models, "worlds": worlds, "version": self.version})
+        document = document.copy(models=models, worlds=worlds, version=self.version)
         for include, source in self._split(document.includes):
             if include.merge:
                 self._refuse_merge(include, "the root of a file is no model")
                 continue
             document = self._beside(document, include, source)
-        return document.model_copy(update={"includes": self._kept(document.includes)})
+        return document.copy(includes=self._kept(document.includes))
 
     def world(self, world: World) -> World:
-        world = world.model_copy(update={"models": tuple(map(self.model, world.models))})
+        world = world.copy(models=tuple(map(self.model, world.models)))
         for include, source in self._split(world.includes):
             if include.merge:
                 model = self._model(include, source)
                 world = merge_into_world(world, include, model, self.sink, source.frame) if model else world
                 continue
             world = self._beside(world, include, source)
-        return world.model_copy(update={"includes": self._kept(world.includes)})
+        return world.copy(includes=self._kept(world.includes))
 
     def model(self, model: Model) -> Model:
         model = replace_fields(model, models=tuple(map(self.model, model.models)))
@@ -132,8 +132,8 @@ class _Expansion:
                 model = merge_into_model(model, include, included, self.sink, source.frame)
             elif included is not None:
                 nested = placed_model(include, included, self.sink, source.frame)
-                model = model.model_copy(update={"models": (*model.models, nested)})
-        return model.model_copy(update={"includes": self._kept(model.includes)})
+                model = model.copy(models=(*model.models, nested))
+        return model.copy(includes=self._kept(model.includes))
 
     def _split(self, includes: Iterable[Include]) -> Iterator[tuple[Include, Included]]:
         for include in includes:
@@ -161,16 +161,16 @@ class _Expansion:
         if lights:
             light = placed_light(include, lights[0])
             report_leftovers(include, self.sink)
-            return holder.model_copy(update={"lights": (*holder.lights, light)})
+            return holder.copy(lights=(*holder.lights, light))
         actor = None if document.models else placed_actor(include, document)
         if actor is not None:
             report_leftovers(include, self.sink)
-            return holder.model_copy(update={"opaque": (*holder.opaque, actor)})
+            return holder.copy(opaque=(*holder.opaque, actor))
         model = self._model(include, source)
         if model is None:
             return holder
         placed = placed_model(include, model, self.sink, source.frame)
-        return holder.model_copy(update={"models": (*holder.models, placed)})
+        return holder.copy(models=(*holder.models, placed))
 
     def _model(self, include: Include, source: Included) -> Model | None:
         models = self._ready(source).models

@@ -47,9 +47,7 @@ def _merged(holder: Holder, include: Include, model: Model, around: str, sink: D
         "plugins": model.plugins,
         "opaque": tuple(part for part in model.opaque if part.element),
     }
-    return holder.model_copy(
-        update={name: (*getattr(holder, name), *parts) for name, parts in contents.items() if parts}
-    )
+    return holder.copy(**{name: (*getattr(holder, name), *parts) for name, parts in contents.items() if parts})
 
 
 def _proxy(model: Model, around: str, sink: DiagnosticSink) -> Frame | None:
@@ -79,12 +77,12 @@ class _Contents:
     def posed(self, node: Posed) -> Posed:
         """A link, nested model or include; without a frame of its own its pose was in the model's."""
         pose = node.pose or Pose()
-        pose = pose.model_copy(update={"relative_to": self._named("any", pose.relative_to or MODEL)})
-        placed = node.model_copy(update={"pose": pose})
+        pose = pose.copy(relative_to=self._named("any", pose.relative_to or MODEL))
+        placed = node.copy(pose=pose)
         return self.inside(placed) if isinstance(placed, Link) else placed  # what is in a model has frames of its own
 
     def frame(self, frame: Frame) -> Frame:
-        return self.inside(frame.model_copy(update={"attached_to": frame.attached_to or MODEL}))
+        return self.inside(frame.copy(attached_to=frame.attached_to or MODEL))
 
     def inside(self, node: AnyNode) -> AnyNode:
         """The node with all references in it, and those of untyped poses."""

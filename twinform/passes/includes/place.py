@@ -33,7 +33,7 @@ def placed_model(include: Include, model: Model, sink: DiagnosticSink, frame: Tr
         "opaque": (*model.opaque, *_additions(include, model, sink)),
         "source": include.source,
     }
-    return model.model_copy(update=update)
+    return model.copy(**update)
 
 
 def frame_of_sdf(robot: Model) -> Transform:
@@ -58,7 +58,7 @@ def placed_light(include: Include, light: Light) -> Light:
         "pose": include.pose if include.pose is not None else light.pose,
         "source": include.source,
     }
-    return light.model_copy(update=update)
+    return light.copy(**update)
 
 
 def placed_actor(include: Include, document: Document) -> Opaque | None:
@@ -69,13 +69,13 @@ def placed_actor(include: Include, document: Document) -> Opaque | None:
     actor = part.element
     if include.name is not None:
         others = tuple(pair for pair in actor.attributes if pair[0] != "name")
-        actor = actor.model_copy(update={"attributes": (("name", include.name), *others)})
+        actor = actor.copy(attributes=(("name", include.name), *others))
     if include.pose is not None:
         others = tuple(child for child in actor.children if child.name != "pose")
-        actor = actor.model_copy(update={"children": (to_element(include.pose, "pose", "sdf"), *others)})
+        actor = actor.copy(children=(to_element(include.pose, "pose", "sdf"), *others))
     plugins = tuple(to_element(plugin, "plugin", "sdf") for plugin in include.plugins)
-    actor = actor.model_copy(update={"children": (*actor.children, *plugins)})
-    return part.model_copy(update={"element": actor, "source": include.source})
+    actor = actor.copy(children=(*actor.children, *plugins))
+    return part.copy(element=actor, source=include.source)
 
 
 def _additions(include: Include, model: Model, sink: DiagnosticSink) -> Iterator[Opaque]:

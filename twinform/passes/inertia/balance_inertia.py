@@ -97,7 +97,7 @@ class BalanceInertia(Pass):
             return link
         _report(link, inertial, matrix, found, sink)
         inertia = with_tensor(inertial.inertia, found)
-        return link.model_copy(update={"inertial": inertial.model_copy(update={"inertia": inertia})})
+        return link.copy(inertial=inertial.copy(inertia=inertia))
 
     def _floor(self, mass: float, matrix: Symmetric) -> float:
         """The least second moment of mass along an axis, in kg m^2: a principal moment is the sum of two."""

@@ -164,7 +164,7 @@ def _filled(link: Link, filling: _Filling, sink: DiagnosticSink) -> Link:
     message = f"link {link.name!r} got the inertia of {count}, with a mass of {found.mass:.6g} kg{kept}"
     place = link.inertial.location if link.inertial and link.inertial.source else link.location
     sink.report(FILLED_INERTIA, message, place, found=f"{found.mass:.6g} kg")
-    return link.model_copy(update={"inertial": inertial_of(found, link.inertial)})
+    return link.copy(inertial=inertial_of(found, link.inertial))
 
 
 def _report_empty(document: Document, patterns: tuple[str, ...], sink: DiagnosticSink) -> None:

@@ -69,7 +69,7 @@ class Masses:
     def applied(self, link: Link) -> Link:
         """The link with what it has by now."""
         changed = self._changed.get(id(link))
-        return link if changed is None else link.model_copy(update={"inertial": changed})
+        return link if changed is None else link.copy(inertial=changed)
 
     def _graph(self, root: Model) -> FrameGraph:
         return self._graphs.setdefault(id(root), FrameGraph(root))
@@ -87,4 +87,4 @@ def _scaled(inertial: Inertial, matrix: Symmetric, factor: float) -> Inertial:
     """The same distribution of a part of the mass."""
     xx, yy, zz, xy, xz, yz = (factor * each for each in matrix)
     inertia = with_tensor(inertial.inertia, (xx, yy, zz, xy, xz, yz))
-    return inertial.model_copy(update={"mass": (inertial.mass or 0.0) * factor, "inertia": inertia})
+    return inertial.copy(mass=(inertial.mass or 0.0) * factor, inertia=inertia)

@@ -140,7 +140,7 @@ def _has_mass(link: Link, format_: Format) -> bool:
 
 
 def _fixed(joint: Joint) -> Joint:
-    return joint.model_copy(update={"type": "fixed", "axis": None, "axis2": None})
+    return joint.copy(type="fixed", axis=None, axis2=None)
 
 
 def _report_fixed(link: Link, joints: list[Joint], sink: DiagnosticSink) -> None:

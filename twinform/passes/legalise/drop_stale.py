@@ -48,7 +48,7 @@ class DropStale(ModelPass):
         if (PREFIX, NAMESPACE) not in document.namespaces or any(map(has_ours, document.models)):
             return document
         others = tuple(pair for pair in document.namespaces if pair != (PREFIX, NAMESPACE))
-        return document.model_copy(update={"namespaces": others})
+        return document.copy(namespaces=others)
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without stale carriers."""
@@ -77,7 +77,7 @@ class _Dropping:
         parts = node.opaque
         kept = tuple([part for part in parts if not self._is_stale(part)]) if parts else parts
         if len(kept) != len(parts):
-            node = node.model_copy(update={"opaque": kept})
+            node = node.copy(opaque=kept)
             self.dropped.extend((part, node) for part in parts if self._is_stale(part))
         return map_children(node, self.without)
 

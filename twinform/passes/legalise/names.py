@@ -44,7 +44,7 @@ def with_old_names(model: Model, names: Names) -> Model:
         return node if name is None else with_annotation(node, SCOPED_NAME, name, {"instead_of": node.name})
 
     update = {field: tuple(annotated(part, node) for node in getattr(model, field)) for part, field in _FIELDS.items()}
-    return model.model_copy(update=update)
+    return model.copy(**update)
 
 
 def scoped_name(node: Link | Joint | Frame) -> str:
@@ -104,7 +104,7 @@ class RestoreNames(ModelPass):
         update = {
             field: tuple(without_annotation(node, kind) for node in getattr(model, field)) for field in _FIELDS.values()
         }
-        return renamed(model.model_copy(update=update), names, self.to)
+        return renamed(model.copy(**update), names, self.to)
 
     def _key(self, part: Part, name: str) -> tuple[Part, str]:
         return (part if (self.to is Format.URDF or self.apart) and not self.unique else "", name)
@@ -153,4 +153,4 @@ def _model_by_its_name(model: Model) -> Model:
     if found is None:
         return model
     model = without_annotation(model, NAME)
-    return model.model_copy(update={"name": _old_name(found)}) if found.get("instead_of") == model.name else model
+    return model.copy(name=_old_name(found)) if found.get("instead_of") == model.name else model

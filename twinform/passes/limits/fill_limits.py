@@ -79,10 +79,10 @@ class FillLimits(Pass):
         if not values and not forces:
             return joint
         _report_filled(joint, limit, values | forces, sink)
-        update: dict[str, Node] = {"limit": limit.model_copy(update=values)} if values else {}
+        update: dict[str, Node] = {"limit": limit.copy(**values)} if values else {}
         if forces:
-            update["dynamics"] = dynamics.model_copy(update=forces)
-        return joint.model_copy(update={"axis": axis.model_copy(update=update)})
+            update["dynamics"] = dynamics.copy(**forces)
+        return joint.copy(axis=axis.copy(**update))
 
     def _missing_forces(self, dynamics: Dynamics) -> dict[str, float]:
         """The values that the options give for forces which are not written."""

@@ -39,7 +39,7 @@ class OrderLimits(Pass):
             if joint.type not in _BOUNDED or not matches(joint.name, self.joints):
                 return joint
             axis, second = (_ordered(joint, each, sink) for each in (joint.axis, joint.axis2))
-            return joint.model_copy(update={"axis": axis, "axis2": second})
+            return joint.copy(axis=axis, axis2=second)
 
         return rewrite(document, Joint, order)
 
@@ -50,7 +50,7 @@ def _ordered(joint: Joint, axis: Axis | None, sink: DiagnosticSink) -> Axis | No
     limit, dynamics = _in_order(joint, axis.limit, sink), _positive(joint, axis.dynamics, sink)
     if limit is axis.limit and dynamics is axis.dynamics:
         return axis
-    return axis.model_copy(update={"limit": limit, "dynamics": dynamics})
+    return axis.copy(limit=limit, dynamics=dynamics)
 
 
 def is_usable(axis: Axis) -> bool:
@@ -73,13 +73,13 @@ def _in_order(joint: Joint, limit: Limit | None, sink: DiagnosticSink) -> Limit 
     if (lower, upper) != (limit.lower, limit.upper):
         message = f"a limit of joint {joint.name!r} was no number, and is left out"
         sink.report(ORDERED_LIMITS, message, limit.location)
-        limit = limit.model_copy(update={"lower": lower, "upper": upper})
+        limit = limit.copy(lower=lower, upper=upper)
     if lower is None or upper is None or lower <= upper:
         return limit
     was, now = f"{lower:g} to {upper:g}", f"{upper:g} to {lower:g}"
     message = f"the limits of joint {joint.name!r} were {was} and are {now}"
     sink.report(ORDERED_LIMITS, message, limit.location, found=was, expected=now)
-    return limit.model_copy(update={"lower": upper, "upper": lower})
+    return limit.copy(lower=upper, upper=lower)
 
 
 def _positive(joint: Joint, dynamics: Dynamics | None, sink: DiagnosticSink) -> Dynamics | None:
@@ -88,4 +88,4 @@ def _positive(joint: Joint, dynamics: Dynamics | None, sink: DiagnosticSink) -> 
     for name in names:
         message = f"the {name} of joint {joint.name!r} was below zero and is 0"
         sink.report(ORDERED_LIMITS, message, dynamics.location, expected="0")
-    return dynamics.model_copy(update=dict.fromkeys(names, 0.0))
+    return dynamics.copy(**dict.fromkeys(names, 0.0))

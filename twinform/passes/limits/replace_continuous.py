@@ -35,11 +35,11 @@ def _revolute(joint: Joint, sink: DiagnosticSink) -> Joint:
         return joint
     message = f"joint {joint.name!r} was continuous and is revolute, without limits"
     sink.report(REPLACED_CONTINUOUS, message, joint.location.at("@type"), found=joint.name)
-    return joint.model_copy(update={"type": "revolute", "axis": _endless(joint.axis)})
+    return joint.copy(type="revolute", axis=_endless(joint.axis))
 
 
 def _endless(axis: Axis | None) -> Axis | None:
     if axis is None or axis.limit is None:
         return axis
-    limit = axis.limit.model_copy(update={"lower": None, "upper": None})
-    return axis.model_copy(update={"limit": None if limit == Limit() else limit})
+    limit = axis.limit.copy(lower=None, upper=None)
+    return axis.copy(limit=None if limit == Limit() else limit)

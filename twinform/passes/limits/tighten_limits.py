@@ -56,8 +56,8 @@ class TightenLimits(Pass):
             return joint
         message = f"the limits of joint {joint.name!r} were {was} and are {now}"
         sink.report(TIGHTENED_LIMIT, message, where, found=was, expected=now)
-        tight = limit.model_copy(update={"lower": lower, "upper": upper})
-        return joint.model_copy(update={"axis": joint.axis.model_copy(update={"limit": tight})})
+        tight = limit.copy(lower=lower, upper=upper)
+        return joint.copy(axis=joint.axis.copy(limit=tight))
 
     def _range(self, limit: Limit, soft: SoftLimits) -> tuple[float | None, float | None]:
         """The ends as they are to be; None where there is none."""

@@ -76,7 +76,7 @@ class ConvertMeshes(MeshPass):
             if self.shapes != "visual":
                 update["collisions"] = tuple(self._shape(each, bench, told) for each in link.collisions)
             changed = {name: new for name, new in update.items() if new != getattr(link, name)}
-            return link.model_copy(update=changed) if changed else link
+            return link.copy(**changed) if changed else link
 
         return rewrite(document, Link, change)
 
@@ -92,8 +92,8 @@ class ConvertMeshes(MeshPass):
                 stays(bench.sink, error, f"mesh {uri!r}", shape.location)
             told.add(uri)
             return shape
-        geometry = (shape.geometry or Geometry()).model_copy(update={"shape": changed})
-        return shape if changed is mesh else shape.model_copy(update={"geometry": geometry})
+        geometry = (shape.geometry or Geometry()).copy(shape=changed)
+        return shape if changed is mesh else shape.copy(geometry=geometry)
 
     def _converted(self, shape: AnyShape, mesh: Mesh, bench: Workbench, told: set[str]) -> Mesh:
         """The mesh with another file; itself where it needs none.
@@ -117,7 +117,7 @@ class ConvertMeshes(MeshPass):
         if uri not in told:
             bench.sink.report(CHANGED_MESH, f"mesh {uri!r} is written as {new!r}", shape.location, found=source.kind)
         told.add(uri)
-        return without_submesh(mesh).model_copy(update={"uri": new})
+        return without_submesh(mesh).copy(uri=new)
 
 
 def _require_whole(source: MeshSource, uri: str, looks_count: bool) -> None:

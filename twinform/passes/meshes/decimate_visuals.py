@@ -66,7 +66,7 @@ class DecimateVisuals(MeshPass):
             if not matches(link.name, self.links):
                 return link
             visuals = tuple(self._visual(link, each, bench, matched) for each in link.visuals)
-            return link if visuals == link.visuals else link.model_copy(update={"visuals": visuals})
+            return link if visuals == link.visuals else link.copy(visuals=visuals)
 
         made = rewrite(document, Link, change)
         if not matched:
@@ -113,6 +113,6 @@ class DecimateVisuals(MeshPass):
         bench.sink.report(CHANGED_MESH, message, visual.location)
         if not self.use:
             return visual
-        changed = without_submesh(mesh).model_copy(update={"uri": uris[min(self.use, len(uris)) - 1]})
-        geometry = (visual.geometry or Geometry()).model_copy(update={"shape": changed})
-        return visual.model_copy(update={"geometry": geometry})
+        changed = without_submesh(mesh).copy(uri=uris[min(self.use, len(uris)) - 1])
+        geometry = (visual.geometry or Geometry()).copy(shape=changed)
+        return visual.copy(geometry=geometry)

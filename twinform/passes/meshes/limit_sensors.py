@@ -78,7 +78,7 @@ class LimitSensors(Pass):
                 made = _with_parts(made, name, lambda element: _fewer_rays(element, self.max_rays or 1))
         cost = sensor_cost(sensor)
         if self.max_rate is not None and cost.rate > self.max_rate:
-            made = made.model_copy(update={"update_rate": self.max_rate})
+            made = made.copy(update_rate=self.max_rate)
         return made
 
     def _factor(self, document: Document, kind: str, sink: DiagnosticSink) -> float:
@@ -107,7 +107,7 @@ class LimitSensors(Pass):
         cost = sensor_cost(sensor)
         factor = min((factors[kind] for kind in _BUDGETS if getattr(cost, kind)), default=1.0)
         rate = _slower(cost.rate, factor, self.min_rate)
-        return sensor if factor >= 1 or rate >= cost.rate else sensor.model_copy(update={"update_rate": rate})
+        return sensor if factor >= 1 or rate >= cost.rate else sensor.copy(update_rate=rate)
 
 
 def _slower(rate: float, factor: float, least: float) -> float:
@@ -140,9 +140,9 @@ def _with_parts(sensor: Sensor, name: str, change: Callable[[Element], Element])
 
     def part(one: Opaque) -> Opaque:
         element = one.element
-        return one.model_copy(update={"element": change(element)}) if element and element.name == name else one
+        return one.copy(element=change(element)) if element and element.name == name else one
 
-    return sensor.model_copy(update={"opaque": tuple(map(part, sensor.opaque))})
+    return sensor.copy(opaque=tuple(map(part, sensor.opaque)))
 
 
 def _smaller_image(camera: Element, most: int) -> Element:

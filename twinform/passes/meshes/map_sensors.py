@@ -18,7 +18,7 @@ def map_sensors(document: Document, change: Callable[[Sensor], Sensor]) -> Docum
             return node
         content = tuple(_element(each, node, change) for each in node.content)
         same = all(new is old for new, old in zip(content, node.content, strict=True))
-        return node if same else node.model_copy(update={"content": content})
+        return node if same else node.copy(content=content)
 
     return rewrite(document, Node, changed, having=_HAVING)
 
@@ -30,7 +30,7 @@ def _element(element: Element, around: GazeboExtension, change: Callable[[Sensor
         element = element if new is old else _written(element, old, new)
     children = tuple(_element(each, around, change) for each in element.children)
     same = all(new is old for new, old in zip(children, element.children, strict=True))
-    return element if same else element.model_copy(update={"children": children})
+    return element if same else element.copy(children=children)
 
 
 def _written(element: Element, old: Sensor, new: Sensor) -> Element:
@@ -39,16 +39,16 @@ def _written(element: Element, old: Sensor, new: Sensor) -> Element:
         element = with_child(element, with_text("update_rate", f"{new.update_rate:.10g}", element))
     changed = {part.element.name: part.element for part in new.opaque if part.element}
     children = tuple(changed.get(child.name, child) for child in element.children)
-    return element.model_copy(update={"children": children})
+    return element.copy(children=children)
 
 
 def with_text(name: str, text: str, holder: Element) -> Element:
     """The child of a name that the holder has, or a new one, with this text."""
-    return (holder.find(name) or Element(name=name)).model_copy(update={"text": text})
+    return (holder.find(name) or Element(name=name)).copy(text=text)
 
 
 def with_child(holder: Element, child: Element) -> Element:
     """The holder with a child in the place of the first one of its name, or at the end."""
     at = next((index for index, each in enumerate(holder.children) if each.name == child.name), None)
     before, after = (holder.children, ()) if at is None else (holder.children[:at], holder.children[at + 1 :])
-    return holder.model_copy(update={"children": (*before, child, *after)})
+    return holder.copy(children=(*before, child, *after))

@@ -101,7 +101,7 @@ class SimplifyCollisions(MeshPass):
             taken = {each.name for each in (*link.collisions, *found) if each.name}
             found += _simplified(link, one, mesh, options, bench, taken)
         same = len(found) == len(link.collisions) and all(a is b for a, b in zip(found, link.collisions, strict=True))
-        return link if same else link.model_copy(update={"collisions": tuple(found)})
+        return link if same else link.copy(collisions=tuple(found))
 
 
 def _simplified(
@@ -170,7 +170,7 @@ def _parts(collision: Collision, outcome: Outcome, bench: Workbench, taken: set[
         uri = bench.add(outcome.stem, {suffix: data})
         one = _with(collision, Mesh(uri=uri))
         if index > 1 and collision.name:
-            one = one.model_copy(update={"name": _free(collision.name, index, taken)})
+            one = one.copy(name=_free(collision.name, index, taken))
         found.append(one)
     return found
 
@@ -184,5 +184,5 @@ def _free(name: str, index: int, taken: set[str]) -> str:
 
 
 def _with(collision: Collision, shape: Shape, **fields: object) -> Collision:
-    geometry = (collision.geometry or Geometry()).model_copy(update={"shape": shape})
-    return collision.model_copy(update={"geometry": geometry, **fields})
+    geometry = (collision.geometry or Geometry()).copy(shape=shape)
+    return collision.copy(**{"geometry": geometry, **fields})

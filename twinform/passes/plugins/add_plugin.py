@@ -131,7 +131,7 @@ class AddPlugin(SelectingPass):
             seen.append(sensor.name or "")
             if sensor.name != self.on or plugin in sensor.plugins:
                 return (sensor,)
-            return (sensor.model_copy(update={"plugins": (*sensor.plugins, plugin)}),)
+            return (sensor.copy(plugins=(*sensor.plugins, plugin)),)
 
         made = map_sensors(document, change)
         if self.on not in seen:
@@ -161,7 +161,7 @@ class AddPlugin(SelectingPass):
         kind = self._kind()
         content = content_of(kind, {**self._values(), **measured})
         plugin = system_plugin(kind)
-        return plugin.model_copy(update={"content": content}) if content else plugin
+        return plugin.copy(content=content) if content else plugin
 
     def _names_are_there(self, model: Model, sink: DiagnosticSink) -> bool:
         """Whether the joints and links that are named exist; what does not is reported."""

@@ -211,7 +211,7 @@ def _named_inside(topic: str) -> Callable[[Opaque], Opaque]:
         if part.element is None or part.element.name != "contact":
             return part
         children = (*part.element.children, Element(name="topic", text=topic))
-        return Opaque(element=part.element.model_copy(update={"children": children}))
+        return Opaque(element=part.element.copy(children=children))
 
     return change
 

@@ -7,7 +7,7 @@ from twinform.passes.plugins.elements import plugin_element, sensor_element
 def add_plugin(model: Model, plugin: Plugin, format_: Format) -> Model:
     """The model with one more plugin, after those that it has; itself, if it has the same already."""
     if format_ is Format.SDF:
-        return model if plugin in model.plugins else model.model_copy(update={"plugins": (*model.plugins, plugin)})
+        return model if plugin in model.plugins else model.copy(plugins=(*model.plugins, plugin))
     return _extended(model, GazeboExtension(content=(plugin_element(plugin),)))
 
 
@@ -30,12 +30,12 @@ def _with_visual_plugin(link: Link, on: str, plugin: Plugin) -> Link:
     if on != link.name and all(on != visual.name for visual in link.visuals):
         return link
     visuals = tuple(
-        visual.model_copy(update={"plugins": (*(each for each in visual.plugins if each != plugin), plugin)})
+        visual.copy(plugins=(*(each for each in visual.plugins if each != plugin), plugin))
         if on in {link.name, visual.name}
         else visual
         for visual in link.visuals
     )
-    return link.model_copy(update={"visuals": visuals})
+    return link.copy(visuals=visuals)
 
 
 def add_sensor(model: Model, holder: str, sensor: Sensor, format_: Format, *, kept: bool = False) -> Model:
@@ -48,21 +48,16 @@ def add_sensor(model: Model, holder: str, sensor: Sensor, format_: Format, *, ke
         return _extended(model, GazeboExtension(reference=holder, content=(*keep, sensor_element(sensor))))
     field = "links" if any(link.name == holder for link in model.links) else "joints"
     nodes = tuple(
-        node.model_copy(update={"sensors": (*node.sensors, sensor)}) if node.name == holder else node
-        for node in getattr(model, field)
+        node.copy(sensors=(*node.sensors, sensor)) if node.name == holder else node for node in getattr(model, field)
     )
-    return model.model_copy(update={field: nodes})
+    return model.copy(**{field: nodes})
 
 
 def add_world_plugin(world: World, plugin: Plugin) -> World:
     """The world with one more plugin; itself, if it has the same already."""
-    return world if plugin in world.plugins else world.model_copy(update={"plugins": (*world.plugins, plugin)})
+    return world if plugin in world.plugins else world.copy(plugins=(*world.plugins, plugin))
 
 
 def _extended(model: Model, extension: GazeboExtension) -> Model:
     """The model with one more `<gazebo>`; itself, if it has the same already."""
-    return (
-        model
-        if extension in model.extensions
-        else model.model_copy(update={"extensions": (*model.extensions, extension)})
-    )
+    return model if extension in model.extensions else model.copy(extensions=(*model.extensions, extension))

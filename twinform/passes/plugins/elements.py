@@ -52,4 +52,4 @@ def sensor_of(element: Element) -> Sensor | None:
 
 def sensor_element(sensor: Sensor) -> Element:
     """The element that stands for a sensor."""
-    return to_element(sensor, "sensor", "sdf").model_copy(update={"source": sensor.source})
+    return to_element(sensor, "sensor", "sdf").copy(source=sensor.source)

@@ -28,9 +28,9 @@ def named_frame(sensor: Sensor, frame: str, gazebo: str) -> Sensor:
     """The sensor with the frame of its messages, as a release reads it."""
     element = release(gazebo).frame_element
     if element is None or element == "frame_id":
-        return sensor.model_copy(update={"frame_id": frame if element else None})
+        return sensor.copy(frame_id=frame if element else None)
     written = Opaque(element=Element(name=element, text=frame))
-    return sensor.model_copy(update={"opaque": (written, *sensor.opaque)})
+    return sensor.copy(opaque=(written, *sensor.opaque))
 
 
 def own_frame(model: Model, sensor: Sensor, type_: str) -> str | None:
@@ -54,11 +54,11 @@ def with_own_frame(model: Model, name: str, sensor: Sensor, type_: str, link: st
     at = written.compose(_OPTICAL) if type_ in _IMAGES else written
     if format_ is Format.SDF:
         pose = at.to_pose(sensor.pose.relative_to if sensor.pose else None)
-        return model.model_copy(update={"frames": (*model.frames, Frame(name=name, attached_to=link, pose=pose))})
+        return model.copy(frames=(*model.frames, Frame(name=name, attached_to=link, pose=pose)))
     joint = _unused(f"{name}_joint", model)
     mount = Joint(name=joint, type="fixed", parent=link, child=name, pose=in_radians(at, link))
     held = Link(name=name, pose=Pose(relative_to=joint))
-    return model.model_copy(update={"links": (*model.links, held), "joints": (*model.joints, mount)})
+    return model.copy(links=(*model.links, held), joints=(*model.joints, mount))
 
 
 def _unused(name: str, model: Model) -> str:

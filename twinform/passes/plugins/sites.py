@@ -174,11 +174,11 @@ class _Walk:
             return (part,)
         at = site if not part.at else replace(site, scope=part.at.rsplit("/", 1)[-1], holder="")
         if element.source is None and part.source is not None:
-            element = element.model_copy(update={"source": part.source})
+            element = element.copy(source=part.source)
         made = tuple(self._element(element, at))
         if len(made) == 1 and made[0] is element:
             return (part,)
-        return tuple(part.model_copy(update={"element": each}) for each in made)
+        return tuple(part.copy(element=each) for each in made)
 
     def _elements(self, elements: tuple[Element, ...], site: Site) -> tuple[Element, ...]:
         return _replaced(elements, lambda element: self._element(element, site))

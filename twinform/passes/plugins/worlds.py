@@ -92,7 +92,7 @@ def with_defaults(world: World, but: PluginKind | None = None) -> World:
     if world.plugins:
         return world
     kinds = [kind for kind in missing_defaults(()) if kind is not but]
-    return world.model_copy(update={"plugins": tuple(map(system_plugin, kinds))})
+    return world.copy(plugins=tuple(map(system_plugin, kinds)))
 
 
 def with_systems(world: World, kinds: Iterable[PluginKind]) -> World:
@@ -102,7 +102,7 @@ def with_systems(world: World, kinds: Iterable[PluginKind]) -> World:
         return world
     world = with_defaults(world)
     more = [system_plugin(kind) for kind in lacks if not has_system(world, kind)]
-    return world.model_copy(update={"plugins": (*world.plugins, *more)})
+    return world.copy(plugins=(*world.plugins, *more))
 
 
 def as_xml(kind: PluginKind) -> str:

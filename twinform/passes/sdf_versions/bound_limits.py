@@ -47,10 +47,10 @@ def _bound(keeper: Keeper, joint: Joint, field: str, axis: Axis) -> Joint:
     if limit is None or not infinite:
         return joint
     made = {name: _finite(name, value) for name, value in infinite.items()}
-    bounded = axis.model_copy(update={"limit": limit.model_copy(update=made)})
+    bounded = axis.copy(limit=limit.copy(**made))
     pieces: list[Opaque] = [text_piece(name, format_value(value), f"{field}/limit") for name, value in infinite.items()]
     message = f"{' and '.join(infinite)} of joint {joint.name!r} are infinite"
-    changed = joint.model_copy(update={field: bounded})
+    changed = joint.copy(**{field: bounded})
     return keeper.keep(
         changed, pieces, VersionCondition(since=_SINCE), rules.OTHER_WORDS, message, limit.location, len(pieces)
     )

@@ -56,7 +56,7 @@ class _Scope:
         message = f"{kind} {node.name!r} is called {names[node.name]!r} where names are shared"
         self.sink.report(rules.RENAMED, message, node.location, found=node.name)
         self.sink.account(Fate.APPROXIMATED, rules.RENAMED, message, node.location)
-        return node.model_copy(update={"name": names[node.name]})
+        return node.copy(name=names[node.name])
 
 
 def _clear(model: Model, sink: DiagnosticSink) -> Model:
@@ -76,7 +76,7 @@ def _clear(model: Model, sink: DiagnosticSink) -> Model:
         "joints": tuple(scope.rename(joint, joints) for joint in followed.joints),
         "frames": tuple(scope.rename(frame, frames) for frame in followed.frames),
     }
-    return followed.model_copy(update=update)
+    return followed.copy(**update)
 
 
 def _clear_world(world: World, sink: DiagnosticSink) -> World:
@@ -85,7 +85,7 @@ def _clear_world(world: World, sink: DiagnosticSink) -> World:
     if not joints:
         return world
     scope = _Scope({}, joints, {}, sink)
-    return world.model_copy(update={"joints": tuple(scope.rename(joint, joints) for joint in world.joints)})
+    return world.copy(joints=tuple(scope.rename(joint, joints) for joint in world.joints))
 
 
 def _clashes(nodes: Iterable[Named], suffix: str, owned: set[str], taken: set[str]) -> dict[str, str]:

@@ -23,9 +23,9 @@ def comparable(node: AnyNode) -> AnyNode:
 def _comparable(node: Node) -> Node:
     if len(node.opaque) > 1 or any(part.element for part in node.opaque):
         parts = sorted((_sorted(part) for part in node.opaque), key=_place)
-        node = node.model_copy(update={"opaque": tuple(parts)})
+        node = node.copy(opaque=tuple(parts))
     empty = [name for name in node_fields(type(node)) if _is_empty(getattr(node, name))]
-    return node.model_copy(update=dict.fromkeys(empty)) if empty else node
+    return node.copy(**dict.fromkeys(empty)) if empty else node
 
 
 def _is_empty(value: object) -> bool:
@@ -45,15 +45,15 @@ def _place(part: Opaque) -> tuple[str, ...]:
 
 
 def _sorted(part: Opaque) -> Opaque:
-    return part if part.element is None else part.model_copy(update={"element": _sorted_element(part.element)})
+    return part if part.element is None else part.copy(element=_sorted_element(part.element))
 
 
 def _sorted_element(element: Element) -> Element:
     attributes = tuple(sorted(element.attributes))
     if element.name == "plugin":  # only it knows what its order means
-        return element.model_copy(update={"attributes": attributes})
+        return element.copy(attributes=attributes)
     children = sorted(map(_sorted_element, element.children), key=lambda child: child.name)
-    return element.model_copy(update={"attributes": attributes, "children": tuple(children)})
+    return element.copy(attributes=attributes, children=tuple(children))
 
 
 def same(one: Node, other: Node) -> bool:

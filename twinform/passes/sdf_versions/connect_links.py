@@ -39,13 +39,13 @@ def _in_model(keeper: Keeper, frames: bool, model: Model) -> Model:
     links = {WORLD, *(link.name for link in model.links)}
     if all(joint.parent in links and joint.child in links for joint in model.joints):
         return model
-    return model.model_copy(update={"joints": _connect(model, links, keeper, frames=frames)})
+    return model.copy(joints=_connect(model, links, keeper, frames=frames))
 
 
 def _in_world(keeper: Keeper, frames: bool, world: World) -> World:
     if not world.joints:
         return world
-    return world.model_copy(update={"joints": _connect(world, {WORLD}, keeper, frames=frames)})
+    return world.copy(joints=_connect(world, {WORLD}, keeper, frames=frames))
 
 
 def _connect(holder: Model | World, links: set[str], keeper: Keeper, *, frames: bool) -> tuple[Joint, ...]:

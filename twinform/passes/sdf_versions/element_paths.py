@@ -17,22 +17,22 @@ def take(element: Element, path: tuple[str, ...]) -> tuple[Element, Element | No
 def put(element: Element, path: tuple[str, ...], made: Element) -> Element:
     """The element with another one put into the element at a path below it, which is made where it is missing."""
     if not path:
-        return element.model_copy(update={"children": (*element.children, made)})
+        return element.copy(children=(*element.children, made))
     found = element.find(path[0])
     if found is None:
         inner = put(Element.unchecked(name=path[0]), path[1:], made)
-        return element.model_copy(update={"children": (*element.children, inner)})
+        return element.copy(children=(*element.children, inner))
     return replace(element, found, put(found, path[1:], made))
 
 
 def replace(element: Element, old: Element, new: Element) -> Element:
     """The element with one of its children replaced."""
-    return element.model_copy(update={"children": tuple(new if child is old else child for child in element.children)})
+    return element.copy(children=tuple(new if child is old else child for child in element.children))
 
 
 def without(element: Element, child: Element) -> Element:
     """The element without one of its children."""
-    return element.model_copy(update={"children": tuple(each for each in element.children if each is not child)})
+    return element.copy(children=tuple(each for each in element.children if each is not child))
 
 
 def has(element: Element, path: tuple[str, ...]) -> bool:

@@ -47,13 +47,13 @@ def _joint(keeper: Keeper, version: Version, joint: Joint) -> Joint:
 
 def _continuous(keeper: Keeper, joint: Joint) -> Joint:
     pieces = [_type(joint)]
-    changed = joint.model_copy(update={"type": "revolute"})
+    changed = joint.copy(type="revolute")
     limit = joint.axis.limit if joint.axis else None
     if joint.axis and limit:
         ends = {name: getattr(limit, name) for name in ("lower", "upper") if getattr(limit, name) is not None}
         pieces += [text_piece(name, format_value(value), "axis/limit") for name, value in ends.items()]
-        endless = limit.model_copy(update=dict.fromkeys(ends))
-        changed = changed.model_copy(update={"axis": joint.axis.model_copy(update={"limit": endless})})
+        endless = limit.copy(**dict.fromkeys(ends))
+        changed = changed.copy(axis=joint.axis.copy(limit=endless))
     return _keep(keeper, changed, joint, pieces, VersionCondition(since=_NEWER["continuous"]))
 
 
@@ -62,7 +62,7 @@ def _fixed(keeper: Keeper, joint: Joint) -> Joint:
     if joint.axis is not None:
         written = to_element(Joint(name="", type="fixed", axis=joint.axis), "joint", "sdf").find("axis")
         pieces += [Opaque.unchecked(element=written)] if written else []
-    changed = joint.model_copy(update={"type": "revolute", "axis": _STILL})
+    changed = joint.copy(type="revolute", axis=_STILL)
     return _keep(keeper, changed, joint, pieces, VersionCondition(since=_NEWER["fixed"], without=("axis",)))
 
 

@@ -26,10 +26,10 @@ class FlattenNested(VersionPass):
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document without models in models."""
         models = tuple(self._flat(model, keeper) for model in document.models)
-        return rewrite(document.model_copy(update={"models": models}), World, partial(self._world, keeper))
+        return rewrite(document.copy(models=models), World, partial(self._world, keeper))
 
     def _world(self, keeper: Keeper, world: World) -> World:
-        return world.model_copy(update={"models": tuple(self._flat(model, keeper) for model in world.models)})
+        return world.copy(models=tuple(self._flat(model, keeper) for model in world.models))
 
     def _flat(self, model: Model, keeper: Keeper) -> Model:
         if not model.models:
@@ -41,6 +41,6 @@ class FlattenNested(VersionPass):
             message = f"model {nested.name!r} is in model {model.name!r}, which SDF has since 1.5"
             keeper.sink.report(rules.OLDER_VERSION, message, nested.location, found=nested.name)
             condition = VersionCondition(since=since, index=index, instead=f"{nested.name}::")
-            where, weight = nested.location, count_parts(nested.model_copy(update={"links": (), "joints": ()}))
+            where, weight = nested.location, count_parts(nested.copy(links=(), joints=()))
             flat = keeper.keep(flat, [piece(nested, "model")], condition, rules.OLDER_VERSION, message, where, weight)
         return flat

@@ -179,7 +179,7 @@ class _Elements:
             Leftover((), Opaque.unchecked(at=at, attribute=pair, source=part.source), condition)
             for pair, condition in attributes
         ]
-        return part.model_copy(update={"element": element}), lifted
+        return part.copy(element=element), lifted
 
     def _is_typed(self, node: Node, row: Fact | None) -> bool:
         """Whether the node has such a part in a field already."""

@@ -28,7 +28,7 @@ class Leftover:
         """The same, seen from the node around it, whose field this is in the element of that tag."""
         if isinstance(self.value, Opaque):
             at = f"{tag}/{self.value.at}" if self.value.at else tag
-            return Leftover((), self.value.model_copy(update={"at": at}), self.condition)
+            return Leftover((), self.value.copy(at=at), self.condition)
         return Leftover((field, *self.fields), self.value, self.condition)
 
     @property
@@ -60,7 +60,7 @@ class Leftover:
 def node_pieces(node: Node, left: Leftover) -> list[Opaque]:
     """The pieces of a leftover of a node."""
     if isinstance(left.value, Opaque):
-        return [left.value.model_copy(update={"source": None})]
+        return [left.value.copy(source=None)]
     bare = _with_only(node, left.fields, left.value)
     definition = definition_of(node) or ""
     return list(_pieces(to_element(bare, definition, "sdf", definition), "", len(left.fields) - 1))
@@ -70,7 +70,7 @@ def _with_only(node: Node, fields: tuple[str, ...], value: object) -> Node:
     first, *rest = fields
     inner = _with_only(getattr(node, first), tuple(rest), value) if rest else value
     blank = {name: each.default for name, each in fields_of(type(node)).items() if name not in _ABOUT}
-    return node.model_copy(update={**blank, first: inner})
+    return node.copy(**{**blank, first: inner})
 
 
 def _pieces(element: Element, at: str, depth: int) -> Iterator[Opaque]:

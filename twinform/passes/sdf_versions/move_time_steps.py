@@ -54,4 +54,4 @@ def _rename(element: Element, path: tuple[str, ...], name: str, into: tuple[str,
     if has(element, (*into, name)):
         return element
     left, taken = take(element, path)
-    return element if taken is None else put(left, into, taken.model_copy(update={"name": name}))
+    return element if taken is None else put(left, into, taken.copy(name=name))

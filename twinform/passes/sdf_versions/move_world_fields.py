@@ -50,9 +50,9 @@ def _out_of(world: World, part: Opaque, physics: Element) -> World:
         moved.append(Opaque.unchecked(element=field, source=part.source))
     if not update and not moved:
         return world
-    changed = part.model_copy(update={"element": physics})
+    changed = part.copy(element=physics)
     update["opaque"] = (*(changed if each is part else each for each in world.opaque), *moved)
-    return world.model_copy(update=update)
+    return world.copy(**update)
 
 
 def _back(carriers: bool, field: bool, world: World) -> World:
@@ -72,8 +72,8 @@ def _back(carriers: bool, field: bool, world: World) -> World:
     physics = rest[place].element
     for element in moved:
         physics = put(physics, (), element) if physics else None
-    rest[place] = rest[place].model_copy(update={"element": physics})
-    return world.model_copy(update={"gravity": None, "opaque": tuple(rest)})
+    rest[place] = rest[place].copy(element=physics)
+    return world.copy(gravity=None, opaque=tuple(rest))
 
 
 def _made(*, carriers: bool) -> Element:

@@ -32,7 +32,7 @@ class NameAxisFrames(VersionPass):
         def in_world(world: World) -> World:
             if not world.joints:
                 return world
-            return world.model_copy(update={"joints": tuple(change(joint, frame=WORLD) for joint in world.joints)})
+            return world.copy(joints=tuple(change(joint, frame=WORLD) for joint in world.joints))
 
         return rewrite(rewrite(document, World, in_world), Joint, partial(change, frame=MODEL))
 
@@ -44,8 +44,8 @@ def _joint(joint: Joint, *, always: bool, named: bool, both: bool, frame: str) -
         if axis is not None and axis.expressed_in is None and _in_model(axis, always=always):
             word = True if not named else axis.use_parent_model_frame if both else None
             name = frame if named else None
-            update[field] = axis.model_copy(update={"expressed_in": name, "use_parent_model_frame": word})
-    return joint.model_copy(update=update) if update else joint
+            update[field] = axis.copy(expressed_in=name, use_parent_model_frame=word)
+    return joint.copy(**update) if update else joint
 
 
 def _in_model(axis: Axis, *, always: bool) -> bool:

@@ -25,13 +25,13 @@ class NamePoseFrames(VersionPass):
     def change(self, document: Document, keeper: Keeper) -> Document:
         """The document with poses in the syntax of 1.7."""
         models = tuple(map(_renamed_model, document.models))
-        rest = map_children(document.model_copy(update={"models": ()}), _all_renamed)
-        return rest.model_copy(update={"models": models})
+        rest = map_children(document.copy(models=()), _all_renamed)
+        return rest.copy(models=models)
 
 
 def _renamed_model(model: Model) -> Model:
     """A model at the root of the file, whose own pose stays."""
-    return _all_renamed(model).model_copy(update={"pose": model.pose})
+    return _all_renamed(model).copy(pose=model.pose)
 
 
 def _all_renamed(node: AnyNode) -> AnyNode:
@@ -47,7 +47,7 @@ def _pose(pose: Pose) -> Pose:
     if found is None or not found.attribute or not found.attribute[1] or pose.relative_to is not None:
         return pose
     rest: tuple[Opaque, ...] = tuple(part for part in pose.opaque if part is not found)
-    return pose.model_copy(update={_NEW: found.attribute[1], "opaque": rest})
+    return pose.copy(**{_NEW: found.attribute[1], "opaque": rest})
 
 
 def _inside(element: Element, own: frozenset[str | None] = frozenset()) -> Element:
@@ -64,4 +64,4 @@ def _element(pose: Element) -> Element:
     if not pose.get(_OLD) or pose.get(_NEW) is not None:
         return pose
     attributes = tuple((_NEW if name == _OLD else name, value) for name, value in pose.attributes)
-    return pose.model_copy(update={"attributes": attributes})
+    return pose.copy(attributes=attributes)

@@ -54,4 +54,4 @@ def _called(kind: str, wish: str, node: Named, taken: set[str], sink: Diagnostic
     taken.add(name)
     message = f"a {kind} without a name is called {name!r}"
     sink.account(Fate.APPROXIMATED, rules.NAME_MADE, message, node.location)
-    return node.model_copy(update={"name": name})
+    return node.copy(name=name)

@@ -78,7 +78,7 @@ class _Inner:
 
     def moved(self, node: Part, update: dict[str, object]) -> Part:
         """A part of the outer model as one of this; what it names here it names by its new name."""
-        return map_references(node.model_copy(update={"name": self.strip(node.name), **update}), self.follow)
+        return map_references(node.copy(**{"name": self.strip(node.name), **update}), self.follow)
 
     def follow(self, kind: ReferenceKind, name: str) -> str:
         return name.removeprefix(self.prefix) if kind in IN_MODELS else name
@@ -103,7 +103,7 @@ def nest(model: Model, sink: DiagnosticSink, among: frozenset[str] | None = None
         if name and inner[name].joint_is_inside(joint):
             inner[name].joints.append(joint)
         else:
-            joints.append(joint.model_copy(update={"name": joint.name.replace(_SCOPE, "_")}) if name else joint)
+            joints.append(joint.copy(name=joint.name.replace(_SCOPE, "_")) if name else joint)
     for frame in model.frames:
         name = first(frame.name)
         if not name:
@@ -120,7 +120,7 @@ def nest(model: Model, sink: DiagnosticSink, among: frozenset[str] | None = None
     there = tuple(_merged(nested, made) for nested in models)
     new = tuple(nested for nested in made if nested.name not in {each.name for each in models})
     update = {"links": tuple(links), "joints": tuple(joints), "frames": tuple(frames), "models": (*there, *new)}
-    return model.model_copy(update=update)
+    return model.copy(**update)
 
 
 def _first(among: frozenset[str] | None, name: str) -> str:
@@ -147,7 +147,7 @@ def _model(
         if inner.holds(frame):
             pose = graph.pose(own.name, MODEL, kind="frame").to_pose()
         elif frame:
-            pose = (pose or Pose()).model_copy(update={"relative_to": frame})
+            pose = (pose or Pose()).copy(relative_to=frame)
         canonical = inner.strip(own.attached_to) if inner.holds(own.attached_to) else None
     nested = Model(
         name=inner.name,
@@ -177,9 +177,9 @@ def _inner_model(model: Model, inner: _Inner, base: str, graph: FrameGraph) -> M
     if not inner.holds(pose.relative_to if pose else None) and (base != MODEL or (pose and pose.relative_to)):
         where = graph.pose(model.name, base, kind="model", base="frame")
         pose = where.to_pose()  # of the model's own frame, which a placement frame would move
-        model = model.model_copy(update={"placement_frame": None})
+        model = model.copy(placement_frame=None)
     pose = pose and map_references(pose, inner.follow)
-    return model.model_copy(update={"name": inner.strip(model.name), "pose": pose})
+    return model.copy(name=inner.strip(model.name), pose=pose)
 
 
 def _frame(frame: Frame, inner: _Inner, base: str, graph: FrameGraph) -> Frame:
@@ -206,7 +206,7 @@ def _axis(joint: Joint, axis: Axis | None, inner: _Inner, graph: FrameGraph) -> 
     if axis.expressed_in == MODEL and inner.own is None:
         return axis
     turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")
-    return axis.model_copy(update={"xyz": turn.rotate(direction(axis, Format.SDF)), "expressed_in": None})
+    return axis.copy(xyz=turn.rotate(direction(axis, Format.SDF)), expressed_in=None)
 
 
 def _merged(nested: Model, made: list[Model]) -> Model:
@@ -215,4 +215,4 @@ def _merged(nested: Model, made: list[Model]) -> Model:
     if found is None:
         return nested
     update = {name: (*getattr(nested, name), *getattr(found, name)) for name in ("links", "joints", "frames", "models")}
-    return nested.model_copy(update=update)
+    return nested.copy(**update)

@@ -61,7 +61,7 @@ class PlaceAbsolutely(VersionPass):
         place = _Placer(keeper, named=named)
         document = rewrite(document, World, place.world)
         models = tuple(place.model(place.root(model)) for model in document.models)
-        return document.model_copy(update={"models": models})
+        return document.copy(models=models)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,7 @@ class _Placer:
         update = self._members(world, place)
         if not self.named:
             update["lights"] = tuple(map(place.resolved, world.lights))
-        return self._without_frames(world.model_copy(update=update))
+        return self._without_frames(world.copy(**update))
 
     def root(self, model: Model) -> Model:
         if not model.placement_frame:
@@ -92,7 +92,7 @@ class _Placer:
         update = self._members(model, place)
         if not self.named:
             update["links"] = tuple(_Poses(place.graph, link.name, "link", self).link(link) for link in model.links)
-        return self._without_frames(model.model_copy(update=update))
+        return self._without_frames(model.copy(**update))
 
     def _members(self, holder: Holder, place: "_Poses") -> dict[str, Any]:
         """The parts that models and worlds have both."""
@@ -115,15 +115,15 @@ class _Placer:
             condition = VersionCondition(since=NAMED_FRAMES, index=index)
             weight = count_parts(frame)
             holder = self.keeper.keep(holder, pieces, condition, rules.OLDER_VERSION, message, frame.location, weight)
-        return holder.model_copy(update={"frames": ()})
+        return holder.copy(frames=())
 
     def replace(self, node: Posed, where: Transform, relative_to: str | None) -> Posed:
         """The node with its pose in another frame; the one that it had is carried."""
         written = node.pose
         made = None if where == Transform() and relative_to is None else where.to_pose(relative_to)
         if made is not None:
-            made = _in_full(made).model_copy(update={"source": written.source if written else None})
-        changed = node.model_copy(update={"pose": made})
+            made = _in_full(made).copy(source=written.source if written else None)
+        changed = node.copy(pose=made)
         pieces, gone = ([pose_piece(written)], ()) if written else ([], ("pose",))
         called = getattr(node, "name", None)
         what = f"{type(node).__name__.lower()} {called!r}" if called else f"the {type(node).__name__.lower()}"
@@ -173,7 +173,7 @@ class _Poses:
             update["sensors"] = _sensors(link.sensors, update["sensors"], self.elements())
         if link.opaque:
             update["opaque"] = self.elements().parts(link.opaque, still=True)
-        link = link.model_copy(update=update)
+        link = link.copy(**update)
         if link.pose is None or link.pose.relative_to is None:
             return link
         return self.placer.replace(link, self.graph.pose(link.name, MODEL), None)
@@ -182,7 +182,7 @@ class _Poses:
         """The joint, which is posed in its child, and its sensors."""
         if joint.sensors:
             moved = tuple(map(self.resolved, joint.sensors))
-            joint = joint.model_copy(update={"sensors": _sensors(joint.sensors, moved, self.elements())})
+            joint = joint.copy(sensors=_sensors(joint.sensors, moved, self.elements()))
         if joint.pose is None or joint.pose.relative_to is None:
             return joint
         if joint.type == "fixed" and not joint.sensors and not self.graph.knows(joint.child or WORLD):
@@ -209,7 +209,7 @@ def _in_full(pose: Pose) -> Pose:
     update: dict[str, object] = {"xyz": pose.xyz or _ORIGIN}
     if pose.quat_xyzw is None:
         update["rpy"] = pose.rpy or _ORIGIN
-    return pose.model_copy(update=update)
+    return pose.copy(**update)
 
 
 def _sensors(written: tuple[Sensor, ...], moved: tuple[Sensor, ...], elements: ElementPoses) -> tuple[Sensor, ...]:

@@ -29,7 +29,7 @@ def _place_all(model: Model, keeper: Keeper) -> Model:
     if all(pose.relative_to is None for pose in poses):
         return model
     graph = FrameGraph(model)
-    return model.model_copy(update={"links": tuple(_place(link, graph, keeper.sink) for link in model.links)})
+    return model.copy(links=tuple(_place(link, graph, keeper.sink) for link in model.links))
 
 
 def _place(link: Link, graph: FrameGraph, sink: DiagnosticSink) -> Link:
@@ -37,9 +37,9 @@ def _place(link: Link, graph: FrameGraph, sink: DiagnosticSink) -> Link:
     pose = inertial.pose if inertial else None
     if inertial is None or pose is None or pose.relative_to is None:
         return link
-    placed = pose.model_copy(update={"relative_to": None})
+    placed = pose.copy(relative_to=None)
     if pose.relative_to:
         placed = graph.resolve(pose, link.name, link.name).to_pose()
         message = f"the inertial of link {link.name!r} is posed relative to {pose.relative_to!r}"
         sink.account(Fate.APPROXIMATED, rules.OTHER_WORDS, message, pose.location)
-    return link.model_copy(update={"inertial": inertial.model_copy(update={"pose": placed})})
+    return link.copy(inertial=inertial.copy(pose=placed))

@@ -83,9 +83,7 @@ class PutBack(VersionPass):
     def _again(self, node: Node, field: str) -> Document:
         """A node in the syntax of the file's version."""
         sink = DiagnosticSink()
-        document = Document.model_validate({"format": "sdf", "version": self.version}).model_copy(
-            update={field: (node,)}
-        )
+        document = Document.model_validate({"format": "sdf", "version": self.version}).copy(**{field: (node,)})
         for step in backward(self.number, parse_version(self.source)):
             document = step.run(document, sink)
         return without_carriers(document)
@@ -108,7 +106,7 @@ def restored_itself(node: AnyNode, version: Version) -> AnyNode:
     own = [part for part in node.opaque if is_version_carrier(part) and condition_of(part).fit(version)]
     if own:
         kept = tuple(part for part in node.opaque if not any(part is each for each in own))
-        node = node.model_copy(update={"opaque": kept})
+        node = node.copy(opaque=kept)
         for part in reversed(own):
             condition = condition_of(part)
             if any(is_already_there(node, piece, condition) for piece in carried(part)):
@@ -146,7 +144,7 @@ def _restored_element(element: Element, version: Version) -> Element | None:
         children += [inner] if inner else []
     if not changed:
         return element
-    element = element.model_copy(update={"children": tuple(children)})
+    element = element.copy(children=tuple(children))
     for piece in made:
         element = _with_attribute(element, piece)
     return element
@@ -157,13 +155,13 @@ def _with_attribute(element: Element, piece: Opaque) -> Element:
     if pair is None:
         return element
     if not piece.at:
-        return element.model_copy(update={"attributes": (*element.attributes, pair)})
+        return element.copy(attributes=(*element.attributes, pair))
     name, _, rest = piece.at.partition("/")
     child = element.find(name)
     if child is None:
         return element
-    inner = _with_attribute(child, piece.model_copy(update={"at": rest}))
-    return element.model_copy(update={"children": tuple(inner if each is child else each for each in element.children)})
+    inner = _with_attribute(child, piece.copy(at=rest))
+    return element.copy(children=tuple(inner if each is child else each for each in element.children))
 
 
 def _has_carriers(document: Document) -> bool:

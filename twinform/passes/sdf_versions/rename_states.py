@@ -53,7 +53,7 @@ class _Renaming:
         if kind == "joint_state":
             return _second_angle_back(element) if self.back else _second_angle(element)
         children = tuple(self._child(child, kind) for child in element.children)
-        return element.model_copy(update={"children": children})
+        return element.copy(children=children)
 
     def _child(self, child: Element, around: str) -> Element:
         pairs = [(new, old) if self.back else (old, new) for old, new in _NAMES.get(around, {}).items()]
@@ -63,7 +63,7 @@ class _Renaming:
         changed = self.inside(child, child.name if self.back else name)
         known = {inner.name for inner in table("sdf").resolve(row).rows}
         lost = [inner for inner in changed.children if not is_foreign(inner) and inner.name not in known]
-        return child if lost else changed.model_copy(update={"name": name})
+        return child if lost else changed.copy(name=name)
 
     def _row(self, around: str, name: str) -> Fact | None:
         """The row of a state in the version; None where it has none."""
@@ -77,7 +77,7 @@ def _second_angle(joint: Element) -> Element:
             return child
         return Element.unchecked(name="axis2_state", children=(Element.unchecked(name="position", text=child.text),))
 
-    return joint.model_copy(update={"children": tuple(map(moved, joint.children))})
+    return joint.copy(children=tuple(map(moved, joint.children)))
 
 
 def _second_angle_back(joint: Element) -> Element:
@@ -87,4 +87,4 @@ def _second_angle_back(joint: Element) -> Element:
             return child
         return Element.unchecked(name="angle", attributes=(("axis", "1"),), text=position.text)
 
-    return joint.model_copy(update={"children": tuple(map(moved, joint.children))})
+    return joint.copy(children=tuple(map(moved, joint.children)))

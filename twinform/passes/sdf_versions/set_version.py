@@ -22,4 +22,4 @@ class SetVersion(Pass):
         namespaces = document.namespaces
         if any(entry.fate is Fate.CARRIED for entry in sink.entries) and (PREFIX, NAMESPACE) not in namespaces:
             namespaces = (*(pair for pair in namespaces if pair[0] != PREFIX), (PREFIX, NAMESPACE))
-        return document.model_copy(update={"version": self.version, "namespaces": namespaces})
+        return document.copy(version=self.version, namespaces=namespaces)

@@ -68,7 +68,7 @@ def gathered(element: Element) -> Element:
         if noise and noise.children
     )
     type_ = Element.unchecked(name="type", text=types.pop())
-    return element.model_copy(update={"children": (*kept, Element.unchecked(name="noise", children=(type_, *numbers)))})
+    return element.copy(children=(*kept, Element.unchecked(name="noise", children=(type_, *numbers))))
 
 
 def _common_noise(imu: Element, measured: str) -> Element | None:
@@ -102,6 +102,4 @@ def _imu(annotate: bool, element: Element) -> Element:
         for axis in ("x", "y", "z"):
             if not has(imu, (new, axis, "noise")):
                 imu = put(imu, (new, axis), made)
-    return (
-        imu.model_copy(update={"children": (Element.unchecked(name=_ANNOTATION), *imu.children)}) if annotate else imu
-    )
+    return imu.copy(children=(Element.unchecked(name=_ANNOTATION), *imu.children)) if annotate else imu

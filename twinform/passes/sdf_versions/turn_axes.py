@@ -36,7 +36,7 @@ def _model(keeper: Keeper, has_attribute: bool, model: Model) -> Model:
     if all(axis.expressed_in is None and has_attribute for axis in axes):
         return model
     turn = _Turner(keeper, FrameGraph(model), has_attribute=has_attribute)
-    return model.model_copy(update={"joints": tuple(map(turn.joint, model.joints))})
+    return model.copy(joints=tuple(map(turn.joint, model.joints)))
 
 
 class _Turner:
@@ -57,12 +57,12 @@ class _Turner:
     def _axis(self, joint: Joint, field: str, axis: Axis) -> Joint:
         frame = axis.expressed_in
         if self.has_attribute and frame == MODEL:
-            values = axis.model_copy(update={"expressed_in": None, "use_parent_model_frame": True})
-            return joint.model_copy(update={field: values})
+            values = axis.copy(expressed_in=None, use_parent_model_frame=True)
+            return joint.copy(**{field: values})
         if not self.has_attribute:
-            plain = axis.model_copy(update={"expressed_in": None, "use_parent_model_frame": None})
+            plain = axis.copy(expressed_in=None, use_parent_model_frame=None)
             in_model = frame == MODEL or axis.use_parent_model_frame
-            return joint.model_copy(update={field: plain}) if in_model else self._turned(joint, field, axis, MODEL)
+            return joint.copy(**{field: plain}) if in_model else self._turned(joint, field, axis, MODEL)
         return joint if frame is None else self._turned(joint, field, axis, joint.name)
 
     def _turned(self, joint: Joint, field: str, axis: Axis, base: str) -> Joint:
@@ -73,8 +73,8 @@ class _Turner:
         )
         x, y, z = turn.rotate(direction(axis, Format.SDF))
         xyz = None if axis.xyz is None and (x, y, z) == AXIS[Format.SDF] else (x + 0.0, y + 0.0, z + 0.0)
-        plain = axis.model_copy(update={"xyz": xyz, "expressed_in": None})
-        turned = joint.model_copy(update={field: plain})
+        plain = axis.copy(xyz=xyz, expressed_in=None)
+        turned = joint.copy(**{field: plain})
         message = f"the axis of joint {joint.name!r} is expressed in {axis.expressed_in or 'its own frame'}"
         written = axis.xyz is not None or axis.expressed_in is not None
         # back in newer syntax, an axis that was written without a frame is one in the model

@@ -41,4 +41,4 @@ def _write(keeper: Keeper, meshes: Meshes, link: Link, inertial: Inertial, graph
     message = f"the inertia of link {link.name!r} is left to be computed from its collisions"
     condition = VersionCondition(since=_SINCE, without=made)
     kept = keeper.keep(written, pieces, condition, rules.OTHER_WORDS, message, inertial.location, len(pieces))
-    return link.model_copy(update={"inertial": kept})
+    return link.copy(inertial=kept)

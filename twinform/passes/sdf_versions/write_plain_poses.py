@@ -39,8 +39,8 @@ def _plain(keeper: Keeper, node: Node) -> Node:
     pose: Pose | None = getattr(node, "pose", None)
     if pose is None or not (pose.quat_xyzw or pose.degrees is not None or pose.rotation_format is not None):
         return node
-    made = in_radians(Transform.from_pose(pose), pose.relative_to).model_copy(update={"opaque": pose.opaque})
-    changed = node.model_copy(update={"pose": made if made != Pose() else None})
+    made = in_radians(Transform.from_pose(pose), pose.relative_to).copy(opaque=pose.opaque)
+    changed = node.copy(pose=made if made != Pose() else None)
     called = getattr(node, "name", None) or type(node).__name__.lower()
     message = f"the pose of {called!r} is written in degrees or as a quaternion"
     weight = count_parts(pose)
@@ -55,7 +55,7 @@ def _element(keeper: Keeper, element: Element) -> Element:
     read = read_pose(pose)
     plain = to_element(in_radians(Transform.from_pose(read), read.relative_to), "pose", "sdf")
     rest = tuple(pair for pair in pose.attributes if pair[0] not in (*_ATTRIBUTES, "relative_to"))
-    plain = plain.model_copy(update={"attributes": (*plain.attributes, *rest)})
+    plain = plain.copy(attributes=(*plain.attributes, *rest))
     message = f"the pose of <{element.name}> is written in degrees or as a quaternion"
     keeper.account(rules.OTHER_WORDS, message, NOWHERE, 1 + len(pose.attributes))
     changed = replace(element, pose, plain)
@@ -63,4 +63,4 @@ def _element(keeper: Keeper, element: Element) -> Element:
         return changed
     carriers = version_carriers([Opaque.unchecked(element=pose)], VersionCondition(since=_SINCE, instead="pose"))
     children = (*changed.children, *(part.element for part in carriers if part.element))
-    return changed.model_copy(update={"children": children})
+    return changed.copy(children=children)

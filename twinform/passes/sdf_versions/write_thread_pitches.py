@@ -36,7 +36,7 @@ class WriteThreadPitches(VersionPass):
 def _forth(joint: Joint) -> Joint:
     if joint.type != "screw" or joint.thread_pitch is not None or joint.screw_thread_pitch is not None:
         return joint
-    return joint.model_copy(update={"thread_pitch": _DEFAULT})
+    return joint.copy(thread_pitch=_DEFAULT)
 
 
 def _back(keeper: Keeper, joint: Joint) -> Joint:
@@ -46,7 +46,7 @@ def _back(keeper: Keeper, joint: Joint) -> Joint:
     pitch = _DEFAULT if written is None else written
     message = f"screw joint {joint.name!r} moves {pitch:g} m per turn"
     made = -math.tau / pitch if pitch else 0.0
-    changed = joint.model_copy(update={"thread_pitch": made, "screw_thread_pitch": None})
+    changed = joint.copy(thread_pitch=made, screw_thread_pitch=None)
     pieces = [] if written is None else [text_piece("screw_thread_pitch", format_value(written))]
     if joint.thread_pitch is not None:
         pieces.append(text_piece("thread_pitch", format_value(joint.thread_pitch)))

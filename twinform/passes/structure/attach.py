@@ -58,7 +58,7 @@ class Attach(DocumentPass):
         if made is target:
             return document
         namespaces = joined(document.namespaces, [other.namespaces])
-        return replace_node(document, target, made).model_copy(update={"namespaces": namespaces})
+        return replace_node(document, target, made).copy(namespaces=namespaces)
 
     def _joined(self, target: Model, guest: Model, format_: Format, sink: DiagnosticSink) -> Model:
         scope = scope_of(guest, self._choose, deep=False)

@@ -49,24 +49,22 @@ def with_guests(link: Link, own: Solid, guests: Sequence[Solid], sink: Diagnosti
         )
         sink.report(INDEFINITE_INERTIA, message, link.location, severity=Severity.ERROR)
         return link
-    return link.model_copy(update={"inertial": with_solid(link.inertial or Inertial(), whole)})
+    return link.copy(inertial=with_solid(link.inertial or Inertial(), whole))
 
 
 def with_solid(inertial: Inertial, whole: Solid) -> Inertial:
     """The inertial with what a solid in the frame of its link has; the axes of the inertia stay as they are written."""
     written = None if inertial.auto else inertial.pose
     axes = Transform(rotation=Transform.from_pose(written).rotation)
-    return inertial.model_copy(
-        update={
-            "auto": None,
-            "mass": whole.mass,
-            "pose": _pose(written, whole),
-            "inertia": with_tensor(inertial.inertia, turned(whole.inertia, axes.inverse())),
-        }
+    return inertial.copy(
+        auto=None,
+        mass=whole.mass,
+        pose=_pose(written, whole),
+        inertia=with_tensor(inertial.inertia, turned(whole.inertia, axes.inverse())),
     )
 
 
 def _pose(written: Pose | None, whole: Solid) -> Pose:
     """The pose of an inertial with another center of mass; in the link's own frame."""
     pose = written or Pose(rpy=(0.0, 0.0, 0.0))
-    return pose.model_copy(update={"xyz": whole.center, "relative_to": None})
+    return pose.copy(xyz=whole.center, relative_to=None)

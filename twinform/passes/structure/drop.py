@@ -114,7 +114,7 @@ class Drop(Pass):
         if meant and node.opaque:
             opaque = tuple(self._in_opaque(part, removed) for part in node.opaque)
             update |= {"opaque": opaque} if opaque != node.opaque else {}
-        return node.model_copy(update=update) if update else node
+        return node.copy(**update) if update else node
 
     def _in_opaque(self, part: Opaque, removed: RemovedNames) -> Opaque:
         """A part that the IR keeps as it is, such as `<gui>`, without what is to go in it."""
@@ -161,4 +161,4 @@ def _without_empty(before: Model, after: Model) -> Model:
         return after
     pairs = zip(before.extensions, after.extensions, strict=True)
     kept = tuple(new for old, new in pairs if new is old or new.content or new.opaque)
-    return after.model_copy(update={"extensions": kept})
+    return after.copy(extensions=kept)

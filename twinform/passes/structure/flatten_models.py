@@ -130,23 +130,23 @@ def _report_settings(model: Model, place: EditContext) -> None:
             value, where = str(nested.allow_auto_disable).lower(), nested.location.at("allow_auto_disable")
             message = f"nested model {nested.name!r} sets allow_auto_disable to {value}, and {model.name!r} does not"
             place.sink.report(rules.NESTED_SETTING, message, where, found=value)
-        _report_settings(nested.model_copy(update={"allow_auto_disable": model.allow_auto_disable}), place)
+        _report_settings(nested.copy(allow_auto_disable=model.allow_auto_disable), place)
 
 
 def _prepared(model: Model) -> Model:
     """The model, in the models of which links have the settings that their model had for them."""
-    return model.model_copy(update={"models": tuple(map(_inner, model.models))})
+    return model.copy(models=tuple(map(_inner, model.models)))
 
 
 def _inner(model: Model) -> Model:
     settings = {field: value for field in _OF_LINKS if (value := getattr(model, field)) is not None}
     links = tuple(_with_settings(link, settings) for link in model.links)
-    return model.model_copy(update={"links": links, "models": tuple(map(_inner, model.models))})
+    return model.copy(links=links, models=tuple(map(_inner, model.models)))
 
 
 def _with_settings(link: Link, settings: dict[str, bool]) -> Link:
     update = {field: value for field, value in settings.items() if getattr(link, field) is None}
-    return link.model_copy(update=update) if update else link
+    return link.copy(**update) if update else link
 
 
 def _with_rest(flat: Model, model: Model, place: EditContext) -> Model:
@@ -162,7 +162,7 @@ def _with_rest(flat: Model, model: Model, place: EditContext) -> Model:
         plugins += contents.plugins
         opaque += [part for part in contents.opaque if part.element is not None]
         stack.extend((each, prefix) for each in reversed(nested.models))
-    return flat.model_copy(update={"plugins": tuple(plugins), "opaque": tuple(opaque)})
+    return flat.copy(plugins=tuple(plugins), opaque=tuple(opaque))
 
 
 def _prefixed(model: Model, prefix: str) -> Scope:

@@ -112,7 +112,7 @@ def _apart(element: Element, taken: set[tuple[str, str]], link: str) -> Element:
     if key in taken:
         name = unique_name(f"{link}_{key[1]}", {name for kind, name in taken if kind == element.name})
         pairs = tuple((field, name if field == "name" else value) for field, value in element.attributes)
-        element, key = element.model_copy(update={"attributes": pairs}), (element.name, name)
+        element, key = element.copy(attributes=pairs), (element.name, name)
     taken.add(key)
     return element
 
@@ -127,6 +127,6 @@ def in_host(element: Element, at: Transform) -> Element:
     written = Transform.from_pose(read_pose(pose)) if pose is not None else Transform()
     made = to_element(at.compose(written).to_pose(), "pose", "sdf")
     if pose is None:
-        return element.model_copy(update={"children": (made, *element.children)})
+        return element.copy(children=(made, *element.children))
     children = tuple(made if child is pose else child for child in element.children)
-    return element.model_copy(update={"children": children})
+    return element.copy(children=children)

@@ -60,16 +60,14 @@ def join_urdf(model: Model, guest: Model, mount: Mount, sink: DiagnosticSink) ->
         source=guest.source,
     )
     held = Pose(relative_to=mount.joint)
-    links = (link.model_copy(update={"pose": held}) if link.name == mount.held else link for link in guest.links)
+    links = (link.copy(pose=held) if link.name == mount.held else link for link in guest.links)
     known = {material.name for material in model.materials}
-    return model.model_copy(
-        update={
-            "materials": (*model.materials, *(each for each in guest.materials if each.name not in known)),
-            "links": (*model.links, *links),
-            "joints": (*model.joints, joint, *guest.joints),
-            "extensions": (*model.extensions, *guest.extensions),
-            "opaque": (*model.opaque, *_own_blocks(model.opaque, guest.opaque, mount.prefix)),
-        }
+    return model.copy(
+        materials=(*model.materials, *(each for each in guest.materials if each.name not in known)),
+        links=(*model.links, *links),
+        joints=(*model.joints, joint, *guest.joints),
+        extensions=(*model.extensions, *guest.extensions),
+        opaque=(*model.opaque, *_own_blocks(model.opaque, guest.opaque, mount.prefix)),
     )
 
 
@@ -79,22 +77,21 @@ def join_sdf(model: Model, guest: Model, mount: Mount, sink: DiagnosticSink) -> 
     if _clash(model, guest, mount, sink, (("", "links"), ("", "joints"), ("", "frames"), ("", "models"))):
         return model
     placed = Include(uri=guest.name, pose=mount.pose(mount.to), placement_frame=mount.held, source=guest.source)
-    unnamed = guest.model_copy(update={"name": mount.prefix.rstrip("_") or guest.name})
+    unnamed = guest.copy(name=mount.prefix.rstrip("_") or guest.name)
     merged = merge_into_model(model, placed, unnamed, sink, Transform())
     if merged is model:
         return model
     joint = Joint(name=mount.joint, type="fixed", parent=mount.to, child=mount.held, source=guest.source)
-    return merged.model_copy(update={"joints": (*merged.joints, joint)})
+    return merged.copy(joints=(*merged.joints, joint))
 
 
 def _without_place(guest: Model) -> Model:
     """A robot of URDF without what it has as a whole: where it stands, and what it was converted from."""
     extensions = (
-        each if each.reference else each.model_copy(update={"content": _other_than_pose(each.content)})
-        for each in guest.extensions
+        each if each.reference else each.copy(content=_other_than_pose(each.content)) for each in guest.extensions
     )
     kept = tuple(each for each in extensions if each.reference or each.content or each.opaque)
-    return without_annotation(guest.model_copy(update={"extensions": kept}), FROM, OFFSET, POSE)
+    return without_annotation(guest.copy(extensions=kept), FROM, OFFSET, POSE)
 
 
 def _other_than_pose(content: tuple[Element, ...]) -> tuple[Element, ...]:
@@ -151,7 +148,7 @@ def _own_blocks(there: tuple[Opaque, ...], more: tuple[Opaque, ...], prefix: str
             continue
         if (element.name, element.get("name")) in taken and element.get("name"):
             attributes = tuple((key, prefix + text if key == "name" else text) for key, text in element.attributes)
-            made.append(part.model_copy(update={"element": element.model_copy(update={"attributes": attributes})}))
+            made.append(part.copy(element=element.copy(attributes=attributes)))
         else:
             made.append(part)
     return made
@@ -164,4 +161,4 @@ def without_world(model: Model) -> Model:
         return model
     joints = tuple(joint for joint in model.joints if joint is not held[0])
     links = tuple(link for link in model.links if link.name != WORLD)
-    return model.model_copy(update={"joints": joints, "links": links})
+    return model.copy(joints=joints, links=links)

@@ -59,13 +59,13 @@ def lump_as_libsdformat(model: Model, keep: tuple[str, ...], place: EditContext)
         return "" if is_preserved(content(there, joint.name)) else None
 
     joints = tuple(sorted(model.joints, key=lambda joint: joint.name))  # urdfdom keeps them by name
-    planned = plan(model.model_copy(update={"joints": joints}), graph, keep, why, place)
+    planned = plan(model.copy(joints=joints), graph, keep, why, place)
     made = _Lumping(model, graph, there, planned, place).run() if planned.joints else model
     links = tuple(_named(link) for link in made.links)
     joints = tuple(_turning(joint) if _stays(joint, there) else joint for joint in made.joints)
     if links == made.links and joints == made.joints:
         return made
-    return made.model_copy(update={"links": links, "joints": joints})
+    return made.copy(links=links, joints=joints)
 
 
 def _stays(joint: Joint, there: Blocks) -> bool:
@@ -76,7 +76,7 @@ def _turning(joint: Joint) -> Joint:
     """What libsdformat makes of a fixed joint with `disableFixedJointLumping`: it turns about z, from 0 to 0."""
     limit = Limit(lower=0.0, upper=0.0, effort=UNLIMITED, velocity=UNLIMITED)
     axis = Axis(xyz=AXIS[Format.SDF], limit=limit, dynamics=Dynamics(damping=0.0, friction=0.0))
-    return joint.model_copy(update={"type": "revolute", "axis": axis})
+    return joint.copy(type="revolute", axis=axis)
 
 
 def _named(link: Link) -> Link:
@@ -85,12 +85,11 @@ def _named(link: Link) -> Link:
     for field, kind in KINDS.items():
         shapes: tuple[Visual | Collision, ...] = getattr(link, field)
         named = tuple(
-            shape.model_copy(update={"name": shape_name(link.name, shape.name, kind, number)})
-            for number, shape in enumerate(shapes)
+            shape.copy(name=shape_name(link.name, shape.name, kind, number)) for number, shape in enumerate(shapes)
         )
         if named != shapes:
             update[field] = named
-    return link.model_copy(update=update) if update else link
+    return link.copy(**update) if update else link
 
 
 class _Lumping:
@@ -106,14 +105,10 @@ class _Lumping:
     def run(self) -> Model:
         hosts = {host: self._host(host, names) for host, names in self.guests.items()}
         hosts_of = self.planned.hosts
-        made = self.model.model_copy(
-            update={
-                "links": tuple(hosts.get(each.name, each) for each in self.model.links if each.name not in hosts_of),
-                "joints": tuple(self._joint(each) for each in self.model.joints if not self._goes(each)),
-                "extensions": tuple(
-                    made for each in self.model.extensions if (made := self._extension(each)) is not None
-                ),
-            }
+        made = self.model.copy(
+            links=tuple(hosts.get(each.name, each) for each in self.model.links if each.name not in hosts_of),
+            joints=tuple(self._joint(each) for each in self.model.joints if not self._goes(each)),
+            extensions=tuple(made for each in self.model.extensions if (made := self._extension(each)) is not None),
         )
         self._report_dangling(made)
         return made
@@ -131,7 +126,7 @@ class _Lumping:
         for field in KINDS:
             self._note_mixed(host, names, field)
             moved = [shape for name in names for shape in _moved(getattr(self.links[name], field), name, at[name])]
-            link = link.model_copy(update={field: (*getattr(link, field), *moved)})
+            link = link.copy(**{field: (*getattr(link, field), *moved)})
         for name in names:
             self._lose_rest(self.links[name])
         return link
@@ -164,8 +159,8 @@ class _Lumping:
         written = Transform.from_pose(joint.pose)
         pose = in_radians(at.compose(written), host)
         if at.is_identity and joint.pose is not None:
-            pose = joint.pose.model_copy(update={"relative_to": host})
-        return joint.model_copy(update={"parent": host, "pose": pose})
+            pose = joint.pose.copy(relative_to=host)
+        return joint.copy(parent=host, pose=pose)
 
     def _extension(self, extension: GazeboExtension) -> GazeboExtension | None:
         name = extension.reference or ""
@@ -185,7 +180,7 @@ class _Lumping:
         elements = tuple(self._followed(element) for element in elements)
         if host is None and elements == extension.content:
             return extension
-        return extension.model_copy(update={"reference": host or extension.reference, "content": elements})
+        return extension.copy(reference=host or extension.reference, content=elements)
 
     def _unmixed(self, extension: GazeboExtension) -> Iterable[Element]:
         """The content without tags that would be about the shapes of other links too."""
@@ -204,7 +199,7 @@ class _Lumping:
         if element.name == "plugin":
             return moved_plugin(element, self.planned.hosts, self.graph)
         children = tuple(self._followed(child) for child in element.children)
-        return element.model_copy(update={"children": children}) if children != element.children else element
+        return element.copy(children=children) if children != element.children else element
 
     def _report_dangling(self, made: Model) -> None:
         """Names of what goes in places that libsdformat leaves as they are."""
@@ -224,4 +219,4 @@ def _moved(shapes: tuple[Shape, ...], link: str, at: Transform) -> Iterable[Shap
     """Shapes in the frame of the host; one without a name gets that of its link."""
     for shape in shapes:
         pose = shape.pose if at.is_identity else in_radians(at.compose(Transform.from_pose(shape.pose)))
-        yield shape.model_copy(update={"name": shape.name or link, "pose": pose})
+        yield shape.copy(name=shape.name or link, pose=pose)

@@ -115,16 +115,14 @@ def _lumped(model: Model, graph: FrameGraph, planned: Plan, meshes: Meshes, sink
     guests = planned.guests()
     gone = {joint.name for joint in planned.joints.values()}
     frames = [frame for name, joint in planned.joints.items() for frame in _frames(links[name], joint, model)]
-    made = model.model_copy(
-        update={
-            "links": tuple(
-                _host(link, [links[name] for name in guests.get(link.name, [])], graph, meshes, sink)
-                for link in model.links
-                if link.name not in planned.joints
-            ),
-            "joints": tuple(joint for joint in model.joints if joint.name not in gone),
-            "frames": (*model.frames, *frames),
-        }
+    made = model.copy(
+        links=tuple(
+            _host(link, [links[name] for name in guests.get(link.name, [])], graph, meshes, sink)
+            for link in model.links
+            if link.name not in planned.joints
+        ),
+        joints=tuple(joint for joint in model.joints if joint.name not in gone),
+        frames=(*model.frames, *frames),
     )
     return _same_canonical_link(made, graph, planned)
 
@@ -152,7 +150,7 @@ def _ours(node: Joint | Link) -> tuple[Opaque, ...]:
 def _based(pose: Pose | None, base: str) -> Pose:
     """The pose with its frame written out, which is another one for a frame."""
     pose = pose or Pose()
-    return pose if pose.relative_to else pose.model_copy(update={"relative_to": base})
+    return pose if pose.relative_to else pose.copy(relative_to=base)
 
 
 def _host(link: Link, guests: list[Link], graph: FrameGraph, meshes: Meshes, sink: DiagnosticSink) -> Link:
@@ -167,14 +165,12 @@ def _host(link: Link, guests: list[Link], graph: FrameGraph, meshes: Meshes, sin
         moved = tuple(
             _element_in_frame(part, guest.name) for part in guest.opaque if _name(part) in link_elements("pose")
         )
-        into = into.model_copy(
-            update={
-                "visuals": (*into.visuals, *_moved(guest, guest.visuals, into.visuals)),
-                "collisions": (*into.collisions, *collisions),
-                "sensors": (*into.sensors, *_moved(guest, sensors, into.sensors)),
-                "lights": (*into.lights, *_moved(guest, guest.lights, into.lights)),
-                "opaque": (*into.opaque, *moved),
-            }
+        into = into.copy(
+            visuals=(*into.visuals, *_moved(guest, guest.visuals, into.visuals)),
+            collisions=(*into.collisions, *collisions),
+            sensors=(*into.sensors, *_moved(guest, sensors, into.sensors)),
+            lights=(*into.lights, *_moved(guest, guest.lights, into.lights)),
+            opaque=(*into.opaque, *moved),
         )
     return into
 
@@ -189,13 +185,13 @@ def _moved(guest: Link, parts: tuple[Posed, ...], there: tuple[Posed, ...]) -> l
             name = unique_name(f"{guest.name}_{name}", taken | {each.name for each in parts})
         taken.add(name)
         placed_part = _in_frame(part, guest.name)
-        made.append(placed_part if name == part.name else placed_part.model_copy(update={"name": name}))
+        made.append(placed_part if name == part.name else placed_part.copy(name=name))
     return made
 
 
 def _in_frame(node: Posed, frame: str) -> Posed:
     """The node in the frame that its link has become, unless it is in another one already."""
-    return node.model_copy(update={"pose": _based(node.pose, frame)})
+    return node.copy(pose=_based(node.pose, frame))
 
 
 def _sensor(sensor: Sensor, guest: Link, collisions: list[Collision]) -> Sensor:
@@ -205,16 +201,15 @@ def _sensor(sensor: Sensor, guest: Link, collisions: list[Collision]) -> Sensor:
     if not renamed or sensor.type != "contact":
         return sensor
     parts = tuple(
-        part if part.element is None else part.model_copy(update={"element": _recalled(part.element, renamed)})
-        for part in sensor.opaque
+        part if part.element is None else part.copy(element=_recalled(part.element, renamed)) for part in sensor.opaque
     )
-    return sensor.model_copy(update={"opaque": parts})
+    return sensor.copy(opaque=parts)
 
 
 def _recalled(element: Element, names: dict[str, str]) -> Element:
     text = names.get(element.text or "", element.text) if element.name == "collision" else element.text
     children = tuple(_recalled(child, names) for child in element.children)
-    return element.model_copy(update={"text": text, "children": children})
+    return element.copy(text=text, children=children)
 
 
 def _element_in_frame(part: Opaque, frame: str) -> Opaque:
@@ -224,12 +219,12 @@ def _element_in_frame(part: Opaque, frame: str) -> Opaque:
     pose = element.find("pose")
     if pose is None:
         made = Element(name="pose", attributes=(("relative_to", frame),))
-        return part.model_copy(update={"element": element.model_copy(update={"children": (made, *element.children)})})
+        return part.copy(element=element.copy(children=(made, *element.children)))
     if pose.get("relative_to"):
         return part
-    made = pose.model_copy(update={"attributes": (*pose.attributes, ("relative_to", frame))})
+    made = pose.copy(attributes=(*pose.attributes, ("relative_to", frame)))
     children = tuple(made if child is pose else child for child in element.children)
-    return part.model_copy(update={"element": element.model_copy(update={"children": children})})
+    return part.copy(element=element.copy(children=children))
 
 
 def _same_canonical_link(model: Model, graph: FrameGraph, planned: Plan) -> Model:
@@ -240,4 +235,4 @@ def _same_canonical_link(model: Model, graph: FrameGraph, planned: Plan) -> Mode
         return model
     if model.canonical_link is not None and model.canonical_link not in planned.hosts:
         return model
-    return model.model_copy(update={"canonical_link": body})
+    return model.copy(canonical_link=body)

@@ -83,7 +83,7 @@ class _Lumping:
             return made
         taken = {host: posed_names(content(self.there, host)) for host in self.guests}
         extensions = tuple(each for one in self.model.extensions if (each := self._rest(one, taken)) is not None)
-        return made.model_copy(update={"extensions": extensions})
+        return made.copy(extensions=extensions)
 
     def _host(self, host: str, names: list[str]) -> None:
         solids: list[Solid] = []
@@ -94,7 +94,7 @@ class _Lumping:
             solid = body_of(guest, self.graph, Format.URDF)
             if solid.mass:
                 solids.append(placed(solid, at))
-                self.links[name] = guest.model_copy(update={"inertial": None})
+                self.links[name] = guest.copy(inertial=None)
             for field in _KINDS:
                 self._shapes(host, name, field, at)
         self.links[host] = with_guests(self.links[host], own, solids, self.place.sink)
@@ -111,8 +111,8 @@ class _Lumping:
             return
         self.spent.setdefault(name, set()).add(field)
         moved = placed_shapes(shapes, getattr(into, field), name, _KINDS[field], at)
-        self.links[host] = into.model_copy(update={field: (*getattr(into, field), *moved)})
-        self.links[name] = guest.model_copy(update={field: ()})
+        self.links[host] = into.copy(**{field: (*getattr(into, field), *moved)})
+        self.links[name] = guest.copy(**{field: ()})
 
     def _about(self, link: Link, field: str) -> tuple[Element, ...]:
         tools = tuple(part.element for part in link.opaque if part.element and not is_ours(part))
@@ -135,7 +135,7 @@ class _Lumping:
         kept = named_apart(kept, taken[host], name)
         if kept == extension.content:
             return extension
-        return extension.model_copy(update={"content": kept}) if kept or extension.opaque else None
+        return extension.copy(content=kept) if kept or extension.opaque else None
 
 
 def placed_shapes(
@@ -152,5 +152,5 @@ def placed_shapes(
             taken.add(name)
         written = Transform.from_pose(shape.pose)
         pose = in_radians(at.compose(written))
-        made.append(shape.model_copy(update={"name": name, "pose": shape.pose if at.is_identity else pose}))
+        made.append(shape.copy(name=name, pose=shape.pose if at.is_identity else pose))
     return made

@@ -66,7 +66,7 @@ def plan(model: Model, graph: FrameGraph, keep: tuple[str, ...], obstacle: Obsta
         _report(going.pop(name), "fixed joints go round in a circle there", place)
     _leave_what_others_hold(going, ends, place)
     return Plan(
-        {name: each.joint.model_copy(update={"parent": each.parent}) for name, each in going.items()},
+        {name: each.joint.copy(parent=each.parent) for name, each in going.items()},
         {name: _host(name, going) for name in going},
     )
 

@@ -25,13 +25,13 @@ def moved_plugin(plugin: Element, hosts: Mapping[str, str], graph: FrameGraph) -
     offset = Pose(xyz=_numbers(plugin.find("xyzOffset")), rpy=_numbers(plugin.find("rpyOffset")))
     at = graph.pose(named, host).compose(Transform.from_pose(offset))
     kept = tuple(
-        child.model_copy(update={"text": host}) if child.name in _BODIES and child.text == named else child
+        child.copy(text=host) if child.name in _BODIES and child.text == named else child
         for child in plugin.children
         if child.name not in _OFFSETS
     )
     texts = (" ".join(map(format_value, at.translation)), " ".join(map(format_value, at.rpy())))
     made = tuple(Element(name=name, text=text) for name, text in zip(_OFFSETS, texts, strict=True))
-    return plugin.model_copy(update={"children": (*kept, *made)})
+    return plugin.copy(children=(*kept, *made))
 
 
 def _numbers(element: Element | None) -> Vector3 | None:

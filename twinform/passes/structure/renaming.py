@@ -146,7 +146,7 @@ Changed = TypeVar("Changed", bound=Sourced)
 def _changed(node: Changed, update: dict[str, object]) -> Changed:
     """The node with these fields; the same object where they are what they were."""
     different = {name: value for name, value in update.items() if value != getattr(node, name)}
-    return node.model_copy(update=different) if different else node
+    return node.copy(**different) if different else node
 
 
 def renamed_in_world(before: World, after: World, scope: Callable[[Model], Scope], only: str | None) -> World:

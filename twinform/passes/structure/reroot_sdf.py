@@ -14,14 +14,14 @@ def reroot_sdf(model: Model, way: list[Joint]) -> Model:
     children = {joint.name: joint.child or "" for joint in way}
     joints = tuple(made.get(joint.name, joint) for joint in model.joints)
     frames = tuple(_reattached(frame, children) for frame in model.frames)
-    return model.model_copy(update={"joints": joints, "frames": frames})
+    return model.copy(joints=joints, frames=frames)
 
 
 def _reversed(joint: Joint) -> Joint:
     """The same joint from the other side. Its frame stays where it is, and moves with the new child."""
     pose = joint.pose or Pose()
     base = pose.relative_to or joint.child
-    pose = pose.model_copy(update={"relative_to": None if base == joint.parent else base})
+    pose = pose.copy(relative_to=None if base == joint.parent else base)
     update = {
         "parent": joint.child,
         "child": joint.parent,
@@ -29,7 +29,7 @@ def _reversed(joint: Joint) -> Joint:
         "axis": with_axis(joint, opposite(direction(joint.axis, Format.SDF))),
         "sensors": swapped_sensors(joint),
     }
-    return joint.model_copy(update=update)
+    return joint.copy(**update)
 
 
 def _reattached(frame: Frame, children: dict[str, str]) -> Frame:
@@ -39,5 +39,5 @@ def _reattached(frame: Frame, children: dict[str, str]) -> Frame:
         return frame
     pose = frame.pose or Pose()
     if not pose.relative_to:
-        pose = pose.model_copy(update={"relative_to": joint})
-    return frame.model_copy(update={"attached_to": children[joint], "pose": pose})
+        pose = pose.copy(relative_to=joint)
+    return frame.copy(attached_to=children[joint], pose=pose)

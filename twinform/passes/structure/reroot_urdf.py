@@ -36,16 +36,16 @@ def reroot_urdf(model: Model, root: str, way: list[Joint]) -> Model:
     links += [new.helper for new in made.values() if new.helper is not None]
     names = {joint.name for joint in way}
     extensions = tuple(swapped_block(each) if each.reference in names else each for each in model.extensions)
-    changed = model.model_copy(update={"links": tuple(links), "joints": tuple(joints), "extensions": extensions})
+    changed = model.copy(links=tuple(links), joints=tuple(joints), extensions=extensions)
     return _without_helpers(changed)
 
 
 def _posed(link: Link, carrier: str | None, root: str) -> Link:
     if link.name == root:
-        return link.model_copy(update={"pose": None})
+        return link.copy(pose=None)
     if link.pose is not None and link.pose.relative_to == carrier:
         return link
-    return link.model_copy(update={"pose": Pose(relative_to=carrier)})
+    return link.copy(pose=Pose(relative_to=carrier))
 
 
 def _reversed(joint: Joint, at: Transform) -> _Reversed:
@@ -55,12 +55,12 @@ def _reversed(joint: Joint, at: Transform) -> _Reversed:
     back = in_radians(at.inverse(), child)
     if not _is_beside(joint, at):
         update = {"parent": child, "child": parent, "pose": back, "axis": with_axis(joint, opposite(at.rotate(axis)))}
-        return _Reversed(joint.model_copy(update=update))
+        return _Reversed(joint.copy(**update))
     name = helper_name(joint.name)
     update = {"parent": child, "child": name, "pose": Pose(relative_to=child), "axis": with_axis(joint, opposite(axis))}
-    turned = joint.model_copy(update=update)
+    turned = joint.copy(**update)
     helper = Link(name=name, pose=Pose(relative_to=joint.name), source=joint.source)
-    pose = back.model_copy(update={"relative_to": name})
+    pose = back.copy(relative_to=name)
     holder = Joint(name=f"{name}_joint", type="fixed", parent=name, child=parent, pose=pose, source=joint.source)
     return _Reversed(turned, helper, holder)
 
@@ -104,7 +104,7 @@ def _is_bare(link: Link) -> bool:
 def _merged(model: Model, joint: Joint, holder: Joint, link: Link) -> Model:
     """The joint hangs from what the holder hung from, where it is."""
     at = Transform.from_pose(holder.pose).compose(Transform.from_pose(joint.pose))
-    moved = joint.model_copy(update={"parent": holder.parent, "pose": in_radians(at, holder.parent)})
+    moved = joint.copy(parent=holder.parent, pose=in_radians(at, holder.parent))
     joints = tuple(moved if each is joint else each for each in model.joints if each is not holder)
     links = tuple(each for each in model.links if each is not link)
-    return model.model_copy(update={"joints": joints, "links": links})
+    return model.copy(joints=joints, links=links)

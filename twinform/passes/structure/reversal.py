@@ -24,7 +24,7 @@ def with_axis(joint: Joint, direction: Vector3) -> Axis | None:
     """The axis of a joint in another direction; a joint without a direction keeps what it has."""
     if joint.type in _WITHOUT_AXIS:
         return joint.axis
-    return (joint.axis or Axis()).model_copy(update={"xyz": direction})
+    return (joint.axis or Axis()).copy(xyz=direction)
 
 
 def opposite(direction: Vector3) -> Vector3:
@@ -61,7 +61,7 @@ def _sensor(sensor: Sensor) -> Sensor:
     parts = [part for part in sensor.opaque if not _is_torque(part)]
     torque = next((part.element for part in sensor.opaque if _is_torque(part) and part.element), None)
     made = Opaque(element=_torque(torque or Element(name="force_torque")))
-    return sensor.model_copy(update={"opaque": (*parts, made)})
+    return sensor.copy(opaque=(*parts, made))
 
 
 def _is_torque(part: Opaque) -> bool:
@@ -71,7 +71,7 @@ def _is_torque(part: Opaque) -> bool:
 def swapped_block(extension: GazeboExtension) -> GazeboExtension:
     """A `<gazebo>` element about a joint that was reversed."""
     content = tuple(_block(element) for element in extension.content)
-    return extension.model_copy(update={"content": content}) if content != extension.content else extension
+    return extension.copy(content=content) if content != extension.content else extension
 
 
 def _block(element: Element) -> Element:
@@ -80,7 +80,7 @@ def _block(element: Element) -> Element:
     torque = element.find("force_torque")
     made = _torque(torque or Element(name="force_torque"))
     others = tuple(child for child in element.children if child is not torque)
-    return element.model_copy(update={"children": (*others, made)})
+    return element.copy(children=(*others, made))
 
 
 def _torque(element: Element) -> Element:
@@ -92,4 +92,4 @@ def _torque(element: Element) -> Element:
     }
     others = tuple(child for child in element.children if child.name not in words)
     made = tuple(Element(name=name, text=_SWAPPED.get(word, word)) for name, word in words.items())
-    return element.model_copy(update={"children": (*made, *others)})
+    return element.copy(children=(*made, *others))

@@ -48,7 +48,7 @@ class TagShapes(Pass):
 
         def rename(shape: AnyShape, name: str, kind: str) -> AnyShape:
             sink.report(GAZEBO_SHAPE_NAME, renaming(shape, name, kind), shape.location, found=shape.name)
-            return shape.model_copy(update={"name": name})
+            return shape.copy(name=name)
 
         return replace_fields(document, models=tuple(named_for_gazebo(model, rename) for model in document.models))
 
@@ -68,7 +68,7 @@ def named_for_gazebo(model: Model, rename: Rename) -> Model:
             links = tuple(
                 _renamed(link, field, names, lambda one, name, of=kind: rename(one, name, of)) for link in model.links
             )
-            model = model.model_copy(update={"links": links})
+            model = model.copy(links=links)
     return _sensing(before, model) if mentions_collisions(model) else model
 
 
@@ -116,9 +116,9 @@ def _sensing(before: Model, after: Model) -> Model:
     def follow(extension: GazeboExtension) -> GazeboExtension:
         names = {**theirs, **own.get(extension.reference or "", {})}
         content = tuple(in_contacts(each, names) for each in extension.content)
-        return extension.model_copy(update={"content": content})
+        return extension.copy(content=content)
 
-    return after.model_copy(update={"extensions": tuple(map(follow, after.extensions))})
+    return after.copy(extensions=tuple(map(follow, after.extensions)))
 
 
 def in_contacts(element: Element, names: Mapping[str, str], inside: str = "") -> Element:
@@ -126,7 +126,7 @@ def in_contacts(element: Element, names: Mapping[str, str], inside: str = "") ->
     path = f"{inside}/{element.name}"
     if path == "/sensor/contact/collision":
         name = names.get((element.text or "").strip())
-        return element if name is None else element.model_copy(update={"text": name})
+        return element if name is None else element.copy(text=name)
     if not "/sensor/contact".startswith(path):
         return element
-    return element.model_copy(update={"children": tuple(in_contacts(each, names, path) for each in element.children)})
+    return element.copy(children=tuple(in_contacts(each, names, path) for each in element.children))

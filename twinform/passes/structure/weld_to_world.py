@@ -56,18 +56,18 @@ class WeldToWorld(ModelEdit):
         pose = Pose(xyz=self.xyz, rpy=self.rpy, relative_to=WORLD)
         joint = Joint(name=self.joint, type="fixed", parent=WORLD, child=base, pose=pose)
         held = Pose(relative_to=self.joint)
-        links = tuple(link.model_copy(update={"pose": held}) if link.name == base else link for link in model.links)
-        return model.model_copy(update={"links": (Link(name=WORLD), *links), "joints": (joint, *model.joints)})
+        links = tuple(link.copy(pose=held) if link.name == base else link for link in model.links)
+        return model.copy(links=(Link(name=WORLD), *links), joints=(joint, *model.joints))
 
     def _sdf(self, model: Model, base: str) -> Model:
         joint = Joint(name=self.joint, type="fixed", parent=WORLD, child=base)
-        made = model.model_copy(update={"joints": (*model.joints, joint)})
+        made = model.copy(joints=(*model.joints, joint))
         if self.xyz is None and self.rpy is None:
             return made
         wanted = Transform.from_pose(Pose(xyz=self.xyz, rpy=self.rpy))
         inside = FrameGraph(model).pose(base, MODEL, base="model")
         pose = wanted.compose(inside.inverse()).to_pose()
-        return made.model_copy(update={"pose": pose, "placement_frame": None})
+        return made.copy(pose=pose, placement_frame=None)
 
 
 def _base(model: Model) -> str | None:

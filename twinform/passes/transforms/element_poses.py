@@ -64,7 +64,7 @@ class ElementPoses:
         def move(element: Element) -> Element:
             return self._move(element, placed, moves=False) if element.name[0] != "{" else element
 
-        return sensor.model_copy(update={"opaque": map_elements(sensor.opaque, move)})
+        return sensor.copy(opaque=map_elements(sensor.opaque, move))
 
     def _move(self, element: Element, holder: Transform, *, moves: bool) -> Element:
         """An element whose own pose is in the moved frame, or else relative to `holder` where it names another one."""
@@ -76,20 +76,20 @@ class ElementPoses:
         if annotation is not None:
             return self._as_annotated(element, children, annotation, holder, pose, moves=moves)
         if pose is not None and not moves and _frame_of(pose) in _own_frames(element):  # of SDF 1.5 and 1.6
-            return element.model_copy(update={"children": children})
+            return element.copy(children=children)
         if pose is not None and _frame_of(pose) in self.stays:
-            return element.model_copy(update={"children": children})
+            return element.copy(children=children)
         names_frame = pose is not None and _frame_of(pose) is not None
         if not names_frame and not (moves and (pose is not None or element.name in link_elements("pose"))):
-            return element.model_copy(update={"children": children}) if children != element.children else element
+            return element.copy(children=children) if children != element.children else element
         read = Pose() if pose is None else read_pose(pose)
         in_base = self._resolve(read)
         made = to_element(holder.inverse().compose(in_base).to_pose(), "pose", "sdf")
         children = tuple(made if child is pose else child for child in children)
         if pose is None:
-            return element.model_copy(update={"children": (made, *children)})
+            return element.copy(children=(made, *children))
         message = f"the pose of <{element.name}> of {self.kind} {self.holder!r} is in another frame"
-        return element.model_copy(update={"children": (*children, *self.keep(message, read))})
+        return element.copy(children=(*children, *self.keep(message, read)))
 
     def _as_annotated(
         self,
@@ -113,7 +113,7 @@ class ElementPoses:
             here = placed if moves else holder.inverse().compose(placed)
         made = to_element(as_annotated(here, annotation, name if known else None) or Pose(), "pose", "sdf")
         rest = tuple(made if child is pose else child for child in children if child is not annotation)
-        return element.model_copy(update={"children": rest if pose is not None else (made, *rest)})
+        return element.copy(children=rest if pose is not None else (made, *rest))
 
     def _resolve(self, pose: Pose | None) -> Transform:
         return self.graph.resolve(pose, self.holder, self.base[0], kind=self.kind, base=self.base[1])
@@ -151,7 +151,7 @@ def read_pose(element: Element) -> Pose:
     """The pose that an element defines; SDF before 1.7 calls its frame `frame`."""
     context = Context(DiagnosticSink(), "", "sdf", table("sdf").newest)
     pose = Pose.model_validate(reader("sdf", context.version).read(element_xml(element), context, "pose"))
-    return pose.model_copy(update={"relative_to": _frame_of(element), "opaque": ()})
+    return pose.copy(relative_to=_frame_of(element), opaque=())
 
 
 def map_frames(node: AnyNode, change: ReferenceChange) -> AnyNode:
@@ -162,7 +162,7 @@ def map_frames(node: AnyNode, change: ReferenceChange) -> AnyNode:
 def _map_opaque_poses(change: ReferenceChange, node: AnyNode) -> AnyNode:
     if not node.opaque:
         return node
-    return node.model_copy(update={"opaque": map_elements(node.opaque, partial(_map_element, change))})
+    return node.copy(opaque=map_elements(node.opaque, partial(_map_element, change)))
 
 
 def _map_element(change: ReferenceChange, element: Element) -> Element:
@@ -171,4 +171,4 @@ def _map_element(change: ReferenceChange, element: Element) -> Element:
         follows = _FRAME_ATTRIBUTES
         attributes = tuple((name, change("any", text) if name in follows else text) for name, text in attributes)
     children = tuple(_map_element(change, child) for child in element.children)
-    return element.model_copy(update={"attributes": attributes, "children": children})
+    return element.copy(attributes=attributes, children=children)

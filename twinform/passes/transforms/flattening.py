@@ -24,13 +24,13 @@ def flatten(model: Model, keep: Callable[[Frame, Model], Frame]) -> Model:
         nested, around = stack.pop()
         scope = _Scope(f"{around.prefix}{nested.name}::")
         emptied = {"links": (), "joints": (), "frames": (), "models": ()}
-        frames.append(keep(_own_frame(nested, around, scope, graph), nested.model_copy(update=emptied)))
+        frames.append(keep(_own_frame(nested, around, scope, graph), nested.copy(**emptied)))
         links.extend(scope.link(link) for link in nested.links)
         joints.extend(scope.joint(joint) for joint in nested.joints)
         frames.extend(scope.frame(frame) for frame in nested.frames)
         stack.extend((inner, scope) for inner in reversed(nested.models))
     update = {"links": tuple(links), "joints": tuple(joints), "frames": tuple(frames), "models": ()}
-    return model.model_copy(update=update)
+    return model.copy(**update)
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ class _Scope:
 
     def link(self, link: Link) -> Link:
         pose = link.pose or Pose()
-        return self._renamed(link, {"pose": pose.model_copy(update={"relative_to": pose.relative_to or MODEL})})
+        return self._renamed(link, {"pose": pose.copy(relative_to=pose.relative_to or MODEL)})
 
     def joint(self, joint: Joint) -> Joint:
         return self._renamed(joint, {})
@@ -60,7 +60,7 @@ class _Scope:
         return self._renamed(frame, {"attached_to": frame.attached_to or MODEL})
 
     def _renamed(self, node: Part, update: dict[str, object]) -> Part:
-        placed = node.model_copy(update={"name": self.prefix + node.name, **update})
+        placed = node.copy(**{"name": self.prefix + node.name, **update})
         return map_frames(placed, self.rename)
 
 
@@ -69,7 +69,7 @@ def _own_frame(model: Model, around: _Scope, scope: _Scope, graph: FrameGraph) -
     name = scope.frame_name
     body = graph.body(name, kind="model")
     base = around.rename("any", (model.pose and model.pose.relative_to) or MODEL)
-    pose = (model.pose or Pose()).model_copy(update={"relative_to": base})
+    pose = (model.pose or Pose()).copy(relative_to=base)
     if model.placement_frame:
         pose = graph.pose(name, base, kind="model", base="joint").to_pose(base)
     attached = body if graph.knows(body) and body not in (name, MODEL) else around.frame_name

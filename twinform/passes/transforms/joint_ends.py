@@ -31,8 +31,8 @@ def resolve_ends(joint: Joint, links: Container[str], graph: FrameGraph) -> tupl
             changed[end] = body
             pieces.append(text_piece(end, name))
     if "child" in changed and not (joint.pose and joint.pose.relative_to):
-        changed["pose"] = (joint.pose or Pose()).model_copy(update={"relative_to": joint.child})
-    return (joint.model_copy(update=changed) if changed else joint), pieces
+        changed["pose"] = (joint.pose or Pose()).copy(relative_to=joint.child)
+    return (joint.copy(**changed) if changed else joint), pieces
 
 
 def joint_pose_attributes(joint: Joint) -> dict[str, str | None]:

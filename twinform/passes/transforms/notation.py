@@ -47,7 +47,7 @@ def as_annotated(transform: Transform, annotation: Element | None, relative_to: 
     elif degrees == "true":
         roll, pitch, yaw = transform.rpy()
         update["rpy"] = (math.degrees(roll), math.degrees(pitch), math.degrees(yaw))
-    return plain.model_copy(update={**update, "xyz": plain.xyz or (0.0, 0.0, 0.0), "relative_to": relative_to})
+    return plain.copy(**{**update, "xyz": plain.xyz or (0.0, 0.0, 0.0), "relative_to": relative_to})
 
 
 BODY = "body"

@@ -49,12 +49,12 @@ class Rebasing:
             "lights": tuple(self._move(light, "light", still=still) for light in link.lights),
             "opaque": self.elements.parts(link.opaque, still=still),
         }
-        return link.model_copy(update=update)
+        return link.copy(**update)
 
     def joint(self, joint: Joint) -> Joint:
         """The joint with its sensors."""
         moved = tuple(self._sensor(one, still=True) for one in joint.sensors)
-        return joint.model_copy(update={"sensors": moved}) if moved else joint
+        return joint.copy(sensors=moved) if moved else joint
 
     def _sensor(self, sensor: Sensor, *, still: bool) -> Sensor:
         return self.elements.sensor(self._move(sensor, "sensor", still=still), sensor.pose)

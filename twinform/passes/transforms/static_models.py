@@ -29,7 +29,7 @@ def with_static_models_fixed(model: Model) -> Model:
         taken.add(name)
         weld = Joint(name=name, type="fixed", parent=WORLD, child=root, source=nested.source)
         welds.append(annotate_synthesized(weld))
-    return model.model_copy(update={"joints": (*welds, *model.joints)})
+    return model.copy(joints=(*welds, *model.joints))
 
 
 def _static_roots(model: Model, scope: str) -> Iterator[tuple[str, Model]]:

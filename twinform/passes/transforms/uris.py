@@ -72,7 +72,7 @@ def _with_uris(change: Change, node: Node) -> Node:
         update |= {"uris": uris} if uris != node.uris else {}
     if isinstance(node, GazeboExtension) or node.opaque:
         update |= _in_elements(node, change)
-    return node.model_copy(update=update) if update else node
+    return node.copy(**update) if update else node
 
 
 def _in_elements(node: Node, change: Change) -> dict[str, object]:
@@ -97,4 +97,4 @@ def _element(element: Element, change: Change, where: Location, inside: str = ""
     children = tuple(_element(child, change, where, element.name) for child in element.children)
     if text == element.text and children == element.children:
         return element
-    return element.model_copy(update={"text": text, "children": children})
+    return element.copy(text=text, children=children)

@@ -90,7 +90,7 @@ def _sdf_bodies(shapes: tuple[type[Any], ...]) -> st.SearchStrategy[dict[str, An
 
 def _named(kind: str) -> Any:
     def name(shapes: list[Any]) -> tuple[Any, ...]:
-        return tuple(one.model_copy(update={"name": f"{kind}_{number}"}) for number, one in enumerate(shapes))
+        return tuple(one.copy(name=f"{kind}_{number}") for number, one in enumerate(shapes))
 
     return name
 

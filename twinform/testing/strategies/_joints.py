@@ -58,7 +58,7 @@ def joints(
     """Joints of a name between two links; `types` are all that the format has unless some are named."""
 
     def urdf(kind: Any, pose: Pose | None, axis: Axis) -> Joint:
-        origin = (pose or Pose()).model_copy(update={"relative_to": parent})
+        origin = (pose or Pose()).copy(relative_to=parent)
         moving = None if kind in NOT_MOVING else axis
         return Joint(name=name, type=kind, parent=parent, child=child, pose=origin, axis=moving)
 

@@ -59,7 +59,7 @@ def _robot(segments: list[tuple[dict[str, Any], Any, Pose | None, Axis, int]]) -
         links.append(Link(name=f"link_{number}", pose=placed, **body))
         if number:
             parent = f"link_{pick % number}"
-            origin = (pose or Pose()).model_copy(update={"relative_to": parent})
+            origin = (pose or Pose()).copy(relative_to=parent)
             joints.append(
                 Joint(
                     name=f"joint_{number}",
@@ -110,8 +110,8 @@ def worlds(
         models: list[Model] = []
         for number, (model, pose, pick) in enumerate(parts):
             base = f"model_{pick % number}" if number and pick % 2 else None
-            where = pose.model_copy(update={"relative_to": base}) if pose else None
-            models.append(model.model_copy(update={"name": f"model_{number}", "pose": where}))
+            where = pose.copy(relative_to=base) if pose else None
+            models.append(model.copy(name=f"model_{number}", pose=where))
         return Document(format=Format.SDF, version=version, worlds=(World(name="arena", models=tuple(models)),))
 
     return st.lists(placed, max_size=max_models).map(world)
@@ -124,7 +124,7 @@ def _anchored(models: st.SearchStrategy[Model]) -> st.SearchStrategy[Model]:
         if not movement:
             return model
         joint = Joint(name="anchor", parent="world", child=model.links[0].name, pose=pose, **movement)
-        return model.model_copy(update={"joints": (*model.joints, joint)})
+        return model.copy(joints=(*model.joints, joint))
 
     return st.builds(anchor, models, movements(with_none=True), maybe(poses(whole=True)))
 
@@ -134,8 +134,8 @@ def _varied(models: st.SearchStrategy[Model]) -> st.SearchStrategy[Model]:
 
     def vary(model: Model, inner: Model | None, static: bool | None, framed: bool) -> Model:
         placement = model.frames[0].name if framed and model.frames else None
-        inside = (inner.model_copy(update={"name": "inner"}),) if inner else ()
-        return model.model_copy(update={"models": inside, "static": static, "placement_frame": placement})
+        inside = (inner.copy(name="inner"),) if inner else ()
+        return model.copy(models=inside, static=static, placement_frame=placement)
 
     return st.builds(vary, models, maybe(models), maybe(st.booleans()), st.booleans())
 
@@ -158,7 +158,7 @@ def _sdf_model(segments: list[Any]) -> Model:
     frames: list[Frame] = []
     for number, (body, movement, pose, frame_pose, pick, framed) in enumerate(segments):
         parent = f"link_{pick % number}" if number else None
-        placed = pose.model_copy(update={"relative_to": parent})
+        placed = pose.copy(relative_to=parent)
         links.append(Link(name=f"link_{number}", pose=placed, **body))
         if framed:
             frames.append(Frame(name=f"frame_{number}", attached_to=f"link_{number}", pose=frame_pose))

@@ -25,13 +25,13 @@ SDF = """<sdf version="1.11">
 
 
 def _changed(document: Document, **update: Any) -> Document:
-    model = document.models[0].model_copy(update=update)
-    return document.model_copy(update={"models": (model, *document.models[1:])})
+    model = document.models[0].copy(**update)
+    return document.copy(models=(model, *document.models[1:]))
 
 
 def _links(document: Document, **update: Any) -> Document:
     first, *others = document.models[0].links
-    return _changed(document, links=(first.model_copy(update=update), *others))
+    return _changed(document, links=(first.copy(**update), *others))
 
 
 @pytest.mark.parametrize("text", [URDF, SDF])

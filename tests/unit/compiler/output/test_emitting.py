@@ -25,7 +25,7 @@ def _sdf(*models: Model, **fields: Any) -> Document:
 @pytest.mark.parametrize("name", ["r", "a & b", "\u00e9", "\u4e16", "\U0001f916"])
 def test_a_valid_document_needs_no_tree(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     document = twinform.loads(ROBOT)
-    document = document.model_copy(update={"models": (document.models[0].model_copy(update={"name": name}),)})
+    document = document.copy(models=(document.models[0].copy(name=name),))
     text = serialized(document_tree(document), document)
     monkeypatch.setattr(emitting, "document_tree", None)
     assert emit(document, DiagnosticSink()) == text
@@ -44,7 +44,7 @@ def test_what_xml_cannot_hold_is_refused_as_ever(name: str) -> None:
 
 
 def test_a_version_stands_behind_the_attributes_of_a_robot() -> None:
-    document = twinform.loads(ROBOT).model_copy(update={"version": "1.1"})
+    document = twinform.loads(ROBOT).copy(version="1.1")
     text = text_without_tree(document)
     assert text == serialized(document_tree(document), document)
     assert text is not None
@@ -53,10 +53,10 @@ def test_a_version_stands_behind_the_attributes_of_a_robot() -> None:
 
 def test_a_robot_with_a_version_and_untyped_attributes_needs_a_tree() -> None:
     document = twinform.loads(ROBOT)
-    model = document.models[0].model_copy(update={"opaque": (Opaque(attribute=("version", "7")),)})
-    changed = document.model_copy(update={"version": "1.1", "models": (model,)})
+    model = document.models[0].copy(opaque=(Opaque(attribute=("version", "7")),))
+    changed = document.copy(version="1.1", models=(model,))
     assert text_without_tree(changed) is None
-    assert text_without_tree(changed.model_copy(update={"version": None})) is not None
+    assert text_without_tree(changed.copy(version=None)) is not None
 
 
 def test_a_default_namespace_needs_a_tree() -> None:
@@ -67,9 +67,9 @@ def test_untyped_models_in_what_comes_from_urdf_need_a_tree() -> None:
     document = twinform.convert(ROBOT, to="sdf").document
     assert text_without_tree(document) is not None
     population = Opaque(element=Element(name="population", children=(Element(name="model"),)))
-    assert text_without_tree(document.model_copy(update={"opaque": (population,)})) is None
-    model = document.models[0].model_copy(update={"opaque": (Opaque(element=Element(name="link")),)})
-    assert text_without_tree(document.model_copy(update={"models": (model,)})) is None
+    assert text_without_tree(document.copy(opaque=(population,))) is None
+    model = document.models[0].copy(opaque=(Opaque(element=Element(name="link")),))
+    assert text_without_tree(document.copy(models=(model,))) is None
 
 
 VALID = '<?xml version="1.0"?>\n<sdf version="1.11"><model name="m"><link name="a"/></model></sdf>\n'

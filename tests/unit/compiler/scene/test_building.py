@@ -71,9 +71,9 @@ def test_what_cannot_be_placed_is_said() -> None:
     document = twinform.loads(_WORLD)
     (world,) = document.worlds
     model: Model = world.models[0]
-    link = model.links[0].model_copy(update={"pose": None, "name": "lost"})
-    broken = model.model_copy(update={"links": (link,)})
-    scene = build_scene(document.model_copy(update={"worlds": (world.model_copy(update={"models": (broken,)}),)}))
+    link = model.links[0].copy(pose=None, name="lost")
+    broken = model.copy(links=(link,))
+    scene = build_scene(document.copy(worlds=(world.copy(models=(broken,)),)))
     assert any(reason.startswith("j: ") for reason in scene.left_out)
     assert [each.name for each in scene.links] == ["m::lost", "m::inner::b"]
 

@@ -22,7 +22,7 @@ def eyes(*names: str | None, plugins: tuple[Plugin, ...] = (MINE, DRIVER)) -> Se
     cameras = tuple(Element(name="camera", attributes=(("name", name),) if name else ()) for name in names)
     made = sensor_of(Element(name="sensor", attributes=(("name", "eyes"), ("type", "multicamera")), children=cameras))
     assert made is not None
-    return made.model_copy(update={"plugins": plugins})
+    return made.copy(plugins=plugins)
 
 
 def split(sensor: Sensor) -> tuple[list[Sensor], DiagnosticSink]:

@@ -15,7 +15,7 @@ class Recolored(Pass):
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         del sink
-        return document.model_copy(update={"version": "recolored"})
+        return document.copy(version="recolored")
 
 
 DOCUMENT = Document(format=Format.URDF)

@@ -52,7 +52,7 @@ class Sample(Pass):
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         del sink
-        return document.model_copy(update={"version": self.word})
+        return document.copy(version=self.word)
 
 
 class Needy(Pass):
@@ -247,7 +247,7 @@ def test_passes_run_in_order_and_are_watched() -> None:
         "after needs-2-options: one, one",
         "after sample: one, two",
     ]
-    assert result == DOCUMENT.model_copy(update={"version": "two"})
+    assert result == DOCUMENT.copy(version="two")
 
 
 def test_a_pass_that_makes_an_invalid_document_is_named() -> None:
@@ -304,7 +304,7 @@ def test_every_instrument_is_called_alike() -> None:
         Pipeline((step,)).run(
             DOCUMENT, sink, instrumentation=CombinedInstrumentation([Teller(), Teller()]), verify=refuse
         )
-    made = DOCUMENT.model_copy(update={"version": "new"})
+    made = DOCUMENT.copy(version="new")
     each = [(step, DOCUMENT, sink), (step, DOCUMENT, made, sink), (step, caught.value, sink)]
     assert calls == [one for one in each for _ in range(2)]
 

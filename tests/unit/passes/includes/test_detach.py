@@ -33,7 +33,7 @@ def without_zeros(world: World) -> World:
     """The world as one writes it who leaves out what is zero."""
 
     def short(pose: Pose) -> Pose:
-        return pose.model_copy(update={name: None for name in ("xyz", "rpy") if getattr(pose, name) == (0, 0, 0)})
+        return pose.copy(**{name: None for name in ("xyz", "rpy") if getattr(pose, name) == (0, 0, 0)})
 
     return rewrite(world, Pose, short)
 
@@ -102,8 +102,8 @@ def test_a_model_is_placed_by_whole_models(pose: str, expected: str) -> None:
 
 def test_a_world_whose_frames_are_not_known_stays_as_it_is() -> None:
     good = twinform.loads(world(light('<pose relative_to="m::f">1 0 0 0 0 0</pose>'))).worlds[0]
-    models = (good.models[0].model_copy(update={"frames": ()}), good.models[1])
-    bad = good.model_copy(update={"models": models})
+    models = (good.models[0].copy(frames=()), good.models[1])
+    bad = good.copy(models=models)
     sink = DiagnosticSink()
     assert detached(bad, sink) is bad
     assert [(each.rule.name, each.message, each.found) for each in sink.diagnostics] == [

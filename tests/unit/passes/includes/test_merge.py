@@ -23,7 +23,7 @@ def test_an_include_that_was_not_read_stays_where_it_is(holder: Model | World) -
     (frame,), (include,) = made.frames, made.includes
     assert frame.pose
     assert frame.pose.xyz == (1.0, 0.0, 0.0)
-    assert include == INNER.model_copy(update={"pose": Pose(xyz=(0.0, 0.0, 1.0), relative_to=frame.name)})
+    assert include == INNER.copy(pose=Pose(xyz=(0.0, 0.0, 1.0), relative_to=frame.name))
 
 
 def test_what_the_merged_model_has_as_a_whole_is_accounted_for() -> None:

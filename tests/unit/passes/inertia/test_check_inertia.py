@@ -51,9 +51,9 @@ CASES: dict[str, tuple[Inertial, list[str]]] = {
         Inertial(mass=0.0, inertia=Inertia(ixx=0.0, iyy=0.0, izz=0.0), source=INERTIAL_LINE),
         ["non-positive-mass"],
     ),
-    "a negative mass": (GOOD.model_copy(update={"mass": -1.0, "source": INERTIAL_LINE}), ["non-positive-mass"]),
+    "a negative mass": (GOOD.copy(mass=-1.0, source=INERTIAL_LINE), ["non-positive-mass"]),
     "a mass that is not a number": (
-        GOOD.model_copy(update={"mass": float("nan"), "source": INERTIAL_LINE}),
+        GOOD.copy(mass=float("nan"), source=INERTIAL_LINE),
         ["non-positive-mass"],
     ),
     "a point": (body(0.0, 0.0, 0.0), ["indefinite-inertia"]),
@@ -65,7 +65,7 @@ CASES: dict[str, tuple[Inertial, list[str]]] = {
     "one large moment": (body(1.0, 0.1, 0.1), ["impossible-inertia"]),
     "one large moment about a turned axis": (body(0.55, 0.55, 0.1, 0.45), ["impossible-inertia"]),
     "moments that miss": (Inertial(mass=1.0, inertia=Inertia(ixx=0.1)), []),
-    "a simulator that computes": (body(1.0, 0.1, 0.1).model_copy(update={"auto": True}), []),
+    "a simulator that computes": (body(1.0, 0.1, 0.1).copy(auto=True), []),
 }
 
 
@@ -160,7 +160,7 @@ SDF_BODIES: dict[str, tuple[Document, int]] = {
     ),
     "a model of a world": (sdf(worlds=(World(name="w", models=(ARM,)),)), 1),
     "names that two models share": (
-        sdf(worlds=(World(name="w", models=(ARM.model_copy(update={"name": "other", "static": True}), ARM)),)),
+        sdf(worlds=(World(name="w", models=(ARM.copy(name="other", static=True), ARM)),)),
         1,
     ),
 }

@@ -199,7 +199,7 @@ WRITTEN: dict[str, tuple[dict[str, Any], Inertial | None, float | None]] = {
     "a mass without an inertia is kept": ({"mass": 7}, Inertial(mass=2.0), 2),
     "a mass that is written is kept": ({"replace": "all"}, GOOD, 2),
     "unless an amount is given": ({"replace": "all", "density": 10}, GOOD, 10 * 4 / 3 * math.pi),
-    "a mass of zero is none": ({"mass": 7, "replace": "impossible"}, GOOD.model_copy(update={"mass": 0.0}), 7),
+    "a mass of zero is none": ({"mass": 7, "replace": "impossible"}, GOOD.copy(mass=0.0), 7),
     "an automatic inertia is left": ({"replace": "impossible"}, Inertial(auto=True), None),
     "unless all are replaced": ({"mass": 7, "replace": "all"}, Inertial(auto=True), 7),
 }

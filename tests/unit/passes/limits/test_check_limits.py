@@ -148,7 +148,7 @@ def test_nothing_is_damped_by_less_than_nothing(
 def soft(lower: str, upper: str, kind: JointType = "revolute") -> Joint:
     limits = (("soft_lower_limit", lower), ("soft_upper_limit", upper))
     element = Element(name="safety_controller", attributes=limits)
-    return joint(-1, 1, kind=kind).model_copy(update={"opaque": (Opaque(element=element),)})
+    return joint(-1, 1, kind=kind).copy(opaque=(Opaque(element=element),))
 
 
 OUTSIDE = "the soft limits of joint 'j', {0}, are outside of the hard ones"

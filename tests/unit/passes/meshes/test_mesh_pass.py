@@ -33,7 +33,7 @@ def robot(tmp_path: Path) -> Path:
 
 
 def _without_shapes(document: Document) -> Document:
-    return rewrite(document, Link, lambda link: link.model_copy(update={"visuals": (), "collisions": ()}))
+    return rewrite(document, Link, lambda link: link.copy(visuals=(), collisions=()))
 
 
 def test_nothing_but_shapes_changes(robot: Path) -> None:

@@ -54,14 +54,14 @@ def _with_meshes(document: Document) -> Document:
 
     def change(node: Node) -> Node:
         if isinstance(node, Visual | Collision) and node.geometry:
-            return node.model_copy(update={"geometry": Geometry(shape=Mesh(uri=next(uris)))})
+            return node.copy(geometry=Geometry(shape=Mesh(uri=next(uris))))
         return node
 
     return rewrite(document, Node, change)
 
 
 def _bones(document: Document) -> Document:
-    return rewrite(document, Link, lambda link: link.model_copy(update={"visuals": (), "collisions": ()}))
+    return rewrite(document, Link, lambda link: link.copy(visuals=(), collisions=()))
 
 
 @examples(0.3)

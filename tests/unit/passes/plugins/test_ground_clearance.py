@@ -58,7 +58,7 @@ def test_what_is_not_known_is_not_guessed() -> None:
 
 
 def test_nested_models_count() -> None:
-    inner = model(Sphere(radius=2)).model_copy(update={"name": "inner", "pose": Pose(xyz=(0, 0, -1))})
+    inner = model(Sphere(radius=2)).copy(name="inner", pose=Pose(xyz=(0, 0, -1)))
     assert lowest_point(Model(name="r", models=(inner,))) == pytest.approx(-1.75)
 
 

@@ -87,7 +87,7 @@ def test_plugins_are_replaced_removed_and_multiplied(text: str) -> None:
         if plugin.name == "v":
             return ()
         if plugin.name == "c":
-            return (plugin, plugin.model_copy(update={"name": "c2"}))
+            return (plugin, plugin.copy(name="c2"))
         return (plugin,)
 
     made = [name for name, _, _ in where(map_plugins(load(text), change))]
@@ -98,7 +98,7 @@ def test_plugins_are_replaced_removed_and_multiplied(text: str) -> None:
 @pytest.mark.parametrize("text", [URDF, SDF])
 def test_sensors_are_changed(text: str) -> None:
     def change(sensor: Sensor, _: Site) -> Iterable[Sensor]:
-        return (sensor.model_copy(update={"topic": "here", "plugins": ()}),) if sensor.name == "eye" else ()
+        return (sensor.copy(topic="here", plugins=()),) if sensor.name == "eye" else ()
 
     made = map_sensors(load(text), change)
     assert [(each.name, each.topic) for each, _ in sensors_of(made)] == [("eye", "here")]
@@ -107,8 +107,8 @@ def test_sensors_are_changed(text: str) -> None:
 
 def test_what_a_plugin_has_is_kept() -> None:
     document = load(URDF)
-    renamed = map_plugins(document, lambda plugin, _: (plugin.model_copy(update={"name": "other"}),))
-    back = map_plugins(renamed, lambda plugin, site: (plugin.model_copy(update={"name": _names(document, site)}),))
+    renamed = map_plugins(document, lambda plugin, _: (plugin.copy(name="other"),))
+    back = map_plugins(renamed, lambda plugin, site: (plugin.copy(name=_names(document, site)),))
     assert back == document
 
 

@@ -259,7 +259,7 @@ def test_raising_the_version_is_reported_where_an_expanded_text_was_written() ->
     )
     document = twinform.loads(text.replace("1.9", "1.6"), "x (expanded)")
     sink = DiagnosticSink("x", origins={"x (expanded)": Origins.of([(1, Location("x.xacro", 30))])})
-    made = in_new_words(document, sink, lambda modern: modern.model_copy(update={"models": modern.models * 1}))
+    made = in_new_words(document, sink, lambda modern: modern.copy(models=modern.models * 1))
     assert made.version == "1.8"
     found = [(each.rule.name, each.location.file, each.location.line, each.found) for each in sink.diagnostics]
     assert found == [("raised-version", "x.xacro", 30, "1.6")]

@@ -188,7 +188,7 @@ def test_a_fixed_joint_that_is_not_lumped_turns_by_nothing_as_libsdformat_has_it
     limit = Limit(lower=0, upper=0, effort=1e16, velocity=1e16)
     axis = Axis(xyz=(0, 0, 1), limit=limit, dynamics=Dynamics(damping=0, friction=0))
     before = twinform.loads(KEPT).models[0].joints[0]
-    assert made == (before.model_copy(update={"type": "revolute", "axis": axis}),)
+    assert made == (before.copy(type="revolute", axis=axis),)
 
 
 CORNER = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"

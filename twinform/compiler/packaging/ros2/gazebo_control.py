@@ -67,7 +67,7 @@ class ConnectControllers(Pass):
                 message = f"the controllers' file {each.text!r} gives way to config/controllers.yaml of the package"
                 sink.report(rules.REPLACED_CONTROLLERS_FILE, message, plugin.location, found=each.text)
         rest = tuple(each for each in plugin.content if each.name != _PARAMETERS)
-        return (plugin.model_copy(update={"content": (self._parameters(), *rest)}),)
+        return (plugin.copy(content=(self._parameters(), *rest)),)
 
     def _with_plugin(self, model: Model, format_: Format) -> Model:
         if not any(runs_in_gazebo(system, self.release) for system in systems_of(model, format_)):
@@ -76,10 +76,10 @@ class ConnectControllers(Pass):
         class_ = f"{package}{_CLASSES[self.release == _FORTRESS]}"
         plugin = Plugin(name=class_, filename=f"{package}-system", content=(self._parameters(),))
         if format_ is Format.SDF:
-            return model.model_copy(update={"plugins": (*model.plugins, plugin)})
+            return model.copy(plugins=(*model.plugins, plugin))
         attributes = (("filename", plugin.filename or ""), ("name", class_))
         element = Element(name="plugin", attributes=attributes, children=plugin.content)
-        return model.model_copy(update={"extensions": (*model.extensions, GazeboExtension(content=(element,)))})
+        return model.copy(extensions=(*model.extensions, GazeboExtension(content=(element,))))
 
     def _parameters(self) -> Element:
         return Element(name=_PARAMETERS, text=controllers_uri(self.package))

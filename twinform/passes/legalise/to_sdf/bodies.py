@@ -47,7 +47,7 @@ class UrdfBodies(ModelPass):
         usual = came_from(model, Format.SDF) or (links and links[0].name == root)
         if root is not None and not usual and model.canonical_link is None:
             update["canonical_link"] = root
-        return model.model_copy(update=update)
+        return model.copy(**update)
 
     def _body(self, link: Link, model: Model, sink: DiagnosticSink) -> Link:
         if model.static:
@@ -92,7 +92,7 @@ def _with_token(link: Link, *, carriers: bool) -> Link:
     """A link with a token of the mass and the inertia that it does not have."""
     written = link.inertial
     if written is None:
-        return link.model_copy(update={"inertial": with_annotation(TOKEN, UNSAID, "inertial") if carriers else TOKEN})
+        return link.copy(inertial=with_annotation(TOKEN, UNSAID, "inertial") if carriers else TOKEN)
     update: dict[str, object] = {}
     words: list[str] = []
     if _has_no_mass(link):
@@ -101,14 +101,14 @@ def _with_token(link: Link, *, carriers: bool) -> Link:
     if _has_no_inertia(link):
         update["inertia"] = TOKEN.inertia
         words.append("inertia" if written.inertia is None else "zero-inertia")
-    made = written.model_copy(update=update)
-    return link.model_copy(update={"inertial": with_annotation(made, UNSAID, " ".join(words)) if carriers else made})
+    made = written.copy(**update)
+    return link.copy(inertial=with_annotation(made, UNSAID, " ".join(words)) if carriers else made)
 
 
 def _with_inertial(link: Link, *, carriers: bool) -> Link:
     inertial = link.inertial
     if inertial is None:
-        return link.model_copy(update={"inertial": _NONE})
+        return link.copy(inertial=_NONE)
     if inertial.auto:
         return link
     missing: dict[str, object] = {}
@@ -118,8 +118,8 @@ def _with_inertial(link: Link, *, carriers: bool) -> Link:
         missing["inertia"] = _NO_INERTIA
     if not missing:
         return link
-    made = inertial.model_copy(update=missing)
-    return link.model_copy(update={"inertial": with_annotation(made, UNSAID, " ".join(missing)) if carriers else made})
+    made = inertial.copy(**missing)
+    return link.copy(inertial=with_annotation(made, UNSAID, " ".join(missing)) if carriers else made)
 
 
 def _reaches(start: str, edges: dict[str, list[str]], goal: set[str]) -> bool:

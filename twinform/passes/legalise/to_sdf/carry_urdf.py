@@ -54,7 +54,7 @@ class CarryUrdf(ModelPass):
         back = came_from(model, Format.SDF)
         having = OPAQUE | (bits_of(Joint) if any(joint.type in BALLS for joint in model.joints) else 0)
         swept = rewrite(model, Node, lambda node: self._sweep(node, sink, back), having=having)
-        return swept.model_copy(update={"opaque": tuple(_with_doubt(part, joints) for part in swept.opaque)})
+        return swept.copy(opaque=tuple(_with_doubt(part, joints) for part in swept.opaque))
 
     def _sweep(self, node: Node, sink: DiagnosticSink, back: bool) -> Node:
         if isinstance(node, GazeboExtension):  # the next pass knows what may stand in it
@@ -62,7 +62,7 @@ class CarryUrdf(ModelPass):
         if isinstance(node, Joint) and node.type in BALLS:
             message = f"{node.type} joint {node.name!r} has a type that only dialects of URDF have"
             kept = [Opaque.unchecked(attribute=("type", node.type))]
-            ball = self._swept(node.model_copy(update={"type": "ball"}), sink, back)
+            ball = self._swept(node.copy(type="ball"), sink, back)
             return self._carry(ball, kept, sink, message)
         return self._swept(node, sink, back)
 
@@ -81,8 +81,8 @@ class CarryUrdf(ModelPass):
         update: dict[str, object] = {"opaque": tuple(kept)}
         if pose and pose.opaque:
             pieces += [_inside("origin", part) for part in pose.opaque]
-            update["pose"] = pose.model_copy(update={"opaque": ()})
-        return self._carry(node.model_copy(update=update), pieces, sink) if not isinstance(node, Pose) else node
+            update["pose"] = pose.copy(opaque=())
+        return self._carry(node.copy(**update), pieces, sink) if not isinstance(node, Pose) else node
 
     def _carry(self, node: AnyNode, pieces: list[Opaque], sink: DiagnosticSink, message: str = "") -> AnyNode:
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
@@ -111,8 +111,8 @@ def _with_doubt(part: Opaque, joints: Container[str]) -> Opaque:
     named = [name for piece in unpack(part) if piece.element for name in joints_of(piece.element)]
     if all(name in joints for name in named):
         return part
-    element = part.element.model_copy(update={"attributes": (*DANGLING, *part.element.attributes)})
-    return part.model_copy(update={"element": element})
+    element = part.element.copy(attributes=(*DANGLING, *part.element.attributes))
+    return part.copy(element=element)
 
 
 def _unpacked(part: Opaque) -> tuple[Opaque, ...]:
@@ -137,4 +137,4 @@ def _rows(fact: Fact) -> Iterator[Fact]:
 
 
 def _inside(step: str, part: Opaque) -> Opaque:
-    return part.model_copy(update={"at": f"{step}/{part.at}" if part.at else step})
+    return part.copy(at=f"{step}/{part.at}" if part.at else step)

@@ -175,9 +175,9 @@ def folded(chain: Chain) -> Joint:
     own = without_annotation(last, CHAIN).opaque
     opaque = join_axes(first.opaque, own) if chain.kind in TWO_AXES else own
     update: dict[str, object] = {"type": chain.kind, "parent": first.parent, "pose": first.pose, "opaque": opaque}
-    joint = last.model_copy(update=update)
+    joint = last.copy(**update)
     if chain.kind in TWO_AXES:
-        return joint.model_copy(update={"axis": _in_sdf(first), "axis2": _in_sdf(last)})
+        return joint.copy(axis=_in_sdf(first), axis2=_in_sdf(last))
     return _ball(joint, last) if chain.kind == "ball" else _screw(joint, chain)
 
 
@@ -186,11 +186,11 @@ def _in_sdf(joint: Joint) -> Axis:
     axis = joint.axis or Axis()
     limit = axis.limit
     if limit is not None and joint.type == "continuous":
-        limit = limit.model_copy(update={"lower": None, "upper": None})
+        limit = limit.copy(lower=None, upper=None)
         limit = None if limit == Limit() else limit
     elif limit is not None:
         limit = with_range(limit, Format.URDF)
-    return axis.model_copy(update={"xyz": direction(axis, Format.URDF), "limit": limit})
+    return axis.copy(xyz=direction(axis, Format.URDF), limit=limit)
 
 
 def _referred(joint: Joint) -> Joint:
@@ -202,13 +202,13 @@ def _referred(joint: Joint) -> Joint:
 
 def _ball(joint: Joint, last: Joint) -> Joint:
     """A ball joint has the axis that it carries, with the damping of the chain."""
-    joint = _unpacked(joint.model_copy(update={"axis": None}), ("axis", "axis2"))
+    joint = _unpacked(joint.copy(axis=None), ("axis", "axis2"))
     damping, friction = _damping(last)
     axis = joint.axis or Axis()
-    dynamics = (axis.dynamics or Dynamics()).model_copy(update={"damping": damping, "friction": friction})
+    dynamics = (axis.dynamics or Dynamics()).copy(damping=damping, friction=friction)
     if dynamics == (axis.dynamics or Dynamics()):
         return joint
-    return joint.model_copy(update={"axis": axis.model_copy(update={"dynamics": dynamics})})
+    return joint.copy(axis=axis.copy(dynamics=dynamics))
 
 
 def _screw(joint: Joint, chain: Chain) -> Joint:
@@ -216,11 +216,11 @@ def _screw(joint: Joint, chain: Chain) -> Joint:
     axis = chain.above[0].axis
     mimic = axis.mimic if axis else None
     ratio = multiplier(mimic)
-    joint = _unpacked(joint.model_copy(update={"axis": _in_sdf(chain.last)}), PITCHES)
+    joint = _unpacked(joint.copy(axis=_in_sdf(chain.last)), PITCHES)
     written = metres_per_radian(joint)
     if written is not None and math.isclose(written, ratio, rel_tol=_CLOSE):
         return joint
-    return joint.model_copy(update={"screw_thread_pitch": ratio * math.tau, "thread_pitch": None})
+    return joint.copy(screw_thread_pitch=ratio * math.tau, thread_pitch=None)
 
 
 def _unpacked(joint: Joint, names: tuple[str, ...]) -> Joint:
@@ -234,7 +234,7 @@ def _unpacked(joint: Joint, names: tuple[str, ...]) -> Joint:
             opaque.append(part)
     newest = parse_version(versions_of("sdf")[-1])
     try:
-        return absorb(joint.model_copy(update={"opaque": tuple(opaque)}), pieces, VersionCondition(), newest)
+        return absorb(joint.copy(opaque=tuple(opaque)), pieces, VersionCondition(), newest)
     except CarrierError as error:
         raise StaleChainError(str(error)) from error
 

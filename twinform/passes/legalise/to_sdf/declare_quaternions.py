@@ -27,4 +27,4 @@ class DeclareQuaternions(ModelPass):
 def _declared(pose: Pose) -> Pose:
     if pose.quat_xyzw is None or pose.rotation_format is not None:
         return pose
-    return pose.model_copy(update={"rotation_format": _QUATERNION, "rpy": None})
+    return pose.copy(rotation_format=_QUATERNION, rpy=None)

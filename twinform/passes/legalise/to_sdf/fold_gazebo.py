@@ -82,12 +82,10 @@ class _Fold:
         for extension in self.robot.extensions:
             groups[extension.reference or ""].append(extension)
             self._shell(extension)
-        model = self.robot.model_copy(
-            update={
-                "extensions": (),
-                "links": tuple(_each(self.robot.links, groups, self._link)),
-                "joints": tuple(_each(self.robot.joints, groups, self._joint)),
-            }
+        model = self.robot.copy(
+            extensions=(),
+            links=tuple(_each(self.robot.links, groups, self._link)),
+            joints=tuple(_each(self.robot.joints, groups, self._joint)),
         )
         parts = self.links | self.joints
         for name, found in groups.items():
@@ -101,7 +99,7 @@ class _Fold:
                         DANGLING,
                     )
         model = self._model(model, groups[""]) if "" in groups else model
-        return model.model_copy(update={"opaque": (*model.opaque, *self.kept)}) if self.carriers else model
+        return model.copy(opaque=(*model.opaque, *self.kept)) if self.carriers else model
 
     def _shell(self, extension: GazeboExtension) -> None:
         """Attributes and text of the element itself, and an element without content, which nothing comes of."""
@@ -142,12 +140,10 @@ class _Fold:
         sorter = self._sort(extensions, MODEL_TAGS, {**LINK_TAGS, **JOINT_TAGS})
         links, joints, frames = len(model.links), len(model.joints), len(model.frames)
         model = self._merge(set_model_fields(model, sorter.values), "model", sorter.rest)
-        return model.model_copy(
-            update={
-                "links": (*model.links[:links], *map(with_mass, model.links[links:])),
-                "joints": (*model.joints[:joints], *map(self._extension, model.joints[joints:])),
-                "frames": (*model.frames[:frames], *self._own_frames(model.frames[frames:])),
-            }
+        return model.copy(
+            links=(*model.links[:links], *map(with_mass, model.links[links:])),
+            joints=(*model.joints[:joints], *map(self._extension, model.joints[joints:])),
+            frames=(*model.frames[:frames], *self._own_frames(model.frames[frames:])),
         )
 
     def _own_frames(self, frames: tuple[Frame, ...]) -> tuple[Frame, ...]:
@@ -248,12 +244,12 @@ class _Fold:
         values = [(each.tag, each.value) for each in tags]
         visuals = tuple(set_visual(visual, values) for visual in link.visuals)
         collisions = tuple(set_collision(collision, values) for collision in link.collisions)
-        return link.model_copy(update={"visuals": visuals, "collisions": collisions})
+        return link.copy(visuals=visuals, collisions=collisions)
 
     def _into_shapes(self, link: Link, blob: Blob) -> Link:
         """Each child of the blob goes into every shape of its kind, in place of what is there."""
         field = "visuals" if blob.kind == "visual" else "collisions"
-        inside = blob.extension.model_copy(update={"content": blob.content})
+        inside = blob.extension.copy(content=blob.content)
         extra = read_content(blob.kind, link.name, self.robot.name, [inside], self.sink)
         replaced: list[str] = []
         shapes = getattr(link, field)
@@ -262,7 +258,7 @@ class _Fold:
         changed = tuple(merge(shape, extra, replaced, replace=True) for shape in shapes)
         for name in dict.fromkeys(replaced):
             self._conflict(link, name, "the one in <gazebo>", blob.where)
-        return link.model_copy(update={field: changed})
+        return link.copy(**{field: changed})
 
     def _merge(self, node: AnyNode, kind: str, extensions: list[GazeboExtension]) -> AnyNode:
         """The node with the SDF in the extensions read into it."""
@@ -274,7 +270,7 @@ class _Fold:
         merged = merge(node, read_content(kind, name, self.robot.name, content, self.sink), conflicts)
         again = [part for part in merged.opaque if _is_second(part) and part not in node.opaque]
         if again:  # a reader takes the first
-            merged = merged.model_copy(update={"opaque": tuple(part for part in merged.opaque if part not in again)})
+            merged = merged.copy(opaque=tuple(part for part in merged.opaque if part not in again))
             conflicts.append("pose")
         for field in dict.fromkeys(conflicts):
             self._again(node, field, content)
@@ -319,4 +315,4 @@ def _is_second(part: Opaque) -> bool:
 
 
 def _only(extension: GazeboExtension, names: Iterable[str]) -> GazeboExtension:
-    return extension.model_copy(update={"content": tuple(e for e in extension.content if e.name in names)})
+    return extension.copy(content=tuple(e for e in extension.content if e.name in names))

@@ -44,12 +44,12 @@ class FoldGearboxes(ModelPass):
                 continue
             coupled[found.follower] = Mimic(joint=found.leader, multiplier=found.multiplier)
         kept = {joint.name: _kept(joint, bare[joint.name], coupled.get(joint.name), sink) for joint in annotated}
-        return model.model_copy(update={"joints": tuple(kept.get(joint.name, joint) for joint in model.joints)})
+        return model.copy(joints=tuple(kept.get(joint.name, joint) for joint in model.joints))
 
 
 def _without_mimic(joint: Joint) -> Joint:
-    axis = joint.axis and joint.axis.model_copy(update={"mimic": None})
-    return without_annotation(joint.model_copy(update={"axis": axis}), GEARED)
+    axis = joint.axis and joint.axis.copy(mimic=None)
+    return without_annotation(joint.copy(axis=axis), GEARED)
 
 
 def _kept(joint: Joint, bare: Joint, coupled: Mimic | None, sink: DiagnosticSink) -> Joint:

@@ -47,7 +47,7 @@ class FoldJoints(ModelPass):
         links = (_unmarked(link) for link in model.links if link.name not in gone)
         second = frozenset(first.values())
         followed = tuple(_follow(joint, first, second) for joint in joints)
-        return model.model_copy(update={"joints": followed, "links": tuple(links)})
+        return model.copy(joints=followed, links=tuple(links))
 
 
 def _chains(model: Model, sink: DiagnosticSink) -> Iterator[tuple[Chain, Joint]]:
@@ -90,13 +90,13 @@ def _alone(joint: Joint, names: Container[str]) -> Joint:
     mimic = joint.axis.mimic if joint.axis and part_of(joint) else None
     if joint.axis is None or mimic is None or (mimic.joint or "") in names:
         return joint
-    return joint.model_copy(update={"axis": joint.axis.model_copy(update={"mimic": None})})
+    return joint.copy(axis=joint.axis.copy(mimic=None))
 
 
 def _follow(joint: Joint, first: dict[str, str], second: frozenset[str]) -> Joint:
     update = {field: _follows(getattr(joint, field), first, second) for field in ("axis", "axis2")}
     changed = {field: axis for field, axis in update.items() if axis is not getattr(joint, field)}
-    return joint.model_copy(update=changed) if changed else joint
+    return joint.copy(**changed) if changed else joint
 
 
 def _follows(axis: Axis | None, first: dict[str, str], second: frozenset[str]) -> Axis | None:
@@ -105,7 +105,7 @@ def _follows(axis: Axis | None, first: dict[str, str], second: frozenset[str]) -
     if axis is None or mimic is None:
         return axis
     if mimic.joint in first:
-        mimic = mimic.model_copy(update={"joint": first[mimic.joint]})
+        mimic = mimic.copy(joint=first[mimic.joint])
     elif mimic.joint in second:
-        mimic = mimic.model_copy(update={"axis": "axis2"})
-    return axis if mimic is axis.mimic else axis.model_copy(update={"mimic": mimic})
+        mimic = mimic.copy(axis="axis2")
+    return axis if mimic is axis.mimic else axis.copy(mimic=mimic)

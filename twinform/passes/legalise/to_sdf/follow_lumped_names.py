@@ -29,7 +29,7 @@ class FollowLumpedNames(ModelPass):
             return model
         names = names_of_libsdformat(model)
         extensions = tuple(self._extension(each, model, names, sink) for each in model.extensions)
-        return model.model_copy(update={"extensions": extensions})
+        return model.copy(extensions=extensions)
 
     def _extension(
         self, extension: GazeboExtension, model: Model, names: dict[str, Followed], sink: DiagnosticSink
@@ -48,7 +48,7 @@ class FollowLumpedNames(ModelPass):
                 hint = "convert with --passes 'lump-fixed-joints{compat=libsdformat}'"
                 sink.report(rules.UNSEEN_COLLISION, message, element.location, found=found.name, help=hint)
         content = tuple(followed(part, names, carriers=self.carriers) for part in extension.content)
-        return extension.model_copy(update={"content": content})
+        return extension.copy(content=content)
 
 
 def own_collisions(model: Model) -> dict[Source, Followed]:

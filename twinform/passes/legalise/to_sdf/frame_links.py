@@ -64,27 +64,25 @@ class FrameLinks(ModelPass):
         frames = [frame for joint in moved.values() for frame in self._frames(joint, links[joint.child or ""], sink)]
         model = self._keep_physics(model, [(joint, links[joint.child or ""]) for joint in moved.values()], sink)
         model = self._keep_flags(model, [links[name] for name in moved if name], sink)
-        made = model.model_copy(
-            update={
-                "links": tuple(
-                    _host(link, guests.get(link.name, []), sink, carriers=self.carriers)
-                    for link in model.links
-                    if link.name not in moved
-                ),
-                "joints": tuple(joint for joint in model.joints if moved.get(joint.child or "") is not joint),
-                "frames": (*model.frames, *frames),
-            }
+        made = model.copy(
+            links=tuple(
+                _host(link, guests.get(link.name, []), sink, carriers=self.carriers)
+                for link in model.links
+                if link.name not in moved
+            ),
+            joints=tuple(joint for joint in model.joints if moved.get(joint.child or "") is not joint),
+            frames=(*model.frames, *frames),
         )
         if not stays:
-            made = made.model_copy(update={"canonical_link": model.canonical_link or _root(model)})
+            made = made.copy(canonical_link=model.canonical_link or _root(model))
         parents = {
             name: joint.parent or "" for name, joint in moved.items() if find_annotation(links[name or ""], FRAME)
         }
         placed = _attached(made, parents, sink) if parents else made
-        return placed.model_copy(update={"canonical_link": model.canonical_link})
+        return placed.copy(canonical_link=model.canonical_link)
 
     def _frames(self, joint: Joint, link: Link, sink: DiagnosticSink) -> tuple[Frame, ...]:
-        pose = joint.pose.model_copy(update={"relative_to": None}) if joint.pose else None
+        pose = joint.pose.copy(relative_to=None) if joint.pose else None
         if pose == Pose():
             pose = None
         annotation = find_annotation(link, FRAME)
@@ -101,7 +99,7 @@ class FrameLinks(ModelPass):
     def _rest_of_joint(self, frame: Frame, joint: Joint, sink: DiagnosticSink) -> Frame:
         if joint.axis is None:
             return frame
-        whole = to_element(joint.model_copy(update={"opaque": ()}), "joint", "urdf")
+        whole = to_element(joint.copy(opaque=()), "joint", "urdf")
         rest = [
             Opaque.unchecked(element=child)
             for child in whole.children
@@ -170,9 +168,9 @@ def _attached(model: Model, parents: dict[str, str], sink: DiagnosticSink) -> Mo
         if parent and holder != parent and not (graph.knows(holder) and _moves_with(graph, holder, parent)):
             message = f"frame {frame.name!r} was attached to {holder!r}, which does not move with {parent!r}"
             sink.report(STALE_CARRIER, message, frame.location, found=holder)
-            frame = frame.model_copy(update={"attached_to": parent})  # noqa: PLW2901 - the same frame, elsewhere
+            frame = frame.copy(attached_to=parent)  # noqa: PLW2901 - the same frame, elsewhere
         frames.append(frame)
-    return model.model_copy(update={"frames": tuple(frames)})
+    return model.copy(frames=tuple(frames))
 
 
 def _root(model: Model) -> str | None:
@@ -192,7 +190,7 @@ def _as_before(joint: Joint, link: Link, annotation: Element, pose: Pose | None)
     """The one frame of SDF that a link and its joint were made of; it is still where they are."""
     holder = annotation.get("attached_to")
     if holder is not None:
-        pose = (pose or Pose()).model_copy(update={"relative_to": joint.parent})
+        pose = (pose or Pose()).copy(relative_to=joint.parent)
     opaque = without_annotation(link, FRAME).opaque
     attached = None if holder == MODEL else holder or joint.parent
     return Frame(name=link.name, attached_to=attached, pose=pose, opaque=opaque, source=link.source)
@@ -230,14 +228,12 @@ def _host(link: Link, guests: list[Link], sink: DiagnosticSink, *, carriers: boo
     visuals = (*link.visuals, *(_placed(visual, guest.name) for guest in guests for visual in guest.visuals))
     collisions = (*link.collisions, *(_placed(one, guest.name) for guest in guests for one in guest.collisions))
     plain = tuple(_placed_element(part, guest.name) for guest in guests for part in guest.opaque if _is_native(part))
-    return link.model_copy(
-        update={
-            "visuals": name_all(visuals, f"{link.name}_visual", sink, carriers=carriers),
-            "collisions": name_all(collisions, f"{link.name}_collision", sink, carriers=carriers),
-            "sensors": (*link.sensors, *(_placed(one, guest.name) for guest in guests for one in guest.sensors)),
-            "lights": (*link.lights, *(_placed(one, guest.name) for guest in guests for one in guest.lights)),
-            "opaque": (*link.opaque, *plain),
-        }
+    return link.copy(
+        visuals=name_all(visuals, f"{link.name}_visual", sink, carriers=carriers),
+        collisions=name_all(collisions, f"{link.name}_collision", sink, carriers=carriers),
+        sensors=(*link.sensors, *(_placed(one, guest.name) for guest in guests for one in guest.sensors)),
+        lights=(*link.lights, *(_placed(one, guest.name) for guest in guests for one in guest.lights)),
+        opaque=(*link.opaque, *plain),
     )
 
 
@@ -246,7 +242,7 @@ def _placed(node: Placed, frame: str) -> Placed:
     pose = node.pose or Pose()
     if pose.relative_to is not None:
         return node
-    return node.model_copy(update={"pose": pose.model_copy(update={"relative_to": frame})})
+    return node.copy(pose=pose.copy(relative_to=frame))
 
 
 def _placed_element(part: Opaque, frame: str) -> Opaque:
@@ -257,6 +253,6 @@ def _placed_element(part: Opaque, frame: str) -> Opaque:
     pose = element.find("pose")
     if pose is None or pose.get("relative_to") is not None:
         return part
-    placed = pose.model_copy(update={"attributes": (*pose.attributes, ("relative_to", frame))})
+    placed = pose.copy(attributes=(*pose.attributes, ("relative_to", frame)))
     children = tuple(placed if child is pose else child for child in element.children)
-    return part.model_copy(update={"element": element.model_copy(update={"children": children})})
+    return part.copy(element=element.copy(children=children))

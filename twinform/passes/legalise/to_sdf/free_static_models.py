@@ -36,7 +36,7 @@ class FreeStaticModels(ModelPass):
                 message = f"model {scoped_name(link)!r} is not static any more: the joints of the URDF let it move"
                 sink.report(STALE_CARRIER, message, link.location, found=link.name)
         links = tuple(_without_static(link) if scoped_name(link) in free else link for link in model.links)
-        return model.model_copy(update={"links": links})
+        return model.copy(links=links)
 
 
 def _free_models(model: Model, static: AbstractSet[str]) -> AbstractSet[str]:
@@ -53,10 +53,10 @@ def _free_models(model: Model, static: AbstractSet[str]) -> AbstractSet[str]:
 
 def _without_static(link: Link) -> Link:
     opaque = tuple(_moving(part) if is_annotation(part, NESTED) else part for part in link.opaque)
-    return link.model_copy(update={"opaque": opaque})
+    return link.copy(opaque=opaque)
 
 
 def _moving(part: Opaque) -> Opaque:
     element = part.element or Element(name="")
     children = tuple(child for child in element.children if child.name != "static")
-    return part.model_copy(update={"element": element.model_copy(update={"children": children})})
+    return part.copy(element=element.copy(children=children))

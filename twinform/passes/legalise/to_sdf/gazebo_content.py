@@ -83,4 +83,4 @@ def with_axis(joint: Joint) -> Joint:
         return joint
     axis = joint.axis or Axis()
     update = {"xyz": direction(axis, Format.SDF), "limit": axis.limit and with_range(axis.limit, Format.SDF)}
-    return joint.model_copy(update={"axis": axis.model_copy(update=update)})
+    return joint.copy(axis=axis.copy(**update))

@@ -29,7 +29,7 @@ Values = Iterable[tuple[Tag, Any]]
 
 def set_model_fields(model: Model, values: Values) -> Model:
     """The model with the fields that tags set."""
-    return model.model_copy(update={tag.field: value for tag, value in values})
+    return model.copy(**{tag.field: value for tag, value in values})
 
 
 def set_link_fields(link: Link, values: Values) -> Link:
@@ -43,7 +43,7 @@ def set_link_fields(link: Link, values: Values) -> Link:
             *link.opaque,
             Opaque.unchecked(element=Element.unchecked(name="velocity_decay", children=parts)),
         )
-    return link.model_copy(update=update) if update else link
+    return link.copy(**update) if update else link
 
 
 def old_values(tag: Tag, link: Link) -> Iterator[object]:
@@ -60,8 +60,8 @@ def set_visual(visual: Visual, values: Values) -> Visual:
     if not names:
         return visual
     script = Script(uris=(SCRIPT_URI,), name=names[-1])
-    material = (visual.material or Material()).model_copy(update={"script": script})
-    return visual.model_copy(update={"material": material})
+    material = (visual.material or Material()).copy(script=script)
+    return visual.copy(material=material)
 
 
 def set_collision(collision: Collision, values: Values) -> Collision:
@@ -69,8 +69,8 @@ def set_collision(collision: Collision, values: Values) -> Collision:
     own = {tag.field: value for tag, value in values if tag.target == "collision"}
     surface = {tag.field: value for tag, value in values if tag.target == "surface"}
     if surface:
-        own["surface"] = (collision.surface or Surface()).model_copy(update=surface)
-    return collision.model_copy(update=own) if own else collision
+        own["surface"] = (collision.surface or Surface()).copy(**surface)
+    return collision.copy(**own) if own else collision
 
 
 def set_joint_fields(joint: Joint, values: Values) -> Joint:
@@ -78,8 +78,8 @@ def set_joint_fields(joint: Joint, values: Values) -> Joint:
     springs = {tag.field: value for tag, value in values if tag.target == "dynamics"}
     if springs:
         axis = joint.axis or Axis()
-        dynamics = (axis.dynamics or Dynamics()).model_copy(update=springs)
-        joint = joint.model_copy(update={"axis": axis.model_copy(update={"dynamics": dynamics})})
+        dynamics = (axis.dynamics or Dynamics()).copy(**springs)
+        joint = joint.copy(axis=axis.copy(dynamics=dynamics))
     physics = [(tag.field, value) for tag, value in values if tag.target == "physics"]
     return merge(joint, {"opaque": (_physics(physics),)}, []) if physics else joint
 

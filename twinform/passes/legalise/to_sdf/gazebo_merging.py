@@ -37,7 +37,7 @@ def merge(mine: AnyNode, fields: Mapping[str, Any], conflicts: list[str], *, rep
             update[field] = value if replace else old
     more: Mapping[str, str] = fields.get("spelling") or {}
     spelling = {**more, **(mine.spelling or {})}
-    return mine.model_copy(update={**update, "spelling": spelling or None})
+    return mine.copy(**{**update, "spelling": spelling or None})
 
 
 def written(node: Node) -> dict[str, Any]:
@@ -55,7 +55,7 @@ def _join(mine: tuple[Opaque, ...], more: tuple[Opaque, ...]) -> tuple[Opaque, .
         if place is None or element is None or part.element is None:
             joined.append(part)
         else:
-            joined[place] = joined[place].model_copy(update={"element": merge_elements(element, part.element)})
+            joined[place] = joined[place].copy(element=merge_elements(element, part.element))
     return tuple(joined)
 
 
@@ -76,4 +76,4 @@ def merge_elements(mine: Element, more: Element) -> Element:
         else:
             place = places[child.name]
             children[place] = merge_elements(children[place], child)
-    return mine.model_copy(update={"children": tuple(children)})
+    return mine.copy(children=tuple(children))

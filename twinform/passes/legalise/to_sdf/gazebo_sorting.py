@@ -167,7 +167,7 @@ class Sorter:
             self._notes.account(Fate.DROPPED, rules.STRAY_TEXT, message, where)
         above = extension.source
         source = above and Source(above.file, where.line, above, element.name)
-        inside = extension.model_copy(update={"source": source})
+        inside = extension.copy(source=source)
         self.blobs.append(Blob(element.name, element.children, inside, where, len(self.rest)))
 
     def _value(self, tag: Tag, element: Element, extension: GazeboExtension) -> None:
@@ -209,4 +209,4 @@ class Sorter:
 
 
 def _with(extension: GazeboExtension, content: list[Element]) -> GazeboExtension:
-    return extension.model_copy(update={"content": tuple(content)})
+    return extension.copy(content=tuple(content))

@@ -35,5 +35,5 @@ class HideScopedElements(ModelPass):
             message = f"{part.name} has '::' in a name, which readers of SDF refuse since 1.8"
             sink.account(fate, rules.SCOPED_ELEMENT, message, part.location, part.weight)
         rest = tuple(part for part in node.opaque if part not in scoped)
-        node = node.model_copy(update={"opaque": rest})
+        node = node.copy(opaque=rest)
         return carry(node, scoped, "sdf") if self.carriers else node

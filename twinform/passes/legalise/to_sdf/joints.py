@@ -49,7 +49,7 @@ class UrdfJoints(ModelPass):
         links = model.links
         if free:
             links = tuple(self._free(link, free[link.name], sink) if link.name in free else link for link in links)
-        model = model.model_copy(update={"joints": joints, "links": links})
+        model = model.copy(joints=joints, links=links)
         return self._unfold(model, sink) if any(joint.type == "planar" for joint in joints) else model
 
     def _without_useless_mimics(self, model: Model, sink: DiagnosticSink) -> tuple[Joint, ...]:
@@ -64,8 +64,8 @@ class UrdfJoints(ModelPass):
         if joint.axis is None or mimic is None or not useless_leader(joint, mimic, known):
             return joint
         pieces = [each for each in to_element(joint, "joint", "urdf").children if each.name == "mimic"]
-        axis = joint.axis.model_copy(update={"mimic": None})
-        bare = joint.model_copy(update={"axis": None if axis == Axis.unchecked() else axis})
+        axis = joint.axis.copy(mimic=None)
+        bare = joint.copy(axis=None if axis == Axis.unchecked() else axis)
         message = f"joint {joint.name!r} cannot mimic {mimic.joint!r} in SDF"
         return self._keep(bare, [Opaque.unchecked(element=each) for each in pieces], message, sink)
 
@@ -83,7 +83,7 @@ class UrdfJoints(ModelPass):
             slide, shift, turn = chain.joints
             joints += [self._made(slide), self._made(shift), self._was_planar(turn, joint, sink)]
         every = tuple(one for link in model.links for one in (*links.get(link.name, ()), link))
-        return model.model_copy(update={"links": every, "joints": tuple(joints)})
+        return model.copy(links=every, joints=tuple(joints))
 
     def _made(self, node: Made) -> Made:
         return annotate_synthesized(node) if self.carriers else node
@@ -96,18 +96,18 @@ class UrdfJoints(ModelPass):
         return self._keep(turn, pieces, f"planar joint {joint.name!r} is a chain of joints", sink, rules.JOINT_CHAIN)
 
     def _free(self, link: Link, joint: Joint, sink: DiagnosticSink) -> Link:
-        freed = link.model_copy(update={"pose": joint.pose})
+        freed = link.copy(pose=joint.pose)
         if is_synthesized(joint):
             return freed
         message = f"joint {joint.name!r} leaves link {link.name!r} free, which needs no joint in SDF"
-        element = to_element(joint.model_copy(update={"pose": None}), "joint", "urdf")
+        element = to_element(joint.copy(pose=None), "joint", "urdf")
         sink.account(self._fate(), rules.NO_JOINT, message, joint.location, count_parts(joint))
         if not self.carriers:
             return freed
         rest = tuple(child for child in element.children if child.name not in {"parent", "child"})
         attributes = (("joint", joint.name), ("parent", joint.parent or ""))
         annotation = Element.unchecked(name=f"{{{NAMESPACE}}}{FLOATING}", attributes=attributes, children=rest)
-        return freed.model_copy(update={"opaque": (*freed.opaque, Opaque.unchecked(element=annotation))})
+        return freed.copy(opaque=(*freed.opaque, Opaque.unchecked(element=annotation)))
 
     def _joint(self, joint: Joint, sink: DiagnosticSink) -> Joint:
         match joint.type:
@@ -128,21 +128,21 @@ class UrdfJoints(ModelPass):
         """Any axis of a ball joint stays: its damping is that of the joint. SDF has none of length zero."""
         if joint.axis is not None and joint.axis.xyz is not None and not any(joint.axis.xyz):
             written = " ".join(format_value(each) for each in joint.axis.xyz)
-            joint = joint.model_copy(update={"axis": joint.axis.model_copy(update={"xyz": None})})
+            joint = joint.copy(axis=joint.axis.copy(xyz=None))
             pieces = [Opaque.unchecked(at="axis", attribute=("xyz", written))]
             joint = self._keep(joint, pieces, f"the axis of joint {joint.name!r} has no direction", sink)
         limit = joint.axis.limit if joint.axis else None
         if joint.axis is None or limit is None:
             return joint
         limit, rest = _without(limit, _HIGHER)
-        joint = joint.model_copy(update={"axis": joint.axis.model_copy(update={"limit": limit})})
+        joint = joint.copy(axis=joint.axis.copy(limit=limit))
         return self._keep(joint, rest, f"SDF has no equivalent of these limits of joint {joint.name!r}", sink)
 
     def _without_axis(self, joint: Joint, sink: DiagnosticSink) -> Joint:
         if joint.axis is None:
             return joint
         rest = [child for child in to_element(joint, "joint", "urdf").children if child.name in OF_AN_AXIS]
-        kept = joint.model_copy(update={"axis": None})
+        kept = joint.copy(axis=None)
         message = f"the {joint.type} joint {joint.name!r} has no axis"
         return self._keep(kept, [Opaque.unchecked(element=child) for child in rest], message, sink)
 
@@ -155,10 +155,10 @@ class UrdfJoints(ModelPass):
         if axis.xyz is None:
             update["xyz"] = AXIS[Format.URDF]
         if joint.type == "continuous":
-            joint = joint.model_copy(update={"type": "revolute"})
+            joint = joint.copy(type="revolute")
         if not update:
             return joint
-        joint = joint.model_copy(update={"axis": axis.model_copy(update=update)})
+        joint = joint.copy(axis=axis.copy(**update))
         return self._keep(joint, rest, f"SDF has no equivalent of these limits of joint {joint.name!r}", sink)
 
     def _keep(
@@ -192,4 +192,4 @@ def _without(limit: Limit, names: tuple[str, ...]) -> tuple[Limit, list[Opaque]]
     """The limit without what it has by these names, and that as attributes of URDF."""
     written = [(name, getattr(limit, name)) for name in names if getattr(limit, name) is not None]
     rest = [Opaque.unchecked(at="limit", attribute=(name, format_value(value))) for name, value in written]
-    return (limit.model_copy(update={name: None for name, _ in written}) if written else limit), rest
+    return (limit.copy(**{name: None for name, _ in written}) if written else limit), rest

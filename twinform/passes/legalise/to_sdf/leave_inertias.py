@@ -45,7 +45,7 @@ class LeaveInertias(ModelPass, AssetPass):
         graph = FrameGraph(model)
         meshes = Meshes(self._assets)
         links = tuple(_leave(link, graph, meshes, sink) if _was_automatic(link) else link for link in model.links)
-        return model.model_copy(update={"links": links})
+        return model.copy(links=links)
 
 
 def _was_automatic(link: Link) -> bool:
@@ -60,7 +60,7 @@ def _is_auto(part: Opaque) -> bool:
 def _leave(link: Link, graph: FrameGraph, meshes: Meshes, sink: DiagnosticSink) -> Link:
     inertial = link.inertial or Inertial()
     computed = _FIELDS if find_annotation(inertial, COMPUTED_MASS) else _FIELDS[1:]
-    left = without_annotation(inertial.model_copy(update=dict.fromkeys(computed)), COMPUTED_MASS)
+    left = without_annotation(inertial.copy(**dict.fromkeys(computed)), COMPUTED_MASS)
     try:
         left = _unpacked(left)
         found = automatic(link, left, link.collisions, graph, meshes)
@@ -68,7 +68,7 @@ def _leave(link: Link, graph: FrameGraph, meshes: Meshes, sink: DiagnosticSink) 
         return _stale(link, inertial, str(error), sink)
     if not _is_the_same(found, inertial):
         return _stale(link, inertial, "its numbers or its collisions were edited", sink)
-    return link.model_copy(update={"inertial": left})
+    return link.copy(inertial=left)
 
 
 def _unpacked(inertial: Inertial) -> Inertial:
@@ -76,7 +76,7 @@ def _unpacked(inertial: Inertial) -> Inertial:
     pieces = tuple(piece for part in inertial.opaque if is_carrier(part, "sdf") for piece in unpack(part))
     kept = tuple(part for part in inertial.opaque if not is_carrier(part, "sdf"))
     newest = parse_version(versions_of("sdf")[-1])
-    return absorb(inertial.model_copy(update={"opaque": kept}), pieces, VersionCondition(), newest)
+    return absorb(inertial.copy(opaque=kept), pieces, VersionCondition(), newest)
 
 
 def _is_the_same(found: Solid, inertial: Inertial) -> bool:
@@ -99,5 +99,5 @@ def _stale(link: Link, inertial: Inertial, why: str, sink: DiagnosticSink) -> Li
     message = f"the inertia of link {link.name!r} is no longer computed from its collisions: {why}"
     sink.report(rules.STALE_CARRIER, message, inertial.location, found=link.name)
     kept = tuple(part for part in inertial.opaque if not _is_auto(part))
-    bare = without_annotation(inertial.model_copy(update={"opaque": kept}), COMPUTED_MASS)
-    return link.model_copy(update={"inertial": bare})
+    bare = without_annotation(inertial.copy(opaque=kept), COMPUTED_MASS)
+    return link.copy(inertial=bare)

@@ -28,7 +28,7 @@ class MeshUris(ModelPass):
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with URIs that Gazebo resolves."""
         annotations = self.carriers and not came_from(model, Format.SDF)
-        return model.model_copy(update={"links": tuple([_Links(sink, annotations).link(link) for link in model.links])})
+        return model.copy(links=tuple([_Links(sink, annotations).link(link) for link in model.links]))
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ class _Links:
         visual, uri = self._uri(visual, TEXTURE_SCHEME, material.albedo_map)
         if uri == material.albedo_map:
             return visual
-        return visual.model_copy(update={"material": material.model_copy(update={"albedo_map": uri})})
+        return visual.copy(material=material.copy(albedo_map=uri))
 
     def _shape(self, shape: Shape) -> Shape:
         geometry = shape.geometry
@@ -60,9 +60,7 @@ class _Links:
         shape, uri = self._uri(shape, MESH_SCHEME, mesh.uri)
         if uri == mesh.uri:
             return shape
-        return shape.model_copy(
-            update={"geometry": geometry.model_copy(update={"shape": mesh.model_copy(update={"uri": uri})})}
-        )
+        return shape.copy(geometry=geometry.copy(shape=mesh.copy(uri=uri)))
 
     def _uri(self, shape: Shape, kind: str, written: str) -> tuple[Shape, str]:
         """The URI for Gazebo, and the shape with what has to be known for the reverse conversion."""

@@ -22,9 +22,9 @@ def with_reference(joint: Joint) -> Joint | None:
         return None
     factor = multiplier(axis.mimic)
     offset = (axis.mimic.offset or 0.0) + factor * reference if reference else axis.mimic.offset
-    mimic = axis.mimic.model_copy(update={"reference": reference, "offset": offset or None})
-    made: Axis = axis.model_copy(update={"mimic": mimic})
-    return without_annotation(joint, MIMIC).model_copy(update={"axis": made})
+    mimic = axis.mimic.copy(reference=reference, offset=offset or None)
+    made: Axis = axis.copy(mimic=mimic)
+    return without_annotation(joint, MIMIC).copy(axis=made)
 
 
 def _number(text: str | None) -> float | None:

@@ -33,7 +33,7 @@ class NameShapes(ModelPass):
         """The model with named shapes."""
         links = tuple(_name_link(link, sink, carriers=self.carriers) for link in model.links)
         made = [new for old, link in zip(model.links, links, strict=True) for new in _made_names(old, link)]
-        model = model.model_copy(update={"links": links})
+        model = model.copy(links=links)
         return with_annotation(model, UNNAMED, "\n".join(made)) if made and self.carriers else model
 
 
@@ -68,7 +68,7 @@ def name_all(shapes: tuple[Shape, ...], base: str, sink: DiagnosticSink, *, carr
                 if carriers:
                     shape = with_annotation(shape, NAME, shape.name, {"instead_of": name})  # noqa: PLW2901 - the same shape
         seen.add(name)
-        named.append(shape if shape.name == name else shape.model_copy(update={"name": name}))
+        named.append(shape if shape.name == name else shape.copy(name=name))
     return tuple(named)
 
 

@@ -57,13 +57,11 @@ def planar_chain(joint: Joint, names: Names) -> Chain:
         axis=Axis(xyz=across),
         source=source,
     )
-    turn = joint.model_copy(
-        update={
-            "type": "revolute",
-            "parent": second_link,
-            "pose": Pose(relative_to=second_link),
-            "axis": Axis(xyz=normal),
-        }
+    turn = joint.copy(
+        type="revolute",
+        parent=second_link,
+        pose=Pose(relative_to=second_link),
+        axis=Axis(xyz=normal),
     )
     links = (
         Link(name=first_link, pose=Pose(relative_to=first), inertial=TOKEN, source=source),

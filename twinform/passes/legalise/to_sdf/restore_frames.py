@@ -93,20 +93,18 @@ class _Restoring:
             "frames": (*self.model.frames, *helpers),
             "placement_frame": None,
         }  # as yet the root is where its pose puts it
-        graph = FrameGraph(self.model.model_copy(update=posed))
+        graph = FrameGraph(self.model.copy(**posed))
         self.frames = {helper.name.removesuffix(_BASE) or MODEL: (helper.name, "frame") for helper in helpers}
-        model = self.model.model_copy(
-            update={
-                "links": tuple(self._link(link, graph) for link in self.model.links),
-                "joints": tuple(self._joint(joint, graph) for joint in self.model.joints),
-                "frames": tuple(self._frame(frame, graph) for frame in self.model.frames),
-            }
+        model = self.model.copy(
+            links=tuple(self._link(link, graph) for link in self.model.links),
+            joints=tuple(self._joint(joint, graph) for joint in self.model.joints),
+            frames=tuple(self._frame(frame, graph) for frame in self.model.frames),
         )
         placement = self._placement(graph)
         name, kind = self._in_frame(placement) if placement else self._base(MODEL, "model")
         placed = graph.pose(name, WORLD, kind=kind, base="world")
         pose = as_annotated(placed, find_annotation(model, POSE), None)
-        model = model.model_copy(update={"pose": pose, "placement_frame": placement})
+        model = model.copy(pose=pose, placement_frame=placement)
         return without_annotation(model, OFFSET, POSE)
 
     def _placement(self, graph: FrameGraph) -> str | None:
@@ -173,9 +171,9 @@ class _Restoring:
         usual = around(link.name, graph)
         pose = self._own_pose(link, "link", usual, graph)
         if usual != MODEL and not (pose and pose.relative_to):  # until it stands in that model, if it is in one
-            pose = (pose or Pose()).model_copy(update={"relative_to": usual})
+            pose = (pose or Pose()).copy(relative_to=usual)
         inertial = link.inertial if link.inertial and link.inertial.auto else inside.inertial
-        return without_annotation(inside.model_copy(update={"pose": pose, "inertial": inertial}), OFFSET, POSE)
+        return without_annotation(inside.copy(pose=pose, inertial=inertial), OFFSET, POSE)
 
     def _rebasing(self, graph: FrameGraph, name: str, kind: Kind, base: Base) -> Rebasing:
         def write(holder: AnyPosed, _tag: str, transform: Transform) -> AnyPosed:
@@ -190,7 +188,7 @@ class _Restoring:
             name, kind = self._in_frame(written_in)
             transform = graph.pose(base[0], name, kind=base[1], base=kind).compose(transform)
         pose = as_annotated(transform, find_annotation(holder, POSE), written_in)
-        return without_annotation(holder.model_copy(update={"pose": pose}), POSE)
+        return without_annotation(holder.copy(pose=pose), POSE)
 
     def _joint(self, joint: Joint, graph: FrameGraph) -> Joint:
         base = self._base(joint.name, "joint")
@@ -201,7 +199,7 @@ class _Restoring:
         update: dict[str, object] = {**ends, "pose": pose}
         for name in _AXES:
             update[name] = self._axis(joint, name, graph)
-        return without_annotation(inside.model_copy(update=update), OFFSET, POSE, ENDS, *_AXES)
+        return without_annotation(inside.copy(**update), OFFSET, POSE, ENDS, *_AXES)
 
     def _ends(self, joint: Joint, graph: FrameGraph) -> dict[str, object]:
         """The frames at the ends of a joint, as far as they still move with its links."""
@@ -230,7 +228,7 @@ class _Restoring:
             return axis
         turn = graph.pose(joint.name, base, kind="joint", base=kind)
         frame = {OLD_NAME: True} if old and self.old_words else {"expressed_in": name}
-        return axis.model_copy(update={"xyz": rounded(turn.rotate(direction(axis, Format.SDF))), **frame})
+        return axis.copy(**{"xyz": rounded(turn.rotate(direction(axis, Format.SDF))), **frame})
 
     def _frame(self, frame: Frame, graph: FrameGraph) -> Frame:
         if find_annotation(frame, NESTED) is None:
@@ -238,8 +236,8 @@ class _Restoring:
         else:  # a model is posed in the one around it
             usual = around(frame.name.removesuffix(f"{SCOPE}{MODEL}"), graph)
             pose = self._own_pose(frame, "frame", usual, graph) or Pose()
-            pose = pose.model_copy(update={"relative_to": pose.relative_to or usual})
-        return without_annotation(frame.model_copy(update={"pose": pose}), OFFSET, POSE)
+            pose = pose.copy(relative_to=pose.relative_to or usual)
+        return without_annotation(frame.copy(pose=pose), OFFSET, POSE)
 
 
 def _framed(model: Model) -> tuple[Link | Joint | Frame, ...]:
@@ -271,19 +269,17 @@ def _without_made_root(model: Model) -> Model:
     held = link.visuals or link.collisions or link.sensors or link.lights or len(link.opaque) > 1
     weighs = link.inertial and link.inertial.mass and not has_token_mass(link.inertial)
     if held or model.joints or weighs:  # it is a link like others by now
-        return model.model_copy(update={"links": (without_annotation(link, SYNTHESIZED),)})
+        return model.copy(links=(without_annotation(link, SYNTHESIZED),))
     frames = (_off_root(frame, link.name) for frame in model.frames)
-    return model.model_copy(update={"links": (), "frames": tuple(frames), "canonical_link": None})
+    return model.copy(links=(), frames=tuple(frames), canonical_link=None)
 
 
 def _off_root(frame: Frame, root: str) -> Frame:
     """The frame in the model's, if it was in the link that stood for that."""
     pose = frame.pose
     if pose is not None and pose.relative_to == root:
-        pose = pose.model_copy(update={"relative_to": None})
-    return frame.model_copy(
-        update={"attached_to": None if frame.attached_to == root else frame.attached_to, "pose": pose}
-    )
+        pose = pose.copy(relative_to=None)
+    return frame.copy(attached_to=None if frame.attached_to == root else frame.attached_to, pose=pose)
 
 
 def _with_noted_frames(model: Model) -> Model:

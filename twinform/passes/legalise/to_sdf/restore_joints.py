@@ -34,22 +34,22 @@ class RestoreJoints(ModelPass):
         model = without_reversals(model)
         if not came_from(model, Format.SDF):
             return model
-        return model.model_copy(update={"joints": tuple(_restored(joint, sink) for joint in model.joints)})
+        return model.copy(joints=tuple(_restored(joint, sink) for joint in model.joints))
 
 
 def _restored(joint: Joint, sink: DiagnosticSink) -> Joint:
     joint = _with_reference(without_annotation(joint, SYNTHESIZED), sink)
     axes = {name: axis for name in _AXES if (axis := getattr(joint, name)) is not None and axis.limit is not None}
     if axes:
-        joint = joint.model_copy(update={name: _without_infinities(axis) for name, axis in axes.items()})
+        joint = joint.copy(**{name: _without_infinities(axis) for name, axis in axes.items()})
     return _continuous(joint, sink)
 
 
 def _without_infinities(axis: Axis) -> Axis:
     limit = axis.limit or Limit()
     update = {name: None for name in _NUMBERS if _sign(name) * (getattr(limit, name) or 0.0) >= UNLIMITED}
-    bare = limit.model_copy(update=update) if update else limit
-    return axis.model_copy(update={"limit": None if bare == Limit() else bare})
+    bare = limit.copy(**update) if update else limit
+    return axis.copy(limit=None if bare == Limit() else bare)
 
 
 def _sign(name: str) -> int:
@@ -63,7 +63,7 @@ def _continuous(joint: Joint, sink: DiagnosticSink) -> Joint:
     joint = without_annotation(joint, CONTINUOUS)
     limit = joint.axis.limit if joint.axis and joint.axis.limit else Limit()
     if joint.type == "revolute" and limit.lower is None and limit.upper is None:
-        return joint.model_copy(update={"type": "continuous"})
+        return joint.copy(type="continuous")
     message = f"joint {joint.name!r} was continuous, and has another type or limits now"
     sink.report(STALE_CARRIER, message, joint.location, found=joint.type)
     return joint

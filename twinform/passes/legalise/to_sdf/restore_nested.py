@@ -60,7 +60,7 @@ def _without_hollow(model: Model, sink: DiagnosticSink) -> Model:
         message = f"nothing is called {prefix!r} and more, so that {frame.name!r} is a frame and no model"
         sink.report(STALE_CARRIER, message, frame.location, found=frame.name)
         frames.append(without_annotation(frame, NESTED))
-    return model.model_copy(update={"frames": tuple(frames)})
+    return model.copy(frames=tuple(frames))
 
 
 def _report_outside(frame: Frame, model: Model, sink: DiagnosticSink) -> None:
@@ -98,7 +98,7 @@ class RestoreNested(ModelPass):
             _report_frames_outside(model, annotated, sink)
             nested = nest(model, DiagnosticSink(), None if free else frozenset(annotated))
             models = tuple(_with_rest(inner, inner.name, annotated, sink) for inner in nested.models)
-            return _tidy(nested.model_copy(update={"models": models}))
+            return _tidy(nested.copy(models=models))
         except FrameError as error:
             error.report(sink)
             return model
@@ -121,7 +121,7 @@ def _report_frames_outside(model: Model, annotated: Iterable[str], sink: Diagnos
 def _with_rest(model: Model, path: str, annotated: dict[str, Element], sink: DiagnosticSink) -> Model:
     """A nested model with what it had besides its links, joints, frames and pose; and so those in it."""
     models = tuple(_with_rest(inner, f"{path}{SCOPE}{inner.name}", annotated, sink) for inner in model.models)
-    model = model.model_copy(update={"models": models})
+    model = model.copy(models=models)
     found = annotated.get(path)
     if found is None:
         return model
@@ -130,7 +130,7 @@ def _with_rest(model: Model, path: str, annotated: dict[str, Element], sink: Dia
         *(Opaque.unchecked(element=child) for child in found.children),
     )
     try:
-        whole = absorb(model.model_copy(update={"canonical_link": None}), pieces, VersionCondition(), _NEWEST)
+        whole = absorb(model.copy(canonical_link=None), pieces, VersionCondition(), _NEWEST)
         return _placed(_with_known_links(whole))
     except CarrierError as error:
         message = f"the carried content of nested model {path!r} does not fit it any more: {error}"
@@ -149,7 +149,7 @@ def _with_known_links(model: Model) -> Model:
         for field in ("canonical_link", "placement_frame")
         if (name := getattr(model, field)) is not None and not graph.knows(name)
     }
-    return model.model_copy(update=update) if update else model
+    return model.copy(**update) if update else model
 
 
 def _placed(model: Model) -> Model:
@@ -158,7 +158,7 @@ def _placed(model: Model) -> Model:
         return model
     inside = FrameGraph(model).pose(model.placement_frame, MODEL, kind="frame", base="model")
     around = model.pose.relative_to if model.pose else None
-    return model.model_copy(update={"pose": Transform.from_pose(model.pose).compose(inside).to_pose(around)})
+    return model.copy(pose=Transform.from_pose(model.pose).compose(inside).to_pose(around))
 
 
 def _tidy(model: Model) -> Model:
@@ -170,7 +170,7 @@ def _tidy(model: Model) -> Model:
         "links": tuple(map(_posed, model.links)),
         "frames": tuple(map(_attached, model.frames)),
     }
-    return _posed(model.model_copy(update=update))
+    return _posed(model.copy(**update))
 
 
 def _posed(node: AnyNode) -> AnyNode:
@@ -179,8 +179,8 @@ def _posed(node: AnyNode) -> AnyNode:
     if pose is None:
         return node
     own = pose.relative_to == MODEL and isinstance(node, Link | Model)
-    pose = pose.model_copy(update={"relative_to": None}) if own else pose
-    return node.model_copy(update={"pose": None if pose == Pose() else pose})
+    pose = pose.copy(relative_to=None) if own else pose
+    return node.copy(pose=None if pose == Pose() else pose)
 
 
 def _inside(model: Model) -> Iterator[str]:
@@ -197,4 +197,4 @@ def _short(models: frozenset[str], name: str) -> str:
 
 
 def _attached(frame: Frame) -> Frame:
-    return frame.model_copy(update={"attached_to": None}) if frame.attached_to == MODEL else frame
+    return frame.copy(attached_to=None) if frame.attached_to == MODEL else frame

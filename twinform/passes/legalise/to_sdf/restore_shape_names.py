@@ -44,7 +44,7 @@ def _by_its_name(shape: Shape) -> Shape:
     if found is None:
         return shape
     name = found.text if found.get("instead_of") == shape.name else shape.name
-    return without_annotation(shape, NAME).model_copy(update={"name": name})
+    return without_annotation(shape, NAME).copy(name=name)
 
 
 def _sensing(before: Model, after: Model, sink: DiagnosticSink) -> Model:
@@ -62,9 +62,7 @@ def _sensing(before: Model, after: Model, sink: DiagnosticSink) -> Model:
             message = f"{text!r} is called {names[text].name!r} in SDF"
             sink.account(Fate.CARRIED, LUMPED_NAME, message, element.location.at("text()"), weight=0)
     extensions = tuple(
-        extension.model_copy(
-            update={"content": tuple(followed(part, names, carriers=False) for part in extension.content)}
-        )
+        extension.copy(content=tuple(followed(part, names, carriers=False) for part in extension.content))
         for extension in after.extensions
     )
-    return after.model_copy(update={"extensions": extensions})
+    return after.copy(extensions=extensions)

@@ -36,20 +36,18 @@ class RetargetSdf(Pass):
         kept = tuple((prefix, uri) for prefix, uri in document.namespaces if prefix not in {"", PREFIX})
         models = tuple(self._from_urdf(model, document) for model in document.models)
         before = source_version(document, Format.SDF)
-        return document.model_copy(
-            update={
-                "format": Format.SDF,
-                "version": self.version if before is None or before in versions_of("sdf") else before,
-                "models": models,
-                "namespaces": (*kept, (PREFIX, NAMESPACE)) if any(map(has_ours, models)) else kept,
-            }
+        return document.copy(
+            format=Format.SDF,
+            version=self.version if before is None or before in versions_of("sdf") else before,
+            models=models,
+            namespaces=(*kept, (PREFIX, NAMESPACE)) if any(map(has_ours, models)) else kept,
         )
 
     def _from_urdf(self, model: Model, document: Document) -> Model:
         """The model, annotated as one that came from URDF, unless it is one of SDF that is back."""
         if came_from(model, Format.SDF):
             links = tuple(without_annotation(link, BODY) for link in model.links)
-            return without_provenance(model.model_copy(update={"links": links}))
+            return without_provenance(model.copy(links=links))
         if not self.carriers:
             return model
         model = without_provenance(model)

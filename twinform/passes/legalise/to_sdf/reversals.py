@@ -14,4 +14,4 @@ def without_reversals(model: Model) -> Model:
     names = {joint.name for joint in turned}
     made = reroot_sdf(model, turned).joints  # a frame stays on its joint, whatever that moves
     joints = (without_annotation(joint, REVERSED) if joint.name in names else joint for joint in made)
-    return model.model_copy(update={"joints": tuple(joints)})
+    return model.copy(joints=tuple(joints))

@@ -33,7 +33,7 @@ class ShareInertias(ModelPass):
         found = shared_inertias(model)
         if not found:
             return model
-        return model.model_copy(update={"links": tuple(self._shared(link, found, sink) for link in model.links)})
+        return model.copy(links=tuple(self._shared(link, found, sink) for link in model.links))
 
     def _shared(self, link: Link, found: dict[str, Solid], sink: DiagnosticSink) -> Link:
         written = link.inertial
@@ -41,7 +41,7 @@ class ShareInertias(ModelPass):
             return link
         made, old = with_solid(written, found[link.name]), written.pose or Pose()
         moved = found[link.name].center != (old.xyz or ORIGIN)
-        made = made if moved else made.model_copy(update={"pose": written.pose})
+        made = made if moved else made.copy(pose=written.pose)
         what = "center of mass and inertia" if moved else "inertia"
         message = f"link {link.name!r} has another {what} in SDF, and with the links that are fixed to it the same"
         sink.report(rules.SHARED_INERTIA, message, written.location, found=link.name)
@@ -49,4 +49,4 @@ class ShareInertias(ModelPass):
         sink.account(Fate.APPROXIMATED, rules.SHARED_INERTIA, message, where.at("inertia"), len(ELEMENTS))
         if moved and old.xyz:
             sink.account(Fate.APPROXIMATED, rules.SHARED_INERTIA, message, where.at("origin/@xyz"))
-        return link.model_copy(update={"inertial": with_share(made, written) if self.carriers else made})
+        return link.copy(inertial=with_share(made, written) if self.carriers else made)

@@ -43,7 +43,7 @@ class SharedMaterials(ModelPass):
         _note_gazebo((*model.materials, *materials), sink)
         named = {each.name for each in materials if not (each.color or each.texture)}
         annotations = tuple(_definition(material, named) for material in model.materials) if self.carriers else ()
-        return model.model_copy(update={"links": links, "materials": (), "opaque": (*model.opaque, *annotations)})
+        return model.copy(links=links, materials=(), opaque=(*model.opaque, *annotations))
 
     def _link(
         self, link: Link, shared: dict[str | None, Material], defined: dict[str, Material], sink: DiagnosticSink
@@ -51,7 +51,7 @@ class SharedMaterials(ModelPass):
         if not any(visual.material for visual in link.visuals):
             return link
         visuals = tuple(self._visual(one, link, shared, defined, sink) for one in link.visuals)
-        return link.model_copy(update={"visuals": visuals})
+        return link.copy(visuals=visuals)
 
     def _visual(
         self,
@@ -77,7 +77,7 @@ class SharedMaterials(ModelPass):
                 self._account(material, 1, sink)
             if self.carriers:
                 update["opaque"] = (*visual.opaque, _name(material, shared))
-        return visual.model_copy(update=update)
+        return visual.copy(**update)
 
     def _account(self, material: Material, weight: int, sink: DiagnosticSink) -> None:
         fate = Fate.CARRIED if self.carriers else Fate.DROPPED
@@ -122,13 +122,11 @@ def _definition(material: Material, named: set[str | None]) -> Opaque:
 
 def _sdf_material(material: Material, source: Material) -> Material:
     """The appearance of `source`, where the material has nothing in SDF's own syntax."""
-    return material.model_copy(
-        update={
-            "name": None,
-            "color": None,
-            "texture": None,
-            "ambient": material.ambient or source.color,
-            "diffuse": material.diffuse or source.color,
-            "albedo_map": material.albedo_map or source.texture,
-        }
+    return material.copy(
+        name=None,
+        color=None,
+        texture=None,
+        ambient=material.ambient or source.color,
+        diffuse=material.diffuse or source.color,
+        albedo_map=material.albedo_map or source.texture,
     )

@@ -51,7 +51,7 @@ class UniqueNames(ModelPass):
             "links": tuple(self._renamed(link, links, sink) for link in followed.links),
             "joints": tuple(self._renamed(joint, joints, sink) for joint in followed.joints),
         }
-        return followed.model_copy(update=update)
+        return followed.copy(**update)
 
     def _renamed(self, node: Named, names: dict[str, str], sink: DiagnosticSink) -> Named:
         return self._rename(node, names[node.name], sink) if node.name in names else node
@@ -63,7 +63,7 @@ class UniqueNames(ModelPass):
         sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rules.RENAMED, message, node.location.at("@name"))
         if self.carriers:
             node = with_old_name(node, name)
-        return node.model_copy(update={"name": name})
+        return node.copy(name=name)
 
 
 def _reserved(name: str) -> bool:

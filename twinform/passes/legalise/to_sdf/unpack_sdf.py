@@ -60,7 +60,7 @@ class UnpackSdf(ModelPass):
         if not census_of(model) & _HAVING:
             return model
         model = _without_carriers(model)
-        return model.model_copy(update={"links": tuple(_without_carriers(link) for link in model.links)})
+        return model.copy(links=tuple(_without_carriers(link) for link in model.links))
 
     def _parts(self, node: Node, sink: DiagnosticSink) -> Node:
         if not census_of(node) & _HAVING:
@@ -76,12 +76,12 @@ def _without_carriers(node: AnyNode) -> AnyNode:
     carriers = [part for part in node.opaque if is_carrier(part, "sdf")] if node.opaque else []
     if not carriers:
         return node
-    node = node.model_copy(update={"opaque": tuple(part for part in node.opaque if not is_carrier(part, "sdf"))})
+    node = node.copy(opaque=tuple(part for part in node.opaque if not is_carrier(part, "sdf")))
     for carrier in sorted(carriers, key=partial(_is_second, node)):  # after what it repeats, which may travel too
         if _is_blank_pose(carrier):
             continue
         more = None if is_memory(carrier) or _is_overruled(carrier, node) else _with(node, carrier)
-        node = node.model_copy(update={"opaque": (*node.opaque, carrier)}) if more is None else more
+        node = node.copy(opaque=(*node.opaque, carrier)) if more is None else more
     return node
 
 
@@ -144,7 +144,7 @@ def _with_colors(visual: Visual, sink: DiagnosticSink) -> Visual:
         sink.report(STALE_CARRIER, message, visual.location, found=found.get("of") or "")
         return visual
     other = {name: color for name, color in (("ambient", ambient), ("diffuse", diffuse)) if color is not None}
-    return visual.model_copy(update={"material": material.model_copy(update={n: c or None for n, c in other.items()})})
+    return visual.copy(material=material.copy(**{n: c or None for n, c in other.items()}))
 
 
 def _with_scripts(visual: Visual, sink: DiagnosticSink) -> Visual:
@@ -159,8 +159,8 @@ def _with_scripts(visual: Visual, sink: DiagnosticSink) -> Visual:
         sink.report(STALE_CARRIER, message, visual.location, found=found.text or "")
         return visual
     uris = tuple(line.strip() for line in (found.text or "").splitlines() if line.strip())
-    script = script.model_copy(update={"uris": uris})
-    return visual.model_copy(update={"material": visual.material.model_copy(update={"script": script})})
+    script = script.copy(uris=uris)
+    return visual.copy(material=visual.material.copy(script=script))
 
 
 def _color(text: str | None) -> Color | None:
@@ -188,7 +188,7 @@ def _with(node: AnyNode, carrier: Opaque) -> AnyNode | None:
     try:
         if carrier.element and carrier.element.get("at") and carrier.element.get("index") is not None:
             return _absorbed(node, [carrier])
-        other = _absorbed(node.model_copy(update=_defaults(node)), [carrier])
+        other = _absorbed(node.copy(**_defaults(node)), [carrier])
         has_pose = getattr(other, "pose", None) is not None
         return _absorbed(node, [carrier]) if not has_pose and _is_new(other, node) else None
     except CarrierError:

@@ -35,14 +35,14 @@ class WorldLink(ModelPass):
             return model
         links = tuple(link for link in model.links if link is not world)
         joints = tuple(_on_model(joint) for joint in model.joints)
-        model = model.model_copy(update={"links": links, "joints": joints})
+        model = model.copy(links=links, joints=joints)
         held = links_in_static_models(model)
         if not any(joint.parent == "world" and not needs_no_joint(joint, held) for joint in joints):
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
             message = "nothing is fixed to the link 'world', and SDF always has a world"
             sink.account(fate, rules.URDF_ONLY, message, world.location, count_parts(world))
         own = tuple(piece for part in world.opaque for piece in (unpack(part) if is_carrier(part, "urdf") else (part,)))
-        body = world.model_copy(update={"opaque": own})
+        body = world.copy(opaque=own)
         return self._keep_body(model, body, sink) if count_parts(body) > 2 else model
 
     def _keep_body(self, model: Model, world: Link, sink: DiagnosticSink) -> Model:
@@ -58,4 +58,4 @@ class WorldLink(ModelPass):
 def _on_model(joint: Joint) -> Joint:
     if joint.parent != "world" or joint.pose is None:
         return joint
-    return joint.model_copy(update={"pose": joint.pose.model_copy(update={"relative_to": "__model__"})})
+    return joint.copy(pose=joint.pose.copy(relative_to="__model__"))

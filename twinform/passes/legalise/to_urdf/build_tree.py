@@ -75,7 +75,7 @@ def _reversed(model: Model, names: set[str], keeper: Keeper) -> Model:
         keeper.account(rules.REVERSED_JOINT, message, joint.location, 2)
     before = {joint.name: joint for joint in turned}
     joints = (_annotated(each, before[each.name], keeper) if each.name in names else each for each in model.joints)
-    return model.model_copy(update={"joints": tuple(joints)})
+    return model.copy(joints=tuple(joints))
 
 
 def _annotated(joint: Joint, before: Joint, keeper: Keeper) -> Joint:
@@ -110,4 +110,4 @@ def _hang(model: Model, roots: list[Link], first: str, keeper: Keeper) -> Model:
         joints.append(annotate_synthesized(made))
         message = f"link {link.name!r} is attached by a {kind} joint to {first!r}"
         keeper.sink.account(Fate.APPROXIMATED, rules.HUNG_ROOT, message, link.location, 0)
-    return model.model_copy(update={"joints": tuple(joints)})
+    return model.copy(joints=tuple(joints))

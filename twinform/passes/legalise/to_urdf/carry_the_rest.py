@@ -52,20 +52,18 @@ class CarryTheRest(Pass):
             namespaces = (*namespaces, (PREFIX, NAMESPACE))
         version = None if self.urdf_version == "1.0" else self.urdf_version
         update = {"format": Format.URDF, "version": version, "models": models, "namespaces": namespaces}
-        return document.model_copy(update=update)
+        return document.copy(**update)
 
 
 def _finish(model: Model, document: Document, rest: "_RemainderCarrier") -> Model:
     keeper = rest.keeper
     model = _without_usual_root(model, keeper)
-    model = model.model_copy(
-        update={"links": tuple(map(rest.link, model.links)), "joints": tuple(map(rest.joint, model.joints))}
-    )
+    model = model.copy(links=tuple(map(rest.link, model.links)), joints=tuple(map(rest.joint, model.joints)))
     model = rest.take(model, "model", rest.fields("robot"))
-    model = model.model_copy(update={"links": tuple(_annotated_world(link, keeper) for link in model.links)})
+    model = model.copy(links=tuple(_annotated_world(link, keeper) for link in model.links))
     has_world = any(link.name == WORLD for link in model.links)  # which SDF before 1.7 did not forbid
     if not has_world and any(joint.parent == WORLD for joint in model.joints):
-        model = model.model_copy(update={"links": (Link(name=WORLD), *model.links)})
+        model = model.copy(links=(Link(name=WORLD), *model.links))
     if document.version is not None:
         message = f"the file is SDF {document.version}"
         keeper.account(rules.SDF_ONLY, message, document.location.at("@version"), 1)
@@ -84,7 +82,7 @@ def _without_usual_root(model: Model, keeper: Keeper) -> Model:
     children = {joint.child for joint in model.joints}
     root = next((link.name for link in model.links if link.name not in children), None)
     usual = keeper.back and root is not None and model.canonical_link == root
-    return model.model_copy(update={"canonical_link": None}) if usual else model
+    return model.copy(canonical_link=None) if usual else model
 
 
 class _RemainderCarrier:
@@ -116,7 +114,7 @@ class _RemainderCarrier:
     def take(self, node: AnyNode, tag: str, known: KnownFields) -> AnyNode:
         again = [part for part in node.opaque if is_repeated(part, node)]
         if again:  # they are no rest of what they repeat
-            node = node.model_copy(update={"opaque": tuple(part for part in node.opaque if part not in again)})
+            node = node.copy(opaque=tuple(part for part in node.opaque if part not in again))
             for part in again:
                 message = f"<{part.name}> occurs more than once"
                 node = self.keeper.keep(node, [part], rules.SDF_ONLY, message, part.location_in(node), about=SECOND)

@@ -46,4 +46,4 @@ def _compute(keeper: Keeper, meshes: Meshes, link: Link, inertial: Inertial, gra
         written = keeper.annotate(written, COMPUTED_MASS, always=True)
     message = f"the inertia of link {link.name!r} is computed from its collisions"
     kept = keeper.keep(written, pieces, rules.COMPUTED_INERTIA, message, inertial.location)
-    return link.model_copy(update={"inertial": kept})
+    return link.copy(inertial=kept)

@@ -24,9 +24,9 @@ def cut_joints(
         child = joint.child or ""
         base, kind = keeper.frame_of(child, parent_joint.get(child))
         placed = graph.pose(joint.name, base, kind="joint", base=kind)
-        blob = to_element(joint.model_copy(update={"pose": placed.to_pose()}), "joint", "sdf")
+        blob = to_element(joint.copy(pose=placed.to_pose()), "joint", "sdf")
         extensions.append(GazeboExtension(content=(blob,), source=joint.source))
-    model = model.model_copy(update={"joints": tuple(kept), "extensions": tuple(extensions)})
+    model = model.copy(joints=tuple(kept), extensions=tuple(extensions))
     names = frozenset(joint.name for joint in cut)
     return rewrite(model, Pose, partial(_without_cut, graph, names))
 

@@ -37,7 +37,7 @@ class ExpressAxes(ToUrdfPass):
             for field in _AXES.get(joint.type, ()):
                 expressed = _express(expressed, field, graph, keeper)
             joints.append(expressed)
-        return model.model_copy(update={"joints": tuple(joints)})
+        return model.copy(joints=tuple(joints))
 
 
 def _express(joint: Joint, field: str, graph: FrameGraph, keeper: Keeper) -> Joint:
@@ -48,12 +48,12 @@ def _express(joint: Joint, field: str, graph: FrameGraph, keeper: Keeper) -> Joi
         keeper.sink.report(rules.ZERO_AXIS, message, axis.location, found="0 0 0")
     if not axis.expressed_in:
         made = filled(axis, {"xyz": AXIS[Format.SDF]})
-        return joint if made is axis else joint.model_copy(update={field: made})
+        return joint if made is axis else joint.copy(**{field: made})
     turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")
     x, y, z = turn.rotate(direction(axis, Format.SDF))
     xyz = (x + 0.0, y + 0.0, z + 0.0)
-    made = axis.model_copy(update={"xyz": xyz, "expressed_in": None, OLD_NAME: None})
-    turned = joint.model_copy(update={field: made})
+    made = axis.copy(**{"xyz": xyz, "expressed_in": None, OLD_NAME: None})
+    turned = joint.copy(**{field: made})
     message = f"the {field} of joint {joint.name!r} is expressed in {axis.expressed_in!r}"
     keeper.account(rules.AXIS_FRAME, message, axis.location, 2)
     word: dict[str, str | None] = {"expressed_in": axis.expressed_in}

@@ -67,7 +67,7 @@ class ExtendGazebo(ToUrdfPass):
             "plugins": (),
             "opaque": _rest(model.opaque, "model"),
         }
-        return model.model_copy(update={**cleared, **update})
+        return model.copy(**{**cleared, **update})
 
 
 def _extension(node: Link | Joint, content: Iterable[Element]) -> Iterator[GazeboExtension]:
@@ -100,14 +100,14 @@ def _rest(parts: tuple[Opaque, ...], definition: str) -> tuple[Opaque, ...]:
 def _link_content(link: Link) -> tuple[list[Element], Link]:
     written = {field: getattr(link, field) for field in _LINK_FIELDS}
     content = list(_truths(link))
-    link = link.model_copy(update=dict.fromkeys(_TRUTHS)) if content else link
+    link = link.copy(**dict.fromkeys(_TRUTHS)) if content else link
     if any(value not in (None, ()) for value in written.values()):
         content += to_element(Link(name=link.name, spelling=link.spelling, **written), "link", "sdf").children
     content += _verbatim(link.opaque, "link")
     if not content:
         return content, link
     empty = {field: () if isinstance(value, tuple) else None for field, value in written.items()}
-    return content, link.model_copy(update={**empty, "opaque": _rest(link.opaque, "link")})
+    return content, link.copy(**{**empty, "opaque": _rest(link.opaque, "link")})
 
 
 def _truths(link: Link) -> Iterator[Element]:
@@ -145,9 +145,9 @@ def _springs(joint: Joint) -> tuple[list[Element], Joint]:
     ]
     if not content:
         return [], joint
-    dynamics: Dynamics | None = axis.dynamics.model_copy(update=dict.fromkeys(_SPRING_TAGS))
+    dynamics: Dynamics | None = axis.dynamics.copy(**dict.fromkeys(_SPRING_TAGS))
     dynamics = None if dynamics == Dynamics() else dynamics
-    return content, joint.model_copy(update={"axis": axis.model_copy(update={"dynamics": dynamics})})
+    return content, joint.copy(axis=axis.copy(dynamics=dynamics))
 
 
 def _physics(joint: Joint, keeper: Keeper) -> tuple[list[Element], Joint]:
@@ -162,10 +162,10 @@ def _physics(joint: Joint, keeper: Keeper) -> tuple[list[Element], Joint]:
             again.append(part)
         else:
             left = _take_tags(part.element, "", content)
-            parts += [] if left is None else [part.model_copy(update={"element": left})]
+            parts += [] if left is None else [part.copy(element=left)]
     if not content:
         return content, joint
-    joint = joint.model_copy(update={"opaque": tuple(parts)})
+    joint = joint.copy(opaque=tuple(parts))
     message = f"joint {joint.name!r} has a <physics> already"
     return content, keeper.keep(joint, again, rules.SDF_ONLY, message, joint.location, about=SECOND)
 
@@ -183,7 +183,7 @@ def _take_tags(element: Element, path: str, tags: list[Element]) -> Element | No
             children.append(left)
     if not children and element.children and not element.attributes:
         return None
-    return element.model_copy(update={"children": tuple(children)})
+    return element.copy(children=tuple(children))
 
 
 def _model_extensions(model: Model) -> Iterator[GazeboExtension]:

@@ -19,7 +19,7 @@ class FillInertials(ToUrdfPass):
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with an inertial in every link."""
-        return model.model_copy(update={"links": tuple(map(_fill_link, model.links))})
+        return model.copy(links=tuple(map(_fill_link, model.links)))
 
 
 def _fill_link(link: Link) -> Link:

@@ -48,10 +48,10 @@ def _keep(keeper: Keeper, frame: Frame, shell: Model) -> Frame:
     keeper.account(rules.NESTED_MODEL, message, shell.location, count_parts(shell))
     if not keeper.carriers:
         return frame
-    own = to_element(shell.model_copy(update={"pose": None}), "model", "sdf")
+    own = to_element(shell.copy(pose=None), "model", "sdf")
     attributes = tuple(pair for pair in own.attributes if pair[0] != "name")
-    annotation = own.model_copy(update={"name": f"{{{NAMESPACE}}}{NESTED}", "attributes": attributes})
-    frame = frame.model_copy(update={"opaque": (*frame.opaque, Opaque.unchecked(element=annotation))})
+    annotation = own.copy(name=f"{{{NAMESPACE}}}{NESTED}", attributes=attributes)
+    frame = frame.copy(opaque=(*frame.opaque, Opaque.unchecked(element=annotation)))
     written = pose_attributes(shell.pose)
     if "relative_to" in written and frame.pose:
         written["relative_to"] = frame.pose.relative_to  # by its name in the outermost model

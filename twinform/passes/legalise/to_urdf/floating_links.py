@@ -24,9 +24,9 @@ def with_floating_joints(model: Model, keeper: Keeper) -> Model:
             continue
         joint = Joint(name=name, type="floating", parent=parent, child=link.name, pose=Pose(relative_to=link.name))
         rest = [Opaque.unchecked(element=child) for child in annotation.children]
-        joints.append(carry(joint.model_copy(update={"source": link.source}), rest, "urdf"))
+        joints.append(carry(joint.copy(source=link.source), rest, "urdf"))
     links = tuple(without_annotation(link, FLOATING) for link in model.links)
-    return model.model_copy(update={"links": links, "joints": tuple(joints)})
+    return model.copy(links=links, joints=tuple(joints))
 
 
 def without_loose_floating(model: Model) -> Model:
@@ -35,7 +35,7 @@ def without_loose_floating(model: Model) -> Model:
         return model
     loose = {link.name for link, _, fits in _annotated(model) if not fits}
     links = (without_annotation(link, FLOATING) if link.name in loose else link for link in model.links)
-    return model.model_copy(update={"links": tuple(links)})
+    return model.copy(links=tuple(links))
 
 
 def _has_annotations(model: Model) -> bool:

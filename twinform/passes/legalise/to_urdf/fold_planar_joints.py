@@ -49,7 +49,7 @@ class FoldPlanarJoints(ToUrdfPass):
                     f"joint {joint.name!r} was planar, and the joints that it became, or their names, have changed"
                 )
                 keeper.sink.report(rules.STALE_CARRIER, message, joint.location, found=joint.name)
-                folded[joint.name] = joint.model_copy(update={"opaque": _without_planar(joint)})
+                folded[joint.name] = joint.copy(opaque=_without_planar(joint))
                 stale |= set(_upwards(joint, above))
             else:
                 first, second = chain
@@ -61,7 +61,7 @@ class FoldPlanarJoints(ToUrdfPass):
             "joints": tuple(_own(joint, stale) for joint in joints),
             "links": tuple(_own(one, stale) for one in kept),
         }
-        return model.model_copy(update=update)
+        return model.copy(**update)
 
 
 def _upwards(joint: Joint, above: dict[str | None, Joint]) -> Iterator[str]:
@@ -111,13 +111,13 @@ def _bare(part: Joint | Link) -> dict[str, object]:
     written = {name: getattr(part, name) for name in fields_of(type(part)) if name not in _BESIDE}
     if isinstance(part, Joint) and part.axis is not None:
         limit = None if part.axis.limit == Limit() else part.axis.limit
-        written["axis"] = part.axis.model_copy(update={"limit": limit, "opaque": ()})
+        written["axis"] = part.axis.copy(limit=limit, opaque=())
     return written
 
 
 def _planar(joint: Joint, first: Joint) -> Joint:
     update = {"type": "planar", "parent": first.parent, "pose": first.pose, "opaque": _without_planar(joint)}
-    return joint.model_copy(update=update)
+    return joint.copy(**update)
 
 
 def _without_planar(joint: Joint) -> tuple[Opaque, ...]:

@@ -92,7 +92,7 @@ def _map_shape(one: AnyShaped, keeper: Keeper) -> AnyShaped:
         return one
     if isinstance(shape, Mesh):
         one, uri = urdf_uri(one, MESH_SCHEME, shape.uri or "", keeper)
-        made: Node = shape if uri == shape.uri else shape.model_copy(update={"uri": uri})
+        made: Node = shape if uri == shape.uri else shape.copy(uri=uri)
     else:
         made = filled(shape, SIZES.get(type(shape), {}))
     return replace_fields(one, geometry=replace_fields(geometry, shape=made))

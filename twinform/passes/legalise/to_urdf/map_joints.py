@@ -38,7 +38,7 @@ class MapJoints(ToUrdfPass):
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with joints of URDF."""
         strength = UNLIMITED if urdf_row(self.urdf_version, "joint", "limit", "@effort").required else None
-        return model.model_copy(update={"joints": tuple(_map(joint, strength, keeper) for joint in model.joints)})
+        return model.copy(joints=tuple(_map(joint, strength, keeper) for joint in model.joints))
 
 
 def _map(joint: Joint, strength: float | None, keeper: Keeper) -> Joint:
@@ -61,13 +61,13 @@ def _map(joint: Joint, strength: float | None, keeper: Keeper) -> Joint:
     limit = axis.limit or Limit.unchecked()
     endless = limit.lower is None and limit.upper is None if keeper.back else _is_endless(limit)
     if joint.type == "continuous" or (joint.type == "revolute" and endless):
-        joint, limit = _continuous(joint.model_copy(update={"type": "continuous"}), limit, strength, keeper)
+        joint, limit = _continuous(joint.copy(type="continuous"), limit, strength, keeper)
     else:
         limit = _fill(
             joint, limit, {"lower": -UNLIMITED, "upper": UNLIMITED, **dict.fromkeys(_FORCES, strength)}, keeper
         )
     made = None if limit == Limit.unchecked() else limit
-    return joint.model_copy(update={"axis": axis.model_copy(update={"limit": made})})
+    return joint.copy(axis=axis.copy(limit=made))
 
 
 def _is_endless(limit: Limit) -> bool:
@@ -90,11 +90,11 @@ def _continuous(joint: Joint, limit: Limit, strength: float | None, keeper: Keep
     if endless:
         message = f"infinite limits of joint {joint.name!r} are not written in URDF: {', '.join(endless)}"
         keeper.account(rules.UNBOUNDED_LIMIT, message, limit.location, len(endless))
-    limit = limit.model_copy(update={"lower": None, "upper": None})
+    limit = limit.copy(lower=None, upper=None)
     if _is_strength(limit.effort) or _is_strength(limit.velocity):
         return joint, _fill(joint, limit, dict.fromkeys(_FORCES, strength), keeper)
     joint = _keep_written(joint, limit, ("stiffness", "dissipation"), keeper)
-    return joint, limit.model_copy(update=dict.fromkeys(_WITHOUT_STRENGTH))
+    return joint, limit.copy(**dict.fromkeys(_WITHOUT_STRENGTH))
 
 
 def _fill(joint: Joint, limit: Limit, numbers: Mapping[str, float | None], keeper: Keeper) -> Limit:
@@ -107,7 +107,7 @@ def _fill(joint: Joint, limit: Limit, numbers: Mapping[str, float | None], keepe
             continue
         message = f"the {name} limit of {joint.type} joint {joint.name!r} is infinite; URDF needs a number: {number:g}"
         keeper.sink.account(Fate.APPROXIMATED, rules.UNBOUNDED_LIMIT, message, joint.location, 0)
-    return limit.model_copy(update=missing) if missing else limit
+    return limit.copy(**missing) if missing else limit
 
 
 def _is_finite(value: float | None) -> bool:
@@ -128,8 +128,8 @@ def _map_mimic(joint: Joint, axis: Axis, keeper: Keeper) -> Joint:
         return joint
     factor = multiplier(mimic)
     offset = (mimic.offset or 0.0) - factor * mimic.reference if mimic.reference else mimic.offset
-    made: Mimic = mimic.model_copy(update={"reference": None, "offset": offset})
-    joint = joint.model_copy(update={"axis": axis.model_copy(update={"mimic": made})})
+    made: Mimic = mimic.copy(reference=None, offset=offset)
+    joint = joint.copy(axis=axis.copy(mimic=made))
     message = f"the reference of the mimic joint {joint.name!r} is part of its offset in URDF"
     keeper.account(rules.SDF_ONLY, message, mimic.location, 1)
     return keeper.annotate(joint, MIMIC, attributes={"reference": format_value(mimic.reference)})

@@ -33,13 +33,13 @@ class MapMaterials(ToUrdfPass):
         links = tuple(_map_link(link, names, keeper) for link in model.links)
         tags = {link.name: tag for link in links if (tag := _script_tag(link, keeper)) is not None}
         links = tuple(_set_by_tag(link, keeper) if link.name in tags else link for link in links)
-        return model.model_copy(update={"links": links, "extensions": (*model.extensions, *tags.values())})
+        return model.copy(links=links, extensions=(*model.extensions, *tags.values()))
 
 
 def _map_link(link: Link, names: set[str], keeper: Keeper) -> Link:
     if not any(visual.material for visual in link.visuals):
         return link
-    return link.model_copy(update={"visuals": tuple(_map_visual(one, link, names, keeper) for one in link.visuals)})
+    return link.copy(visuals=tuple(_map_visual(one, link, names, keeper) for one in link.visuals))
 
 
 def _map_visual(visual: Visual, link: Link, names: set[str], keeper: Keeper) -> Visual:
@@ -59,7 +59,7 @@ def _map_visual(visual: Visual, link: Link, names: set[str], keeper: Keeper) -> 
     _note_gazebo(visual, material, keeper)
     update["name"] = unique_name(material_name(link, visual), names)
     names.add(str(update["name"]))
-    return visual.model_copy(update={"material": material.model_copy(update=update)})
+    return visual.copy(material=material.copy(**update))
 
 
 def _keep_colors(visual: Visual, material: Material, keeper: Keeper) -> Visual:
@@ -103,12 +103,12 @@ def _set_by_tag(link: Link, keeper: Keeper) -> Link:
     visuals: list[Visual] = []
     for visual in link.visuals:
         material, script = visual.material, visual.material.script if visual.material else None
-        bare = material.model_copy(update={"script": None}) if material else None
-        one = visual.model_copy(update={"material": None if bare == Material() else bare})
+        bare = material.copy(script=None) if material else None
+        one = visual.copy(material=None if bare == Material() else bare)
         if script and script.uris:
             message = f"<material> for link {link.name!r} does not name the files of the material of {visual.name!r}"
             keeper.account(rules.SDF_ONLY, message, script.location, len(script.uris))
         if script and script.uris != (SCRIPT_URI,):
             one = keeper.annotate(one, SCRIPTS, text="\n".join(script.uris), always=True)
         visuals.append(one)
-    return link.model_copy(update={"visuals": tuple(visuals)})
+    return link.copy(visuals=tuple(visuals))

@@ -43,7 +43,7 @@ class MapSurfaces(ToUrdfPass):
             _note_unshared(links[-1], keeper)
             if content:
                 extensions.append(GazeboExtension(reference=link.name, content=tuple(content), source=link.source))
-        return model.model_copy(update={"links": tuple(links), "extensions": tuple(extensions)})
+        return model.copy(links=tuple(links), extensions=tuple(extensions))
 
 
 def _shared(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]]:
@@ -86,4 +86,4 @@ def _without(link: Link, fields: list[str]) -> Link:
     if not fields:
         return link
     cleared = dict.fromkeys(fields)
-    return link.model_copy(update={"collisions": tuple(one.model_copy(update=cleared) for one in link.collisions)})
+    return link.copy(collisions=tuple(one.copy(**cleared) for one in link.collisions))

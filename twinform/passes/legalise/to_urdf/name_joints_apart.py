@@ -30,7 +30,7 @@ class NameJointsApart(ToUrdfPass):
         new = {name: free_name(f"{name}_joint", taken) for name in clashes}
         names: Names = {("joint", old): made for old, made in new.items()}
         joints = tuple(self._noted(joint, new, keeper) if joint.name in new else joint for joint in model.joints)
-        return renamed(model.model_copy(update={"joints": joints}), names, Format.URDF)
+        return renamed(model.copy(joints=joints), names, Format.URDF)
 
     def _noted(self, joint: Joint, new: dict[str, str], keeper: Keeper) -> Joint:
         message = f"joint {joint.name!r} is called {new[joint.name]!r} in URDF: a link has its name"

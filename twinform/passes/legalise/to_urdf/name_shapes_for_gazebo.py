@@ -26,6 +26,6 @@ class NameShapesForGazebo(ToUrdfPass):
         def rename(shape: AnyShape, name: str, kind: str) -> AnyShape:
             keeper.account(GAZEBO_SHAPE_NAME, renaming(shape, name, kind), shape.location.at("@name"), 1)
             kept: AnyShape = keeper.annotate(shape, NAME, text=shape.name, attributes={"instead_of": name})
-            return kept.model_copy(update={"name": name})
+            return kept.copy(name=name)
 
         return model if keeper.back else named_for_gazebo(model, rename)

@@ -15,7 +15,7 @@ def with_overruled(model: Model, extension: Element) -> Model | None:
         found = _with_tag(model.extensions, reference, element)
         if found is None:
             return None
-        model = model.model_copy(update={"extensions": found})
+        model = model.copy(extensions=found)
     return model
 
 
@@ -29,7 +29,7 @@ def _with_tag(
         place = next((at for at, other in enumerate(one.content) if _overrules(other, tag)), None)
         if place is not None:
             content = (*one.content[:place], element, *one.content[place:])
-            return (*extensions[:index], one.model_copy(update={"content": content}), *extensions[index + 1 :])
+            return (*extensions[:index], one.copy(content=content), *extensions[index + 1 :])
     return None
 
 

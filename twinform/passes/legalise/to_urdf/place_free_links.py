@@ -28,4 +28,4 @@ class PlaceFreeLinks(ToUrdfPass):
             return model
         frames = placing_frames(model, free).values()
         extensions = (GazeboExtension(content=(to_element(frame, "frame", "sdf"),)) for frame in frames)
-        return model.model_copy(update={"extensions": (*model.extensions, *extensions)})
+        return model.copy(extensions=(*model.extensions, *extensions))

@@ -65,7 +65,7 @@ class RebaseLinks(ToUrdfPass):
         )
         joints = tuple(_place_joint(joint, graph, bases, keeper) for joint in model.joints)
         roots = [link.name for link in model.links if link.name not in carried_by]
-        model = model.model_copy(update={"links": links, "joints": joints})
+        model = model.copy(links=links, joints=joints)
         return _place_model(model, graph, roots, keeper)
 
 
@@ -102,7 +102,7 @@ class _Rebase:
 
     def _own_pose(self, link: Link, joint: Joint | None, offset: Transform) -> Link:
         written, made = link.pose, Pose.unchecked(relative_to=joint.name) if joint else None
-        moved = link.model_copy(update={"pose": made})
+        moved = link.copy(pose=made)
         if is_synthesized(link) or part_of(link) is not None:
             return moved
         if not offset.is_identity:
@@ -119,7 +119,7 @@ class _Rebase:
     def _write(self, holder: AnyPosed, tag: str, transform: Transform) -> AnyPosed:
         written = holder.pose
         made = transform.to_pose() if tag in {"sensor", "light"} else in_radians(transform)
-        moved = holder.model_copy(update={"pose": made})
+        moved = holder.copy(pose=made)
         if written is None or made == written:
             return moved
         name = getattr(holder, "name", None)
@@ -205,7 +205,7 @@ def _place_joint(joint: Joint, graph: FrameGraph, bases: Mapping[str, Base], kee
     (name, kind), (parent, held) = bases.get(joint.child or "", (joint.name, "joint")), bases[joint.parent or WORLD]
     made = in_radians(graph.pose(name, parent, kind=kind, base=held), joint.parent)
     rebase = _Rebase(graph, joint.name, (name, kind), keeper, "joint")
-    placed = rebase.poses.joint(joint).model_copy(update={"pose": made})
+    placed = rebase.poses.joint(joint).copy(pose=made)
     offset = graph.pose(joint.name, name, kind="joint", base=kind)
     if not offset.is_identity:
         placed = keeper.annotate(placed, OFFSET, attributes=offset_attributes(offset), always=True)
@@ -225,7 +225,7 @@ def _place_model(model: Model, graph: FrameGraph, roots: list[str], keeper: Keep
     if roots:
         placed = graph.pose(root, WORLD, base="world")
         made = None if placed.is_identity and placed.notation is None else placed.to_pose()
-    moved = model.model_copy(update={"pose": made})
+    moved = model.copy(pose=made)
     offset = graph.pose(MODEL, root, kind="model", base="link" if roots else "world")
     if not offset.is_identity:
         moved = keeper.annotate(moved, OFFSET, attributes=offset_attributes(offset))

@@ -44,8 +44,8 @@ class RelateGearboxes(ToUrdfPass):
 
 def _follower(joint: Joint, found: Relation) -> Joint:
     mimic = Mimic(joint=found.leader, multiplier=found.multiplier)
-    axis = (joint.axis or Axis()).model_copy(update={"mimic": mimic})
-    return with_annotation(joint.model_copy(update={"axis": axis}), GEARED)
+    axis = (joint.axis or Axis()).copy(mimic=mimic)
+    return with_annotation(joint.copy(axis=axis), GEARED)
 
 
 def _report_uncoupled(gearbox: Joint, why: str, keeper: Keeper) -> None:

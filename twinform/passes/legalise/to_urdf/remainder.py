@@ -112,7 +112,7 @@ def take_remainder(node: AnyNode, tag: str, known: KnownFields) -> tuple[AnyNode
     split = _split(node, known, "", own_element=True)
     if not split.left:
         return node, [], split.endless
-    kept = node.model_copy(update=split.kept)
+    kept = node.copy(**split.kept)
     left = _only(node, split.left)
     pieces = _pieces(to_element(left, tag, "sdf"), "", frozenset(split.paths), _IDENTITY & fields_of(type(node)).keys())
     return kept, list(pieces), split.endless
@@ -183,7 +183,7 @@ def _split_inner(split: Split, name: str, value: Node, known: KnownFields, path:
     split.endless += inner.endless
     if not inner.left:
         return
-    kept = value.model_copy(update=inner.kept)
+    kept = value.copy(**inner.kept)
     if kind is None and _is_empty(kept):  # then it is carried whole, beside nothing
         split.left[name], split.kept[name] = value, None
         return
@@ -229,7 +229,7 @@ def _qualified(part: Opaque) -> str:
 def _only(node: Node, fields: dict[str, object]) -> Node:
     """The node with these fields alone."""
     blank = {name: _blank(node, name) for name in fields_of(type(node)) if name not in _APART}
-    return node.model_copy(update={**blank, "opaque": (), **fields})
+    return node.copy(**{**blank, "opaque": (), **fields})
 
 
 def _blank(node: Node, name: str) -> object:

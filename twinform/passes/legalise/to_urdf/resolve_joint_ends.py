@@ -25,9 +25,7 @@ class ResolveJointEnds(ToUrdfPass):
         if all(joint.parent in links and joint.child in links for joint in model.joints):
             return model
         graph = FrameGraph(model)
-        return model.model_copy(
-            update={"joints": tuple(_resolve(joint, links, graph, keeper) for joint in model.joints)}
-        )
+        return model.copy(joints=tuple(_resolve(joint, links, graph, keeper) for joint in model.joints))
 
 
 def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper) -> Joint:

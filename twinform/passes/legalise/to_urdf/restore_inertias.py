@@ -55,11 +55,8 @@ class RestoreInertias(ModelPass):
 
 
 def _with(model: Model, inertials: dict[str, Inertial]) -> Model:
-    links = (
-        link.model_copy(update={"inertial": inertials[link.name]}) if link.name in inertials else link
-        for link in model.links
-    )
-    return model.model_copy(update={"links": tuple(links)})
+    links = (link.copy(inertial=inertials[link.name]) if link.name in inertials else link for link in model.links)
+    return model.copy(links=tuple(links))
 
 
 def _are_close(one: Solid, other: Solid) -> bool:

@@ -45,8 +45,8 @@ def _with_links(model: Model, keeper: Keeper) -> Model:
     for name, mount in pairs.items():
         frame = next(each for each in model.frames if each.name == name)
         holder = _holder(mount, pairs, graph)
-        pose = (mount.pose or Pose()).model_copy(
-            update={"relative_to": (mount.pose and mount.pose.relative_to) or mount.attached_to or MODEL}
+        pose = (mount.pose or Pose()).copy(
+            relative_to=(mount.pose and mount.pose.relative_to) or mount.attached_to or MODEL
         )
         joints.append(
             Joint(
@@ -54,17 +54,17 @@ def _with_links(model: Model, keeper: Keeper) -> Model:
                 source=mount.source,
             )
         )  # fmt: skip
-        own = (frame.pose or Pose()).model_copy(update={"relative_to": mount.name})
+        own = (frame.pose or Pose()).copy(relative_to=mount.name)
         bare = Link(name=name, pose=own, opaque=without_annotation(frame, LINK).opaque)
         holders = [link for link in model.links if link.name == held_by[name]]
-        links.append(_filled(bare.model_copy(update={"source": frame.source}), holders))
+        links.append(_filled(bare.copy(source=frame.source), holders))
     frames = tuple(
         without_annotation(frame, LINK)
         for frame in model.frames
         if frame.name not in pairs and frame.name not in mounts
     )
     joints += [_holding_a_link(joint, held_by) for joint in model.joints]  # after those that hold what was a frame
-    return model.model_copy(update={"links": tuple(links), "joints": tuple(joints), "frames": frames})
+    return model.copy(links=tuple(links), joints=tuple(joints), frames=frames)
 
 
 def _holding_a_link(joint: Joint, held_by: dict[str, str]) -> Joint:
@@ -73,8 +73,8 @@ def _holding_a_link(joint: Joint, held_by: dict[str, str]) -> Joint:
     if body in {None, joint.parent, MODEL, WORLD}:
         return joint
     pose = joint.pose or Pose()
-    pose = pose if pose.relative_to else pose.model_copy(update={"relative_to": joint.child})
-    return joint.model_copy(update={"child": body, "pose": pose})
+    pose = pose if pose.relative_to else pose.copy(relative_to=joint.child)
+    return joint.copy(child=body, pose=pose)
 
 
 def _pairs(model: Model, keeper: Keeper) -> Iterator[tuple[str, Frame]]:
@@ -119,7 +119,7 @@ def _emptied(link: Link, frames: set[str]) -> Link:
         field: tuple(each for each in getattr(link, field) if not _is_in(each, frames)) for field in _HELD
     }
     update["opaque"] = tuple(part for part in link.opaque if _frame_of(part) not in frames)
-    return link.model_copy(update=update)
+    return link.copy(**update)
 
 
 def _filled(link: Link, holders: list[Link]) -> Link:
@@ -131,12 +131,12 @@ def _filled(link: Link, holders: list[Link]) -> Link:
         update[field] = tuple(_in_own_frame(each) for each in held)
     parts = [part for other in holders for part in other.opaque if _frame_of(part) == link.name]
     update["opaque"] = (*link.opaque, *map(_part_in_own_frame, parts))
-    return link.model_copy(update=update)
+    return link.copy(**update)
 
 
 def _in_own_frame(node: Placed) -> Placed:
-    pose = node.pose.model_copy(update={"relative_to": None}) if node.pose else None
-    return node.model_copy(update={"pose": None if pose == Pose() else pose})
+    pose = node.pose.copy(relative_to=None) if node.pose else None
+    return node.copy(pose=None if pose == Pose() else pose)
 
 
 def _frame_of(part: Opaque) -> str | None:
@@ -150,6 +150,6 @@ def _part_in_own_frame(part: Opaque) -> Opaque:
     pose = element.find("pose") if element else None
     if element is None or pose is None:
         return part
-    bare = pose.model_copy(update={"attributes": tuple(pair for pair in pose.attributes if pair[0] != "relative_to")})
+    bare = pose.copy(attributes=tuple(pair for pair in pose.attributes if pair[0] != "relative_to"))
     children = tuple(bare if child is pose else child for child in element.children)
-    return part.model_copy(update={"element": element.model_copy(update={"children": children})})
+    return part.copy(element=element.copy(children=children))

@@ -28,9 +28,9 @@ class RestoreLumpedNames(ModelPass):
 
         def restore(extension: GazeboExtension) -> GazeboExtension:
             content = tuple(restored(each, names, stale) for each in extension.content)
-            return extension.model_copy(update={"content": content})
+            return extension.copy(content=content)
 
-        model = model.model_copy(update={"extensions": tuple(map(restore, model.extensions))})
+        model = model.copy(extensions=tuple(map(restore, model.extensions)))
         for annotation in stale:
             message = f"{annotation.get('instead_of')!r} was called {annotation.text!r}, which now names something else"
             sink.report(STALE_CARRIER, message, annotation.location, found=annotation.text)

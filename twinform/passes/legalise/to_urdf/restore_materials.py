@@ -40,7 +40,7 @@ class RestoreMaterials(ModelPass):
             part for part in model.opaque if not is_annotation(part, SHARED_MATERIAL) and _carried(part) is None
         )
         materials = (*model.materials, *shared.values())
-        return model.model_copy(update={"links": links, "materials": materials, "opaque": kept})
+        return model.copy(links=links, materials=materials, opaque=kept)
 
 
 class _Annotated(NamedTuple):
@@ -136,14 +136,14 @@ def _visual(
     bare = without_annotation(visual, MATERIAL)
     material = visual.material
     if material is not None and one.is_unnamed:
-        return bare.model_copy(update={"material": material.model_copy(update={"name": None})})
+        return bare.copy(material=material.copy(name=None))
     if material is None and defined.get(name, (None, None)) == (None, None) and not own:
-        return bare.model_copy(update={"material": Material(name=name)})  # which nobody defines
+        return bare.copy(material=Material(name=name))  # which nobody defines
     if material is not None and own:
-        return bare.model_copy(update={"material": material.model_copy(update={"name": name})})
+        return bare.copy(material=material.copy(name=name))
     if material is not None and _look_of(material) == defined.get(name, (None, None)):
-        named = material.model_copy(update={"name": name, "color": None, "texture": None})
-        return bare.model_copy(update={"material": named})
+        named = material.copy(name=name, color=None, texture=None)
+        return bare.copy(material=named)
     why = "has none" if material is None else "is another one"
     message = f"visual {visual.name!r} had the material {name!r}, and {why} now"
     sink.report(STALE_CARRIER, message, visual.location, found=name)

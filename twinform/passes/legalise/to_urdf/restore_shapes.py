@@ -14,7 +14,7 @@ from twinform.passes.legalise.to_sdf.name_shapes import UNNAMED
 
 Shape = TypeVar("Shape", Visual, Collision)
 
-_NOTHING = Inertial.unchecked(mass=0.0, inertia=Inertia.unchecked().model_copy(update=dict.fromkeys(MOMENTS, 0.0)))
+_NOTHING = Inertial.unchecked(mass=0.0, inertia=Inertia.unchecked().copy(**dict.fromkeys(MOMENTS, 0.0)))
 
 
 class RestoreShapes(ModelPass):
@@ -36,7 +36,7 @@ class RestoreShapes(ModelPass):
         found = find_annotation(model, UNNAMED)
         made = frozenset(line.strip() for line in (found.text or "").splitlines()) if found else frozenset[str]()
         links = tuple(_link(link, made) for link in model.links)
-        return without_annotation(model.model_copy(update={"links": links}), UNNAMED)
+        return without_annotation(model.copy(links=links), UNNAMED)
 
 
 def _link(link: Link, made: frozenset[str]) -> Link:
@@ -53,12 +53,12 @@ def _link(link: Link, made: frozenset[str]) -> Link:
 
 def _unnamed(shape: Shape, made: frozenset[str], usual: str) -> Shape:
     if shape.name in made and shape.name.startswith(usual):  # it is not in another link by now
-        return shape.model_copy(update={"name": None})
+        return shape.copy(name=None)
     found = find_annotation(shape, NAME)
     if found is None:
         return shape
     shape = without_annotation(shape, NAME)
-    return shape.model_copy(update={"name": found.text or ""}) if found.get("instead_of") == shape.name else shape
+    return shape.copy(name=found.text or "") if found.get("instead_of") == shape.name else shape
 
 
 def _as_written(inertial: Inertial) -> Inertial:
@@ -79,7 +79,7 @@ def _as_written(inertial: Inertial) -> Inertial:
         update["inertia"] = None
     if "zero-inertia" in names and has_token_inertia(inertial):
         update["inertia"] = _NOTHING.inertia
-    return inertial.model_copy(update=update)
+    return inertial.copy(**update)
 
 
 def _moments(inertial: Inertial) -> list[float | None]:

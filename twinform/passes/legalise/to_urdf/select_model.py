@@ -61,7 +61,7 @@ class Selector:
 def _alone(document: Document, chosen: "_Chosen", sink: DiagnosticSink) -> Document:
     """The document with this model, at its place in the world, and nothing else."""
     model = chosen.model if chosen.world is None else _place(chosen.model, chosen.world, sink)
-    return document.model_copy(update={"models": (model,), "worlds": (), "lights": (), "includes": (), "opaque": ()})
+    return document.copy(models=(model,), worlds=(), lights=(), includes=(), opaque=())
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +123,7 @@ def _place(model: Model, world: World, sink: DiagnosticSink) -> Model:
         return model
     message = f"the pose of model {model.name!r} is relative to {pose.relative_to!r}, which is not part of the robot"
     sink.account(Fate.DROPPED, rules.OUTSIDE_MODEL, message, pose.location)
-    return model.model_copy(update={"pose": placed.to_pose()})
+    return model.copy(pose=placed.to_pose())
 
 
 def _outside(document: Document, chosen: _Chosen) -> Iterator[_Part]:

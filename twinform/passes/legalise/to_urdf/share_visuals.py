@@ -80,7 +80,7 @@ def _without_look(visual: Visual, look: tuple[str, ...]) -> Visual:
     color = rest.get("diffuse") or rest.get("ambient")
     rest |= {name: color for name in _COLORS if color is not None and name in look}
     material = visual.material and Material.model_validate({**rest, "source": visual.material.source})
-    return visual.model_copy(update={"material": None if not rest else material})
+    return visual.copy(material=None if not rest else material)
 
 
 def _written(material: Material | None) -> Iterator[tuple[str, object]]:
@@ -94,7 +94,7 @@ def _rest(visual: Visual, version: UrdfVersion) -> tuple[Element, ...]:
     """What only SDF has, besides materials."""
     if fits(visual, _fields(version)):
         return ()
-    bare = visual.model_copy(update={"material": None, "pose": None, "geometry": None})
+    bare = visual.copy(material=None, pose=None, geometry=None)
     _, pieces, _ = take_remainder(bare, "visual", urdf_fields(version, "link", "visual"))
     elements = tuple(piece.element for piece in pieces if piece.element and not piece.at)
     if len(elements) != len(pieces) or any(_is_special(element) for element in elements):
@@ -114,6 +114,6 @@ def _is_special(element: Element) -> bool:
 
 
 def _without_rest(visual: Visual, version: UrdfVersion) -> Visual:
-    bare = visual.model_copy(update={"material": None})
+    bare = visual.copy(material=None)
     kept, _, _ = take_remainder(bare, "visual", urdf_fields(version, "link", "visual"))
-    return kept.model_copy(update={"material": visual.material})
+    return kept.copy(material=visual.material)

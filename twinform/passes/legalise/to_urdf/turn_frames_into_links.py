@@ -27,9 +27,7 @@ class TurnFramesIntoLinks(ToUrdfPass):
             return model
         taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
         if not model.links:
-            model = model.model_copy(
-                update={"links": (annotate_synthesized(Link(name=unique_name(model.name, taken))),)}
-            )
+            model = model.copy(links=(annotate_synthesized(Link(name=unique_name(model.name, taken))),))
             taken.add(model.links[0].name)
         graph = FrameGraph(model)
         links, joints = list(model.links), list(model.joints)
@@ -40,13 +38,13 @@ class TurnFramesIntoLinks(ToUrdfPass):
             links.append(_link(frame, body, keeper))
             made = Joint(name=joint, type="fixed", parent=body, child=frame.name, source=frame.source)
             joints.append(annotate_synthesized(made))
-        return model.model_copy(update={"links": tuple(links), "joints": tuple(joints), "frames": ()})
+        return model.copy(links=tuple(links), joints=tuple(joints), frames=())
 
 
 def _link(frame: Frame, body: str, keeper: Keeper) -> Link:
     pose = frame.pose or Pose()
     if not pose.relative_to:
-        pose = pose.model_copy(update={"relative_to": frame.attached_to or MODEL})
+        pose = pose.copy(relative_to=frame.attached_to or MODEL)
     link = Link(name=frame.name, pose=pose, source=frame.source, opaque=frame.opaque)
     if is_synthesized(frame):  # it stands for a nested model, which is accounted for
         return keeper.annotate(

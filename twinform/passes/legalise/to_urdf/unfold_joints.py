@@ -58,7 +58,7 @@ class UnfoldJoints(ToUrdfPass):
                 first[joint.name] = chain[0].name
         every = tuple(one for link in model.links for one in (*links.get(link.name, ()), link))
         joints = [_follow(joint, first) for joint in joints] if first else joints
-        return model.model_copy(update={"links": every, "joints": tuple(joints)})
+        return model.copy(links=every, joints=tuple(joints))
 
 
 def _unfold(joint: Joint, taken: set[str], keeper: Keeper) -> tuple[tuple[Link, ...], list[Joint]]:
@@ -73,7 +73,7 @@ def _unfold(joint: Joint, taken: set[str], keeper: Keeper) -> tuple[tuple[Link, 
         name = _free_name(f"{joint.name}_{word}", taken)
         link = _free_name(f"{name}_link", taken)
         made = Joint(name=name, type=step.type, parent=parent, child=link, axis=step.axis, source=joint.source)
-        joints.append(_part(made.model_copy(update={"opaque": parts_of_first}), joint, keeper))
+        joints.append(_part(made.copy(opaque=parts_of_first), joint, keeper))
         links.append(_between(link, joint, keeper))
         parent, parts_of_first = link, ()
     return tuple(links), [*joints, _last(kept, parent, last, opaque, keeper)]
@@ -99,7 +99,7 @@ def _last(joint: Joint, parent: str | None, step: Step, opaque: tuple[Opaque, ..
     """The joint that keeps the name, the child and the place."""
     update: dict[str, object] = {"type": step.type, "parent": parent, "axis": step.axis, "opaque": opaque}
     said = PITCHES if joint.type == "screw" else ("axis2",)  # the second axis of a screw is one that nobody reads
-    last = joint.model_copy(update={**dict.fromkeys(said), **update})
+    last = joint.copy(**{**dict.fromkeys(said), **update})
     return with_annotation(last, CHAIN, attributes={"type": joint.type}) if keeper.carriers else last
 
 
@@ -132,7 +132,7 @@ def _keep_axis(joint: Joint, keeper: Keeper) -> Joint:
         axis: Axis | None = getattr(joint, field)
         if axis is not None:
             message = f"ball joint {joint.name!r} has an {field}; its damping acts on each of the three joints"
-            bare = to_element(Joint(name="", type=joint.type).model_copy(update={field: axis}), "joint", "sdf")
+            bare = to_element(Joint(name="", type=joint.type).copy(**{field: axis}), "joint", "sdf")
             pieces = [Opaque.unchecked(element=child) for child in bare.children]
             joint = keeper.keep(joint, pieces, rules.UNFOLDED_JOINT, message, axis.location, count_parts(axis))
     return joint
@@ -145,8 +145,8 @@ def _follow(joint: Joint, first: dict[str, str]) -> Joint:
     if axis is None or mimic is None or mimic.joint not in first:
         return joint
     leader = mimic.joint if mimic.axis == "axis2" else first[mimic.joint]
-    mimic = mimic.model_copy(update={"joint": leader, "axis": None})
-    return joint.model_copy(update={"axis": axis.model_copy(update={"mimic": mimic})})
+    mimic = mimic.copy(joint=leader, axis=None)
+    return joint.copy(axis=axis.copy(mimic=mimic))
 
 
 def _lacks_pitch(joint: Joint, keeper: Keeper) -> bool:
@@ -167,7 +167,7 @@ def _as_in_urdf(joint: Joint) -> Joint:
     if found is None or joint.type != "ball":
         return joint
     opaque = tuple(part for part in joint.opaque if not _type_in_urdf(part))
-    return joint.model_copy(update={"type": found, "opaque": opaque})
+    return joint.copy(type=found, opaque=opaque)
 
 
 def _type_in_urdf(part: Opaque) -> str | None:

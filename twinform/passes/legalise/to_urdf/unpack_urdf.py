@@ -54,7 +54,7 @@ def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], sink: DiagnosticSi
                 sink.report(STALE_CARRIER, message, part.location_in(node), found=piece.name)
             else:
                 opaque.append(piece)
-    return node.model_copy(update={"opaque": tuple(opaque)})
+    return node.copy(opaque=tuple(opaque))
 
 
 def _with_overruled(model: Model, sink: DiagnosticSink) -> Model:
@@ -62,7 +62,7 @@ def _with_overruled(model: Model, sink: DiagnosticSink) -> Model:
     carriers = [part for part in model.opaque if is_carrier(part, "urdf") and is_overruled(part)]
     if not carriers:
         return model
-    model = model.model_copy(update={"opaque": tuple(part for part in model.opaque if part not in carriers)})
+    model = model.copy(opaque=tuple(part for part in model.opaque if part not in carriers))
     for part in carriers:
         for piece in unpack(part):
             more = with_overruled(model, piece.element) if piece.element else None
@@ -95,7 +95,7 @@ def _with_world(model: Model) -> Model:
     children = tuple(Opaque.unchecked(element=child) for child in body.element.children) if body.element else ()
     attributes = body.element.attributes if body.element else ()
     children += tuple(Opaque.unchecked(attribute=pair) for pair in attributes if pair[0] != "name")
-    world: Link = model.links[index].model_copy(update={"opaque": (*model.links[index].opaque, *children)})
+    world: Link = model.links[index].copy(opaque=(*model.links[index].opaque, *children))
     links = (*model.links[:index], world, *model.links[index + 1 :])
     kept = tuple(each for each in model.opaque if each is not part)
-    return model.model_copy(update={"links": links, "opaque": kept})
+    return model.copy(links=links, opaque=kept)

@@ -25,7 +25,7 @@ class UpgradeSdf(Pass):
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document in new syntax; it still declares its version, for the reverse conversion."""
         if self.carriers and self.mixed:
-            document = document.model_copy(update={"models": tuple(map(with_mixed_words, document.models))})
+            document = document.copy(models=tuple(map(with_mixed_words, document.models)))
         for step in raise_words(document.version, carriers=self.carriers, mixed=self.carriers and self.mixed):
             document = step.run(document, sink)
         return document

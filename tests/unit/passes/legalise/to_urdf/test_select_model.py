@@ -33,9 +33,9 @@ def selected(text: str, model: str | None = None) -> tuple[Document, DiagnosticS
 @pytest.mark.parametrize("name", ["m", "w::m"])
 def test_every_part_around_the_model_is_accounted_for_where_it_stands(name: str) -> None:
     document, sink, made = selected(WORLD, name)
-    placed = document.worlds[0].models[1].model_copy(update={"pose": Pose(xyz=(1, 2, 0))})
+    placed = document.worlds[0].models[1].copy(pose=Pose(xyz=(1, 2, 0)))
     nothing = {"worlds": (), "lights": (), "opaque": ()}
-    assert made == document.model_copy(update={"models": (placed,), **nothing})
+    assert made == document.copy(**{"models": (placed,), **nothing})
     assert sink.diagnostics == []
     found = [(each.location.line, each.location.path, each.message, each.weight) for each in sink.entries]
     pose = "the pose of model 'm' is relative to 'dock', which"
@@ -110,7 +110,7 @@ def test_a_pose_in_the_world_or_in_no_frame_at_all_stays() -> None:
 def test_a_frame_that_nobody_knows_is_an_error() -> None:
     document = twinform.loads(WORLD)
     world = document.worlds[0]
-    document = document.model_copy(update={"worlds": (world.model_copy(update={"frames": ()}),)})
+    document = document.copy(worlds=(world.copy(frames=()),))
     sink = DiagnosticSink()
     SelectModel(model="m").run(document, sink)
     (one,) = sink.diagnostics
