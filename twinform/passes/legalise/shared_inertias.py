@@ -67,16 +67,21 @@ def is_refused(matrix: Symmetric | None) -> bool:
 
 
 def _of_body(members: Sequence[Link], needy: AbstractSet[str], graph: FrameGraph) -> dict[str, Solid]:
-    """What changes in the links of one body; nothing where the body is not possible as a whole."""
+    """What changes in the links of one body; nothing where the body is no possible one, or not finite."""
     own = {link.name: body_of(link, graph, Format.URDF) for link in members}
-    if not all(math.isfinite(number) for one in own.values() for number in one.inertia):
+    if not _are_finite(own):
         return {}
     places = {name: graph.pose(name, members[0].name) for name in own}
     solids = {name: placed(one, places[name]) for name, one in own.items()}
     found = _with_givers(solids, needy)
     if found:
         return {name: replace(own[name], inertia=turned(each, places[name].inverse())) for name, each in found.items()}
-    return {name: placed(one, places[name].inverse()) for name, one in _together(solids, needy).items()}
+    made = {name: placed(one, places[name].inverse()) for name, one in _together(solids, needy).items()}
+    return made if _are_finite(made) else {}
+
+
+def _are_finite(solids: Mapping[str, Solid]) -> bool:
+    return all(math.isfinite(number) for one in solids.values() for number in (*one.center, *one.inertia))
 
 
 def _with_givers(solids: Mapping[str, Solid], needy: AbstractSet[str]) -> dict[str, Symmetric]:
