@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+import twinform
 from tests.expected import assert_expected
 from twinform.testing import Case, CheckOptions, cases
 
@@ -33,6 +34,13 @@ def test_expanding_includes_finds_what_the_case_announces(case: Case) -> None:
 def test_convert_makes_what_the_case_shows(case: Case) -> None:
     assert case.mismatches() == []
     assert_expected(case.output(), case.output_path)
+
+
+@pytest.mark.parametrize(
+    "case", [each for each in cases(_CASES / "convert") if "refused" not in each.path.stem], ids=_name
+)
+def test_what_convert_makes_is_the_same_robot(case: Case) -> None:
+    assert [each.message for each in twinform.diff(case.path, case.output().encode(), carriers=True).differences] == []
 
 
 @pytest.mark.parametrize("case", cases(_CASES / "versions"), ids=_name)

@@ -1,7 +1,9 @@
 """Names of shapes with which Gazebo applies the `<gazebo>` tags of their links, and contact sensors by these names."""
 
-from typing import ClassVar
+from collections.abc import Iterator
+from typing import ClassVar, NamedTuple
 
+from twinform.diagnostics import Location
 from twinform.diagnostics.rules import GAZEBO_SHAPE_NAME
 from twinform.ir import Model
 from twinform.passes.legalise.names import NAME
@@ -15,7 +17,7 @@ class NameShapesForGazebo(ToUrdfPass):
     Changes: 1. a shape that would miss tags of its link, or get those of another, has another name, and the old one is
     an annotation; 2. contact sensors name collisions as libsdformat calls them.
     Never touches: shapes that are tagged as they should be; a model that came from URDF, whose names are its author's.
-    Diagnostics: in the ledger `gazebo-shape-name`.
+    Diagnostics: in the ledger `gazebo-shape-name`, also for each name in a sensor.
     """
 
     name: ClassVar[str] = "name-shapes-for-gazebo"
@@ -28,4 +30,26 @@ class NameShapesForGazebo(ToUrdfPass):
             kept: AnyShape = keeper.annotate(shape, NAME, text=shape.name, attributes={"instead_of": name})
             return kept.copy(name=name)
 
-        return model if keeper.back else named_for_gazebo(model, rename)
+        if keeper.back:
+            return model
+        named = named_for_gazebo(model, rename)
+        for old, new in zip(_sensed(model), _sensed(named), strict=True):
+            if old != new:
+                message = f"libsdformat calls collision {old.collision!r} {new.collision!r}, and so does the sensor"
+                keeper.account(GAZEBO_SHAPE_NAME, message, old.location, 0)
+        return named
+
+
+class _Sensed(NamedTuple):
+    """The name of a collision in a contact sensor, and where that stands."""
+
+    collision: str
+    location: Location
+
+
+def _sensed(model: Model) -> Iterator[_Sensed]:
+    for extension in model.extensions:
+        for sensor in (each for each in extension.content if each.name == "sensor"):
+            where = extension.location.at(f"sensor[@name='{sensor.get('name')}']/contact/collision")
+            for contact in (each for each in sensor.children if each.name == "contact"):
+                yield from (_Sensed(each.text or "", where) for each in contact.children if each.name == "collision")
