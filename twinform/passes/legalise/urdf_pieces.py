@@ -6,7 +6,7 @@ from functools import cached_property
 
 from twinform.ir import Element, Joint, Link, Mimic, Model, Node, Opaque
 from twinform.ir.verify.joints import useless_leader
-from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
+from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_FIELDS, LINK_TAGS, MODEL_TAGS
 
 _ABOUT_JOINTS = frozenset({"transmission", "ros2_control"})
 OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})
@@ -106,16 +106,22 @@ def _misfit_of_mimic(element: Element, joint: Joint, standing: Standing) -> str:
 
 def _would_act(element: Element, reference: str, standing: Standing) -> bool:
     """Whether an element of `<gazebo>`, which traveled because it set nothing, would set something by now."""
-    if element.name in standing.extensions.get(reference, ()):
+    if not standing.extensions.get(reference, frozenset()).isdisjoint({element.name, LINK_FIELDS.get(element.name)}):
         return False
     if not reference:
         return element.name not in LINK_TAGS | JOINT_TAGS
     if (link := standing.links.get(reference)) is not None:
-        return _would_act_on_shapes(element, link)
+        return _would_act_on_flags(element, link) or _would_act_on_shapes(element, link)
     joint = standing.joints.get(reference)
     moves = joint is not None and joint.type not in {"fixed", "floating"}  # in SDF, others may be no joints at all
     tag = JOINT_TAGS.get(element.name)
     return moves and element.name not in LINK_TAGS | MODEL_TAGS and not (tag and tag.target == "ignored")
+
+
+def _would_act_on_flags(element: Element, link: Link) -> bool:
+    """Whether a flag, which traveled as a second one or as that of a frame, would set one of a body."""
+    is_flag = element.name in {*LINK_FIELDS, *LINK_FIELDS.values()}
+    return is_flag and link.inertial is not None and bool(link.inertial.mass)
 
 
 def _would_act_on_shapes(element: Element, link: Link) -> bool:

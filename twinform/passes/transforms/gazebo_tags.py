@@ -3,10 +3,10 @@
 Everything else in such an element is SDF as it stands. The meanings are those of libsdformat's URDF reader.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Literal, NamedTuple
 
-from twinform.ir import Element
+from twinform.ir import Element, Link
 from twinform.schemas import parse_value
 
 
@@ -66,6 +66,9 @@ LINK_TAGS = {
     "canonicalBody": Tag("ignored", "", str),
 }
 
+LINK_FIELDS = {tag.field: name for name, tag in LINK_TAGS.items() if tag.target == "link"}
+"""The fields of a link that a tag sets, with the tag: URDF has no other place for them."""
+
 JOINT_TAGS = {
     "springReference": Tag("dynamics", "spring_reference", _number),
     "springStiffness": Tag("dynamics", "spring_stiffness", _number),
@@ -84,6 +87,18 @@ MODEL_TAGS = {"static": Tag("model", "static", _truth)}
 
 TRUTHS = frozenset({_truth, _gravity})
 """The readers of values that mean true or false."""
+
+FLAGS = {"gravity": ("turnGravityOff", False), "self_collide": ("selfCollide", True)}
+"""Fields of a link with a tag of their own, and the value that the tag calls true."""
+
+
+def flag_tags(link: Link) -> Iterator[Element]:
+    """Gravity and self-collision of a link, as tags."""
+    for field, (tag, same) in FLAGS.items():
+        value = getattr(link, field)
+        if value is not None:
+            yield Element.unchecked(name=tag, text="true" if value is same else "false")
+
 
 SCRIPT_URI = "file://media/materials/scripts/gazebo.material"
 """Where Gazebo Classic keeps the materials that `<material>` names."""

@@ -32,7 +32,7 @@ from twinform.passes.legalise.to_sdf.gazebo_sorting import (
     lacks_shapes,
     place_of,
 )
-from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
+from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_FIELDS, LINK_TAGS, MODEL_TAGS
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -279,16 +279,17 @@ class _Fold:
     def _again(self, node: Node, field: str, extensions: list[GazeboExtension]) -> None:
         """Report what is repeated, and carry the elements that repeat it."""
         again = [(extension, each) for extension in extensions for each in extension.content if each.name == field]
-        is_own = field_value(node, field) is not None
-        if again and not is_own:  # the first one is used
+        is_set = field_value(node, field) is not None
+        if again and not is_set:  # the first one is used
             again = again[1:]
         if not again:
             # it is deeper inside, beside what was merged
             self._conflict(node, field, "the first one", extensions[0].location)
             return
         message = self._conflict(node, field, "the first one", again[0][1].location, accounted=False)
+        about = () if is_set and field not in LINK_FIELDS else SECOND
         for extension, element in again:
-            self._keep(extension, [element], rules.GAZEBO_CONFLICT, message, () if is_own else SECOND)
+            self._keep(extension, [element], rules.GAZEBO_CONFLICT, message, about)
 
     def _conflict(self, node: Node, field: str, winner: str, where: Location, *, accounted: bool = True) -> str:
         message = f"<gazebo> sets {field!r} of {getattr(node, 'name', None)!r} again; {winner} is used"

@@ -13,11 +13,12 @@ from twinform.passes.carriers.annotations import (
     with_annotation,
     without_annotation,
 )
-from twinform.passes.carriers.carriers import carry, is_ours, to_element
+from twinform.passes.carriers.carriers import carry, is_ours, pack, to_element
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
 from twinform.passes.legalise.to_sdf.reversals import without_reversals
+from twinform.passes.transforms.gazebo_tags import FLAGS, flag_tags
 from twinform.passes.transforms.notation import FRAME, LINK
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
@@ -87,7 +88,7 @@ class FrameLinks(ModelPass):
             pose = None
         annotation = find_annotation(link, FRAME)
         if annotation is not None and is_synthesized(joint):
-            return (_as_before(joint, link, annotation, pose),)
+            return (frame_as_before(joint, link, annotation, pose),)
         mount = Frame(
             name=joint.name, attached_to=joint.parent, pose=pose, opaque=_carriers(joint), source=joint.source
         )
@@ -120,7 +121,7 @@ class FrameLinks(ModelPass):
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
             sink.account(fate, rules.FRAME_LINK, message, joint.location, element.weight)
             kept.append(Opaque.unchecked(element=element))
-        return carry(model, kept, "urdf") if self.carriers else model
+        return self._in_front(model, kept)
 
     def _keep_flags(self, model: Model, links: list[Link], sink: DiagnosticSink) -> Model:
         """What `<gazebo>` sets for a link that becomes a frame, and that has no body to act on."""
@@ -129,14 +130,20 @@ class FrameLinks(ModelPass):
             written = {field: getattr(link, field) for field in _FLAGS}
             if all(value is None for value in written.values()):
                 continue
-            bare = to_element(Link(name="", spelling=link.spelling, **written), "link", "sdf")
-            element = Element.unchecked(name="gazebo", attributes=(("reference", link.name),), children=bare.children)
+            untagged = {field: value for field, value in written.items() if field not in FLAGS}
+            bare = to_element(Link(name="", spelling=link.spelling, **untagged), "link", "sdf")
+            children = (*flag_tags(link), *bare.children)
+            element = Element.unchecked(name="gazebo", attributes=(("reference", link.name),), children=children)
             names = ", ".join(field for field, value in written.items() if value is not None)
             message = f"{names} of {link.name!r} have no body to act on"
             fate = Fate.CARRIED if self.carriers else Fate.DROPPED
-            sink.account(fate, rules.FRAME_LINK, message, link.location, len(bare.children))
+            sink.account(fate, rules.FRAME_LINK, message, link.location, len(children))
             kept.append(Opaque.unchecked(element=element))
-        return carry(model, kept, "urdf") if self.carriers else model
+        return self._in_front(model, kept)
+
+    def _in_front(self, model: Model, kept: list[Opaque]) -> Model:
+        """The model with what it is to carry before what it does, which lost against it."""
+        return model.copy(opaque=(*pack(kept, "urdf"), *model.opaque)) if self.carriers else model
 
     def _rest_of_link(self, frame: Frame, link: Link, sink: DiagnosticSink) -> Frame:
         if link.inertial is None:
@@ -186,7 +193,7 @@ def _moves_with(graph: FrameGraph, holder: str, parent: str) -> bool:
         return False
 
 
-def _as_before(joint: Joint, link: Link, annotation: Element, pose: Pose | None) -> Frame:
+def frame_as_before(joint: Joint, link: Link, annotation: Element, pose: Pose | None) -> Frame:
     """The one frame of SDF that a link and its joint were made of; it is still where they are."""
     holder = annotation.get("attached_to")
     if holder is not None:

@@ -10,12 +10,10 @@ from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.carriers import SECOND, to_element
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
-from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
+from twinform.passes.transforms.gazebo_tags import FLAGS, JOINT_TAGS, LINK_TAGS, MODEL_TAGS, flag_tags
 from twinform.schemas import format_value, table
 
 _LINK_FIELDS = ("enable_wind", "kinematic", "sensors", "lights")
-_TRUTHS = {"gravity": ("turnGravityOff", False), "self_collide": ("selfCollide", True)}
-"""Fields of a link with a tag of their own, and the value that the tag calls true."""
 _MODEL_FIELDS = ("static", "self_collide", "allow_auto_disable", "enable_wind", "pose")
 _SPRING_TAGS = {"spring_reference": "springReference", "spring_stiffness": "springStiffness"}
 _PHYSICS_TAGS = {
@@ -99,8 +97,8 @@ def _rest(parts: tuple[Opaque, ...], definition: str) -> tuple[Opaque, ...]:
 
 def _link_content(link: Link) -> tuple[list[Element], Link]:
     written = {field: getattr(link, field) for field in _LINK_FIELDS}
-    content = list(_truths(link))
-    link = link.copy(**dict.fromkeys(_TRUTHS)) if content else link
+    content = list(flag_tags(link))
+    link = link.copy(**dict.fromkeys(FLAGS)) if content else link
     if any(value not in (None, ()) for value in written.values()):
         content += to_element(Link(name=link.name, spelling=link.spelling, **written), "link", "sdf").children
     content += _verbatim(link.opaque, "link")
@@ -108,14 +106,6 @@ def _link_content(link: Link) -> tuple[list[Element], Link]:
         return content, link
     empty = {field: () if isinstance(value, tuple) else None for field, value in written.items()}
     return content, link.copy(**{**empty, "opaque": _rest(link.opaque, "link")})
-
-
-def _truths(link: Link) -> Iterator[Element]:
-    """Gravity and self-collision of a link, as tags."""
-    for field, (tag, same) in _TRUTHS.items():
-        value = getattr(link, field)
-        if value is not None:
-            yield Element.unchecked(name=tag, text="true" if value is same else "false")
 
 
 def _joint_content(joint: Joint, links: set[str], with_mass: set[str], keeper: Keeper) -> tuple[list[Element], Joint]:

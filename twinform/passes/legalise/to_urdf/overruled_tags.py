@@ -1,6 +1,6 @@
 """Restoring `<gazebo>` tags that a later tag of the same field overrides."""
 
-from twinform.ir import Element, GazeboExtension, Model
+from twinform.ir import Element, GazeboExtension, Model, Opaque
 from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS, Tag
 
 _TAGS = MODEL_TAGS | JOINT_TAGS | LINK_TAGS
@@ -12,11 +12,25 @@ def with_overruled(model: Model, extension: Element) -> Model | None:
     """The model with the content of a `<gazebo>` back; None where nothing overrules it any more."""
     reference = extension.get("reference")
     for element in extension.children:
-        found = _with_tag(model.extensions, reference, element)
-        if found is None:
+        if (found := _with_tag(model.extensions, reference, element)) is not None:
+            model = model.copy(extensions=found)
+        elif (parts := _before_carried(model.opaque, extension, element)) is not None:
+            model = model.copy(opaque=parts)
+        else:
             return None
-        model = model.copy(extensions=found)
     return model
+
+
+def _before_carried(parts: tuple[Opaque, ...], extension: Element, element: Element) -> tuple[Opaque, ...] | None:
+    """The parts of a model, with a tag before the `<gazebo>` that overrules it and that traveled itself."""
+    tag, place = _TAGS.get(element.name), (extension.name, extension.attributes)
+    for index, part in enumerate(parts):
+        if tag is None or part.element is None or (part.element.name, part.element.attributes) != place:
+            continue
+        if any(_overrules(other, tag) for other in part.element.children):
+            alone = Opaque.unchecked(element=extension.copy(children=(element,)))
+            return (*parts[:index], alone, *parts[index:])
+    return None
 
 
 def _with_tag(

@@ -33,8 +33,8 @@ class UnpackUrdf(ModelPass):
             return model
         change = partial(_unpack, Standing(model), sink)
         model = map_children(model, lambda child: rewrite(child, Node, change, having=bits_of_ours("urdf")))
-        model = _with_overruled(model, sink)
-        return _unpacked(_with_world(model), partial(misfit, node=model, standing=Standing(model)), sink)
+        model = _unpacked(_with_world(model), partial(misfit, node=model, standing=Standing(model)), sink)
+        return _with_overruled(model, sink)
 
 
 def _unpack(standing: Standing, sink: DiagnosticSink, node: Node) -> Node:
@@ -43,11 +43,11 @@ def _unpack(standing: Standing, sink: DiagnosticSink, node: Node) -> Node:
 
 def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], sink: DiagnosticSink) -> AnyNode:
     """The node with its opaque parts, those of URDF out of their carriers; `misfit`: why one cannot come out."""
-    if not any(is_carrier(part, "urdf") for part in node.opaque):
+    if not any(map(_is_plain, node.opaque)):
         return node
     opaque: list[Opaque] = []
     for part in node.opaque:
-        for piece in unpack(part) if is_carrier(part, "urdf") else (part,):
+        for piece in unpack(part) if _is_plain(part) else (part,):
             why = misfit(piece) if piece is not part and not is_dangling(part) else ""
             if why:
                 message = f"{piece.name} of {_called(node)} is not restored: {why}"
@@ -55,6 +55,10 @@ def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], sink: DiagnosticSi
             else:
                 opaque.append(piece)
     return node.copy(opaque=tuple(opaque))
+
+
+def _is_plain(part: Opaque) -> bool:
+    return is_carrier(part, "urdf") and not is_overruled(part)
 
 
 def _with_overruled(model: Model, sink: DiagnosticSink) -> Model:
