@@ -1,12 +1,15 @@
 """Frames in `<gazebo>` by which libsdformat finds the links that floating joints leave free."""
 
+from collections.abc import Container, Iterator
 from typing import ClassVar
 
-from twinform.ir import GazeboExtension, Model
-from twinform.passes.carriers.annotations import is_synthesized
+from twinform.ir import Frame, GazeboExtension, Model
+from twinform.passes.carriers.annotations import find_annotation, is_synthesized
 from twinform.passes.carriers.carriers import to_element
+from twinform.passes.legalise.to_sdf.frame_links import frame_as_before
 from twinform.passes.legalise.to_sdf.free_links import placing_frames
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.transforms.notation import FRAME
 
 
 class PlaceFreeLinks(ToUrdfPass):
@@ -14,18 +17,36 @@ class PlaceFreeLinks(ToUrdfPass):
 
     libsdformat writes no such joint, and still poses the link relative to it, so that it refuses the file. A frame by
     the name of the joint, in a `<gazebo>` element, is what it looks for.
-    Changes: each floating joint that a conversion synthesized gets such a frame, with the pose of the link.
-    Never touches: floating joints of the source.
+    Changes: 1. each floating joint that a conversion synthesized gets such a frame, with the pose of the link; 2. what
+    was a frame by the name of a floating joint is none of the links but such a frame again: a `<gazebo>` for the joint
+    would set something in the link.
+    Never touches: floating joints of the source; a link from which another one hangs.
     Diagnostics: none.
     """
 
     name: ClassVar[str] = "place-free-links"
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
-        """The model with a frame for each synthesized floating joint."""
-        free = [joint for joint in model.joints if joint.type == "floating" and is_synthesized(joint)]
-        if not free:
+        """The model with a frame for each synthesized floating joint, and those that others wrote."""
+        floating = [joint for joint in model.joints if joint.type == "floating"]
+        if not floating:
             return model
-        frames = placing_frames(model, free).values()
+        written = {frame.name: frame for frame in _frames_of(model, {joint.name for joint in floating})}
+        frames = (*placing_frames(model, filter(is_synthesized, floating)).values(), *written.values())
         extensions = (GazeboExtension(content=(to_element(frame, "frame", "sdf"),)) for frame in frames)
-        return model.copy(extensions=(*model.extensions, *extensions))
+        return model.copy(
+            links=tuple(link for link in model.links if link.name not in written),
+            joints=tuple(joint for joint in model.joints if joint.child not in written),
+            extensions=(*model.extensions, *extensions),
+        )
+
+
+def _frames_of(model: Model, names: Container[str]) -> Iterator[Frame]:
+    """The frames with these names that became links, and from which nothing hangs."""
+    links = {link.name: link for link in model.links if link.name in names}
+    parents = {joint.parent for joint in model.joints}
+    for joint in filter(is_synthesized, model.joints):
+        link = links.get(joint.child or "")
+        annotation = find_annotation(link, FRAME) if link else None
+        if link and annotation and link.name not in parents:
+            yield frame_as_before(joint, link, annotation, joint.pose)
