@@ -94,7 +94,7 @@ def measure(sample: Sample) -> Findings:
 
 def judge(file: CorpusFile) -> tuple[Outcome, ...]:
     """Convert every robot of a file and compare each with its source; no exception comes out of it."""
-    checked = twinform.check(file.path)
+    checked = twinform.check(file.path, paths=file.paths)
     if checked.document is None or not checked.accepted:
         return ()
     is_urdf = file.kind is Kind.URDF
@@ -113,7 +113,7 @@ def _judged(file: CorpusFile, direction: Direction, robot: str | None) -> Outcom
     bare = direction in {Direction.BARE_TO_SDF, Direction.BARE_TO_URDF}
     target: Literal["sdf", "urdf"] = "sdf" if direction in {Direction.TO_SDF, Direction.BARE_TO_SDF} else "urdf"
     try:
-        conversion = twinform.convert(file.path, to=target, model=robot, carriers=not bare)
+        conversion = twinform.convert(file.path, to=target, model=robot, carriers=not bare, paths=file.paths)
     except twinform.CompileError as error:
         return Outcome(name, direction, Verdict.REFUSED, ", ".join(rules_of(error.diagnostics)))
     try:
@@ -132,7 +132,7 @@ def _accounted(
     """Whether the ledger has every difference, and the audit nothing that is not accounted for."""
     assert conversion.source is not None
     start = time.perf_counter()
-    found = twinform.diff(file.path, conversion.text.encode(), model=robot, carriers=True)
+    found = twinform.diff(file.path, conversion.text.encode(), model=robot, carriers=True, paths=file.paths)
     seconds = time.perf_counter() - start
     listed = [without_names(entry.location.path) for entry in conversion.ledger.entries]
     names = [name for entry in conversion.ledger.entries for name in _NAME.findall(entry.location.path)]
@@ -172,7 +172,7 @@ def _compared(
     file: CorpusFile, name: str, direction: Direction, text: str, robot: str | None, tolerance: float = 1e-9
 ) -> Outcome:
     start = time.perf_counter()
-    found = twinform.diff(file.path, text.encode(), model=robot, tolerance=tolerance, carriers=True)
+    found = twinform.diff(file.path, text.encode(), model=robot, tolerance=tolerance, carriers=True, paths=file.paths)
     seconds = time.perf_counter() - start
     kinds = tuple(dict.fromkeys(f"{each.group}: {_aspect(each.aspect)}" for each in found.differences))
     if found.same:

@@ -54,8 +54,10 @@ class CorpusFile:
     @property
     def paths(self) -> tuple[Path, ...]:
         """The folders in which its includes are searched for: nothing in the corpus says where a project ends."""
+        repository = CORPUS / self.repository
         return (
-            CORPUS / self.repository,
+            repository,
+            *(around / "models" for around in self.path.parents if around.is_relative_to(repository)),
             *(CORPUS / there for here, there in _SEARCHED.items() if self.name.startswith(here)),
         )
 

@@ -1,6 +1,7 @@
 """Every conversion of a real file is the same robot, unless it is known why not."""
 
 from pathlib import Path
+from typing import Literal
 
 import pytest
 
@@ -24,15 +25,16 @@ def test_a_file_and_its_conversion_are_the_same_robot(corpus: Path, chunk: str):
 
 
 def _first_difference(file: CorpusFile) -> str:
-    checked = twinform.check(file.path)
+    checked = twinform.check(file.path, paths=file.paths)
     if checked.document is None or not checked.accepted:
         return ""
     for robot in robots(checked.document):
         try:
-            text = twinform.convert(file.path, to="sdf" if file.kind is Kind.URDF else "urdf", model=robot).text
+            to: Literal["sdf", "urdf"] = "sdf" if file.kind is Kind.URDF else "urdf"
+            text = twinform.convert(file.path, to=to, model=robot, paths=file.paths).text
         except twinform.CompileError:
             continue
-        found = twinform.diff(file.path, text.encode(), model=robot, carriers=True)
+        found = twinform.diff(file.path, text.encode(), model=robot, carriers=True, paths=file.paths)
         if not found.same:
             return found.differences[0].message
     return ""
