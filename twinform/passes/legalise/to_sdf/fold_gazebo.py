@@ -128,8 +128,10 @@ class _Fold:
         if joint.name in self.links:  # the link of that name has taken everything but the tags for joints
             extensions = [_only(extension, JOINT_TAGS) for extension in extensions]
         if joint.type == "floating":  # it is no joint in SDF
+            name = f"{joint.child}_floating_joint" if is_synthesized(joint) else joint.name  # as URDF gets it anew
             for extension in extensions:
-                self._misplaced(extension, list(extension.content), f"the floating joint {joint.name!r}")
+                moved = extension.copy(reference=name)
+                self._misplaced(moved, list(extension.content), f"the floating joint {joint.name!r}")
             return joint
         elsewhere = {**MODEL_TAGS, **LINK_TAGS}
         sorter = self._sort(extensions, JOINT_TAGS, elsewhere, unfit=is_part_of_axis if joint.type == "fixed" else None)
