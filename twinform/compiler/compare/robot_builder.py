@@ -58,6 +58,24 @@ def _without_made_root(model: Model) -> Model:
     return model.copy(links=(), frames=tuple(frames), canonical_link=None)
 
 
+class _Poses:
+    """Places poses in the model. `named_frame` is whether one of them was in a frame of another name.
+
+    Then more than its node says where it is. A reading holds this and not the other way around: no circle is left.
+    """
+
+    def __init__(self, graph: FrameGraph) -> None:
+        self.graph = graph
+        self.named_frame = False
+
+    def resolve(self, pose: Pose, holder: Transform) -> Transform:
+        """Where a pose is in the model, which is in the frame that `holder` places unless it names another."""
+        if pose.relative_to:
+            self.named_frame = True
+            holder = self.graph.place(pose.relative_to, kind="joint")
+        return holder.compose(Transform.from_pose(pose))
+
+
 class _Reading:
     """The robot of one model, as one reader sees it."""
 
@@ -66,9 +84,8 @@ class _Reading:
         self.builder = builder
         self.format = builder.format
         self.graph = FrameGraph(model)
-        self.reader = PartReader(self._resolve, builder.format)
-        self.looked_around = False
-        """Whether a pose named another frame, so that more than its node says where it is."""
+        self.poses = _Poses(self.graph)
+        self.reader = PartReader(self.poses.resolve, builder.format)
 
     def robot(self, source: Model, shells: Iterable[tuple[Frame, Model]]) -> Robot:
         """All of it."""
@@ -104,9 +121,9 @@ class _Reading:
         found = known.get(name)
         if found is not None and found[0] == given:
             return found[1]
-        self.looked_around = False
+        self.poses.named_frame = False
         view = make()
-        if not self.looked_around:
+        if not self.poses.named_frame:
             known[name] = given, view
         return view
 
@@ -117,7 +134,7 @@ class _Reading:
 
     def _mass(self, inertial: Inertial | None, frame: Transform) -> Mass:
         inertial = inertial or Inertial()
-        pose = self._resolve(inertial.pose or Pose(), frame)
+        pose = self.poses.resolve(inertial.pose or Pose(), frame)
         solid = placed(written_solid(inertial, Format.SDF), pose)
         return Mass(solid, bool(inertial.auto), inertial.source)
 
@@ -162,13 +179,6 @@ class _Reading:
                 if element.name == "model":
                     part = self.reader.element(element_xml(element), "model", frame.source, Transform())
                     yield Part("model", frame.name, part.leaves, part.where, carried=True)
-
-    def _resolve(self, pose: Pose, holder: Transform) -> Transform:
-        """Where a pose is in the model, which is in the frame that `holder` places unless it names another."""
-        if pose.relative_to:
-            self.looked_around = True
-            holder = self.graph.place(pose.relative_to, kind="joint")
-        return holder.compose(Transform.from_pose(pose))
 
 
 def _carried(node: Node) -> Iterator[Element]:
