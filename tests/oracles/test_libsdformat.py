@@ -126,3 +126,11 @@ def test_what_is_carried_is_passed_over_in_silence(name: str, tmp_path: Path):
     path.write_text(made)
     assert "<tf:from " in made
     assert libsdformat.judge([path])[path].console == ""
+
+
+def test_numbers_too_small_for_sdf_are_taken_in_urdf_and_in_the_sdf_made_of_it(tmp_path: Path):
+    urdf, sdf, refused = CASES / "tiny_numbers.urdf", tmp_path / "made.sdf", tmp_path / "as_written.sdf"
+    sdf.write_text(twinform.convert(urdf, to="sdf", sdf_version=SDF_VERSION).text, encoding="utf-8")
+    refused.write_text(sdf.read_text().replace("1.1754943508222875e-38", "1e-38"), encoding="utf-8")
+    verdicts = libsdformat.judge([urdf, sdf, refused])
+    assert [verdicts[path].ok for path in (urdf, sdf, refused)] == [True, True, False]

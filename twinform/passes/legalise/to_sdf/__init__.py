@@ -24,6 +24,7 @@ from twinform.passes.legalise.to_sdf.restore_joints import RestoreJoints
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.legalise.to_sdf.restore_shape_names import RestoreShapeNames
 from twinform.passes.legalise.to_sdf.retarget import RetargetSdf
+from twinform.passes.legalise.to_sdf.round_tiny_numbers import RoundTinyNumbers
 from twinform.passes.legalise.to_sdf.share_inertias import ShareInertias
 from twinform.passes.legalise.to_sdf.shared_materials import SharedMaterials
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
@@ -78,6 +79,7 @@ def to_sdf(
         RestoreNested.unchecked(scopes=scopes and parse_version(version) >= _NAMES_MEAN_MODELS),
         DropStale.unchecked(to=Format.SDF),
         DeclareQuaternions.unchecked(),
+        RoundTinyNumbers.unchecked(),  # when no more is computed
         *(lower_meaning(version) if mixed else lower_version(None, version, carriers=carriers)),
         *([RestoreNames.unchecked(to=Format.SDF, apart=True)] if before_named_frames else []),
         *([HideScopedElements.unchecked(carriers=carriers)] if parse_version(version) >= _NAMES_MEAN_MODELS else []),

@@ -1,0 +1,59 @@
+"""Numbers that are too small for libsdformat, which are rounded to the smallest that it reads."""
+
+import math
+import sys
+from functools import cache
+from typing import Any, ClassVar, get_args
+
+from twinform.diagnostics import DiagnosticSink, Fate, rules
+from twinform.ir import Color, Model, Node, rewrite
+from twinform.ir.record import fields_of
+from twinform.passes.framework.base import ModelPass
+
+_DOUBLE = sys.float_info.min
+_FLOAT = 2.0**-126
+"""The smallest float that is not subnormal: std::stof, by which libsdformat reads colors, refuses those below."""
+
+
+class RoundTinyNumbers(ModelPass):
+    """Round numbers that are too small for libsdformat, which reads them in URDF and refuses SDF with them.
+
+    Changes: 1. a subnormal number becomes the smallest one of its sign that is not subnormal; 2. so does a part of a
+    color, of those that a float can hold.
+    Never touches: zero, and numbers in what has no field.
+    Diagnostics: ledger entries under `tiny-number`.
+    """
+
+    name: ClassVar[str] = "round-tiny-numbers"
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model with numbers that libsdformat reads."""
+        return rewrite(model, Node, lambda node: _rounded(node, sink))
+
+
+def _rounded(node: Node, sink: DiagnosticSink) -> Node:
+    update: dict[str, object] = {}
+    for name, least in _numbers(type(node)):
+        value = getattr(node, name)
+        if value.__class__ is float:
+            if 0 < abs(value) < least:
+                update[name] = math.copysign(least, value)
+        elif value and any(0 < abs(each) < least for each in value):
+            update[name] = tuple(math.copysign(least, each) if 0 < abs(each) < least else each for each in value)
+    for name in update:
+        message = f"Gazebo reads no number of SDF as small as one of {name!r}: the smallest that it reads is written"
+        sink.account(Fate.APPROXIMATED, rules.TINY_NUMBER, message, node.location)
+    return node.copy(**update) if update else node
+
+
+@cache
+def _numbers(kind: type[Node]) -> tuple[tuple[str, float], ...]:
+    """The fields of a class that hold numbers, each with the smallest that libsdformat reads there."""
+    types: dict[str, Any] = {name: field.type for name, field in fields_of(kind).items()}
+    return tuple(
+        (name, _FLOAT if Color in get_args(type) else _DOUBLE) for name, type in types.items() if _holds_numbers(type)
+    )
+
+
+def _holds_numbers(type: Any) -> bool:
+    return type is float or any(map(_holds_numbers, get_args(type)))
