@@ -6,8 +6,9 @@ from functools import cache
 from typing import Any, ClassVar, get_args
 
 from twinform.diagnostics import DiagnosticSink, Fate, rules
-from twinform.ir import Color, Model, Node, rewrite
+from twinform.ir import Color, Format, Model, Node, rewrite
 from twinform.ir.record import fields_of
+from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
 
 _DOUBLE = sys.float_info.min
@@ -20,7 +21,7 @@ class RoundTinyNumbers(ModelPass):
 
     Changes: 1. a subnormal number becomes the smallest one of its sign that is not subnormal; 2. so does a part of a
     color, of those that a float can hold.
-    Never touches: zero, and numbers in what has no field.
+    Never touches: zero, numbers in what has no field, and a model that came from SDF.
     Diagnostics: ledger entries under `tiny-number`.
     """
 
@@ -28,6 +29,8 @@ class RoundTinyNumbers(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with numbers that libsdformat reads."""
+        if came_from(model, Format.SDF):  # it refuses the SDF that they were in as well, and there they go back to
+            return model
         return rewrite(model, Node, lambda node: _rounded(node, sink))
 
 
