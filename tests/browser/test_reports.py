@@ -22,8 +22,10 @@ if TYPE_CHECKING:
 _ENOUGH = 300
 _CASES = Path(__file__).parents[1] / "cases/check"
 _AXE = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]}
-_FOCUSED = """() => { const e = document.activeElement, s = getComputedStyle(e);
+_FOCUSED = """async () => { await new Promise(done => setTimeout(done, 50));
+  const e = document.activeElement, s = getComputedStyle(e);
   return [e.tagName, e.textContent.slice(0, 40), s.outlineStyle] }"""
+"""The focus a moment after a key: into a frame, which is a process of its own, it does not go at once."""
 
 
 def _open(watched: Watched, folder: Path, *inputs: Path | bytes, view: View | None = stand_in) -> "Page":
