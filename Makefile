@@ -24,7 +24,7 @@ DEMO := out/demo
 # tests start the command a thousand times: it must not be compiled each time
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help sync fmt generate lint site pictures wheel test demo report bench latency vsix size before prove coverage fuzz clean
+.PHONY: help sync fmt generate lint site pictures wheel test verify demo report bench latency vsix size before prove coverage fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -114,8 +114,11 @@ fuzz: $(SYNCED) # atheris: SECONDS for each target of tests/fuzz/table.py, or fo
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group fuzz
 	$(BIN)/python -m fuzz.run $(SECONDS) $(NAME)
 
-test: $(SYNCED) ## all tests
-	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal
+test: $(SYNCED) ## the quick tests, for while you work
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m "not slow"
+
+verify: $(ORACLES) ## all other tests: engines, browsers, hostile files, the corpus
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m slow
 
 demo: $(SYNCED) ## the rover to SDF and back: what is found, what became of its parts, whether it is the same robot
 	mkdir -p $(DEMO)

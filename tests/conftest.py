@@ -13,6 +13,14 @@ pytest.register_assert_rewrite("tests.expected")  # so that it shows what differ
 
 _SELDOM = (20_000, 20, 100)
 
+_TESTS = Path(__file__).parent
+_SLOW_ROOMS = frozenset(
+    {"batch", "browser", "corpus", "differential", "engines", "hostile", "oracles", "patterns", "portability", "ros2"}
+)
+"""Folders whose tests are all slow: they start processes, browsers and engines, or read the whole corpus."""
+_QUICK = "not slow"
+"""The expression of marks that `make test` asks for."""
+
 
 @pytest.fixture(scope="session", autouse=True)
 def mesh_cache(tmp_path_factory: pytest.TempPathFactory) -> Generator[None]:
@@ -32,12 +40,23 @@ def corpus() -> Path:
     return CORPUS
 
 
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Whether a folder is passed over because `make test` wants nothing in it: importing it would take a while."""
+    return True if config.option.markexpr == _QUICK and _is_slow_room(collection_path) else None
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Leave what takes long to `make prove`."""
-    if not DEEP:
-        for item in items:
-            if item.get_closest_marker("deep"):
-                item.add_marker(pytest.mark.skip(reason="only with TWINFORM_PROFILE=deep"))
+    """Mark the tests of slow rooms, and skip those that only `make prove` runs."""
+    for item in items:
+        if any(_is_slow_room(folder) for folder in item.path.parents):
+            item.add_marker(pytest.mark.slow)
+        if not DEEP and item.get_closest_marker("deep"):
+            item.add_marker(pytest.mark.skip(reason="only with TWINFORM_PROFILE=deep"))
+
+
+def _is_slow_room(folder: Path) -> bool:
+    """Whether all tests of this folder are slow."""
+    return folder.parent == _TESTS and folder.name in _SLOW_ROOMS
 
 
 @pytest.hookimpl(wrapper=True)

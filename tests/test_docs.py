@@ -21,6 +21,8 @@ from lxml import etree
 
 from twinform.cli import main
 
+pytestmark = pytest.mark.slow
+
 _ROOT = Path(__file__).parents[1]
 _PAGES = [
     *(_ROOT / name for name in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md")),

@@ -17,6 +17,8 @@ from tests.edits import Edit
 from tests.edits.judging import Outcome, judge, judge_edits, unedited
 from tests.edits.plainly import Plainly
 
+pytestmark = pytest.mark.slow
+
 CASES = Path(__file__).parent / "cases" / "edits"
 _WISH = re.compile(r"<!-- (edit|refused|pass): (.*?) -->")
 

@@ -7,6 +7,8 @@ import pytest
 import twinform
 from twinform.passes import parse_pipeline, registered_passes
 
+pytestmark = pytest.mark.slow
+
 _EXAMPLES = Path(__file__).parents[1] / "examples"
 _MODELS = ("four_wheels.urdf", "rover.urdf", "arm.urdf", "sensor_base.urdf", "warehouse.sdf", "crate/model.sdf")
 

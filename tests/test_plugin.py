@@ -11,6 +11,8 @@ import pytest
 
 from tests.unit.passes.framework.conftest import write_distribution
 
+pytestmark = pytest.mark.slow
+
 _ROOT = Path(__file__).parents[1]
 _ROBOT = '<robot name="r"><link name="Base Link"/></robot>'
 

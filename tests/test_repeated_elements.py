@@ -12,6 +12,8 @@ from tests.profile import DEEP
 from tests.value_mutants import described, text_of, tree_of
 from twinform.schemas import XmlElement
 
+pytestmark = pytest.mark.slow
+
 _CASES = Path(__file__).parent / "cases"
 _FILES = sorted(path for path in _CASES.rglob("*") if path.suffix in {".urdf", ".sdf"})
 _EVERY = 1 if DEEP else 25

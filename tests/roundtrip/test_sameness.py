@@ -13,6 +13,8 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.testing import strategies
 
+pytestmark = pytest.mark.slow
+
 _SETTINGS = examples(0.5)
 _FEW = examples(0.05)
 

@@ -65,6 +65,7 @@ def test_messages_are_no_commands_to_github(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("asked", ["--help", "./nowhere; touch RAN", "$(touch RAN)", "x==1;touch RAN"])
+@pytest.mark.slow
 def test_what_is_installed_is_one_word_for_pip(asked: str, tmp_path: Path) -> None:
     done = _runner(tmp_path, _SCRIPTS["Install twinform"], ASKED=asked, EXTRAS="", OWN=".")
     assert done.returncode

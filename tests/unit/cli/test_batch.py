@@ -19,6 +19,8 @@ from twinform.passes import Pass, registered_passes
 
 from .conftest import BROKEN, GOOD, WARNED, WRONG, Run
 
+pytestmark = pytest.mark.slow
+
 
 class Chaos(Pass):
     """Does what the name of the model stands for."""

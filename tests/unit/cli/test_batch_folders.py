@@ -16,6 +16,7 @@ def crate(tmp_path: Path) -> Path:
     return write(tmp_path / "models/crate", FILES)
 
 
+@pytest.mark.slow
 def test_a_batch_is_done_again_where_a_mesh_has_changed(
     run: Run, crate: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -33,6 +34,7 @@ def test_a_batch_is_done_again_where_a_mesh_has_changed(
     assert not Path("out/crate/materials/textures/crate.png").exists()
 
 
+@pytest.mark.slow
 def test_without_the_option_models_come_alone(
     run: Run, crate: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

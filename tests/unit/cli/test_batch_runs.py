@@ -17,6 +17,8 @@ from twinform.compiler.workers import processes
 
 from .conftest import GOOD, WRONG, Run
 
+pytestmark = pytest.mark.slow
+
 CONVERT = ("batch", "convert", "src", "out", "--to", "sdf", "--jobs", "1")
 INCLUDING = """\
 <sdf version="1.11"><world name="w">

@@ -73,6 +73,7 @@ _XACRO = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">
 <link name="$(arg side)_$(arg flag)"/></robot>"""
 
 
+@pytest.mark.slow
 def test_arguments_and_passes_of_files(run: Run, here: Path) -> None:
     Path("r.urdf.xacro").write_text(_XACRO)
     Path("twinform.toml").write_text(
@@ -207,6 +208,7 @@ def watching(tmp_path: Path) -> Generator[Watching]:
         started.process.stdout.close()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="there Ctrl-C is no signal to one process")
 def test_what_changes_is_checked_again_until_ctrl_c(watching: Watching, tmp_path: Path) -> None:
     watching.wait_for("2 files: 0 errors, 0 warnings, 0 notes\nwatching 2 files; Ctrl-C ends\n")

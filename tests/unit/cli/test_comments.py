@@ -32,6 +32,7 @@ def test_json_has_none(run: Run, robot: Path) -> None:
     assert "license" not in run("convert", robot, "--to", "json").stdout
 
 
+@pytest.mark.slow
 def test_batch_writes_the_same_bytes(run: Run, robot: Path) -> None:
     assert run("batch", "convert", "robots", "made", "--to", "sdf").exit_code == 0
     assert run("convert", robot, "-o", "alone.sdf").exit_code == 0

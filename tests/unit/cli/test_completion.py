@@ -12,6 +12,8 @@ from twinform.diagnostics import catalog
 from twinform.passes import registered_passes
 from twinform.schemas import versions_of
 
+pytestmark = pytest.mark.slow
+
 _BASH = """
 source <(_TWINFORM_COMPLETE=bash_source twinform)
 compopt() { COMPREPLY+=("<files>"); }

@@ -147,6 +147,7 @@ def test_a_project_names_its_consumers(run: Run, robot: Path, monkeypatch: pytes
     assert "did you mean 'mujoco'?" in wrong.stderr
 
 
+@pytest.mark.slow
 def test_a_batch_is_for_consumers_too(run: Run, robot: Path, tmp_path: Path) -> None:
     source, out = tmp_path / "src", tmp_path / "out"
     source.mkdir()

@@ -17,6 +17,8 @@ from twinform.cli.lazy_group import LazyGroup
 
 from .conftest import GOOD, Run
 
+pytestmark = pytest.mark.slow
+
 _XACRO = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:arg name="prefix" default=""/><link name="$(arg prefix)base"/>
 </robot>

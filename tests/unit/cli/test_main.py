@@ -74,6 +74,7 @@ _UNUSED = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", _UNUSED)
 def test_a_command_imports_what_it_needs(command: str, folder: Path) -> None:
     program = (
@@ -85,6 +86,7 @@ def test_a_command_imports_what_it_needs(command: str, folder: Path) -> None:
     assert done.stderr.splitlines()[-1] == ""
 
 
+@pytest.mark.slow
 def test_importing_what_a_command_needs_asks_no_package_and_validates_nothing() -> None:
     program = (
         "import sys; import twinform.cli.check, twinform.cli.convert, twinform.passes.legalise.to_sdf;"

@@ -69,6 +69,7 @@ def test_without_a_folder_for_the_result_there_is_none_for_them(run: Run, robot:
     assert "-o" in done.stderr
 
 
+@pytest.mark.slow
 def test_a_batch_gives_each_model_a_folder(run: Run, robot: Path, tmp_path: Path) -> None:
     (robot.parent / "s.urdf").write_text(ROBOT)
     done = run("batch", "convert", robot.parent, tmp_path / "out", "--to", "urdf", "--passes", PASSES, "--jobs", "1")

@@ -13,6 +13,8 @@ from tests.unit.compiler.packaging.robots import ARM, FILES, INERTIAL, PNG, STL,
 from twinform.testing.oracles.libsdformat.files import named_files
 from twinform.testing.oracles.libsdformat.library import MISSING, available, models_of
 
+pytestmark = pytest.mark.slow
+
 SAID = (
     "--description", "An arm.", "--maintainer", "A. Body", "--email", "a@body.org", "--license", "MIT", "--no-thumbnail"
 )  # fmt: skip

@@ -8,6 +8,8 @@ import pytest
 
 import twinform
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parents[3] / "examples"
 ROVER = EXAMPLES / "rover.urdf"
 

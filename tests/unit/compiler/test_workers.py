@@ -12,6 +12,8 @@ import pytest
 from twinform.compiler.workers import Failure, Runner, UnavailableError, process_runner, run, run_on
 from twinform.compiler.workers.processes import ProcessExecutor
 
+pytestmark = pytest.mark.slow
+
 
 def _nothing(_: int) -> None:
     return None

@@ -104,6 +104,7 @@ def test_a_model_without_links_is_an_empty_tree():
     assert (tree.roots, tree.closing, dict(tree.links)) == ((), (), {})
 
 
+@pytest.mark.slow
 @given(robots() | sdf_models())
 def test_every_link_is_below_exactly_one_root(document: Document):
     tree = KinematicTree(document.models[0])

@@ -33,6 +33,8 @@ from twinform.ir import (
 )
 from twinform.testing import strategies
 
+pytestmark = pytest.mark.slow
+
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 KINDS: tuple[type[Node], ...] = (

@@ -13,6 +13,8 @@ from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Mesh, Plane, Po
 from twinform.ir.solids import Solid, combined, placed, solid, with_mass
 from twinform.ir.transform import Transform
 
+pytestmark = pytest.mark.slow
+
 Points = Any
 Inside = Callable[[Points, Points, Points], Points]
 

@@ -11,6 +11,8 @@ from twinform.profiles import parse
 from twinform.testing.oracles import libsdformat
 from twinform.testing.oracles.libsdformat.library import RobotRow, describe
 
+pytestmark = pytest.mark.slow
+
 _INERTIAL = "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>"
 _NAMES = (
     None,

@@ -86,6 +86,7 @@ def _cell(source: str) -> NotebookNode:
     return NotebookNode(cell_type="code", metadata={}, outputs=[], execution_count=None, source=source)
 
 
+@pytest.mark.slow
 def test_a_notebook_shows_documents_and_conversions() -> None:
     cells = (
         "import twinform\nfrom twinform.report import show",

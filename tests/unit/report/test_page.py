@@ -20,6 +20,8 @@ from twinform.view import NotDrawn, StandaloneView, ViewerMissingError
 
 from .models import EVIL, EXAMPLES, PAGE, WRONG, hostile, no_page, stand_in
 
+pytestmark = pytest.mark.slow
+
 
 class _Page(HTMLParser):
     """Tags with their attributes, and the text outside of scripts and styles."""

@@ -15,6 +15,7 @@ def _known(format: FormatName) -> set[str]:
     return {*sections(format), *(row.path for row in rows(format))}
 
 
+@pytest.mark.slow
 def test_the_page_is_what_the_generator_writes() -> None:
     assert REPORT.page.read_text(encoding="utf-8") == REPORT.text(measure(Sample()))
 

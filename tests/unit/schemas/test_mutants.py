@@ -22,6 +22,8 @@ from twinform.schemas import (
     xmlschema_errors,
 )
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parents[3] / "examples"
 EACH = 15
 

@@ -13,6 +13,8 @@ from twinform.schemas.packaged import XsdVersion
 from twinform.schemas.xsd import generate_schema
 from twinform.schemas.xsd_values import XS
 
+pytestmark = pytest.mark.slow
+
 VERSIONS = [(name, parse_version(version)) for name in generate.FORMATS for version in table(name).versions]
 
 

@@ -10,6 +10,8 @@ from lxml import etree
 from twinform.schemas import Version, XmlElement, schema_text, table, xmlschema_errors
 from twinform.schemas.xsd import generate_schema
 
+pytestmark = pytest.mark.slow
+
 
 class Case(NamedTuple):
     """A document of a version."""

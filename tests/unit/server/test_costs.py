@@ -15,6 +15,8 @@ from twinform.server.session import Session
 from twinform.server.settings import no_settings
 from twinform.server.symbols import outline, search
 
+pytestmark = pytest.mark.slow
+
 _SIZE = 400 if DEEP else 70
 _MOST_GROWTH = 2.4
 """Twice as much, and something for what is sorted."""

@@ -13,6 +13,8 @@ from lsprotocol import types
 
 from tests.unit.server.client import Editor, editor
 
+pytestmark = pytest.mark.slow
+
 ROBOT = """<robot name="r">
   <link name="base"/>
   <joint name="j" type="fixd">

@@ -25,6 +25,8 @@ from twinform.server.session import Session
 from twinform.server.settings import no_settings
 from twinform.server.symbols import outline
 
+pytestmark = pytest.mark.slow
+
 SESSION = Path(__file__).with_name("session")
 FILES = ("arm.urdf", "cart.sdf", "rover.urdf.xacro", "wheel.xacro")
 

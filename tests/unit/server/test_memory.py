@@ -12,6 +12,8 @@ from tests.profile import DEEP
 from twinform.server.checking import Job, check
 from twinform.server.settings import Settings
 
+pytestmark = pytest.mark.slow
+
 TEXT = robots.urdf(30)
 EDITS: dict[str, Callable[[int], str]] = {
     "a name": lambda n: TEXT.replace('name="', f'name="e{n}_', 5),

@@ -44,6 +44,7 @@ def renamed(session: Session, document: Document, at: str, new: str) -> dict[str
     return texts
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_every_name_can_be_changed_and_the_model_is_that_of_the_pass(name: str) -> None:
     path = ROOT / "examples" / name

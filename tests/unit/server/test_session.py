@@ -126,6 +126,7 @@ async def session(folder: Path) -> list[dict[str, Any]]:
         return [{"request": each, "answer": await answer(one, each, folder)} for each in REQUESTS]
 
 
+@pytest.mark.slow
 def test_every_request_of_a_session_has_its_answer(tmp_path: Path) -> None:
     shutil.copytree(SESSION, tmp_path, dirs_exist_ok=True, ignore=shutil.ignore_patterns("*.toml", "*.json"))
     found = json.loads(json.dumps(asyncio.run(session(tmp_path))))

@@ -7,6 +7,8 @@ import pytest
 import twinform
 from twinform.testing import oracles
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parents[3] / "examples"
 # hangs free in space, swings, and is damped
 ROBOT = """<robot name="kite">

@@ -12,6 +12,8 @@ from tests.profile import DEEP
 from twinform.testing import oracles
 from twinform.testing.oracles.child import ChildDiedError, call
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parents[3] / "examples"
 BOTH = ("drake", "libsdformat")
 """Those that read SDF too."""

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 _GOOD = '<robot name="r"><link name="a"/></robot>'
 _BAD = '<robot name="r"><link name="a"/>\n<link name="a"/></robot>'
 _TEST = 'def test_it(load_model):\n    assert load_model("urdf/good.urdf").models[0].name == "r"\n'

@@ -17,6 +17,8 @@ from twinform.ir import Document, Format, Inertial, Joint, Link, Model, Node, Po
 from twinform.schemas import libxml2_errors, parse_version, table
 from twinform.testing import assert_valid, profiles, strategies
 
+pytestmark = pytest.mark.slow
+
 _FEW = settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 _ONE = settings(_FEW, phases=(Phase.generate,))
 _FIND = settings(max_examples=2000, deadline=None, database=None, phases=(Phase.generate, Phase.shrink))

@@ -48,6 +48,7 @@ def _run(asked: Batch, executor: Executor | None = None) -> list[Record]:
         return sorted((result.record for result in results), key=lambda record: record.source)
 
 
+@pytest.mark.slow
 def test_threads_make_the_same_results_as_processes(tmp_path: Path) -> None:
     asked = _batch(tmp_path)
     with ThreadPoolExecutor(2) as executor:

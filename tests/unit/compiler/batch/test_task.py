@@ -16,6 +16,8 @@ from twinform.diagnostics import DiagnosticSink, Policy
 from twinform.ir import Document
 from twinform.passes import Pass, Pipeline
 
+pytestmark = pytest.mark.slow
+
 GOOD = '<robot name="r"><link name="a"/></robot>'
 WARNED = '<robot name="r">\n<link name="a"><color/></link></robot>'
 WRONG = '<robot name="r">\n<link name="a"/><link name="a"/></robot>'

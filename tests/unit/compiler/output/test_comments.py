@@ -6,6 +6,8 @@ import pytest
 
 import twinform
 
+pytestmark = pytest.mark.slow
+
 BODY = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 
 URDF = f"""<?xml version="1.0"?>

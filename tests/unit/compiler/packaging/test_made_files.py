@@ -43,6 +43,7 @@ def _files(source: Path, step: MakeMeshes) -> dict[str, bytes | Path]:
     return dict(build(order, ("gazebo-model",)).package.files)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("uri", ["meshes/hull.obj", "package://arm_description/meshes/hull.obj"])
 def test_made_files_keep_their_paths(tmp_path: Path, uri: str) -> None:
     files = _files(arm(tmp_path), MakeMeshes(uri=uri))

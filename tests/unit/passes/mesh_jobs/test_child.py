@@ -11,7 +11,10 @@ from twinform.passes.mesh_jobs.child import done
 from twinform.passes.mesh_jobs.child_process import MeshProcess
 from twinform.passes.mesh_jobs.job import BadMessageError, Job, Result, packed, unpacked
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="it forks on Linux alone")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not sys.platform.startswith("linux"), reason="it forks on Linux alone"),
+]
 _SCRIPT = """
 import os, socket, sys, threading
 from twinform.passes.mesh_jobs import child

@@ -18,6 +18,8 @@ from twinform.passes.mesh_jobs.job import BadMessageError, Job, Options, Result
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError, content_of
 from twinform.passes.meshes.results_cache import VARIABLE, ResultsCache
 
+pytestmark = pytest.mark.slow
+
 trimesh: Any = importlib.import_module("trimesh")
 BOX: bytes = trimesh.creation.box((1, 2, 3)).export(file_type="stl")
 OPTIONS: Options = {

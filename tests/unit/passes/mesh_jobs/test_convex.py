@@ -13,6 +13,8 @@ from twinform.passes.mesh_jobs.geometry.convex import hull, reduced
 from twinform.passes.mesh_jobs.geometry.jobs import simplify
 from twinform.passes.mesh_jobs.job import Job, Options
 
+pytestmark = pytest.mark.slow
+
 np: Any = importlib.import_module("numpy")
 trimesh: Any = importlib.import_module("trimesh")
 _OPTIONS: Options = {

@@ -4,9 +4,13 @@ import importlib
 from itertools import pairwise
 from typing import Any, cast
 
+import pytest
+
 from twinform.passes.mesh_jobs.geometry.decimation import decimated
 from twinform.passes.mesh_jobs.geometry.jobs import decimate
 from twinform.passes.mesh_jobs.job import Job, Options
+
+pytestmark = pytest.mark.slow
 
 np: Any = importlib.import_module("numpy")
 trimesh: Any = importlib.import_module("trimesh")

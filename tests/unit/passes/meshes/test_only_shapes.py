@@ -64,6 +64,7 @@ def _bones(document: Document) -> Document:
     return rewrite(document, Link, lambda link: link.copy(visuals=(), collisions=()))
 
 
+@pytest.mark.slow
 @examples(0.3)
 @given(st.one_of(strategies.robots(), strategies.sdf_models()))
 def test_only_shapes_change(folder: Folder, drawn: Document) -> None:

@@ -1,3 +1,4 @@
+import pytest
 import yaml
 from hypothesis import given
 from hypothesis import strategies as st
@@ -12,6 +13,7 @@ SCALARS = TEXTS | st.booleans() | st.none() | st.integers() | st.floats(allow_na
 VALUES = st.recursive(SCALARS, lambda inner: st.lists(inner) | st.dictionaries(KEYS, inner), max_leaves=12)
 
 
+@pytest.mark.slow
 @given(st.dictionaries(KEYS, VALUES, min_size=1))
 def test_what_is_written_is_read_back(value: dict[str, object]) -> None:
     read = yaml.safe_load(yaml_text(value))  # pyright: ignore[reportArgumentType] - Hypothesis has no recursive types

@@ -11,6 +11,8 @@ import twinform
 from twinform.compiler import LoadOptions, read
 from twinform.diagnostics import Diagnostic
 
+pytestmark = pytest.mark.slow
+
 NAMESPACE = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 ROBOT = f"""\
 <robot {NAMESPACE} name="r">

@@ -14,6 +14,8 @@ from twinform.compiler.packaging.gazebo_model.thumbnail import thumbnail
 from twinform.compiler.packaging.layout import Layout
 from twinform.diagnostics import DiagnosticSink
 
+pytestmark = pytest.mark.slow
+
 _VISUAL = """<visual name="{name}"><pose>{pose} 0 0 0</pose><geometry>{shape}</geometry><material>
 <diffuse>{color} 1</diffuse></material></visual>"""
 _BALL = "<sphere><radius>1</radius></sphere>"

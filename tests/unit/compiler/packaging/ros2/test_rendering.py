@@ -12,6 +12,7 @@ from twinform.compiler.packaging.ros2.rendering import cmake_text, python_text, 
 HOSTILE = ("a b", 'a"b', "a;b", "${a}", "$ENV{HOME}", "@a@", "a\\b", ")", "#", "a\nb", "[[a]]")
 
 
+@pytest.mark.slow
 @given(st.text())
 def test_python_text_is_the_text(text: str) -> None:
     assert ast.literal_eval(python_text(text)) == text
