@@ -10,6 +10,7 @@ from twinform.ir.link import Link
 from twinform.ir.lookup import look_up
 from twinform.ir.model import Model
 from twinform.ir.motion import spanning_tree
+from twinform.ir.scopes import SCOPE, scoped_models
 from twinform.ir.world import World
 
 AnyPart = TypeVar("AnyPart")
@@ -149,11 +150,11 @@ class KinematicTree:
             self.link(link)
 
 
-def _scopes(holder: Model | World, prefix: str = "") -> Iterator[tuple[str, Model | World]]:
+def _scopes(holder: Model | World) -> Iterator[tuple[str, Model | World]]:
     """A model or world and all models in it, with what stands before the names in them."""
-    yield prefix, holder
+    yield "", holder
     for model in holder.models:
-        yield from _scopes(model, f"{prefix}{model.name}::")
+        yield from scoped_models(model, model.name + SCOPE)
 
 
 def _between(holder: Model | World, prefix: str, frames: FrameGraph) -> Iterator[JointBetween]:

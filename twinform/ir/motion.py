@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Protocol, TypeVar
 
+from twinform.ir.groups import Groups
 from twinform.ir.joint import Axis, Joint
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
@@ -53,20 +54,12 @@ def axes_of(joint: Joint) -> tuple[Axis, ...]:
 def spanning_tree(joints: Iterable[AnyJoint]) -> Mapping[str, AnyJoint]:
     """The joints that make a tree, by the links that hang from them: of several, a fixed one, or the first by name."""
     above: dict[str, AnyJoint] = {}
-    tops: dict[str, str] = {}
+    groups = Groups()
     for joint in sorted(joints, key=lambda joint: (joint.type != "fixed", joint.name)):
-        if joint.child not in above and _top(tops, joint.parent) != joint.child:
+        if joint.child not in above and groups.find(joint.parent) != joint.child:
             above[joint.child] = joint
-            tops[joint.child] = joint.parent
+            groups.join(joint.parent, joint.child)
     return above
-
-
-def _top(tops: dict[str, str], link: str) -> str:
-    """The link that all others hang from, of those that this one hangs with."""
-    while (above := tops.get(link, link)) != link:
-        tops[link] = tops.get(above, above)  # half the way for the next one who asks
-        link = above
-    return link
 
 
 def slide(axis: Vector3, distance: float) -> Transform:

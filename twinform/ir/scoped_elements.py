@@ -10,9 +10,9 @@ from twinform.ir.census import PLAIN, census_of
 from twinform.ir.element import Element, Opaque
 from twinform.ir.node import Node
 from twinform.ir.plugin import Plugin
+from twinform.ir.scopes import SCOPE
 from twinform.ir.tree import children_of
 
-_SCOPE = "::"
 _PLUGIN = "plugin"
 
 
@@ -20,7 +20,7 @@ def scoped_elements(element: Element) -> Iterator[Element]:
     """The element and those in it that libsdformat refuses for their names."""
     if element.name == _PLUGIN or ":" in element.name:
         return
-    if _SCOPE in (element.get("name") or ""):
+    if SCOPE in (element.get("name") or ""):
         yield element
     for child in element.children:
         yield from scoped_elements(child)

@@ -4,8 +4,9 @@ from collections.abc import Iterable, Iterator
 
 from twinform.diagnostics import Entry, Fate, Location, PhysicsChange, ValueChange
 from twinform.diagnostics.rules import CHANGED_PHYSICS
-from twinform.ir import Document, Joint, Link, Model
+from twinform.ir import Document, Joint, Link
 from twinform.ir.changes import changes
+from twinform.ir.scopes import scoped_models
 
 Part = Link | Joint
 _NO_PHYSICS = frozenset({"name", "visuals", "sensors", "lights", "opaque", "plugins"})
@@ -30,20 +31,12 @@ def physics_changes(before: Document, after: Document, step: str) -> Iterator[En
 
 def _parts(document: Document) -> Iterator[tuple[_Key, Part]]:
     """Every link and joint, by its kind and its name with those of the models around it."""
-    for model in document.models:
-        yield from _inside(model, "")
-    for world in document.worlds:
-        for model in world.models:
-            yield from _inside(model, f"{world.name}::{model.name}::")
-
-
-def _inside(model: Model, scope: str) -> Iterator[tuple[_Key, Part]]:
-    for link in model.links:
-        yield ("link", scope + link.name), link
-    for joint in model.joints:
-        yield ("joint", scope + joint.name), joint
-    for nested in model.models:
-        yield from _inside(nested, f"{scope}{nested.name}::")
+    models = [("", model) for model in document.models]
+    models += [(f"{world.name}::{model.name}::", model) for world in document.worlds for model in world.models]
+    for outside, outer in models:
+        for scope, model in scoped_models(outer, outside):
+            yield from ((("link", scope + link.name), link) for link in model.links)
+            yield from ((("joint", scope + joint.name), joint) for joint in model.joints)
 
 
 def _values(old: Part | None, new: Part | None) -> Iterator[ValueChange]:

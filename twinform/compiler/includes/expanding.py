@@ -12,6 +12,7 @@ from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.search.uris import UriError
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Include
+from twinform.ir.scopes import outer_models
 from twinform.ir.transform import Transform
 from twinform.ir.verify import verify
 from twinform.passes import Pipeline
@@ -220,7 +221,7 @@ class _Reader:
 
 def _nesting(document: Document) -> int:
     """How deep models are nested, one that holds none counting as one."""
-    depth, level = 0, [*document.models, *(model for world in document.worlds for model in world.models)]
+    depth, level = 0, [*outer_models(document)]
     while level:
         depth, level = depth + 1, [inner for model in level for inner in model.models]
     return depth

@@ -12,11 +12,11 @@ from typing import NamedTuple
 from twinform.diagnostics import Location
 from twinform.ir import Capsule, Model
 from twinform.ir.frames import WORLD
+from twinform.ir.scopes import SCOPE
 from twinform.passes.transforms.lumped_links import lumped_links
 
 NO_MASS = 1e-6
 """What weighs no more, in kg, has no mass for libsdformat before 13."""
-_SCOPE = "::"
 _SHARED = frozenset({"fixed", "revolute", "continuous", "prismatic"})
 """Joints that are one joint in both formats."""
 
@@ -38,7 +38,7 @@ def changes(original: Model, made: Model, named: AbstractSet[str] = frozenset())
     for include in original.includes:
         yield Change(f"it includes {include.uri!r}, which cannot be put in its place", include.location)
     for part in (*original.links, *original.joints):
-        if _SCOPE in part.name:
+        if SCOPE in part.name:
             yield Change(f"URDF cannot have the name {part.name!r}", part.location)
     yield from _of_shapes(made)
     yield from _of_names(made)

@@ -25,6 +25,7 @@ from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile, r
 from twinform.diagnostics.rules import UNSAYABLE_SHAPE
 from twinform.ir import Document, Format, Include, Model, Pose, World
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
+from twinform.ir.scopes import outer_models
 from twinform.ir.transform import Transform
 from twinform.ir.verify import verify
 from twinform.passes import PassInstrumentation
@@ -170,8 +171,8 @@ class _Files:
         self._choose(document, document.models, {})
         includes = (*document.includes, *(self._include(document, each, each.pose) for each in document.models))
         rest = document.copy(worlds=tuple(worlds), models=(), includes=includes)
-        models = (*document.models, *(each for world in document.worlds for each in world.models))
-        self.texts[self.name] = self._sdf(rest, self.name, self._comments_around(models))
+        around = self._comments_around(tuple(outer_models(document)))
+        self.texts[self.name] = self._sdf(rest, self.name, around)
 
     def _bases(self, models: tuple[Model, ...]) -> Iterator[tuple[str, str]]:
         """The frame of each model in URDF that is where it was: its own, or else that of its root."""

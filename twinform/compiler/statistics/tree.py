@@ -5,6 +5,8 @@ from typing import NamedTuple
 
 from twinform.ir import Joint, Model
 from twinform.ir.frames import FrameError, FrameGraph
+from twinform.ir.groups import Groups
+from twinform.ir.scopes import nested_models, scoped_models
 
 FREEDOMS = {
     "fixed": 0, "revolute": 1, "continuous": 1, "prismatic": 1, "screw": 1, "universal": 2, "revolute2": 2,
@@ -22,14 +24,7 @@ class Shape(NamedTuple):
 
 def joints_of(model: Model) -> Iterator[Joint]:
     """The joints of a model and of those nested in it."""
-    for each in _with_scopes(model, ""):
-        yield from each[1].joints
-
-
-def _with_scopes(model: Model, scope: str) -> Iterator[tuple[str, Model]]:
-    yield scope, model
-    for inner in model.models:
-        yield from _with_scopes(inner, f"{scope}{inner.name}::")
+    return (joint for each in nested_models(model) for joint in each.joints)
 
 
 def freedom(joint: Joint) -> int:
@@ -41,20 +36,19 @@ def freedom(joint: Joint) -> int:
 def shape(model: Model) -> Shape:
     """How deep the tree of a model is, and how many joints close loops in it."""
     parents: dict[str, str] = {}
-    groups, loops = dict[str, str](), 0
+    groups, loops = Groups(), 0
     for parent, child in _ends(model):
-        if _top(groups, parent) == _top(groups, child):
+        if groups.join(parent, child):
+            parents.setdefault(child, parent)
+        else:
             loops += 1
-            continue
-        groups[_top(groups, child)] = _top(groups, parent)
-        parents.setdefault(child, parent)
     return Shape(_depth(parents), loops)
 
 
 def _ends(model: Model) -> Iterator[tuple[str, str]]:
     """The links that each joint connects; a gearbox connects none."""
     graph = FrameGraph(model)
-    for scope, inner in _with_scopes(model, ""):
+    for scope, inner in scoped_models(model):
         for joint in inner.joints:
             if joint.parent and joint.child and joint.type != "gearbox":
                 yield _link(joint.parent, scope, graph), _link(joint.child, scope, graph)
@@ -68,14 +62,6 @@ def _link(name: str, scope: str, graph: FrameGraph) -> str:
         return graph.body(scope + name)
     except FrameError:
         return scope + name
-
-
-def _top(groups: dict[str, str], name: str) -> str:
-    """The name that stands for all links that joints connect with this one."""
-    while (above := groups.get(name, name)) != name:
-        groups[name] = groups.get(above, above)  # half the way for the next one who asks
-        name = above
-    return name
 
 
 def _depth(parents: dict[str, str]) -> int:

@@ -9,6 +9,7 @@ from twinform.ir.joint import Joint
 from twinform.ir.link import Link
 from twinform.ir.model import Include, Model
 from twinform.ir.pose import Pose
+from twinform.ir.scopes import SCOPE, outer_models, scoped_models
 from twinform.ir.verify.inertia import verify_inertial
 from twinform.ir.verify.joints import verify_joint, verify_mimics
 from twinform.ir.verify.names import Kinds, report_names, report_reserved, report_scope, report_scoped_elements
@@ -34,7 +35,7 @@ def verify_sdf(document: Document, sink: DiagnosticSink) -> None:
     verifier.file(document)
     for world in document.worlds:
         verifier.world(world)
-    for model in (*document.models, *(model for world in document.worlds for model in world.models)):
+    for model in outer_models(document):
         verifier.model_with_frames(model)
 
 
@@ -177,14 +178,9 @@ class _Verifier:
         if graph is not None and not problems:
             self._ends(holder, graph)
             for model in holder.models if isinstance(holder, Model) else ():
-                self._ends_inside(model, graph, "")
-
-    def _ends_inside(self, model: Model, graph: FrameGraph, scope: str) -> None:
-        """Nested models too; libsdformat does not look there, so it is no error until a format cannot express it."""
-        scope = f"{scope}{model.name}::"
-        self._ends(model, graph, scope, None if self.sink.strict else Severity.WARNING)
-        for nested in model.models:
-            self._ends_inside(nested, graph, scope)
+                for scope, nested in scoped_models(model, model.name + SCOPE):
+                    # libsdformat does not look there, so it is no error until a format cannot express it
+                    self._ends(nested, graph, scope, None if self.sink.strict else Severity.WARNING)
 
     def _ends(
         self, holder: Model | World, graph: FrameGraph, scope: str = "", severity: Severity | None = None

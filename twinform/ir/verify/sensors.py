@@ -6,6 +6,7 @@ from twinform.diagnostics import DiagnosticSink, did_you_mean, rules
 from twinform.ir.element import Opaque
 from twinform.ir.link import Link
 from twinform.ir.model import Model
+from twinform.ir.scopes import nested_includes, scoped_links
 from twinform.ir.sensor import SENSOR_ELEMENTS, Sensor
 
 _PARAMETERS = frozenset[str]().union(*SENSOR_ELEMENTS.values())
@@ -47,8 +48,8 @@ def _verify_contact(sensor: Sensor, model: Model, sink: DiagnosticSink) -> None:
     known: set[str] | None = None
     for part, step, name in _texts(sensor.opaque, "contact", "collision"):
         if known is None:
-            known = {one.name or "" for each in _all_models(model) for link in each.links for one in link.collisions}
-        if name.rpartition("::")[2] not in known and name != _DEFAULT and not _has_includes(model):
+            known = {one.name or "" for _, link in scoped_links(model) for one in link.collisions}
+        if name.rpartition("::")[2] not in known and name != _DEFAULT and not any(nested_includes(model)):
             message = f"contact sensor {sensor.name!r} names the collision {name!r}, which does not exist"
             hint = did_you_mean(name.rpartition("::")[2], known)
             sink.report(rules.UNKNOWN_COLLISION, message, part.location.at(step), found=name, help=hint)
@@ -71,13 +72,3 @@ def _texts(parts: tuple[Opaque, ...], outer: str, inner: str) -> Iterator[tuple[
             found = [child.text or "" for child in part.element.children if child.name == inner]
             for place, text in enumerate(found, 1):
                 yield part, f"{inner}[{place}]" if len(found) > 1 else inner, text
-
-
-def _all_models(model: Model) -> Iterator[Model]:
-    yield model
-    for nested in model.models:
-        yield from _all_models(nested)
-
-
-def _has_includes(model: Model) -> bool:
-    return any(each.includes for each in _all_models(model))

@@ -3,18 +3,19 @@
 from collections.abc import Iterable
 
 from twinform.diagnostics import DiagnosticSink, Severity, rules
+from twinform.ir.groups import Groups
 from twinform.ir.joint import Joint
 
 
 def report_loops(joints: Iterable[Joint], sink: DiagnosticSink, severity: Severity | None = None) -> dict[str, Joint]:
     """Report second parents and circles; give the first joint of each child."""
     parents: dict[str, Joint] = {}
-    groups: dict[str, str] = {}
+    groups = Groups()
     for joint in joints:
         if joint.child is None:
             continue
         first = parents.setdefault(joint.child, joint)
-        closes = joint.type != "gearbox" and not _connect(groups, joint.parent or "", joint.child)
+        closes = joint.type != "gearbox" and not groups.join(joint.parent or "", joint.child)
         if first is not joint:
             message = f"link {joint.child!r} is the child of joint {first.name!r} and of joint {joint.name!r}"
             message += ", which closes a loop" if closes else ""
@@ -24,19 +25,6 @@ def report_loops(joints: Iterable[Joint], sink: DiagnosticSink, severity: Severi
         message = f"joint {joint.name!r} closes a loop of joints through link {joint.child!r}"
         sink.report(rules.KINEMATIC_LOOP, message, joint.location, severity=severity)
     return parents
-
-
-def _connect(groups: dict[str, str], one: str, other: str) -> bool:
-    """Note that two links are connected; whether they were not."""
-    one, other = _group(groups, one), _group(groups, other)
-    groups[one] = other
-    return one != other
-
-
-def _group(groups: dict[str, str], link: str) -> str:
-    while (above := groups.setdefault(link, link)) != link:
-        groups[link] = link = groups[above]
-    return link
 
 
 def _circles(parents: dict[str, Joint]) -> list[Joint]:

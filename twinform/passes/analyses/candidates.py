@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from twinform.ir import Document, Include, Model, World
+from twinform.ir.scopes import nested_includes
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,9 +61,4 @@ def wanted_includes(document: Document | None, name: str | None) -> Callable[[In
 
 
 def _includes_of(model: Model | Include) -> Iterator[Include]:
-    if isinstance(model, Include):
-        yield model
-        return
-    yield from model.includes
-    for nested in model.models:
-        yield from _includes_of(nested)
+    return iter((model,)) if isinstance(model, Include) else nested_includes(model)

@@ -4,6 +4,8 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from twinform.ir import Document, Joint, Link, Model
+from twinform.ir.groups import Groups
+from twinform.ir.scopes import outer_models
 
 _GROUND = "world"
 """What both formats call the thing that never moves: SDF as the end of a joint, URDF as a root link."""
@@ -23,7 +25,7 @@ class Neighbors(NamedTuple):
 
 def movable_models(document: Document) -> Iterator[Model]:
     """Every model that is not static, nor in a static one; nested ones after those around them."""
-    models = [*document.models, *(model for world in document.worlds for model in world.models)]
+    models = [*outer_models(document)]
     for model in models:  # grows while it is walked
         if not model.static:
             yield model
@@ -48,9 +50,9 @@ def neighbors(document: Document) -> Iterator[Neighbors]:
             yield Neighbors(joint, () if parent == ground else bodies[parent], bodies[child])
 
 
-def _grouped(document: Document) -> "tuple[dict[str, list[Link]], str, _Groups]":
+def _grouped(document: Document) -> tuple[dict[str, list[Link]], str, Groups]:
     """The links of each group by the name that stands for it, and that of the group which cannot move."""
-    groups, links = _Groups(), dict[str, Link]()
+    groups, links = Groups(), dict[str, Link]()
     for model in document.models:
         _collect(model, "", groups, links, static=False)
     for world in document.worlds:
@@ -67,14 +69,14 @@ def _joints(document: Document) -> Iterator[tuple[Joint, str]]:
     """Every joint, and the scope of the names in it."""
     for world in document.worlds:
         yield from ((joint, "") for joint in world.joints)
-    models = [(model, "") for model in (*document.models, *(each for one in document.worlds for each in one.models))]
+    models = [(model, "") for model in outer_models(document)]
     for model, scope in models:  # grows while it is walked, so that nothing recurses
         inside = f"{scope}{model.name}::"
         yield from ((joint, inside) for joint in model.joints)
         models.extend((nested, inside) for nested in model.models)
 
 
-def _collect(model: Model, scope: str, groups: "_Groups", links: dict[str, Link], *, static: bool) -> None:
+def _collect(model: Model, scope: str, groups: Groups, links: dict[str, Link], *, static: bool) -> None:
     """Enter a model's links by their scoped names, and join what cannot move apart."""
     outside, inside = f"{scope}{model.name}", f"{scope}{model.name}::"
     static = static or bool(model.static)
@@ -94,7 +96,7 @@ def _collect(model: Model, scope: str, groups: "_Groups", links: dict[str, Link]
     _join_fixed(model.joints, inside, groups)
 
 
-def _join_fixed(joints: Iterable[Joint], scope: str, groups: "_Groups") -> None:
+def _join_fixed(joints: Iterable[Joint], scope: str, groups: Groups) -> None:
     for joint in joints:
         if joint.type == "fixed" and joint.parent and joint.child:
             groups.join(_key(scope, joint.parent), _key(scope, joint.child))
@@ -102,21 +104,3 @@ def _join_fixed(joints: Iterable[Joint], scope: str, groups: "_Groups") -> None:
 
 def _key(scope: str, name: str) -> str:
     return _GROUND if name == _GROUND else f"{scope}{name}"
-
-
-class _Groups:
-    """Disjoint sets of names."""
-
-    def __init__(self) -> None:
-        self._up: dict[str, str] = {}
-
-    def find(self, name: str) -> str:
-        """The name that stands for the set; paths are halved on the way, so that long chains stay cheap."""
-        up = self._up
-        while (above := up.setdefault(name, name)) != name:
-            up[name] = up[above]
-            name = above
-        return name
-
-    def join(self, one: str, other: str) -> None:
-        self._up[self.find(other)] = self.find(one)

@@ -2,12 +2,12 @@
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
-from itertools import chain
 from typing import TypeVar
 
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Include, Model, World, replace_fields
 from twinform.ir.namespaces import joined
+from twinform.ir.scopes import nested_includes, outer_models
 from twinform.ir.transform import Transform
 from twinform.passes.includes.merge import merge_into_model, merge_into_world
 from twinform.passes.includes.place import account_replaced, placed_actor, placed_light, placed_model, report_leftovers
@@ -40,13 +40,7 @@ Resolver = Callable[[Include], Included | None]
 
 def has_includes(document: Document) -> bool:
     """Whether there is any include in a document."""
-    return bool(document.includes) or any(
-        world.includes or any(map(_model_has_includes, world.models)) for world in document.worlds
-    ) or any(map(_model_has_includes, document.models))  # fmt: skip
-
-
-def _model_has_includes(model: Model) -> bool:
-    return bool(model.includes) or any(map(_model_has_includes, model.models))
+    return any(_includes(document))
 
 
 def expand_includes(document: Document, resolve: Resolver, sink: DiagnosticSink, *, carriers: bool = True) -> Document:
@@ -66,7 +60,7 @@ def expand_includes(document: Document, resolve: Resolver, sink: DiagnosticSink,
 
 def _needs(document: Document) -> Iterator[str]:
     """The versions that have what includes in models become: models in models, and frames for merged ones."""
-    inner = [include for model in _models(document) for include in _includes_in(model)]
+    inner = [include for model in outer_models(document) for include in nested_includes(model)]
     if inner:
         yield _NESTED_MODELS
     if any(include.merge for include in inner):
@@ -77,18 +71,8 @@ def _includes(document: Document) -> Iterator[Include]:
     yield from document.includes
     for world in document.worlds:
         yield from world.includes
-    for model in _models(document):
-        yield from _includes_in(model)
-
-
-def _models(document: Document) -> Iterator[Model]:
-    return chain(document.models, *(world.models for world in document.worlds))
-
-
-def _includes_in(model: Model) -> Iterator[Include]:
-    yield from model.includes
-    for nested in model.models:
-        yield from _includes_in(nested)
+    for model in outer_models(document):
+        yield from nested_includes(model)
 
 
 @dataclass(slots=True)

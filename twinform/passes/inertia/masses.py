@@ -7,6 +7,7 @@ from twinform.ir import Document, Inertial, Link, Model
 from twinform.ir.defaults import MOMENT
 from twinform.ir.frames import FrameGraph
 from twinform.ir.principal_moments import Symmetric
+from twinform.ir.scopes import outer_models, scoped_links
 from twinform.ir.solids import NOTHING, ORIGIN, Solid, placed, with_mass, with_tensor
 from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.analyses.shapes import inertial_of
@@ -76,11 +77,8 @@ class Masses:
 
 
 def _addresses(document: Document) -> Iterator[tuple[int, _LinkAddress]]:
-    for root in (*document.models, *(model for world in document.worlds for model in world.models)):
-        models = [(root, "")]
-        for model, scope in models:  # grows while it is walked
-            yield from ((id(link), _LinkAddress(root, scope + link.name)) for link in model.links)
-            models.extend((nested, f"{scope}{nested.name}::") for nested in model.models)
+    for root in outer_models(document):
+        yield from ((id(link), _LinkAddress(root, name)) for name, link in scoped_links(root))
 
 
 def _scaled(inertial: Inertial, matrix: Symmetric, factor: float) -> Inertial:

@@ -1,12 +1,13 @@
 """Ground clearance: how far a model reaches below its own frame."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
-from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Link, Model, Shape, Sphere
+from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Model, Shape, Sphere
 from twinform.ir.defaults import sizes
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
+from twinform.ir.scopes import scoped_links
 from twinform.ir.transform import Matrix3
 
 
@@ -17,7 +18,7 @@ def lowest_point(model: Model) -> float | None:
     """
     graph, heights = FrameGraph(model), list[float]()
     try:
-        for name, link in _links(model):
+        for name, link in scoped_links(model):
             for each in link.collisions:
                 at = graph.resolve(each.pose, name, MODEL, base="model")
                 reach = _reach(each.geometry.shape if each.geometry else None, at.rotation)
@@ -27,14 +28,6 @@ def lowest_point(model: Model) -> float | None:
     except FrameError:
         return None
     return min(heights, default=None)
-
-
-def _links(model: Model) -> Iterator[tuple[str, Link]]:
-    stack = [("", model)]
-    while stack:
-        scope, each = stack.pop()
-        yield from ((f"{scope}{link.name}", link) for link in each.links)
-        stack.extend((f"{scope}{inner.name}::", inner) for inner in each.models)
 
 
 def _reach(shape: Shape | None, rotation: Matrix3) -> float | None:

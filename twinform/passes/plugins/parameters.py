@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Element, Model, Plugin
+from twinform.ir.scopes import scoped_models
 from twinform.passes.plugins.catalog import nearest
 from twinform.passes.plugins.parts import Parameter, PluginKind
 from twinform.passes.plugins.values import problem_of
@@ -45,13 +46,11 @@ def names_in(model: Model, kind: str) -> set[str] | None:
 
     None where includes that were not read may bring others.
     """
-    names, stack = set[str](), [("", model)]
-    while stack:
-        scope, inner = stack.pop()
+    names = set[str]()
+    for scope, inner in scoped_models(model):
         if any(include.merge for include in inner.includes):
             return None
         names.update(f"{scope}{each.name}" for each in (inner.joints if kind == "joint" else inner.links))
-        stack.extend((f"{scope}{each.name}::", each) for each in inner.models)
     return names
 
 

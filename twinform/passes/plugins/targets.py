@@ -4,30 +4,21 @@ from collections.abc import Iterator
 
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Model, World
+from twinform.ir.scopes import SCOPE, nested_models, outer_models, scoped_models
 from twinform.passes.plugins.catalog import nearest
 
 
 def models_of(document: Document) -> Iterator[tuple[str, Model]]:
     """Every model with its name, that of nested ones in full."""
-    for model in document.models:
-        yield from _named("", model)
-    for world in document.worlds:
-        for model in world.models:
-            yield from _named("", model)
-
-
-def _named(scope: str, model: Model) -> Iterator[tuple[str, Model]]:
-    stack = [(scope, model)]
-    while stack:
-        scope, each = stack.pop()
-        yield f"{scope}{each.name}", each
-        stack.extend((f"{scope}{each.name}::", inner) for inner in reversed(each.models))
+    for model in outer_models(document):
+        for scope, each in scoped_models(model, model.name + SCOPE):
+            yield scope.removesuffix(SCOPE), each
 
 
 def find_model(document: Document, name: str | None, sink: DiagnosticSink) -> Model | None:
     """The model of this name, or the only one; None, with a finding, where there is none or the name is needed."""
     models = list(models_of(document))
-    outer = [model for called, model in models if "::" not in called]
+    outer = [model for called, model in models if SCOPE not in called]
     if name is None and len(outer) == 1:
         return outer[0]
     found = next((model for called, model in models if called == name), None)
@@ -49,7 +40,7 @@ def find_world(document: Document, name: str | None, sink: DiagnosticSink) -> Wo
 def world_of(document: Document, model: Model) -> World | None:
     """The world that a model is in."""
     for world in document.worlds:
-        if any(each is model for outer in world.models for _, each in _named("", outer)):
+        if any(each is model for outer in world.models for each in nested_models(outer)):
             return world
     return None
 

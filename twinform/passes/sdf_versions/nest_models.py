@@ -21,11 +21,11 @@ from twinform.ir import (
 )
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.sdf_versions import Keeper
 from twinform.passes.sdf_versions.base import VersionPass
 
 Part = TypeVar("Part", Link, Joint, Frame)
-_SCOPE = "::"
 
 
 class NestModels(VersionPass):
@@ -57,7 +57,7 @@ class _Inner:
 
     @property
     def prefix(self) -> str:
-        return self.name + _SCOPE
+        return self.name + SCOPE
 
     @property
     def holds_anything(self) -> bool:
@@ -90,7 +90,7 @@ def nest(model: Model, sink: DiagnosticSink, among: frozenset[str] | None = None
     `among` are the full names of the models that there are to be; None makes one of every scope.
     """
     named = (*model.links, *model.joints, *model.frames, *model.models)
-    if not any(_SCOPE in node.name for node in named):
+    if not any(SCOPE in node.name for node in named):
         return model
     graph = FrameGraph(model)
     first = partial(_first, among)
@@ -103,12 +103,12 @@ def nest(model: Model, sink: DiagnosticSink, among: frozenset[str] | None = None
         if name and inner[name].joint_is_inside(joint):
             inner[name].joints.append(joint)
         else:
-            joints.append(joint.copy(name=joint.name.replace(_SCOPE, "_")) if name else joint)
+            joints.append(joint.copy(name=joint.name.replace(SCOPE, "_")) if name else joint)
     for frame in model.frames:
         name = first(frame.name)
         if not name:
             frames.append(frame)
-        elif frame.name == f"{name}{_SCOPE}{MODEL}":
+        elif frame.name == f"{name}{SCOPE}{MODEL}":
             inner[name].own = frame
         else:
             inner[name].frames.append(frame)
@@ -126,8 +126,8 @@ def nest(model: Model, sink: DiagnosticSink, among: frozenset[str] | None = None
 def _first(among: frozenset[str] | None, name: str) -> str:
     """The model that a scoped name begins with."""
     if among is None:
-        return name.partition(_SCOPE)[0] if _SCOPE in name else ""
-    return min((path for path in among if name.startswith(path + _SCOPE)), key=len, default="")
+        return name.partition(SCOPE)[0] if SCOPE in name else ""
+    return min((path for path in among if name.startswith(path + SCOPE)), key=len, default="")
 
 
 def _within(inner: _Inner, among: frozenset[str] | None) -> frozenset[str] | None:

@@ -1,6 +1,5 @@
 """Attach one model to a link of another: a gripper to an arm."""
 
-from itertools import chain
 from typing import ClassVar
 
 from pydantic import Field
@@ -9,6 +8,7 @@ from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Model, replace_node
 from twinform.ir.namespaces import joined
 from twinform.ir.node import Vector3
+from twinform.ir.scopes import outer_models
 from twinform.passes.framework.other_documents import DocumentPass, DocumentReader
 from twinform.passes.structure.join_models import Mount, join_sdf, join_urdf, root_of
 from twinform.passes.structure.model_edit import in_new_words
@@ -79,7 +79,7 @@ class Attach(DocumentPass):
 
     def _target(self, document: Document, sink: DiagnosticSink) -> Model | None:
         """The one model that has the link."""
-        models = [each for each in _models(document) if self.model in (None, each.name)]
+        models = [each for each in outer_models(document) if self.model in (None, each.name)]
         fit = [each for each in models if any(part.name == self.to for part in (*each.links, *each.frames))]
         if len(fit) == 1:
             return fit[0]
@@ -90,13 +90,9 @@ class Attach(DocumentPass):
         return None
 
     def _guest(self, other: Document, document: Document, sink: DiagnosticSink) -> Model | None:
-        models = list(_models(other))
+        models = list(outer_models(other))
         if len(models) == 1:
             return models[0]
         message = f"{self.file!r} has {len(models)} models, and one is attached"
         sink.report(rules.UNREAD_DOCUMENT, message, document.location, found=self.file)
         return None
-
-
-def _models(document: Document) -> chain[Model]:
-    return chain(document.models, *(world.models for world in document.worlds))

@@ -1,6 +1,6 @@
 """Flatten nested models into one model."""
 
-from collections.abc import Iterator
+from itertools import islice
 from typing import ClassVar
 
 from pydantic import Field
@@ -9,6 +9,7 @@ from twinform.diagnostics import DiagnosticSink, rules
 from twinform.diagnostics.rules import INCLUDE_NOT_EXPANDED
 from twinform.ir import Document, Format, Frame, Link, Model, World
 from twinform.ir.frames import MODEL, FrameGraph
+from twinform.ir.scopes import SCOPE, nested_models, nested_names, scoped_models
 from twinform.passes.carriers.annotations import without_synthesized
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
 from twinform.passes.structure.renaming import renamed_in_world, renamed_model, with_followed
@@ -17,7 +18,6 @@ from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.joint_ends import report_self_joint, resolve_ends
 from twinform.passes.transforms.static_models import with_static_models_fixed
 
-_SCOPE = "::"
 _LAST_WITH_COLONS = "1.7"
 """The last version of SDF in which names may have `::` in them."""
 _OF_LINKS = ("self_collide", "enable_wind")
@@ -46,7 +46,7 @@ class FlattenModels(ModelEdit):
     def edit(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document without models in models."""
         made = super().edit(document, sink)
-        if made is document or self.separator != _SCOPE or sink.has_errors:
+        if made is document or self.separator != SCOPE or sink.has_errors:
             return made
         from twinform.passes.sdf_versions import change_version  # noqa: PLC0415 - this case alone needs it
 
@@ -64,18 +64,18 @@ class FlattenModels(ModelEdit):
         if _has_self_joint(flat, place.sink):
             return model
         scope = self._scope(flat, model)
-        if self.separator != _SCOPE and report_clashes(flat, scope, place.format, place.sink):
+        if self.separator != SCOPE and report_clashes(flat, scope, place.format, place.sink):
             return model
         return renamed_model(flat, scope, place.format, place.sink)
 
     def _scope(self, flat: Model, model: Model) -> Scope:
         """The names of a flat model after the pass; it was made of this one."""
-        stand_ins = set(_nested_names(model, ""))
+        stand_ins = set(nested_names(model))  # so are the frames called that stand for them
 
         def choose(part: Part, name: str) -> str:
-            if self.separator != _SCOPE:
-                return name.replace(_SCOPE, self.separator)
-            return f"{name}{_SCOPE}{MODEL}" if part == "frame" and name in stand_ins else name
+            if self.separator != SCOPE:
+                return name.replace(SCOPE, self.separator)
+            return f"{name}{SCOPE}{MODEL}" if part == "frame" and name in stand_ins else name
 
         return scope_of(flat, choose)
 
@@ -93,22 +93,13 @@ def _plain(frame: Frame, shell: Model) -> Frame:
     return frame
 
 
-def _nested_names(model: Model, prefix: str) -> Iterator[str]:
-    """The scoped names of the models in a model, which are also those of the frames that stand for them."""
-    for nested in model.models:
-        yield prefix + nested.name
-        yield from _nested_names(nested, f"{prefix}{nested.name}{_SCOPE}")
-
-
 def _has_includes(model: Model, sink: DiagnosticSink) -> bool:
-    found = False
-    for include in model.includes:
-        message = f"model {model.name!r} includes {include.uri!r}, which was not read"
+    found = [(each, include) for each in nested_models(model) for include in each.includes]
+    for each, include in found:
+        message = f"model {each.name!r} includes {include.uri!r}, which was not read"
         help_ = "convert with --expand-includes"
         sink.report(INCLUDE_NOT_EXPANDED, message, include.location, found=include.uri, help=help_)
-        found = True
-    inner = [_has_includes(nested, sink) for nested in model.models]  # every one has its say
-    return found or any(inner)
+    return bool(found)
 
 
 def _has_self_joint(model: Model, sink: DiagnosticSink) -> bool:
@@ -152,16 +143,12 @@ def _with_settings(link: Link, settings: dict[str, bool]) -> Link:
 def _with_rest(flat: Model, model: Model, place: EditContext) -> Model:
     """The flat model with plugins and untyped parts of the models that were in it, which name their parts anew."""
     plugins, opaque = list(model.plugins), list(model.opaque)
-    stack = [(nested, "") for nested in reversed(model.models)]
-    while stack:
-        nested, around = stack.pop()
-        prefix = f"{around}{nested.name}{_SCOPE}"
+    for prefix, nested in islice(scoped_models(model), 1, None):
         scope = _prefixed(nested, prefix)
         rest = Model(name=nested.name, plugins=nested.plugins, opaque=nested.opaque, source=nested.source)
         contents = with_followed(rest, scope, place.format, place.sink)
         plugins += contents.plugins
         opaque += [part for part in contents.opaque if part.element is not None]
-        stack.extend((each, prefix) for each in reversed(nested.models))
     return flat.copy(plugins=tuple(plugins), opaque=tuple(opaque))
 
 

@@ -3,13 +3,13 @@
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import chain
 
 from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Model, World, replace_fields
 from twinform.ir.frames import FrameError
+from twinform.ir.scopes import outer_models
 from twinform.passes.framework.base import Pass
 from twinform.schemas import parse_version, versions_of
 
@@ -67,8 +67,7 @@ class ModelEdit(Pass):
 
 
 def _has_model(document: Document, name: str | None) -> bool:
-    models = chain(document.models, *(world.models for world in document.worlds))
-    return name is None or any(model.name == name for model in models)
+    return name is None or any(model.name == name for model in outer_models(document))
 
 
 def in_new_words(document: Document, sink: DiagnosticSink, change: Callable[[Document], Document]) -> Document:

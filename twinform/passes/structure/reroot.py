@@ -1,6 +1,5 @@
 """Choose another root link."""
 
-from itertools import chain
 from typing import ClassVar
 
 from pydantic import Field
@@ -8,6 +7,7 @@ from pydantic import Field
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Joint, Model
 from twinform.ir.frames import WORLD, FrameGraph
+from twinform.ir.scopes import outer_models
 from twinform.passes.structure.gazebo_blocks import blocks, content
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
 from twinform.passes.structure.reversal import REVERSIBLE, block_measures_in_sensor, measures_in_sensor
@@ -34,8 +34,8 @@ class Reroot(ModelEdit):
 
     def edit(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with another root."""
-        models = chain(document.models, *(world.models for world in document.worlds))
-        links = {link.name for model in models if self.model in (None, model.name) for link in model.links}
+        models = (model for model in outer_models(document) if self.model in (None, model.name))
+        links = {link.name for model in models for link in model.links}
         if self.link not in links:
             sink.report(rules.UNKNOWN_NAME, f"no link is called {self.link!r}", document.location, found=self.link)
             return document

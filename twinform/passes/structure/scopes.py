@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format, Model, ReferenceKind
 from twinform.ir.frames import MODEL, WORLD
+from twinform.ir.scopes import nested_models, outer_models
 
 Part = str
 """`link`, `joint`, `frame` or `model`."""
@@ -107,10 +108,5 @@ def report_clashes(model: Model, scope: Scope, format_: Format, sink: Diagnostic
 
 def every_name(document: Document) -> set[tuple[Part, str]]:
     """The names of all parts of all models of a document."""
-    found: set[tuple[Part, str]] = set()
-    stack = [*document.models, *(model for world in document.worlds for model in world.models)]
-    while stack:
-        model = stack.pop()
-        found.update((part, node.name) for part, name in PARTS for node in getattr(model, name) if node.name)
-        stack.extend(model.models)
-    return found
+    models = (model for outer in outer_models(document) for model in nested_models(outer))
+    return {(part, node.name) for model in models for part, name in PARTS for node in getattr(model, name) if node.name}

@@ -5,10 +5,9 @@ from collections.abc import Iterator
 from twinform.ir import Joint, Model
 from twinform.ir.frames import WORLD
 from twinform.ir.kinematic_tree import KinematicTree
+from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.annotations import annotate_synthesized
 from twinform.passes.transforms.nodes import unique_name
-
-_SCOPE = "::"
 
 
 def with_static_models_fixed(model: Model) -> Model:
@@ -25,7 +24,7 @@ def with_static_models_fixed(model: Model) -> Model:
     taken = {node.name for node in (*model.links, *model.joints, *model.frames, *model.models)}
     welds: list[Joint] = []
     for root, nested in roots:
-        name = unique_name(f"{root.replace(_SCOPE, '__')}_fixed_joint", taken)
+        name = unique_name(f"{root.replace(SCOPE, '__')}_fixed_joint", taken)
         taken.add(name)
         weld = Joint(name=name, type="fixed", parent=WORLD, child=root, source=nested.source)
         welds.append(annotate_synthesized(weld))
@@ -35,7 +34,7 @@ def with_static_models_fixed(model: Model) -> Model:
 def _static_roots(model: Model, scope: str) -> Iterator[tuple[str, Model]]:
     """The links of static models in a model that no joint in these holds, by their scoped names."""
     for nested in model.models:
-        inside = f"{scope}{nested.name}{_SCOPE}"
+        inside = f"{scope}{nested.name}{SCOPE}"
         if not nested.static:
             yield from _static_roots(nested, inside)
             continue

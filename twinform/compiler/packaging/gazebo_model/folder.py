@@ -9,7 +9,8 @@ from twinform.compiler.packaging.order import Order
 from twinform.compiler.packaging.package import Content
 from twinform.compiler.search.packages import MODEL_CONFIG
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Include, Model
+from twinform.ir import Document, Model
+from twinform.ir.scopes import nested_includes
 from twinform.schemas import parse_version
 
 _PICTURE = "thumbnails/1.png"
@@ -43,7 +44,5 @@ def folder_files(
 
 def _includes(model: Model) -> Iterator[str]:
     """The URIs of the models that it includes."""
-    found: list[Include] = list(model.includes)
-    yield from (each.uri.strip() for each in found if each.uri and each.uri.strip().startswith(_OF_MODELS))
-    for nested in model.models:
-        yield from _includes(nested)
+    found = (include.uri.strip() for include in nested_includes(model) if include.uri)
+    return (uri for uri in found if uri.startswith(_OF_MODELS))

@@ -11,9 +11,10 @@ from twinform.compiler.packaging.gazebo_model.drawing import Faces, UndrawableEr
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import NO_THUMBNAIL, UNRESOLVED_URI
 from twinform.file_access import Readable
-from twinform.ir import Box, Capsule, Cone, Cylinder, Document, Ellipsoid, Link, Material, Mesh, Model, Shape, Sphere
+from twinform.ir import Box, Capsule, Cone, Cylinder, Document, Ellipsoid, Material, Mesh, Model, Shape, Sphere
 from twinform.ir.defaults import sizes
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
+from twinform.ir.scopes import scoped_links
 from twinform.ir.transform import Transform
 from twinform.passes.analyses.meshes import MeshError, Meshes, MeshTriangles
 from twinform.passes.framework.asset_access import AssetError
@@ -91,21 +92,13 @@ class _Collected:
 def _faces(model: Model, meshes: Meshes) -> Iterator[Faces]:
     """The triangles of all visuals, in the frame of the model; meshes that cannot be read are left out."""
     graph = FrameGraph(model)
-    for name, link in _links(model):
+    for name, link in scoped_links(model):
         for visual in link.visuals:
             shape = visual.geometry.shape if visual.geometry else None
             made = _triangles(shape, meshes) if shape else None
             points = _placed(made, graph.resolve(visual.pose, name, MODEL, base="model")) if made is not None else ()
             if len(points):
                 yield Faces(points, _color(visual.material))
-
-
-def _links(model: Model) -> Iterator[tuple[str, Link]]:
-    stack = [("", model)]
-    while stack:
-        scope, each = stack.pop()
-        yield from ((f"{scope}{link.name}", link) for link in each.links)
-        stack.extend((f"{scope}{inner.name}::", inner) for inner in each.models)
 
 
 def _triangles(shape: Shape, meshes: Meshes) -> Any:

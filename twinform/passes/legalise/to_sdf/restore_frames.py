@@ -8,6 +8,7 @@ from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Pose, replace_fields, rewrite
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph, Kind
+from twinform.ir.scopes import SCOPE
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.annotations import (
     SYNTHESIZED,
@@ -33,7 +34,6 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 _AXES = ("axis", "axis2")
 _BASE = "\0"
 """Behind the name of a link it calls the frame that the link had in SDF; alone, the frame that the model had."""
-SCOPE = "::"
 
 
 class RestoreFrames(ModelPass):

@@ -1,12 +1,13 @@
 """Reverse conversion of nested models: restoring those of the SDF source."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules import NESTED_MODEL, STALE_CARRIER
 from twinform.ir import IN_MODELS, Element, Format, Frame, Link, Model, Node, Opaque, Pose, map_references
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
+from twinform.ir.scopes import SCOPE, nested_names
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
@@ -14,7 +15,6 @@ from twinform.passes.carriers.provenance import wrote_scopes
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.names import renamed
-from twinform.passes.legalise.to_sdf.restore_frames import SCOPE
 from twinform.passes.sdf_versions.nest_models import nest
 from twinform.passes.transforms.notation import NESTED
 from twinform.schemas import parse_version, versions_of
@@ -163,7 +163,7 @@ def _placed(model: Model) -> Model:
 
 def _tidy(model: Model) -> Model:
     """The model without names that go without saying: its own frame, and that of a model by its full name."""
-    models = frozenset(_inside(model))
+    models = frozenset(nested_names(model))
     model = map_references(model, lambda kind, name: _short(models, name) if kind in IN_MODELS else name)
     update = {
         "models": tuple(map(_tidy, model.models)),
@@ -181,13 +181,6 @@ def _posed(node: AnyNode) -> AnyNode:
     own = pose.relative_to == MODEL and isinstance(node, Link | Model)
     pose = pose.copy(relative_to=None) if own else pose
     return node.copy(pose=None if pose == Pose() else pose)
-
-
-def _inside(model: Model) -> Iterator[str]:
-    """The full names of the models in a model."""
-    for inner in model.models:
-        yield inner.name
-        yield from (f"{inner.name}{SCOPE}{path}" for path in _inside(inner))
 
 
 def _short(models: frozenset[str], name: str) -> str:

@@ -5,6 +5,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import rules
 from twinform.ir import Format, Frame, Model, Opaque, count_parts
+from twinform.ir.scopes import SCOPE, nested_models
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, to_element
 from twinform.passes.legalise.names import Names, renamed, with_old_names
@@ -13,8 +14,6 @@ from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.nodes import unique_name
 from twinform.passes.transforms.notation import NESTED, POSE, pose_attributes
 from twinform.passes.transforms.static_models import with_static_models_fixed
-
-_SCOPE = "::"
 
 
 class FlattenForUrdf(ToUrdfPass):
@@ -64,15 +63,14 @@ def _legal_names(model: Model) -> Names:
     names: Names = {}
     for part, field in (("link", "links"), ("joint", "joints"), ("frame", "frames")):
         for node in getattr(model, field):
-            if _SCOPE in node.name:
-                name = names[part, node.name] = unique_name(node.name.replace(_SCOPE, "__"), taken)
+            if SCOPE in node.name:
+                name = names[part, node.name] = unique_name(node.name.replace(SCOPE, "__"), taken)
                 taken.add(name)
     return names
 
 
 def _refuse_includes(model: Model, keeper: Keeper) -> None:
-    for include in model.includes:
-        message = f"model {model.name!r} includes {include.uri!r}, which was not read"
-        keeper.sink.report(rules.INCLUDE_NOT_EXPANDED, message, include.location, found=include.uri)
-    for nested in model.models:
-        _refuse_includes(nested, keeper)
+    for each in nested_models(model):
+        for include in each.includes:
+            message = f"model {each.name!r} includes {include.uri!r}, which was not read"
+            keeper.sink.report(rules.INCLUDE_NOT_EXPANDED, message, include.location, found=include.uri)

@@ -1,0 +1,48 @@
+"""The models of a document and those nested in them, with the scopes that their names have outside."""
+
+from collections.abc import Iterator
+from itertools import chain
+
+from twinform.ir.document import Document
+from twinform.ir.link import Link
+from twinform.ir.model import Include, Model
+
+SCOPE = "::"
+"""What stands between the name of a model and that of a part of it."""
+
+
+def outer_models(document: Document) -> Iterator[Model]:
+    """The models of a document and of its worlds, without those nested in them."""
+    return chain(document.models, *(world.models for world in document.worlds))
+
+
+def scoped_models(model: Model, scope: str = "") -> Iterator[tuple[str, Model]]:
+    """A model and all models nested in it, from the outside in, each with the prefix that names in it have outside.
+
+    `scope` is the prefix of the outermost one.
+    """
+    stack = [(scope, model)]
+    while stack:
+        scope, each = stack.pop()
+        yield scope, each
+        stack.extend((f"{scope}{inner.name}{SCOPE}", inner) for inner in reversed(each.models))
+
+
+def nested_models(model: Model) -> Iterator[Model]:
+    """A model and all models nested in it, from the outside in."""
+    return (each for _, each in scoped_models(model))
+
+
+def nested_names(model: Model) -> Iterator[str]:
+    """The scoped names of the models nested in a model."""
+    return (scope.removesuffix(SCOPE) for scope, _ in scoped_models(model) if scope)
+
+
+def scoped_links(model: Model) -> Iterator[tuple[str, Link]]:
+    """The links of a model and of all models nested in it, with their scoped names."""
+    return ((f"{scope}{link.name}", link) for scope, each in scoped_models(model) for link in each.links)
+
+
+def nested_includes(model: Model) -> Iterator[Include]:
+    """The includes of a model and of all models nested in it."""
+    return (include for each in nested_models(model) for include in each.includes)
