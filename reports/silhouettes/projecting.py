@@ -11,7 +11,7 @@ import numpy as np
 import scipy.spatial  # pyright: ignore[reportMissingTypeStubs] - it has none
 from PIL import Image, ImageDraw
 
-from twinform.compiler.scene import Kinematics, Positions, Scene
+from twinform.compiler.scene import Positions, Scene
 from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
 from twinform.ir.defaults import sizes
 from twinform.ir.geometry import ShapeNode
@@ -27,7 +27,7 @@ _STAND_IN = Box(size=(0.1, 0.1, 0.1))
 def silhouette(scene: Scene, positions: Positions, camera: Camera, width: int, height: int) -> Mask:
     """The pixels that visuals must cover."""
     image = Image.new("1", (width, height))
-    poses = Kinematics(scene).poses(positions)
+    poses = scene.kinematics().poses(positions)
     for link in scene.links:
         for shape in link.shapes:
             if shape.role == "visual":

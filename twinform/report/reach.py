@@ -44,4 +44,4 @@ def reaches(scene: Scene) -> tuple[Reach, ...]:
 
 def _travel(joint: SceneJoint) -> float:
     """The furthest that a joint can slide from where it is at zero."""
-    return sum(max(abs(degree.lower), abs(degree.upper)) for degree in joint.degrees if degree.slides or degree.advance)
+    return sum(max(abs(degree.lower), abs(degree.upper)) for degree in joint.degrees if degree.slides or degree.pitch)

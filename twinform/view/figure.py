@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from twinform.compiler.scene import Kinematics, Positions, Scene, SceneShape
+from twinform.compiler.scene import Kinematics, Positions, Scene, SceneJoint, SceneShape
 from twinform.ir import Plane, Vector3
 from twinform.ir.transform import Transform
 from twinform.view.mesh_drawings import MeshDrawings
@@ -60,7 +60,7 @@ class Figure:
     poses: dict[str, Transform] = field(default_factory=dict[str, Transform], init=False)
     labels: dict[str, str] = field(default_factory=dict[str, str], init=False)
     base: Handle = field(init=False)
-    kinematics: Kinematics = field(init=False)
+    kinematics: Kinematics[SceneJoint] = field(init=False)
     _layers: dict[str, list[Handle]] = field(default_factory=dict[str, "list[Handle]"], init=False)
     _with_visuals: frozenset[str] = field(default=frozenset(), init=False)
     _marks: list[Handle] = field(default_factory=list[Handle], init=False)
@@ -68,7 +68,7 @@ class Figure:
     _triangles: dict[SceneShape, Triangles] = field(default_factory=dict[SceneShape, Triangles], init=False)
 
     def __post_init__(self) -> None:
-        self.kinematics = Kinematics(self.scene)
+        self.kinematics = self.scene.kinematics()
         self.poses = self.kinematics.poses({})
         self.base = self.api.add_frame(self.root, show_axes=False)
         for number, link in enumerate(self.scene.links):

@@ -8,7 +8,6 @@ pytest.importorskip("viser", reason="viser is not installed")
 
 from tests.browser.test_view import ARM
 from twinform.compiler import LoadOptions
-from twinform.compiler.scene import Kinematics
 from twinform.view import read_subject
 from twinform.view.dragging import Drag, drag_of
 from twinform.view.figure import Figure
@@ -56,7 +55,7 @@ def test_the_grip_follows_the_pointer(figure: Figure, shoulder: float, link: str
     before = {("shoulder", 0): shoulder}
     grip = (0.02, 0.01, 0.3)
     drag = _drag(figure, link, before, grip)
-    there = Kinematics(figure.scene).poses(before | {key: target})[link].apply(grip)
+    there = figure.scene.kinematics().poses(before | {key: target})[link].apply(grip)
     assert drag.position_at(there) == pytest.approx(target)
 
 

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from twinform.compiler.compare.values import Value
+from twinform.compiler.kinematics import PlacedJoint
 from twinform.diagnostics import Source
 from twinform.ir import Format, Vector3
 from twinform.ir.solids import NOTHING, Solid
@@ -66,18 +67,17 @@ class Body:
 
 
 @dataclass(frozen=True, slots=True)
-class JointView:
-    """A joint between two bodies, or the world; `axes` are unit vectors."""
+class JointView(PlacedJoint):
+    """A joint between two bodies, or the world."""
 
-    name: str
-    type: str
-    parent: str
-    child: str
-    frame: Transform
-    axes: tuple[Vector3, ...] = ()
     leaves: Leaves = field(default_factory=dict[str, Leaf])
     parts: tuple[Part, ...] = ()
     where: Source | None = None
+
+    @property
+    def axes(self) -> tuple[Vector3, ...]:
+        """The unit vectors that are written; a ball has none."""
+        return () if self.type == "ball" else tuple(degree.axis for degree in self.degrees)
 
 
 @dataclass(frozen=True, slots=True)

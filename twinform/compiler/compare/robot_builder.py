@@ -7,10 +7,9 @@ from twinform.compiler.compare.joint_values import joint_leaves
 from twinform.compiler.compare.leaves import THERE
 from twinform.compiler.compare.part_reader import PartReader
 from twinform.compiler.compare.robot import Body, JointView, Leaf, Mass, NamedFrame, Part, Robot
-from twinform.ir import Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose, Vector3
-from twinform.ir.defaults import direction
+from twinform.compiler.kinematics import Degree, degrees_of
+from twinform.ir import Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
-from twinform.ir.motion import axes_of, unit
 from twinform.ir.solids import placed, written_solid
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import is_synthesized
@@ -113,8 +112,8 @@ class _Reading:
 
     def _known_joint(self, joint: Joint) -> JointView:
         frame, ends = self.graph.place(joint.name, kind="joint"), (self._end(joint.parent), self._end(joint.child))
-        axes = tuple(self._axes(joint, frame))
-        given, make = (joint, frame, *ends, axes), lambda: self._joint(joint, frame, ends, axes)
+        degrees = tuple(degrees_of(joint, frame, Format.SDF, lambda name: self.graph.place(name, kind="frame")))
+        given, make = (joint, frame, *ends, degrees), lambda: self._joint(joint, frame, ends, degrees)
         return self._once(self.builder.joints, joint.name, given, make)
 
     def _once(self, known: Known[View], name: str, given: tuple[object, ...], make: Callable[[], View]) -> View:
@@ -138,21 +137,14 @@ class _Reading:
         solid = placed(written_solid(inertial, Format.SDF), pose)
         return Mass(solid, bool(inertial.auto), inertial.source)
 
-    def _joint(self, joint: Joint, frame: Transform, ends: tuple[str, str], axes: tuple[Vector3, ...]) -> JointView:
+    def _joint(self, joint: Joint, frame: Transform, ends: tuple[str, str], degrees: tuple[Degree, ...]) -> JointView:
         leaves, parts = self.reader.parts(joint, frame)
         values = joint_leaves(joint, leaves)
-        return JointView(joint.name, joint.type, *ends, frame, axes, values, parts, joint.source)
+        return JointView(joint.name, joint.type, *ends, frame, degrees, values, parts, joint.source)
 
     def _end(self, name: str | None) -> str:
         """The link that an end of a joint moves with."""
         return self.graph.body(name or WORLD)
-
-    def _axes(self, joint: Joint, frame: Transform) -> Iterator[Vector3]:
-        for axis in axes_of(joint):
-            turn = frame
-            if axis.expressed_in:
-                turn = self.graph.place(axis.expressed_in, kind="frame")
-            yield unit(turn.rotate(direction(axis, Format.SDF)))
 
     def _frame(self, frame: Frame, links: Collection[str], joints: Collection[str]) -> NamedFrame:
         """The frame; `links` and `joints` are the names of those that the file had as URDF."""

@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TypeVar
 
+from twinform.compiler.kinematics import degrees_of
 from twinform.compiler.scene.colors import color_of
-from twinform.compiler.scene.degrees import degrees_of
 from twinform.compiler.scene.scene import Role, Scene, SceneFrame, SceneJoint, SceneLink, SceneSensor, SceneShape
 from twinform.compiler.scene.scope import Scope
 from twinform.compiler.scene.sensors import frustums_of, rays_of
@@ -107,7 +107,7 @@ class _SceneBuilder:
     def _add_joint(self, joint: Joint, scope: Scope) -> None:
         parent, child = scope.body(joint.parent), scope.body(joint.child)
         frame = scope.frame(joint.name, "joint")
-        degrees = tuple(degrees_of(joint, frame, scope, self.format))
+        degrees = tuple(degrees_of(joint, frame, self.format, scope.frame, scope.prefix))
         ends = scope.name(parent), scope.name(child)
         self.joints.append(SceneJoint(scope.name(joint.name), joint.type, *ends, frame, degrees, joint.location))
         for sensor in joint.sensors:

@@ -3,7 +3,6 @@
 from collections.abc import Mapping, Sequence
 
 from twinform.compiler.scene.building import build_scene
-from twinform.compiler.scene.moving import Kinematics
 from twinform.ir import Document
 from twinform.ir.lookup import look_up
 from twinform.ir.transform import Transform
@@ -21,7 +20,7 @@ def forward_kinematics(
         KeyError: there is no such joint.
         ValueError: a joint has fewer degrees of freedom.
     """
-    kinematics = Kinematics(build_scene(document))
+    kinematics = build_scene(document).kinematics()
     values = dict[tuple[str, int], float]()
     for name, position in (positions or {}).items():
         joint = look_up(kinematics.joints, name, "joint")

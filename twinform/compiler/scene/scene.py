@@ -7,6 +7,7 @@ of nested models, and of models in a world, are `model::part`.
 from dataclasses import dataclass, field
 from typing import Literal
 
+from twinform.compiler.kinematics import Kinematics, PlacedJoint
 from twinform.diagnostics import NOWHERE, Location
 from twinform.ir import Color, Vector3
 from twinform.ir.geometry import ShapeNode
@@ -72,46 +73,9 @@ class SceneLink:
 
 
 @dataclass(frozen=True, slots=True)
-class Leader:
-    """The position that one follows: `multiplier` (position of `joint` - `reference`) + `offset`."""
+class SceneJoint(PlacedJoint):
+    """A joint of the scene."""
 
-    joint: str
-    degree: int
-    multiplier: float
-    offset: float
-    reference: float
-
-    def followed(self, position: float) -> float:
-        """Where the follower is."""
-        return self.multiplier * (position - self.reference) + self.offset
-
-
-@dataclass(frozen=True, slots=True)
-class Degree:
-    """One way in which a joint moves: about or along a unit vector.
-
-    `advance` is how many meters it moves along the vector for each radian, and `lower` and `upper` are infinite where
-    there are no limits.
-    """
-
-    axis: Vector3
-    slides: bool
-    lower: float
-    upper: float
-    advance: float = 0.0
-    leader: Leader | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class SceneJoint:
-    """A joint between two links, or the world."""
-
-    name: str
-    type: str
-    parent: str
-    child: str
-    frame: Transform
-    degrees: tuple[Degree, ...] = ()
     where: Location = NOWHERE
 
 
@@ -134,3 +98,7 @@ class Scene:
     frames: tuple[SceneFrame, ...] = ()
     sensors: tuple[SceneSensor, ...] = ()
     left_out: tuple[str, ...] = ()
+
+    def kinematics(self) -> Kinematics[SceneJoint]:
+        """What moves its links."""
+        return Kinematics({link.name: link.pose for link in self.links}, self.joints)

@@ -1,10 +1,9 @@
 """Degrees of freedom of joints: axes in the frame of the world, ranges, and which joint they follow."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
-from twinform.compiler.scene.scene import Degree, Leader
-from twinform.compiler.scene.scope import Scope
+from twinform.compiler.kinematics.joints import Degree, Leader
 from twinform.ir import Axis, Format, Joint, Mimic, Vector3
 from twinform.ir.defaults import SCREW_THREAD_PITCH, UNLIMITED, direction, multiplier, with_range
 from twinform.ir.motion import FULL_TURN, axes_of, plane_across, unit
@@ -15,8 +14,12 @@ _BALLS = frozenset({"ball", "spherical"})
 _SECOND = "axis2"
 
 
-def degrees_of(joint: Joint, frame: Transform, scope: Scope, format: Format) -> Iterator[Degree]:
-    """How a joint moves, the axes nearest to its parent first; a floating joint moves in no way that has limits.
+def degrees_of(
+    joint: Joint, frame: Transform, format: Format, place: Callable[[str], Transform], prefix: str = ""
+) -> Iterator[Degree]:
+    """How a joint at a frame moves, the axes nearest to its parent first; a floating joint moves without limits.
+
+    `place` gives the frames that axes are expressed in, and `prefix` stands before the names of the joints it follows.
 
     Raises:
         FrameError: an axis is expressed in a frame that is not known.
@@ -25,11 +28,11 @@ def degrees_of(joint: Joint, frame: Transform, scope: Scope, format: Format) -> 
         for axis in _AXES:
             yield Degree(unit(frame.rotate(axis)), slides=False, lower=-math.inf, upper=math.inf)
     for axis in axes_of(joint):
-        turned = scope.frame(axis.expressed_in) if axis.expressed_in else frame
+        turned = place(axis.expressed_in) if axis.expressed_in else frame
         along = unit(direction(axis, format))
         if any(along):
             yield from _in_plane(joint, along, turned)
-            yield _degree(joint, axis, turned.rotate(along), scope, format)
+            yield _degree(joint, axis, turned.rotate(along), prefix, format)
 
 
 def _in_plane(joint: Joint, normal: Vector3, turned: Transform) -> Iterator[Degree]:
@@ -39,15 +42,15 @@ def _in_plane(joint: Joint, normal: Vector3, turned: Transform) -> Iterator[Degr
             yield Degree(turned.rotate(axis), slides=True, lower=-math.inf, upper=math.inf)
 
 
-def _degree(joint: Joint, axis: Axis, along: Vector3, scope: Scope, format: Format) -> Degree:
+def _degree(joint: Joint, axis: Axis, along: Vector3, prefix: str, format: Format) -> Degree:
     lower, upper = _range(joint, axis, format)
     return Degree(
         along,
         slides=joint.type == "prismatic",
         lower=lower,
         upper=upper,
-        advance=_pitch(joint) / FULL_TURN if joint.type == "screw" else 0.0,
-        leader=_leader(axis.mimic, scope),
+        pitch=_pitch(joint) if joint.type == "screw" else 0.0,
+        leader=_leader(axis.mimic, prefix),
     )
 
 
@@ -66,8 +69,8 @@ def _pitch(joint: Joint) -> float:
     return -FULL_TURN / joint.thread_pitch if joint.thread_pitch else SCREW_THREAD_PITCH
 
 
-def _leader(mimic: Mimic | None, scope: Scope) -> Leader | None:
+def _leader(mimic: Mimic | None, prefix: str) -> Leader | None:
     if mimic is None or not mimic.joint:
         return None
     degree = int(mimic.axis == _SECOND)
-    return Leader(scope.name(mimic.joint), degree, multiplier(mimic), mimic.offset or 0.0, mimic.reference or 0.0)
+    return Leader(prefix + mimic.joint, degree, multiplier(mimic), mimic.offset or 0.0, mimic.reference or 0.0)

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given
 
 import twinform
-from twinform.compiler.scene import Kinematics, Leader, Positions, Scene, build_scene
+from twinform.compiler.scene import Leader, Positions, Scene, build_scene
 from twinform.ir import Document
 from twinform.ir.transform import Transform
 from twinform.testing import oracles
@@ -29,7 +29,7 @@ def test_links_are_where_pinocchio_says(document: Document) -> None:
     scene = build_scene(document)
     positions = _positions(scene)
     data, q = model.createData(), pinocchio.neutral(model)
-    kinematics = Kinematics(scene)
+    kinematics = scene.kinematics()
     for joint in scene.joints:
         if joint.type in _ONE_DEGREE and model.existJointName(joint.name):
             position = kinematics.position(joint.name, 0, positions)
@@ -70,7 +70,7 @@ _SDF = """<sdf version="1.11"><model name="m">
 
 def _moved(type: str, more: str, positions: dict[tuple[str, int], float]) -> Transform:
     scene = build_scene(twinform.loads(_SDF.format(type=type, more=more)))
-    return Kinematics(scene).poses(positions)["b"]
+    return scene.kinematics().poses(positions)["b"]
 
 
 @pytest.mark.parametrize(
@@ -106,13 +106,13 @@ def test_followers_follow_and_circles_stand_still() -> None:
       <joint name="one" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz>{}</axis></joint>
       <joint name="two" type="revolute"><parent>b</parent><child>c</child><axis><xyz>0 0 1</xyz>{}</axis></joint>
     </model></sdf>"""
-    follows = Kinematics(build_scene(twinform.loads(text.format("", mimic.format("one")))))
+    follows = build_scene(twinform.loads(text.format("", mimic.format("one")))).kinematics()
     assert follows.position("two", 0, {("one", 0): 0.25}) == pytest.approx(2 * (0.25 - 0.05) + 0.1)
     assert follows.poses({("one", 0): 0.25})["c"].rpy()[2] == pytest.approx(0.25 + 0.5)
     document = build_scene(twinform.loads(text.format("", "")))
     one, two = document.joints
     circle = Scene(document.links, (_following(one, "two"), _following(two, "one")))
-    assert Kinematics(circle).position("one", 0, {}) == 0.0
+    assert circle.kinematics().position("one", 0, {}) == 0.0
 
 
 def _following(joint: Any, leader: str) -> Any:
@@ -123,7 +123,7 @@ def _following(joint: Any, leader: str) -> Any:
 def test_a_planar_joint_slides_in_its_plane_and_turns() -> None:
     text = """<robot name="r"><link name="a"/><link name="b"/>
       <joint name="j" type="planar"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint></robot>"""
-    kinematics = Kinematics(build_scene(twinform.loads(text)))
+    kinematics = build_scene(twinform.loads(text)).kinematics()
     pose = kinematics.poses({("j", 0): 0.5, ("j", 1): -0.25, ("j", 2): 0.75})["b"]
     assert pose.translation == pytest.approx((0.5, -0.25, 0))
     assert pose.rpy() == pytest.approx((0, 0, 0.75))

@@ -1,27 +1,32 @@
-"""Forward kinematics of a scene: where its links are at given joint positions."""
+"""Forward kinematics: where the links of a robot are at given joint positions."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from typing import Generic, TypeVar
 
-from twinform.compiler.scene.scene import Leader, Scene, SceneJoint
-from twinform.ir.motion import slide, spanning_tree, turn
+from twinform.compiler.kinematics.joints import Leader, PlacedJoint
+from twinform.ir.motion import FULL_TURN, slide, spanning_tree, turn
 from twinform.ir.transform import Transform
 
+AnyJoint = TypeVar("AnyJoint", bound=PlacedJoint)
 Positions = Mapping[tuple[str, int], float]
 """Where joints are, in rad or m, by their names and the number of the degree of freedom; others are at zero."""
 
 _STILL = Transform()
 
 
-class Kinematics:
-    """The tree of a scene's joints; of a loop, the joint that closes it does not move anything."""
+class Kinematics(Generic[AnyJoint]):
+    """A tree of joints; of a loop, the joint that closes it does not move anything.
 
-    def __init__(self, scene: Scene) -> None:
-        self.at_zero = {link.name: link.pose for link in scene.links}
-        self.joints = {joint.name: joint for joint in scene.joints}
-        self.hung = spanning_tree(scene.joints)
+    `at_zero` are the frames of the links that are looked at, with all joints at zero.
+    """
+
+    def __init__(self, at_zero: Mapping[str, Transform], joints: Iterable[AnyJoint]) -> None:
+        self.at_zero = at_zero
+        self.joints = {joint.name: joint for joint in joints}
+        self.hung = spanning_tree(self.joints.values())
 
     def poses(self, positions: Positions) -> dict[str, Transform]:
-        """The frame of each link in the world's."""
+        """The frame of each link, in the frame that the joints are placed in."""
         moved: dict[str, Transform] = {}
         return {name: self._motion_of(name, positions, moved).compose(pose) for name, pose in self.at_zero.items()}
 
@@ -54,7 +59,7 @@ class Kinematics:
             motion = moved[each] = motion.compose(self._motion(self.hung[each], positions))
         return motion
 
-    def _motion(self, joint: SceneJoint, positions: Positions) -> Transform:
+    def _motion(self, joint: PlacedJoint, positions: Positions) -> Transform:
         motion = _STILL
         for number, degree in enumerate(joint.degrees):
             position = self.position(joint.name, number, positions)
@@ -63,6 +68,6 @@ class Kinematics:
             if degree.slides:
                 step = slide(degree.axis, position)
             else:
-                step = turn(degree.axis, position, joint.frame.translation, degree.advance * position)
+                step = turn(degree.axis, position, joint.frame.translation, position / FULL_TURN * degree.pitch)
             motion = motion.compose(step)
         return motion
