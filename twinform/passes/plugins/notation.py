@@ -13,14 +13,16 @@ content that is not known (in the first line: for more parameters). Rows that ar
 and `<` are topics that the plugin reads and writes: the parameter that sets it or `-`, the message, the default;
 `alt=PARAMETER[+PARAMETER]:TOPIC[:MESSAGE]` where these are written, `unless=` and `when=` with such
 `PARAMETER[+PARAMETER]`, separated by `|`, `each=PATH/OF/PARAMETER` for one topic a value, the spelling (`or-default`,
-`exact` or `raw`, see `Spelling`), and the releases. In a topic, `{...}` is a value, and what stands in `(...)` alone
-becomes a valid topic. Values with blanks stand in double quotes, and `#` begins a comment.
+`if-any`, `exact` or `raw`, see `Spelling`), the releases, and `stops` if there are no further topics without this one.
+In a topic, `{...}` is a value, and what stands in `(...)` alone becomes a valid topic, or nothing; of `(...|...)` the
+first that can. `! TOPIC` is a text of which the plugin makes a valid topic before all, and stops where it cannot; its
+options are the same. Values with blanks stand in double quotes, and `#` begins a comment.
 `needs=a|b` in the first line are systems of which the world has to have one.
 """
 
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple, cast, get_args
+from typing import Literal, NamedTuple, cast, get_args
 
 from twinform.passes.plugins.parts import (
     Alternative,
@@ -32,6 +34,8 @@ from twinform.passes.plugins.parts import (
     Scope,
     Spelling,
 )
+
+_DIRECTIONS = ("<", ">")
 
 
 class _Line(NamedTuple):
@@ -54,17 +58,19 @@ def _words(line: str) -> list[str]:
 def _plugin(head: list[str], lines: list[_Line], releases: Sequence[str]) -> PluginKind:
     options = _options(head[2:])
     own = _span(options, releases)
-    channels = tuple(_channel(line.words, own, releases) for line in lines if line.words[0] in {"<", ">"})
+    channels = tuple(_channel(line.words, own, releases) for line in lines if line.words[0] in _DIRECTIONS)
+    checks = (["!", "-", "", *line.words[1:]] for line in lines if line.words[0] == "!")
     return PluginKind(
         name=head[1],
         file=options["file"],
         class_name=options["class"],
         scopes=cast("tuple[Scope, ...]", tuple(options["scope"].split("|"))),
         releases=own,
-        parameters=_rows([line for line in lines if line.words[0] not in {"<", ">"}], 1, own, releases),
+        parameters=_rows([line for line in lines if line.words[0] not in {"!", *_DIRECTIONS}], 1, own, releases),
         channels=channels,
         free="any" in head[2:],
         needs=tuple(options["needs"].split("|")) if "needs" in options else (),
+        checks=tuple(_channel(words, own, releases) for words in checks),
     )
 
 
@@ -105,7 +111,7 @@ def _channel(words: list[str], above: frozenset[str], releases: Sequence[str]) -
     alternatives = [word.removeprefix("alt=").split(":") for word in rest if word.startswith("alt=")]
     options = _options(rest)
     return Channel(
-        direction="<" if direction == "<" else ">",
+        direction=cast('Literal["<", ">", "!"]', direction),
         parameter=None if parameter == "-" else parameter,
         message=message,
         pattern=pattern,
@@ -115,6 +121,7 @@ def _channel(words: list[str], above: frozenset[str], releases: Sequence[str]) -
         each=tuple(options.get("each", "").split("/")) if "each" in options else (),
         releases=_span(options, releases) & above,
         spelling=next((each for each in get_args(Spelling) if each in rest), "valid"),
+        stops="stops" in rest or direction == "!",
     )
 
 

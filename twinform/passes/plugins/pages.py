@@ -80,7 +80,8 @@ def _system(kind: PluginKind) -> str:
     for channel in kind.channels:
         verb = "reads" if channel.direction == ">" else "writes"
         renamed = f", or `{channel.parameter}`" if channel.parameter else ""
-        lines.append(f"It {verb} {channel.message} on `{without_parentheses(channel.pattern)}`{renamed}.\n")
+        since = _since(channel.releases & kind.releases, kind.releases)
+        lines.append(f"It {verb} {channel.message} on `{without_parentheses(channel.pattern)}`{renamed}{since}.\n")
     return "\n".join(lines)
 
 

@@ -16,9 +16,10 @@ ParameterType = Literal[
 Parameters = tuple[str, ...]
 """The names of parameters."""
 
-Spelling = Literal["valid", "or-default", "exact", "raw"]
+Spelling = Literal["valid", "if-any", "or-default", "exact", "raw"]
 """What a plugin does with text that gz-transport refuses: it makes a valid topic of it; it makes one, and takes the
-default where nothing is left of a parameter; it takes the default at once; it has no topic."""
+default for a parameter without text; it makes one, and takes the default where nothing is left of a parameter; it takes
+the default at once; it has no topic."""
 
 Scope = Literal["world", "model", "link", "joint", "sensor", "visual", "actor", "gui"]
 """What a plugin stands in."""
@@ -87,7 +88,7 @@ class Alternative:
 
 @dataclass(frozen=True, slots=True)
 class Channel:
-    """A topic of gz-transport that a plugin reads (`>`) or writes (`<`).
+    """A topic of gz-transport that a plugin reads (`>`) or writes (`<`), or a text that it only checks (`!`).
 
     `parameter` sets it; else it follows the pattern, in which `{model}`, `{world}` and names of parameters stand for
     their values. `{scope}` is the topic of the world and the models around the plugin, `{models}` the same without the
@@ -95,10 +96,11 @@ class Channel:
     The last alternative that applies wins. The topic is not there where one of the conditions `unless` holds, nor where
     there are conditions `when` and none holds; each of them names parameters that are all written and not false.
     With `each`, the path of a parameter that repeats, there is one topic for each of its values, which `{each}` stands
-    for. `spelling` is what becomes of text that is no valid topic.
+    for. `spelling` is what becomes of text that is no valid topic. A plugin that `stops` where it gets no valid topic
+    has none of those behind it.
     """
 
-    direction: Literal["<", ">"]
+    direction: Literal["<", ">", "!"]
     parameter: str | None
     message: str
     pattern: str
@@ -108,6 +110,7 @@ class Channel:
     each: tuple[str, ...]
     releases: frozenset[str]
     spelling: Spelling = "valid"
+    stops: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +119,8 @@ class PluginKind:
 
     `file` is as gz-sim finds it: without path, and for systems without `lib` and `.so`. `class_name` is the word that
     `<plugin name=...>` has to have in gz-sim; in Gazebo Classic that name is free. `free` means that it takes
-    parameters besides these. `needs` are systems of which the world has to have one.
+    parameters besides these. `needs` are systems of which the world has to have one. `checks` are texts of which it
+    makes valid topics first, and has no topic at all where it cannot; they are no topics themselves.
     """
 
     name: str
@@ -128,6 +132,7 @@ class PluginKind:
     channels: tuple[Channel, ...]
     free: bool
     needs: tuple[str, ...] = ()
+    checks: tuple[Channel, ...] = ()
 
     def parameter(self, *path: str) -> Parameter | None:
         """The parameter at a path of names, such as `left_track`, `link`; attributes begin with `@`."""
@@ -155,7 +160,8 @@ def _walk(above: tuple[str, ...], rows: tuple[Parameter, ...]) -> Iterator[tuple
 class Published:
     """A topic of a sensor: a pattern of `{topic}` or `{beside}`, and the message.
 
-    `where` is a setting that has the message `instead`, such as `box_type=3d`. `releases` are those that publish it.
+    `where` is a setting that has the message `instead`, such as `camera/box_type=3d`. `releases` are those that publish
+    it.
     """
 
     pattern: str

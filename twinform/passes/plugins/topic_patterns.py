@@ -9,6 +9,8 @@ _LONGEST = 65535
 _PLACE = re.compile(r"\{([^{}]++)\}")
 """A placeholder: names of values, of which the first is taken that there is."""
 _PIECE = re.compile(r"\(([^()]++)\)")
+_EITHER = re.compile(r"\|(?![^{}]*\})")
+"""What stands between the texts of a piece, of which the first that can become a topic is taken."""
 
 
 def is_valid_topic(name: str) -> bool:
@@ -38,15 +40,22 @@ def topic_of_pattern(pattern: str, values: Mapping[str, str], *, raw: bool = Fal
     """The topic that a pattern stands for; None where Gazebo has no such topic.
 
     The text becomes a valid topic, unless it is `raw`: then it has to be one. Where parts of a pattern stand in
-    parentheses, only these become valid topics, each by itself, and the rest is taken as it is.
+    parentheses, only these become valid topics, each by itself, or nothing, and the rest is taken as it is.
     """
-    texts = [text_of_pattern(piece, values) for piece in _PIECE.split(pattern)]
-    if len(texts) > 1:
-        texts = [as_valid_topic(text or "") if number % 2 else text for number, text in enumerate(texts)]
-    elif not raw:
-        texts = [as_valid_topic(text or "") for text in texts]
-    name = "".join(filter(None, texts))
-    return name if None not in texts and is_valid_topic(name) else None
+    pieces = _PIECE.split(pattern)
+    if len(pieces) == 1 and not raw:
+        return as_valid_topic(text_of_pattern(pattern, values) or "")
+    texts = [
+        _topic_of_piece(piece, values) if number % 2 else text_of_pattern(piece, values) or ""
+        for number, piece in enumerate(pieces)
+    ]
+    name = "".join(texts)
+    return name if is_valid_topic(name) else None
+
+
+def _topic_of_piece(piece: str, values: Mapping[str, str]) -> str:
+    topics = (as_valid_topic(text_of_pattern(each, values) or "") for each in _EITHER.split(piece))
+    return next(filter(None, topics), "")
 
 
 def placeholders(pattern: str) -> list[str]:
@@ -56,7 +65,7 @@ def placeholders(pattern: str) -> list[str]:
 
 def without_parentheses(pattern: str) -> str:
     """A pattern as people read it."""
-    return _PIECE.sub(r"\1", pattern)
+    return _PIECE.sub(lambda piece: _EITHER.split(piece[1])[0], pattern)
 
 
 def _values(place: re.Match[str], values: Mapping[str, str]) -> list[str]:

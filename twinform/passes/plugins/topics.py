@@ -19,7 +19,7 @@ from twinform.passes.plugins.topic_patterns import (
     topic_of_pattern,
     without_parentheses,
 )
-from twinform.passes.plugins.worlds import kind_of_sensor
+from twinform.passes.plugins.worlds import custom_type, kind_of_sensor
 from twinform.passes.transforms.gazebo_tags import TRUE
 from twinform.passes.transforms.lumped_links import lumped_joints, lumped_links
 
@@ -30,6 +30,14 @@ _OWN_INFO = "camera"
 """The kind of sensor that reads `<camera_info_topic>` (CameraSensor.cc): others put it where they want."""
 _ANY_WORLD = "{world}"
 """What stands for the name of a world that is not known."""
+_LOGICAL_CAMERA = "logical_camera"
+"""The kind of sensor that has one topic for all where the element is there and has the default (LogicalCamera.cc,
+AddLogicalCamera, and LogicalCameraSensor.cc, Load)."""
+_BOXES = "boundingbox_camera"
+_BOX_TYPES = frozenset({"2d", "visible_2d", "visible_box_2d", "full_2d", "full_box_2d", "3d"})
+"""What the sensor takes for `<box_type>` (BoundingBoxCameraSensor.cc, Load)."""
+_WITHOUT_RATE = frozenset({"contact", "environmental_sensor"})
+"""The kinds of sensors that need no service for their rate (EnvironmentalSensorSystem.cc, Load, goes on without)."""
 _CONTACT = "contact"
 """The kind of sensor whose topic stands in `<contact>`, and is not made valid (contact/Contact.cc, Load)."""
 _UNNAMED = {_CONTACT: "__default_topic__"}
@@ -152,20 +160,27 @@ def _without_world(scope: str) -> str:
 
 
 def _of_sensor(sensor: Sensor, kind: SensorKind, place: _Place, lumped: "_Lumped") -> Iterator[Topic]:
-    own, site = _written_topic(sensor), place.site
+    site = place.site
     holder = lumped.links.get(site.holder, site.holder) if site.scope == "link" else site.holder
+    own, service = _written_topic(sensor), None
+    if kind.type == _LOGICAL_CAMERA and own is None and sensor.topic is not None:
+        names = (*(each.name for each in site.models), holder or "", sensor.name or "")
+        own, service = f"/{_LOGICAL_CAMERA}", f"/{'::'.join(names)}"
     above = f"{place.scope}/{site.scope}/{holder}/sensor"
-    text = own or "/".join(filter(None, (above, sensor.name, kind.suffix)))
+    suffix = custom_type(sensor) if (kind.custom or "").endswith("/") else kind.suffix
+    text = own or "/".join(filter(None, (above, sensor.name, suffix)))
     name = topic_of_pattern("{topic}", {"topic": text}, raw=kind.type == _CONTACT)
     rows = [row for row in kind.publishes if place.release in row.releases]
     made = [_sensor_topic(row, name, sensor, kind) for row in rows]
-    missing = "" if all(made) else _refused(text)  # with one of its topics, Gazebo refuses the sensor
+    missing = _refused_type(sensor, kind)
+    if not missing and not all((*made, _rate_service(service or name, kind))):
+        missing = _refused(text)  # with one of its topics, or the service, Gazebo refuses the sensor
     if site.scope == "joint" and holder in lumped.joints:
         missing = f"it leaves out fixed joint {holder!r} and its sensors; a <preserveFixedJoint> for it keeps them"
     for row, topic in zip(rows, made, strict=True):
         shown = qualified(topic or text)
         short = _named_for_cloud(shown, qualified(name or ""), kind) if own else _inside(shown, f"/{above}")
-        message, needs_world = _message(row, sensor, kind), own is None and place.world is None
+        message, needs_world = _message(row, sensor), own is None and place.world is None
         yield Topic(shown, short, message, "<", place.outer, sensor, needs_world, missing)
 
 
@@ -173,10 +188,20 @@ def _refused(text: str) -> str:
     return f"gz-transport takes no topic {text!r}"
 
 
+def _refused_type(sensor: Sensor, kind: SensorKind) -> str:
+    boxes = _text_at(sensor, "camera", "box_type") or "2d"
+    return f"it knows no <box_type> {boxes!r}" if kind.type == _BOXES and boxes not in _BOX_TYPES else ""
+
+
+def _rate_service(name: str | None, kind: SensorKind) -> str | None:
+    """The service that sets a sensor's rate, without which it is not loaded (Sensor.cc, Load)."""
+    return name if kind.type in _WITHOUT_RATE else topic_of_pattern(f"{name}/set_rate", {}, raw=True)
+
+
 def _sensor_topic(published: Published, name: str | None, sensor: Sensor, kind: SensorKind) -> str | None:
     if name is None:
         return None
-    info = _text_in(sensor, "camera", "camera_info_topic") if kind.type == _OWN_INFO else None
+    info = _text_at(sensor, "camera", "camera_info_topic") if kind.type == _OWN_INFO else None
     if published.pattern.endswith("/camera_info") and info and info != "__default__":
         return topic_of_pattern("{info}", {"info": info}, raw=True)
     beside = "".join(f"/{part}" for part in name.split("/")[:-1] if part)  # CameraSensor.cc, AdvertiseInfo
@@ -196,22 +221,19 @@ def _named_for_cloud(made: str, name: str, kind: SensorKind) -> str:
 def _written_topic(sensor: Sensor) -> str | None:
     """The topic in the sensor; of a contact sensor the one in `<contact>`, as Gazebo reads no other."""
     is_contact = sensor.type == _CONTACT
-    topic = _text_in(sensor, "contact", "topic") if is_contact else sensor.topic
+    topic = _text_at(sensor, "contact", "topic") if is_contact else sensor.topic
     return topic if topic and topic != _UNNAMED.get(sensor.type or "", "__default__") else None
 
 
-def _text_in(sensor: Sensor, holder: str, name: str) -> str | None:
-    for part in sensor.opaque:
-        inner = part.element.find(name) if part.element and part.element.name == holder else None
-        if inner is not None and inner.text:
-            return inner.text
-    return None
+def _text_at(sensor: Sensor, *path: str) -> str | None:
+    """The first text at a path of elements of a sensor; None where it is empty, and the default counts."""
+    return next(_texts((part.element for part in sensor.opaque if part.element), path), None)
 
 
-def _message(published: Published, sensor: Sensor, kind: SensorKind) -> str:
+def _message(published: Published, sensor: Sensor) -> str:
     """The message of a topic, which a setting of the sensor may have chosen."""
-    name, _, value = published.where.partition("=")
-    return published.instead if name and _text_in(sensor, kind.element, name) == value else published.message
+    path, _, value = published.where.partition("=")
+    return published.instead if path and _text_at(sensor, *path.split("/")) == value else published.message
 
 
 def _of_plugin(plugin: Plugin, kind: PluginKind, place: _Place) -> Iterator[Topic]:
@@ -220,7 +242,8 @@ def _of_plugin(plugin: Plugin, kind: PluginKind, place: _Place) -> Iterator[Topi
     world = _ANY_WORLD if place.world is None else place.world
     names = {"model": model, "world": world, **place.scopes()}
     around = (f"/world/{world}", f"/{place.models}", f"/model/{model}")
-    for channel in kind.channels:
+    stopped = ""
+    for channel in (*kind.checks, *kind.channels):
         written = _read(plugin, kind, channel, place.release)
         if place.release not in channel.releases or not _is_there(channel, kind, written):
             continue
@@ -233,9 +256,12 @@ def _of_plugin(plugin: Plugin, kind: PluginKind, place: _Place) -> Iterator[Topi
                 continue
             name = topic_of_pattern(pattern, known, raw=channel.spelling in {"raw", "exact"})
             shown = qualified(name or text)
-            missing = "" if name else _refused(text)
-            short = _inside(shown, *around)
-            yield Topic(shown, short, message, channel.direction, place.outer, plugin, needs_world, missing)
+            missing = stopped or ("" if name else _refused(text))
+            if missing and not stopped and channel.stops:
+                stopped = f"{missing}, at which the plugin stops"
+            if channel.direction != "!":
+                short = _inside(shown, *around)
+                yield Topic(shown, short, message, channel.direction, place.outer, plugin, needs_world, missing)
 
 
 def _read(plugin: Plugin, kind: PluginKind, channel: Channel, release: str) -> dict[str, str]:
@@ -247,7 +273,7 @@ def _read(plugin: Plugin, kind: PluginKind, channel: Channel, release: str) -> d
             written.setdefault(element.name, (element.text or "").strip())
     for name in [name for name in written if (row := kind.parameter(name)) is not None and row.type == "topic"]:
         text = _taken(written.pop(name), channel)
-        if text:
+        if text is not None:
             written[name] = text
     return written
 
@@ -255,6 +281,8 @@ def _read(plugin: Plugin, kind: PluginKind, channel: Channel, release: str) -> d
 def _taken(text: str, channel: Channel) -> str | None:
     """What a plugin takes of the text of a topic; None where it takes the default."""
     match channel.spelling:
+        case "if-any":
+            return text or None
         case "or-default":
             return as_valid_topic(text)
         case "exact":

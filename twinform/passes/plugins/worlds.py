@@ -31,13 +31,13 @@ class WorldRequirements:
 def kind_of_sensor(node: Sensor, release: str) -> SensorKind | None:
     """What a sensor is in a release; None where that release does not simulate such sensors."""
     try:
-        found = custom_sensor(_custom_type(node)) if node.type == _CUSTOM else sensor(node.type or "")
+        found = custom_sensor(custom_type(node)) if node.type == _CUSTOM else sensor(node.type or "")
     except UnknownNameError:
         return None
     return found if found is not None and release in found.releases else None
 
 
-def _custom_type(node: Sensor) -> str:
+def custom_type(node: Sensor) -> str:
     """The `gz:type` of a sensor, whatever its prefix stands for."""
     attributes = (part.attribute for part in node.opaque if part.attribute is not None and not part.at)
     return next((value for name, value in attributes if name.startswith("{") and name.endswith("}type")), "")

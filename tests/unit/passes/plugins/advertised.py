@@ -2,7 +2,8 @@
 
 Each entry names the file of gz-sim (below `src/systems`) or of gz-sensors (below `src`) that it was read in. It gives
 the direction, the message, and the topic after what the source does with the text: `valid` is `AsValidTopic` of
-gz-transport, `first` is `validTopic` of gz-sim, and `raw` is a text that nothing is done to.
+gz-transport, `first` is `validTopic` of gz-sim, and `raw` is a text that nothing is done to. Where a source returns
+because it has no valid topic, the entry returns.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -72,11 +73,15 @@ class Sdf:
 
     def configured(self, end: str = "") -> str:
         """The same when a plugin is configured, and the model may not be in the world (`src/SdfEntityCreator.cc`)."""
-        name = "/".join(part for model in self.models for part in ("model", model)) + end
+        name = self.loaded(end)
         if self.release in {"ionic", "jetty"}:
             whole = name if self.spawned else f"world/{self.world}/{name}"
             name = _without_parent(_without_parent(whole))
         return valid(f"/{name}") or ""
+
+    def loaded(self, end: str = "") -> str:
+        """`src/Util.cc`: scopedName of a part of the model when a plugin is configured."""
+        return "/".join(part for model in self.models for part in ("model", model)) + end
 
 
 def _without_parent(name: str) -> str:
@@ -114,7 +119,6 @@ def _(s: Sdf) -> Iterator[Row]:
     yield "<", "Pose_V", raw(s.get("tf_topic", f"/model/{s.model}/tf"))
 
 
-# From Garden on, it stops where the first topic is refused. We name the others all the same, as the first is reported.
 @system(
     "ackermann-steering",
     "ackermann_steering/AckermannSteering.cc",
@@ -124,7 +128,7 @@ def _(s: Sdf) -> Iterator[Row]:
     new = s.release != "fortress"
     actuators = new and s.true("use_actuator_msg") and s.has("actuator_number")
     steering = actuators or (new and s.true("steering_only"))
-    if s.has("topic"):
+    if new and s.has("topic"):
         topic = s.get("topic")
     elif new and s.has("sub_topic"):
         topic = f"/model/{s.model}/{s.get('sub_topic')}"
@@ -132,11 +136,9 @@ def _(s: Sdf) -> Iterator[Row]:
         topic = "/actuators" if actuators else f"/model/{s.model}/steer_angle"
     else:
         topic = f"/model/{s.model}/cmd_vel"
-    if s.release == "fortress":
-        yield ">", "Twist", first(s.get("topic"), f"/model/{s.model}/cmd_vel")
-    else:
-        yield ">", "Actuators" if actuators else "Double" if steering else "Twist", first(topic)
-    if not steering:
+    command = first(topic) if new else first(s.get("topic"), topic)
+    yield ">", "Actuators" if actuators else "Double" if steering else "Twist", command
+    if command and not steering:
         yield "<", "Odometry", first(s.get("odom_topic"), f"/model/{s.model}/odometry")
         yield "<", "Pose_V", first(s.get("tf_topic"), f"/model/{s.model}/tf")
 
@@ -163,9 +165,12 @@ def _(s: Sdf) -> Iterator[Row]:
 )
 def _(s: Sdf) -> Iterator[Row]:
     above = f"/model/{s.model}/link/{s.get('link')}"
-    yield ">", "Double", first(s.get("velocity_topic"), f"{above}/track_cmd_vel")
-    yield ">", "Vector3d", first(s.get("center_of_rotation_topic"), f"{above}/track_cmd_center_of_rotation")
-    if s.release != "fortress":
+    velocity = first(s.get("velocity_topic"), f"{above}/track_cmd_vel")
+    center = first(s.get("center_of_rotation_topic"), f"{above}/track_cmd_center_of_rotation")
+    yield ">", "Double", velocity
+    if velocity:
+        yield ">", "Vector3d", center
+    if velocity and center and s.release != "fortress":
         yield "<", "Odometry", first(s.get("odometry_topic"), f"{above}/odometry")
 
 
@@ -210,9 +215,8 @@ def _(s: Sdf) -> Iterator[Row]:
 def _(s: Sdf) -> Iterator[Row]:
     above = valid(s.get("robotNamespace"))
     command, enable = valid(s.get("commandSubTopic", "cmd_vel")), valid(s.get("enableSubTopic", "enable"))
-    if above and command:
+    if above and command and enable:
         yield ">", "Twist", raw(f"{above}/{command}")
-    if above and enable:
         yield ">", "Boolean", raw(f"{above}/{enable}")
 
 
@@ -227,7 +231,11 @@ def _(s: Sdf) -> Iterator[Row]:
 
 @system("wind-effects", "wind_effects/WindEffects.cc", "")
 def _(s: Sdf) -> Iterator[Row]:
-    yield ">", "Wind", valid(f"/world/{s.world}/wind")
+    world = valid(s.world)
+    if world:
+        yield ">", "Wind", raw(f"/world/{world}/wind")
+        if s.release in {"ionic", "jetty"}:
+            yield "<", "Wind", raw(f"/world/{world}/wind_info")
 
 
 @system("buoyancy-engine", "buoyancy_engine/BuoyancyEngine.cc", "namespace:name")
@@ -275,7 +283,8 @@ def _of_joint(s: Sdf, end: str) -> Iterator[Row]:
     topic = "/actuators" if actuators else f"/model/{s.model}/joint/{s.get('joint_name')}/{end}"
     if new and s.has("sub_topic"):
         topic = f"/model/{s.model}/{s.get('sub_topic')}"
-    yield ">", "Actuators" if actuators else "Double", valid(s.get("topic", topic))
+    if valid(topic) or (new and not s.has("sub_topic")):  # with the last, it asks only where there is no topic
+        yield ">", "Actuators" if actuators else "Double", valid(s.get("topic", topic))
 
 
 _JOINT = "joint_name:name! topic sub_topic use_actuator_msg:bool actuator_number:int"
@@ -295,9 +304,10 @@ def _(s: Sdf) -> Iterator[Row]:
 
 @system("joint-trajectory-controller", "joint_traj_control/JointTrajectoryController.cc", "topic")
 def _(s: Sdf) -> Iterator[Row]:
-    topic = valid(s.get("topic", f"/model/{s.model}/joint_trajectory"))
-    yield ">", "JointTrajectory", topic
-    yield "<", "Float", after(topic, "_progress")
+    topic = valid(s.get("topic") or f"/model/{s.model}/joint_trajectory")
+    if topic:
+        yield ">", "JointTrajectory", topic
+        yield "<", "Float", after(topic, "_progress")
 
 
 @system("apply-joint-force", "apply_joint_force/ApplyJointForce.cc", "joint_name:name!")
@@ -312,9 +322,13 @@ def _(s: Sdf) -> Iterator[Row]:
 )
 def _(s: Sdf) -> Iterator[Row]:
     asked = s.get("detach_topic") if s.has("detach_topic") else s.get("topic")
-    yield ">", "Empty", first(asked, f"/model/{s.model}/detachable_joint/detach")
-    yield ">", "Empty", first(s.get("attach_topic"), f"/model/{s.model}/detachable_joint/attach")
-    yield "<", "StringMsg", first(s.get("output_topic"), f"/model/{s.get('child_model')}/detachable_joint/state")
+    detach = first(asked, f"/model/{s.model}/detachable_joint/detach")
+    attach = first(s.get("attach_topic"), f"/model/{s.model}/detachable_joint/attach")
+    yield ">", "Empty", detach
+    if detach:
+        yield ">", "Empty", attach
+    if detach and attach:
+        yield "<", "StringMsg", first(s.get("output_topic"), f"/model/{s.get('child_model')}/detachable_joint/state")
 
 
 @system("elevator", "elevator/Elevator.cc", "cmd_topic state_topic")
@@ -326,7 +340,8 @@ def _(s: Sdf) -> Iterator[Row]:
 @system("pose-publisher", "pose_publisher/PosePublisher.cc", "topic static_publisher:bool use_pose_vector_msg:bool")
 def _(s: Sdf) -> Iterator[Row]:
     topic = raw(s.get("topic")) if s.release not in {"fortress", "garden"} else None
-    topic, message = topic or s.configured() + "/pose", "Pose_V" if s.true("use_pose_vector_msg") else "Pose"
+    usual = valid(s.loaded("/pose")) or "/pose" if s.release == "fortress" else s.configured() + "/pose"
+    topic, message = topic or usual, "Pose_V" if s.true("use_pose_vector_msg") else "Pose"
     yield "<", message, raw(topic)
     if s.true("static_publisher"):
         yield "<", message, raw(f"{topic}_static")
@@ -359,7 +374,8 @@ def _(s: Sdf) -> Iterator[Row]:
 
 @system("logical-audio-sensor", "logical_audio_sensor_plugin/LogicalAudioSensorPlugin.cc", "")
 def _(s: Sdf) -> Iterator[Row]:
-    yield "<", "Double", after(s.configured("/sensor/mic_7"), "/detection")
+    above = s.loaded("/sensor/mic_7") if s.release == "fortress" else s.configured("/sensor/mic_7")
+    yield "<", "Double", raw(above + "/detection")
 
 
 @system("optical-tactile-plugin", "optical_tactile_plugin/OpticalTactilePlugin.cc", "namespace:name")
@@ -371,10 +387,11 @@ def _(s: Sdf) -> Iterator[Row]:
 def _(s: Sdf) -> Iterator[Row]:
     own = s.get("namespace")
     if s.release in {"fortress", "garden"}:
-        yield "<", "Boolean", after(valid(own), "/touched")
+        above = f"/{valid(own)}" if valid(own) else None
     else:
-        above = s.scoped(world=False) + "/touch" if own is None else f"/{own}"
-        yield "<", "Boolean", after(valid(above), "/touched")
+        above = valid(s.scoped(world=False) + "/touch" if own is None else f"/{own}")
+    if above:
+        yield "<", "Boolean", after(above, "/touched")
 
 
 @system("performer-detector", "performer_detector/PerformerDetector.cc", "topic")
@@ -382,13 +399,11 @@ def _(s: Sdf) -> Iterator[Row]:
     yield "<", "Pose", raw(s.get("topic", f"/model/{s.model}/performer_detector/status"))
 
 
-@system("breadcrumbs", "breadcrumbs/Breadcrumbs.cc", "topic breadcrumb:breadcrumb")
+@system("breadcrumbs", "breadcrumbs/Breadcrumbs.cc", "topic breadcrumb:breadcrumb!")
 def _(s: Sdf) -> Iterator[Row]:
-    if s.has("breadcrumb") or s.has("topic"):
-        crumb = f"/model/{s.model}/breadcrumbs/{s.get('breadcrumb')}/deploy" if s.has("breadcrumb") else None
-        topic = first(s.get("topic"), crumb)
-        yield ">", "Empty", topic
-        yield "<", "Int32", after(topic, "/remaining")
+    topic = first(s.get("topic"), f"/model/{s.model}/breadcrumbs/{s.get('breadcrumb')}/deploy")
+    yield ">", "Empty", topic
+    yield "<", "Int32", raw((topic or "") + "/remaining")  # it does not ask whether there is a topic
 
 
 @system("log-video-recorder", "log_video_recorder/LogVideoRecorder.cc", "")
@@ -437,7 +452,12 @@ class SensorSdf(Sdf):
     def topic(self, suffix: str) -> str | None:
         """`src/Sensor.cc` of sdformat and of gz-sensors (SetTopic), with the default of the system in gz-sim."""
         own = self.get("topic")
-        return valid(own if own not in {None, "__default__"} else self.scoped_sensor() + suffix)
+        return self.loaded_with(valid(own if own not in {None, "", "__default__"} else self.scoped_sensor() + suffix))
+
+    @staticmethod
+    def loaded_with(topic: str | None) -> str | None:
+        """The topic of a sensor that can offer its service `set_rate`, else none (Load)."""
+        return topic if after(topic, "/set_rate") else None
 
 
 @dataclass(frozen=True)
@@ -465,7 +485,7 @@ def _info(topic: str | None) -> str | None:
 def _camera(s: SensorSdf) -> Iterator[Row]:
     topic, info = s.topic("/image"), s.get("camera_info_topic")
     yield "<", "Image", topic
-    yield "<", "CameraInfo", raw(info) if info not in {None, "__default__"} and topic else _info(topic)
+    yield "<", "CameraInfo", raw(info) if info not in {None, "", "__default__"} and topic else _info(topic)
 
 
 def _depth_camera(s: SensorSdf) -> Iterator[Row]:
@@ -491,11 +511,15 @@ def _segmentation(s: SensorSdf) -> Iterator[Row]:
     yield "<", "CameraInfo", after(topic, "/camera_info")
 
 
+_FLAT = ("2d", "visible_2d", "visible_box_2d", "full_2d", "full_box_2d")
+
+
 def _boxes(s: SensorSdf) -> Iterator[Row]:
-    topic = s.topic("/boundingbox")
-    yield "<", "Image", after(topic, "_image")
-    yield "<", "AnnotatedAxisAligned2DBox_V", topic
-    yield "<", "CameraInfo", _info(topic)
+    topic, type_ = s.topic("/boundingbox"), s.get("box_type") or "2d"
+    if type_ in {*_FLAT, "3d"}:
+        yield "<", "Image", after(topic, "_image")
+        yield "<", "AnnotatedAxisAligned2DBox_V" if type_ in _FLAT else "AnnotatedOriented3DBox_V", topic
+        yield "<", "CameraInfo", _info(topic)
 
 
 def _lidar(s: SensorSdf) -> Iterator[Row]:
@@ -515,9 +539,18 @@ def _air_speed(s: SensorSdf) -> Iterator[Row]:
 
 def _logical(s: SensorSdf) -> Iterator[Row]:
     topic = s.topic("/logical_camera")
+    if s.get("topic") in {"", "__default__"}:  # the system asks for the element, and the sensor for its text
+        scoped = "::".join((*s.models, s.holder[1], s.name))
+        topic = "/logical_camera" if raw(f"/{scoped}/set_rate") else None
     yield "<", "LogicalCameraImage", topic
     if s.release in {"ionic", "jetty"}:
         yield "<", "LogicalCameraSensor", after(topic, "/frustum")
+
+
+def _environment(s: SensorSdf) -> Iterator[Row]:
+    own = s.get("topic")  # it goes on where it can offer no service
+    topic = valid(own if own not in {None, "", "__default__"} else s.scoped_sensor() + "/environmental_sensor/humidity")
+    yield "<", "Vector3d" if s.get("output_format") == "vector3" else "Double", topic
 
 
 SENSORS: dict[str, SensorEntry] = {
@@ -538,10 +571,10 @@ SENSORS: dict[str, SensorEntry] = {
     "contact": SensorEntry("gz-sim, contact/Contact.cc", _contact),
     "force_torque": SensorEntry("ForceTorqueSensor.cc", _one("Wrench", "/forcetorque")),
     "logical_camera": SensorEntry("LogicalCameraSensor.cc", _logical),
+    "environmental_sensor": SensorEntry(
+        "gz-sim, environmental_sensor_system/EnvironmentalSensorSystem.cc", _environment, "garden"
+    ),
     "dvl": SensorEntry("DopplerVelocityLog.cc", _one("DVLVelocityTracking", "/dvl/velocity"), "harmonic"),
 }
-WITHOUT_SENSORS: dict[str, str] = {
-    "lidar": "no release has it",
-    "environmental_sensor": "its message depends on the data of the world",
-}
+WITHOUT_SENSORS: dict[str, str] = {"lidar": "no release has it"}
 """Sensors with no topic for the bridge, and why."""

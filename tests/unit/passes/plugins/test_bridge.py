@@ -288,6 +288,17 @@ def test_a_topic_that_gazebo_cannot_have_is_reported_and_not_bridged() -> None:
     assert missing(document) == [("warning", "/model/my robot/tf")]
 
 
+def test_a_plugin_that_stops_where_it_gets_no_topic_has_none_of_those_behind() -> None:
+    document = alone(plugins=plugin("ackermann-steering", "<topic>~</topic>"))
+    sink = DiagnosticSink()
+    assert len(bridges(document, "harmonic", sink)) == 1
+    assert [each.message.partition("here: ")[2] for each in sink.diagnostics] == [
+        "gz-transport takes no topic '~'",
+        *["gz-transport takes no topic '~', at which the plugin stops"] * 2,
+    ]
+    assert [row[0] for row in rows(document, "fortress")] == ["cmd_vel", "odom", "/tf"]
+
+
 def test_a_word_for_the_default_topic_is_one_where_it_is_read_as_one() -> None:
     imu, contact = (
         '<sensor name="s" type="imu"><topic>{}</topic></sensor>',
