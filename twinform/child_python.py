@@ -6,6 +6,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from multiprocessing.context import SpawnContext
 
+# `python -c` and `python -m` put the current folder first on the module path, and multiprocessing's
+# `spawn` is `python -c`: a `signal.py` beside a downloaded model was imported by every worker.
+# Every child process of Python is therefore started from this module.
 _SAFE_PATH = "-P"
 """Python's option for a module path without the current folder and without the folder of the script."""
 

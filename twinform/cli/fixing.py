@@ -32,6 +32,8 @@ class Fixing:
 
     def wants(self, finding: Diagnostic) -> bool:
         """Whether a finding is shown."""
+        # A command that changes a file for a reason that it does not print would surprise, so notes
+        # are fixed only where they are shown.
         return bool(self.policy.apply([finding])) and (self.notes or finding.severity > Severity.INFO)
 
 

@@ -23,7 +23,12 @@ def run(command: Callable[[], object]) -> NoReturn:
         command()
     except SystemExit as end:
         if _may_leave(end):
+            # Handlers of third-party passes, of coverage, and of `weakref.finalize`, which removes
+            # temporary folders. Not run are `__del__` methods of objects that are still alive,
+            # which Python does not promise to call either.
             atexit._run_exitfuncs()  # noqa: SLF001  # pyright: ignore[reportPrivateUsage] - as Python does at the end
+            # A full disk or a closed pipe shows up when flushing. Python's own end then prints its
+            # message and sets its exit code.
             if _flushed():
                 os._exit(end.code if isinstance(end.code, int) else 0)
         raise
@@ -32,6 +37,8 @@ def run(command: Callable[[], object]) -> NoReturn:
 
 def _may_leave(end: SystemExit) -> bool:
     """Whether nothing waits for Python's own end: a message to print, a thread, a tracer or profiler, or a person."""
+    # Python waits for threads that are not daemons, and `python -i` and `-X dev` have something to
+    # do at the end: all of these get Python's own end.
     others = any(not each.daemon for each in threading.enumerate() if each is not threading.main_thread())
     watched = sys.gettrace() is not None or sys.getprofile() is not None or _is_monitored()
     return isinstance(end.code, int | None) and not (others or watched or sys.flags.inspect or sys.flags.dev_mode)

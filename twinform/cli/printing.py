@@ -40,6 +40,10 @@ def print_text(text: str, *, err: bool = False, nl: bool = True) -> None:
     Styles are left out where the output is no terminal, and where the variable NO_COLOR is set.
     """
     encoding = getattr(sys.stderr if err else sys.stdout, "encoding", None) or "utf-8"
+    # A file name can hold the sequence that sets the title of a terminal. Escaping at each place
+    # that prints a name gets forgotten somewhere, so commands print through this module alone, and
+    # a test holds them to it. A diff of such a file cannot be applied as printed; -o and --in-place
+    # are for that.
     safe = text if text.isprintable() else "".join(map(_escape, text))
     click.echo(safe.encode(encoding, "backslashreplace").decode(encoding), err=err, nl=nl)
 

@@ -18,6 +18,8 @@ _CLOSED = {0: ("stdin", os.O_RDONLY, "r"), 1: ("stdout", os.O_RDONLY, "w"), 2: (
 
 def hold_standard_streams() -> None:
     """Let no file that is opened later become a standard stream that the caller has closed."""
+    # With descriptor 1 closed by the caller, the next file that is opened would become standard
+    # output, and messages would be written into it.
     for number, (name, flags, mode) in _CLOSED.items():
         try:
             os.fstat(number)

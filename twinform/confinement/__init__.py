@@ -22,6 +22,9 @@ def confine(*, threads: bool = False) -> list[str]:
 
     With `threads` more of them may begin, which libraries for numbers do.
     """
+    # All three layers work through `ctypes` and need no dependency. Where a kernel lacks one, the
+    # others hold. Python's audit hooks are no substitute: their documentation says that they are no
+    # sandbox, and an expression reached the hook's own list.
     layers = {"resources": lambda: renounce_descriptors(threads=threads)}
     try:
         landlock = import_module("twinform.confinement.landlock")

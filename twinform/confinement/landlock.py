@@ -31,6 +31,7 @@ def renounce_files() -> bool:
     ruleset = _Ruleset(_known(_FILES, version), _known(_CONNECTIONS, version), _known(_SCOPES, version))
     size = ctypes.c_size_t(ctypes.sizeof(ruleset))
     descriptor = libc.syscall(_CREATE_RULESET, ctypes.byref(ruleset), size, ctypes.c_uint32(0))
+    # Without this flag an unprivileged process may not restrict itself (landlock(7)).
     if descriptor < 0 or libc.prctl(_NO_NEW_PRIVILEGES, 1, 0, 0, 0) != 0:
         return False
     return libc.syscall(_RESTRICT_SELF, ctypes.c_int(descriptor), ctypes.c_uint32(0)) == 0

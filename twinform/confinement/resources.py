@@ -7,6 +7,8 @@ Kind = Literal["AS", "CORE", "CPU", "FSIZE", "NOFILE", "NPROC"]
 """A limit, by the end of its name in `resource`."""
 
 
+# A limit of zero for file sizes also stops writing through descriptors that are already open, and
+# one of zero for descriptors makes every new `open`, `socket` and `pipe` fail.
 def renounce_descriptors(*, threads: bool = False) -> bool:
     """Open no file or connection and start no process any more; whether the system holds to that."""
     set_limit("FSIZE", 0)

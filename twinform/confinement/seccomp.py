@@ -71,6 +71,7 @@ def program(machine: str, *, threads: bool = False) -> Iterator[tuple[int, int, 
     """The program: code, how many instructions to skip if true and if not, value."""
     column = list(ARCHITECTURES).index(machine)
     plain = [numbers[column] for numbers in (CALLS | (THREAD_CALLS if threads else {})).values()]
+    # The architecture comes first: numbers mean other calls in another ABI (seccomp(2)).
     yield _LOAD, 0, 0, _ARCHITECTURE
     yield _JUMP_IF_EQUAL, 1, 0, ARCHITECTURES[machine]
     yield _RETURN, 0, 0, _DENY

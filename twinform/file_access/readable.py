@@ -59,6 +59,8 @@ class Readable:
 
     def allows(self, path: str | Path) -> bool:
         """Whether a file or folder may be read, or is not there."""
+        # A link `robot.urdf -> ~/.netrc` in a downloaded repository must not make that file
+        # readable, so the real place decides and not the name.
         real = os.path.realpath(path)
         return self._allows_place(real) or self._is_linked_package(path, real)
 
@@ -79,6 +81,8 @@ class Readable:
             OSError: it cannot be read, or is no regular file.
         """
         self.require(path)
+        # The place of the opened descriptor is compared with the one that was checked, so that
+        # nothing can be exchanged in between.
         expected = os.path.realpath(path)
 
         def check(place: str) -> None:
@@ -94,6 +98,8 @@ class Readable:
 
     def _is_beside(self, real: str) -> bool:
         """Whether it is a package or model, or in one, that lies beside that of the file."""
+        # In a workspace, `$(find b)` in `ws/src/a` means `ws/src/b`. Keys and passwords do not lie
+        # inside packages, so neighboring packages are readable and nothing else beside them is.
         if not self.beside or real == self.beside or not _is_visible_in(real, self.beside):
             return False
         name = os.path.relpath(real, self.beside).split(os.sep)[0]

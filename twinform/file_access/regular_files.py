@@ -29,6 +29,8 @@ def read_regular(path: Path, size: int | None = None, check: Callable[[str], obj
         OSError: it cannot be read, or is no regular file.
     """
     _require_regular(path.stat(), path)
+    # Opening a named pipe for reading blocks until somebody writes to it; O_NONBLOCK returns at
+    # once.
     descriptor = os.open(path, os.O_RDONLY | _DO_NOT_WAIT)
     with os.fdopen(descriptor, "rb") as file:
         status = os.fstat(file.fileno())

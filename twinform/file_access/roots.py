@@ -10,6 +10,8 @@ REPOSITORY = (".git", ".hg")
 """What is at the top of a repository: a folder or, in a worktree or submodule, a file."""
 PACKAGE = ("package.xml", "model.config")
 """What makes a folder a package of ROS or a model of Gazebo."""
+# A search that climbed six folders where there was no repository let a xacro file in a downloads
+# folder read keys out of the home folder.
 PROJECT = ("twinform.toml", *PACKAGE)
 """What makes a folder a root where there is no repository."""
 _MOST_SEARCHED = 7

@@ -19,6 +19,9 @@ try:
 except ImportError:  # on Windows; there is no telling whose folder it is, so none is removed
     fcntl = None
 
+# Linux can write a file without a name (O_TMPFILE) and link it at the end, so that a killed process
+# leaves nothing. That cannot replace an existing file, keeps a descriptor open for each file, and
+# folders, other file systems and other operating systems would need a staging folder all the same.
 PREFIX = ".twinform-staging-"
 """What the names of all staging folders begin with."""
 _TRIES = 10
@@ -45,6 +48,8 @@ class StagingFolder:
             self._outer = self._parent / f"{PREFIX}{os.urandom(8).hex()}"
             self._outer.mkdir(mode=0o700)
             with suppress(FileNotFoundError):  # another run has taken it for one that is left, before it had its lock
+                # The kernel releases the lock however the process ends. A process ID in the name
+                # would be wrong on a network file system, and an age wherever a clock was set back.
                 self._lock = _locked(self._outer)
                 inner = self._outer / _mark(self._outer.stat())
                 inner.mkdir()
@@ -110,6 +115,8 @@ def _remove_if_left(path: Path) -> None:
     lock = os.open(path, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
     try:
         status = os.fstat(lock)
+        # Only what this module could have made is removed: a link is refused by O_NOFOLLOW, and an
+        # unpacked archive or a copy does not contain the right mark.
         if status.st_uid == os.geteuid() and fcntl is not None:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)  # raises where the folder is in use
             if os.listdir(lock) in ([], [_mark(status)]):  # noqa: PTH208 - of a descriptor

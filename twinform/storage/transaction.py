@@ -50,6 +50,8 @@ class Transaction:
         """
         try:
             for each in reversed([*_missing(folder)]):
+                # Undo steps are recorded before the step itself: a signal may come between any two
+                # instructions.
                 self._undo.append(each.rmdir)
                 self._folders[each.parent] = None
                 with suppress(FileExistsError):  # another process was faster
@@ -66,6 +68,8 @@ class Transaction:
         """
         old = new.with_name(f"{new.name}.old")
         is_new = not os.path.lexists(target)
+        # The old file keeps a second name until the last move has succeeded. Only a process that is
+        # killed between two moves can leave some of the new files in place.
         if keep and not is_new:
             _give_second_name(target, old)
         self._undo.append(partial(_put_back, new, target, old, is_new=is_new))
@@ -82,6 +86,8 @@ class Transaction:
         self._undo.append(partial(_take_away_link, new, target))
         self._folders[target.parent] = None
         try:
+            # `link` fails if the target exists, which `rename` does not: nothing can be overwritten
+            # in between.
             os.link(new, target)
         except FileExistsError:
             raise

@@ -62,6 +62,7 @@ class Project:
 
         Only a trusted file names any: it may have come with the xacro files, and name a secret for them.
         """
+        # Ownership proves nothing here: whoever unpacks an archive owns all that is in it.
         return self.env if self.trusted else ()
 
     @property
@@ -147,6 +148,8 @@ def hold_limit(ctx: click.Context, option: click.Parameter, value: int, usual: i
     """
     project = settings_of(ctx)
     configured = ctx.get_parameter_source(option.name or "") is click.core.ParameterSource.DEFAULT_MAP
+    # A file that is too large and a configuration that allows it come in one download. This is an
+    # error and no warning: what would follow is an error about the model that does not say why.
     if configured and project.path is not None and not project.trusted:
         from twinform.cli.config.trust import require_lower  # noqa: PLC0415 - few projects have limits
 
@@ -213,4 +216,7 @@ def _load(ctx: click.Context, _option: click.Parameter, value: Path | None) -> N
         per_file=_per_file(path, settings),
         env=settings.env,
     )
+    # Settings are defaults of options and nothing else, so whatever is given on the command line
+    # wins. The Python API reads no configuration: a library whose results depend on the current
+    # folder is a trap.
     ctx.default_map = dict(settings.defaults)

@@ -121,6 +121,9 @@ def is_own(path: Path) -> bool:
     to them. Where the system has no such owners, nobody knows, and it is not.
     """
     real = Path(os.path.realpath(path))
+    # The same test as git's `safe.directory`. Groups are not asked: on many systems the files of a
+    # user are writable for a group of the user's own. Windows has no such owners, so there
+    # --trust-config is needed.
     return hasattr(os, "geteuid") and _belongs_to_caller(real) and _belongs_to_caller(real.parent)
 
 

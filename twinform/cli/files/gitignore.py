@@ -38,6 +38,8 @@ class GitIgnore:
         before = () if _is_top(here) else self.patterns
         own = [_read(folder, here / ".gitignore")]
         if _is_top(here):
+            # The user's own patterns (`core.excludesFile`) are left out on purpose: the same models
+            # are checked on every machine.
             own.insert(0, _read(folder, _git_folder(here) / _EXCLUDE))
         return type(self)((*before, *(each for each in own if each)))
 

@@ -26,6 +26,8 @@ _STAR = "[^/]*"
 _ONE = "[^/]"
 
 
+# pathspec's optional engine re2 is linear too, but it is a compiled dependency for a few patterns.
+# A test holds the meaning of these expressions to pathspec, and that of pathspec to `git ls-files`.
 class _LinearPattern(GitIgnoreSpecPattern):
     """A pattern that never goes back behind its last `*`, nor behind its last `**`.
 
