@@ -24,6 +24,9 @@ def report_unexpanded(root: XmlElement, sink: DiagnosticSink) -> None:
         message = f"{_count(len(macros), 'element')} of xacro will not be expanded"
         sink.report(rules.UNEXPANDED_XACRO, message, where, found="xacro", help=_HELP)
     found = list(_with_expressions(root))
+    # A file that is not called `.xacro` and has `${...}` in its links or joints is a robot that
+    # nobody wrote: an error. In <ros2_control> and <transmission> they are strings for another
+    # program.
     expressions, severity = [each for each in found if not each.is_aside], Severity.ERROR
     if not expressions:
         expressions, severity = found, Severity.WARNING

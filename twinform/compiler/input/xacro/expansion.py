@@ -49,6 +49,9 @@ def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expan
         message = f"the expanded file has {len(text):,} bytes; the limit is {LARGEST:,}"
         sink.report(rules.UNREADABLE_FILE, message)
         raise UnreadableError
+    # Nodes of the IR keep the lines of the expanded text, which are the ones that the `xacro`
+    # command prints and by which the writer orders children. Findings name the file that the author
+    # can edit first.
     return Expansion(text, _origins(text, outcome["places"]))
 
 

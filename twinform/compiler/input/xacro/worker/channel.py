@@ -74,6 +74,7 @@ class Channel:
     def __init__(self) -> None:
         self.incoming = os.fdopen(os.dup(0), "rb")
         self.outgoing = os.fdopen(os.dup(1), "wb")
+        # What the file prints must not end up between the messages.
         nothing = os.open(os.devnull, os.O_RDWR)
         for descriptor in (0, 1):
             os.dup2(nothing, descriptor)

@@ -109,6 +109,8 @@ class Expander:
                 "parse": self._parse,
                 "print_location": lambda: None,  # every remark has its place already
                 "root_dir": _working_folder(),
+                # xacro hands expressions to Python's `eval` behind a list of forbidden names, which
+                # `python.vars(python.type(f))['__get__']` left.
                 "safe_eval": self.interpreter.evaluate,
                 **{name: self._watched(getattr(self.xacro, name, None)) for name in _WATCHED},
             },
@@ -163,6 +165,8 @@ class Expander:
 
 def _replace(module: ModuleType, replacements: Mapping[str, Any]) -> None:
     for name, value in replacements.items():
+        # A newer xacro that renames a function would otherwise run its own version of it,
+        # unconfined.
         if not hasattr(module, name):
             raise ImportError(f"this version of xacro is not known: {module.__name__} has no {name}")
         setattr(module, name, value)

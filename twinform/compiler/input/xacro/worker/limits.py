@@ -8,6 +8,8 @@ from twinform.compiler.input.xacro.worker.failures import TimeUpError
 from twinform.confinement.resources import limits, set_limit
 
 MEMORY = 2**29
+# Of 386 xacro files in the corpus one, a pendulum of 1,201 links, takes 9.3 s and is right; all
+# others take less than 0.4 s.
 SECONDS = 10
 """Of processor time. The slowest real file that we know takes from one to nine, as machines are."""
 _GRACE = 2
@@ -23,6 +25,8 @@ def limit() -> None:
         return
     set_limit("AS", MEMORY)
     set_limit("FSIZE", 0)
+    # As an exception, the signal is reported with the element that was being expanded. The hard
+    # limit, which kills without a word, comes two seconds later.
     signal.signal(signal.SIGXCPU, _time_is_up)
     set_limit("CPU", SECONDS, _GRACE)
 

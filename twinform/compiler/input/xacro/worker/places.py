@@ -25,6 +25,8 @@ class _Keeper:
     def handle(self, operation: int, key: str, data: Any, src: Any, dst: Any) -> None:
         del operation, src
         if dst is not None:
+            # minidom copies user data to clones, so an element that a macro produces still knows
+            # its line.
             dst.setUserData(key, data, self)
 
 

@@ -62,6 +62,7 @@ def run(compiler: Compiler, confine: Callable[[], object] = confine) -> dict[str
         return {"missing": str(error)}
     remarks = _Remarks(expander.place)
     sys.stdout = sys.stderr = remarks
+    # From `confine` on nothing can be opened, so whatever is imported late has to be imported now.
     arguments = _Arguments(task["arguments"])
     for name in _NEEDED_LATER:
         import_module(name)

@@ -12,6 +12,8 @@ LONGEST_TEXT = 1_000_000
 """In characters: of one value, and of everything inside a collection."""
 MOST_ITEMS = 100_000
 """In one collection."""
+# A budget of steps alone does not hold: one step can be `9**9**9`. What could be too large is
+# refused before it is made.
 MOST_BITS = 1024
 """Of an integer: as many as the largest floating point number has."""
 LARGEST_OUTPUT = 64 * 2**20

@@ -136,6 +136,7 @@ def _sum(budget: Budget, values: Value, start: Value = 0) -> Value:
 
 def _range(_: Budget, *args: int) -> range:
     found = range(*args)
+    # `len` of a range overflows beyond `sys.maxsize`.
     step = found.step
     require_items((found.stop - found.start + step - (1 if step > 0 else -1)) // step)
     return found

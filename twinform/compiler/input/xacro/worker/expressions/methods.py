@@ -71,6 +71,7 @@ def _join(text: str, budget: Budget, parts: Value) -> str:
 
 def _format(text: str, budget: Budget, *args: Value, **named: Value) -> str:
     """What `str.format` makes of fields that are a name, a number or nothing; others lead to attributes."""
+    # `str.format` itself is never called: its fields reach attributes and items of any value.
     fields = [match[1] for match in _FIELD.finditer(text) if match[1] is not None]
     if "" in fields and any(map(str.isdecimal, fields)):
         raise ValueError("cannot switch between automatic and manual field numbering")
@@ -90,6 +91,7 @@ def _format(text: str, budget: Budget, *args: Value, **named: Value) -> str:
 
 def _field(match: re.Match[str], unnamed: Iterator[int], args: tuple[Value, ...], named: Mapping[str, Value]) -> Value:
     name = match[1]
+    # `'{0.__class__}'.format(x)` would lead from a value to its class.
     if name is None and len(match[0]) == 1:
         raise RefusedError("the fields of 'format' must be names or numbers, as in '{name}'")
     if name is None:

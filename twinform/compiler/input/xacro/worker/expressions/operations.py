@@ -32,6 +32,7 @@ def binary(node: ast.operator, left: Value, right: Value, budget: Budget) -> Val
             _require_product(left, right)
         case ast.Pow():
             _require_power(left, right)
+        # `'%0999999999d' % 1` fills the memory.
         case ast.Mod() if isinstance(left, str):
             raise RefusedError("an expression must not use '%' on a text")
         case _:
