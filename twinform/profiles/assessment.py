@@ -62,6 +62,9 @@ class Assessment:
 def assess(subject: Subject, profiles: Iterable[Profile]) -> tuple[Assessment, ...]:
     """What each consumer makes of a file; what detectors find is looked for once."""
     wanted = tuple(profiles)
+    # Rows name rules instead of checking by themselves: classes with checks of their own would
+    # report one number five times for five consumers, and their findings could not be suppressed or
+    # go into a baseline.
     found = (*subject.diagnostics, *detected(subject, {row.rule for each in wanted for row in each.rows}))
     shortfalls = Shortfalls(subject)
     return tuple(_assessed(subject, each, found, shortfalls) for each in wanted)
@@ -103,6 +106,9 @@ class Shortfalls:
 
     def of(self, profile: Profile) -> Iterator[Judgment]:
         """What one of them cannot read."""
+        # Tables of reads are about the text of URDF. An engine of Gazebo sees SDF only, made by
+        # libsdformat or by us, and has rows instead; `reads/gazebo.reads` says what libsdformat
+        # makes of URDF.
         if not profile.reads or self._subject.content is None or self._subject.format is Format.SDF:
             return
         for each in read_as(profile.reads, self._subject.content, self._subject.has_file):

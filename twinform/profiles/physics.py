@@ -18,6 +18,9 @@ _Key = tuple[str, str]
 
 def physics_changes(before: Document, after: Document, step: str) -> Iterator[Entry]:
     """An entry of the ledger for each link and joint of which a pass, called `step`, changed the physics."""
+    # Documents are compared, instead of asking passes what they did: a pass of another package is
+    # covered too, and a report can apply the list to the source and ask Drake. The user's own
+    # passes are not listed: they were asked for.
     if before is after:
         return
     old, new = dict(_parts(before)), dict(_parts(after))

@@ -15,6 +15,8 @@ class Remedy(NamedTuple):
     physics: bool
 
 
+# These passes only take away or turn around. What would need a guess (a sensor that Fortress does
+# not know, a color of 200, a kinematic loop) stays a finding.
 REMEDIES = (
     Remedy("drop-repeats", physics=False),
     Remedy("tidy-materials", physics=False),
@@ -24,7 +26,10 @@ REMEDIES = (
     Remedy("replace-continuous", physics=False),
     Remedy("drop-bare-scripts", physics=False),
     Remedy("drop-flat-shapes", physics=True),
+    # libsdformat swaps limits that are the wrong way round where it reads URDF, with a warning.
     Remedy("order-limits", physics=True),
+    # Before `balance-inertia`, which then sees the shares of inertia that massless links were
+    # given.
     Remedy("split-massless", physics=True),
     Remedy("balance-inertia", physics=True),
     Remedy("convert-meshes", physics=False),

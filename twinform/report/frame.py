@@ -9,6 +9,8 @@ import hashlib
 from base64 import b64encode
 from typing import NamedTuple
 
+# viser's client puts its program into a script element that it makes itself, and evaluates strings.
+# Without a view, the policy of a report has no `unsafe` word at all.
 _MAKES_SCRIPTS = (
     "(()=>{const make=document.createElement.bind(document);document.createElement=(name,...more)=>{"
     "const made=make(name,...more);if(String(name).toLowerCase()==='script')made.nonce='%s';return made}})()"

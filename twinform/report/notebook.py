@@ -27,6 +27,8 @@ class Shown:
     page: str = field(repr=False)
     height: int
 
+    # Not every notebook is IPython's, so this has to be a method of the value, and not a registered
+    # formatter.
     def _repr_html_(self) -> str:
         return element(
             "iframe",

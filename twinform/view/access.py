@@ -29,8 +29,14 @@ class Access:
         WebSocket, the origin is its own; and where it has its own name lead to this machine, that name is the host.
         """
         host = hosts[0] if len(hosts) == 1 else ""
+        # Every web page can make a browser connect to a port of its own machine, and WebSockets are
+        # not bound to one origin. The check of `Host` is against names that an attacker makes
+        # resolve to this machine (DNS rebinding).
         is_local = host.partition(":")[0] in _LOCAL_HOSTS
         is_own = all(origin in {f"http://{host}", f"https://{host}"} for origin in origins)
+        # viser's client opens its WebSocket at the address that it was loaded from, so one token
+        # covers both. Users of the same machine who can list processes see it in the command line
+        # of the browser; --no-open keeps it out.
         given = path.partition("?")[0].removeprefix("/").partition("/")[0]
         has_token = secrets.compare_digest(given.encode(errors="surrogateescape"), self.token.encode())
         return is_local and is_own and has_token

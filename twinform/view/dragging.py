@@ -30,6 +30,8 @@ class Drag:
         if self.joint.degrees[0].slides:
             return self.position + dot(self.axis, minus(pointer, self.grip))
         start, end = (across(self.axis, minus(each, self.center)) for each in (self.grip, pointer))
+        # The angle is taken about the axis as it was when the drag began: computing it anew from
+        # each message would lag behind what the browser shows, and the joint would swing.
         return self.position + math.atan2(dot(self.axis, cross(start, end)), dot(start, end))
 
 
@@ -64,6 +66,8 @@ class Dragging:
     def listen(self, handle: Any, link: str) -> None:
         """Move what a link hangs from when its part is dragged."""
 
+        # Without the key, a drag turns the camera: a robot often fills the picture, and then there
+        # would be nowhere to take it.
         @handle.on_drag("left", modifier=MODIFIER)
         async def _(event: Any) -> None:  # async: else updates may come before the start
             if event.phase == "start":

@@ -34,6 +34,9 @@ class MeshDrawings:
 
     def _drawn(self, mesh: Mesh) -> Mapping[str, bytes] | str:
         try:
+            # A mesh is a file of a stranger: the confined child process hands over arrays of
+            # numbers. Textures become colors of vertices there, which needs no second kind of
+            # material and is enough to recognize a robot.
             return self._bench.outcome("draw", mesh, self._options).result.files
         except MeshError as error:
             return error.message

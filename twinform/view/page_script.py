@@ -9,6 +9,11 @@ from functools import cache
 from html import escape
 from importlib.resources import files
 
+# viser reports clicks and drags, but not where the mouse is. Asking the server with each motion
+# would need a second picking of all triangles in Python and works in no page without a server; a
+# server of our own in front of viser's means a second port. The script asks the scene that is drawn
+# already. It uses `window.__viserMutable`, which is not public, so all of it is guarded: where
+# something is missing there is no tip and no error.
 _RUN = "if(!window.twinform?.show){const s=document.createElement('script');s.textContent=this.dataset.script;\
 document.head.append(s)}twinform.show(JSON.parse(this.dataset.news))"
 """Content of a control of viser is set as HTML, where scripts do not run, but handlers do."""
@@ -25,6 +30,7 @@ def control(labels: Mapping[str, str], selected: Iterable[str]) -> str:
 
 def with_script(page: str, labels: Mapping[str, str]) -> str:
     """A page of viser with the script, and texts by names of nodes."""
+    # `</script>` in a name would end the script element.
     news = json.dumps({"labels": dict(labels)}).replace("<", "\\u003c")
     before, end, after = page.rpartition("</body>")
     return f"{before}<script>{_script()}</script><script>twinform.show({news})</script>{end}{after}"

@@ -35,6 +35,8 @@ def _ledger(document: Document) -> tuple[tuple[Entry, ...], tuple[str, ...]]:
     """What conversions to the other format make of each model alone, and why there is none of some."""
     entries: list[Entry] = []
     reasons: list[str] = []
+    # With the world around it, each conversion would list all other models as dropped: 28 s and
+    # 41,000 entries for 200 models instead of 0.4 s.
     for alone in _each_alone(document):
         try:
             entries += convert(alone, to=_OTHER[document.format].value).ledger.entries

@@ -79,4 +79,7 @@ def _text(row: _Row, marks: Sequence[Mark]) -> str:
         f'<span class="mark" style="color:{each.color}" title="{escape(each.text)}">{escape(each.sign)}</span>'
         for each in marks
     )
+    # The tree is HTML, since viser's buttons neither fold nor scale to a thousand links. A click
+    # writes the name into the field "Find", as a person would type it: one way into the selection,
+    # which also works where the script does not run.
     return f'<button type="button" data-twinform-link="{full}">{name}</button>{by}{signs}'

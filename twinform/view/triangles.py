@@ -66,6 +66,7 @@ def _of_mesh(shape: Mesh, meshes: MeshDrawings) -> Triangles:
         return _stand_in("its points are beyond what can be drawn")
     faces = np.frombuffer(found["faces"], dtype=np.uint32).reshape(-1, 3)
     colors = np.frombuffer(found["colors"], dtype=np.uint8).reshape(-1, 4) if "colors" in found else None
+    # A negative scale mirrors the mesh, and with it the winding of its triangles.
     return Triangles(points, faces if scale.prod() > 0 else faces[:, ::-1], colors)
 
 
@@ -84,6 +85,7 @@ def _cylinder(_: ShapeNode, radius: float, length: float) -> Any:
 
 def _cone(_: ShapeNode, radius: float, length: float) -> Any:
     made = trimesh.creation.cone(radius, length, sections=48)
+    # trimesh stands a cone on the origin; SDF centers it.
     made.apply_translation((0, 0, -length / 2))
     return _edged(made)
 

@@ -30,6 +30,7 @@ viser: Any = importlib.import_module("viser")
 Array = Any
 """A numpy array."""
 
+# There is no option for another address, and a port that is taken is an error and not the next one.
 HOST = "127.0.0.1"
 _BETWEEN = 0.15
 """Seconds between two pictures that are compared."""
@@ -49,6 +50,10 @@ class Viewer:
     def __init__(self, port: int = 0) -> None:
         self._access = Access()
         with _silence(), self._access.guard():
+            # viser (MIT, 9 MB) has controls, clicks, and pages that open without a server. meshcat
+            # had its last release in 2021 and has neither sliders nor clicks; rerun is an
+            # application of its own for recordings; three.js with urdf-loader would read the file a
+            # second time by its own rules and knows no SDF.
             self._server: Any = viser.ViserServer(host=HOST, port=_free(port), label="twinform", verbose=False)
         self._lock = RLock()
         self._panel: Panel | None = None
@@ -134,6 +139,7 @@ class Viewer:
                 height, width, wxyz=camera.wxyz, position=camera.position, fov=camera.fov, transport_format="png",
                 timeout=seconds,
             )  # fmt: skip
+            # A renderer without a graphics card draws some frames before everything is there.
             if time.monotonic() > end or (before is not None and np.array_equal(before, picture)):
                 return picture
             before = picture

@@ -100,6 +100,8 @@ class _GraphBuilder:
         """A node; of several of one name the first is what others mean by it."""
         node = f"n{len(self.nodes)}"
         name = place.prefix + label
+        # Ids are ours and names are only labels: keywords, `::` and blanks then need no rules in
+        # any of the languages.
         self.nodes.append(GraphNode(node, kind, name, label, place.cluster, where))
         self._known.setdefault((place.number, kind, name), node)
         return node
@@ -132,6 +134,8 @@ class _GraphBuilder:
         try:
             body = place.graph.body(scoped)
         except FrameError:
+            # A broken tree is drawn as well: somebody whose joint names a link that is not there
+            # needs just this picture.
             return self._include(scoped, place) or self._once("missing", name, place, prefix=place.prefix)
         if body in {WORLD, MODEL}:
             return self._once("world", WORLD, place, prefix="")
@@ -141,6 +145,7 @@ class _GraphBuilder:
         """The include that a name leads into."""
         while "::" in scoped:
             scoped = scoped.rpartition("::")[0]
+            # The file was not read, so the name may well be right.
             if found := self._known.get((place.number, "include", scoped)):
                 return found
         return None

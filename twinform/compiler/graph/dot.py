@@ -24,6 +24,8 @@ def dot(graph: Graph) -> str:
     for node in graph.nodes:
         parts[node.cluster].append(f"{node.id} [{_SHAPES[node.kind]} label={quoted(node.label)}]")
     for joint in graph.joints:
+        # A mimic leads from joint to joint, and neither DOT nor Mermaid has edges between edges. So
+        # joints are nodes, as `urdf_to_graphviz` draws them.
         parts[joint.cluster].append(f'{joint.id} [shape=ellipse color="#1f5fa8" label={_joint_label(joint)}]')
     lines = [f"digraph {quoted(graph.title)} {{", '  node [fontname="Helvetica"]', '  edge [fontname="Helvetica"]']
     lines += _clusters(inside, parts)

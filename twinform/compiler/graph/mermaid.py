@@ -20,6 +20,7 @@ _SHAPES: Mapping[str, str] = {
     "include": '[/"{}"/]',
     "missing": '["{}"]:::missing',
 }
+# A test has Mermaid draw names such as `end`, `<script>` and `#quot;` in a browser.
 _PLAIN = re.compile(r"[^\w .,/()-]")
 """Characters with an entity; letters of all scripts stay."""
 

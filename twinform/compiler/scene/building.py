@@ -23,6 +23,9 @@ Part = TypeVar("Part", Link, Joint, Frame)
 
 def build_scene(document: Document) -> Scene:
     """The scene of a document; what includes name is in it where they were expanded."""
+    # The document is shown as it stands: a planar joint is three sliders and no chain of three
+    # joints. A second reader in the page, such as urdf-loader, would show what *it* understands, so
+    # scenes and conversions share this code.
     document = Pipeline(_passes(document)).run(document, DiagnosticSink())
     work = _SceneBuilder(document.format)
     for world in document.worlds:

@@ -12,6 +12,7 @@ def find_empty_attributes(subject: Subject, sink: DiagnosticSink) -> None:
     while waiting:
         element = waiting.pop()
         for name in (str(name) for name, value in element.attrib.items() if not value):
+            # libsdformat prints an error for an empty attribute that it does not know.
             if name.startswith("{"):
                 place = Location(line=element.sourceline or 0, path=path_of(element))
                 message = f"<{element.tag}> has an attribute {name.partition('}')[2]!r} without a value"

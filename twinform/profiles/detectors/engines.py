@@ -40,6 +40,9 @@ _COMMON = frozenset({"revolute", "fixed"})
 def find_engine_faults(subject: Subject, sink: DiagnosticSink) -> None:
     """Report what some engine of Gazebo does not take; URDF becomes SDF before engines see it."""
     document = subject.document
+    # DART aborts the whole simulation with an assertion where a sphere has no radius, limits are
+    # the wrong way round or a leaf has no inertia. To somebody whose robot does not appear that is
+    # a refusal, and profiles list it as one.
     if document is None or document.format is not Format.SDF:
         return
     for node in walk(document):
@@ -100,6 +103,9 @@ def _find_in_joint(joint: Joint, sink: DiagnosticSink) -> None:
 def _is_uncertain(inertial: Inertial) -> bool:
     """Whether it is by rounding that an engine finds the inertia possible, or not."""
     matrix = inertia_matrix(inertial.inertia, MOMENT[Format.SDF])
+    # Two equal moments cost libsdformat's solution of the cubic equation half of its digits, and
+    # MuJoCo loses one or two: of inertias next to the bound, one is accepted and the next refused.
+    # Computing as they do would hold for one release only, so the whole neighborhood is a finding.
     return not inertial.auto and matrix is not None and all(map(math.isfinite, matrix)) and is_doubtful(matrix)
 
 
@@ -111,6 +117,7 @@ def _weightless(document: Document) -> Iterator[Body]:
         solids = [_solid(link) for link in body]
         massive = [mass for mass, _ in solids if mass > 0]
         turns = any(extent > 0 for _, extent in solids)
+        # Several point masses that are held apart have an inertia together; a single one has none.
         if not massive or (len(massive) == 1 and not turns):
             yield body
 

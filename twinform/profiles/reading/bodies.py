@@ -9,6 +9,7 @@ from twinform.profiles.reading.forms import number_in
 from twinform.profiles.reading.nodes import Node
 
 Fact = Iterator[tuple[Node, str]]
+# MuJoCo's mjMINVAL.
 _LIGHTEST = 1e-15
 """What counts as no mass, in kg, and as no moment, in kg m2."""
 _SMALLEST = 1e-14
@@ -107,6 +108,7 @@ def _is_unbalanced(principal: tuple[float, ...]) -> bool:
 def weightless(root: Node) -> Fact:
     """Links that move, with nothing that has a mass and an inertia in what is fixed to them."""
     heavy = {_name(body.node) for body in bodies(root) if _weighs(body)}
+    # Without <inertial>, MuJoCo computes the mass from the collision shapes.
     heavy |= {_name(link) for link in root.all("link") if not link.first("inertial") and link.first("collision")}
     fixed: dict[str, list[str]] = {}
     for joint in root.all("joint"):

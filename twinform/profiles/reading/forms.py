@@ -8,6 +8,8 @@ import math
 import re
 from collections.abc import Callable, Mapping
 
+# `\d++` and `*+` never give back what they matched: text from a stranger must not make a match
+# quadratic.
 _STREAM = re.compile(r"[ \t\n\v\f\r]*[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
 _LEADING = re.compile(r"[ \t\n\v\f\r]*([-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?)", re.ASCII)
 _HEXADECIMAL = re.compile(r"[-+]?0[xX](?:[0-9a-fA-F]++\.?[0-9a-fA-F]*+|\.[0-9a-fA-F]++)(?:[pP][-+]?\d++)?", re.ASCII)

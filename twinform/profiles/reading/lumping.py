@@ -69,6 +69,8 @@ class _Body:
         for number in range(len(masses) - 1, 0, -1):
             if written[number]:
                 parent = self.above[number]
+                # From the leaves to the root, as it lumps: the center of two masses that are both
+                # zero is a division by zero.
                 masses[parent] += masses[number]
                 written[parent] = True
                 wrong[parent] |= wrong[number] or masses[parent] == 0
@@ -137,6 +139,8 @@ def _bodies(root: Node) -> tuple[_Body, ...]:
     links = {link.attributes.get("name", ""): link for link in reversed(list(root.all("link")))}
     below: dict[str, list[Node]] = {}
     children, staying = set[str](), fixed_joints(root)
+    # urdfdom (`ModelInterface::initTree`) walks a `std::map` of joints and overwrites the parent of a
+    # link: of two joints to one child, the last by name counts.
     for joint in sorted(root.all("joint"), key=lambda joint: joint.attributes.get("name", ""), reverse=True):
         parent, child = joint.value("parent", "link") or "", joint.value("child", "link") or ""
         if parent in links and child in links and child not in children and parent != child:
@@ -168,6 +172,8 @@ def _is_lumped(joint: Node, staying: frozenset[str]) -> bool:
 @lru_cache(maxsize=4)
 def _left(root: Node) -> tuple[_Body, ...]:
     """The bodies that it does not leave out."""
+    # Links are lumped first: what is dropped for its mass is a whole body with everything that
+    # fixed joints hold.
     found = dict.fromkeys(body for body in _bodies(root) if body.name == "world" or not body.is_dropped)
     for body in _bodies(root):
         if body.parent is not None and body.parent not in found:

@@ -48,6 +48,7 @@ def parse(content: bytes, dialect: Dialect) -> list[Node]:
     Raises:
         UnparsedError: the parser refuses it.
     """
+    # Both parsers are handed a C string, which ends at the first zero byte.
     text = content.split(b"\0")[0].decode("utf-8-sig", "replace").replace("\r\n", "\n").replace("\r", "\n")
     return _Parser(text, dialect).document()
 

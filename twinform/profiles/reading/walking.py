@@ -75,6 +75,8 @@ def _found(node: Node, place: tuple[Step, ...]) -> Iterator[Node]:
 def _children(node: Node, step: Step) -> Iterable[Node]:
     if step.first:
         return [child for child in node.children[:1] if child.tag == step.tag]
+    # Readers in C++ take the first element of a name (`FirstChildElement`) and never look at a
+    # second one.
     same = node.all(step.tag)
     return same if step.every else (child for child in (next(same, None),) if child is not None)
 
