@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterator
 from typing import BinaryIO
 
+# pygls reads headers of any length and reserves whatever they promise.
 LARGEST_MESSAGE = 256 * 2**20
 """The longest message in bytes: a text of 40 MiB, in which each character is escaped, fits."""
 _LONGEST_LINE = 1024

@@ -48,6 +48,7 @@ def _kinds(kind: ReferenceKind, document: Document) -> tuple[str, ...]:
 
 def _documents(session: Session, document: Document) -> Iterator[Document]:
     yield document
+    # While somebody types, half of the document may be inside an element that is not closed yet.
     good = session.documents.last_good(document)
     if good is not None and good is not document:
         yield good

@@ -122,6 +122,9 @@ def _of_attributes(document: Document, node: Node) -> Iterator[Name]:
         if attribute == "name" and node.tag in _STATES and surroundings(document, node).in_state:
             yield Name(value, span.value, node, "model", defines=False)
             continue
+        # Rows of the facts tables lead to fields of the IR, and `REFERENCES` says what these name,
+        # so an editor needs no list of its own. A test renames every name of the examples in the
+        # text and by the pass, and compares the models.
         kind = kind_at(document, node, attribute)
         if kind is not None:
             yield from _steps(document, value, span.value, node, kind)

@@ -8,6 +8,8 @@ from lsprotocol.types import Position, PositionEncodingKind, Range
 
 from twinform.diagnostics import Span
 
+# The three line ends of the protocol, and no others: pygls splits with `str.splitlines`, which also
+# takes form feeds and U+2028, and places every later change wrongly.
 _LINE_END = re.compile(r"\r\n|\n|\r")
 _WIDTHS = {PositionEncodingKind.Utf8: "utf-8", PositionEncodingKind.Utf16: "utf-16-le"}
 _UNITS = {PositionEncodingKind.Utf8: 1, PositionEncodingKind.Utf16: 2}

@@ -170,6 +170,7 @@ def _parsed(data: bytes | None) -> Message:
     if data is None:
         raise JsonRpcParseError("this is no message: write 'Content-Length: ', the length in bytes, and an empty line")
     try:
+        # Python's parser takes NaN and Infinity, which JSON does not have.
         message = json.loads(data, parse_constant=_refuse_constant)
     except (ValueError, RecursionError) as error:
         raise JsonRpcParseError(f"this is no JSON: {error}"[:_LONGEST]) from error
@@ -184,6 +185,7 @@ def _parsed(data: bytes | None) -> Message:
 def _id_of(message: Message) -> str | int | None:
     """The id of a request, or None; an answer may have none, where a request could not be read."""
     id_ = message.get("id")
+    # `True` is an int in Python.
     is_allowed = isinstance(id_, str | int) and not isinstance(id_, bool)
     if not is_allowed and "id" in message and "method" in message:
         raise JsonRpcInvalidRequest("the id of a request is a text or an integer")

@@ -70,6 +70,8 @@ class Checks:
     async def _quiet(self, uri: str) -> None:
         """Wait until nothing was typed for the pause, which each key begins again."""
         loop = asyncio.get_running_loop()
+        # The pause is counted from the last key: a loop that looks again after a whole pause would
+        # wait for up to two of them.
         while (left := self._due[uri] - loop.time()) > 0:
             await asyncio.sleep(left)
 

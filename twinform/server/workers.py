@@ -24,6 +24,8 @@ class Worker:
 
     def __init__(self, seconds: float = _SECONDS) -> None:
         self._seconds = seconds
+        # A check may hang or crash on a hostile document, and the global interpreter lock must not
+        # hold back an answer.
         self._executor = ProcessExecutor(1, seconds)
 
     async def run(self, task: Callable[Arguments, Result], *args: Arguments.args, **kwargs: Arguments.kwargs) -> Result:

@@ -31,10 +31,13 @@ def _unknown_attribute(site: Site) -> Fix | None:
 
 def _reference(site: Site) -> Fix | None:
     """A name of something that is not there, where one that is there is near."""
+    # The name is read out of the help sentence: a field of its own in `Diagnostic` would have to be
+    # filled in at forty places and say what the sentence says.
     meant, found = meant_name(site.finding.help), site.finding.found
     if not meant or not found:
         return None
     edits = _written(site, found, meant)
+    # A near name is a guess, however near.
     return unsafe(f"Write {meant!r} instead of {found!r}", *edits) if edits else None
 
 

@@ -108,6 +108,7 @@ def _without_units(text: str) -> Iterator[Guess]:
     if not found or (_WITH_UNIT.sub("", text).strip() and not numbers_of(_WITH_UNIT.sub("", text))):
         return
     units = {each["unit"].lower() for each in found}
+    # `0.5f` is a float literal of C.
     if units <= _SI or units == {"f"}:
         yield Guess(_WITH_UNIT.sub(lambda each: each["number"], text), Safety.SAFE)
     elif units <= _SCALES.keys():
@@ -121,6 +122,7 @@ def _without_units(text: str) -> Iterator[Guess]:
 def _out_of_range(site: Site) -> Fix | None:
     numbers = numbers_of(site.value)
     if site.finding.help == "divide by 255" and all(0 <= each <= _WHITE for each in numbers):
+        # Somebody who writes colors from 0 to 255 often still writes an alpha of 1.
         alpha = numbers[3:] if len(numbers) > 3 and numbers[3] <= 1 else tuple(each / _WHITE for each in numbers[3:])
         value = text_of_numbers(round(each, 4) for each in (*(each / _WHITE for each in numbers[:3]), *alpha))
         if max(numbers) > _MOST_BRIGHT:
