@@ -19,6 +19,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+# Each place in the code could report what it reads, but passes and mesh readers of others would
+# not, and one that is forgotten gives a stale result that nobody notices.
 _WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT
 _OPEN, _LISTINGS = "open", frozenset({"os.listdir", "os.scandir"})
 _KNOWN_BY_VERSION = tuple(

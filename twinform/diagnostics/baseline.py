@@ -134,6 +134,8 @@ def known_by(path: str, diagnostic: Diagnostic, relative: Relative) -> KnownFind
     """What a finding about a file is known by."""
     where = diagnostic.location
     place = relative(where.file) if where.file and where.file != path else ""
+    # Other tools keep hashes, which nobody can review, or lines, which move with every edit. The
+    # price: a message that is reworded in a new version makes its finding new.
     message = _LINES.sub(r"\1 N", diagnostic.message)[:_LONGEST]
     return KnownFinding(relative(path), diagnostic.rule.name, _PLACES.sub("", where.path), message, place)
 

@@ -16,6 +16,8 @@ HEADINGS = {
     "References": "references",
 }
 """The headings of a page, and the fields of `Rule` that they are. The last one may be left out."""
+# A run needs the name and the severity of each rule, and no page. The heads are generated into
+# `rules/__init__.py`; a page is read when `explain`, an editor or SARIF asks for it.
 _FILE = re.compile(r"---\n(?P<head>([a-z]+: .+\n)+)---\n(?P<page>(\n## .+\n(\n([^#\n].*\n)+)+)+)")
 _SECTION = re.compile(r"^## (.+)\n((?:\n(?:[^#\n].*\n)+)+)", re.MULTILINE)
 

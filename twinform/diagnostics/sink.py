@@ -89,6 +89,7 @@ class DiagnosticSink:
 
     def takes(self, severity: Severity) -> bool:
         """Whether a finding so severe is still kept."""
+        # An error beyond the limit still has to stop the conversion.
         return len(self.diagnostics) < MOST or (severity is Severity.ERROR and not self.has_errors)
 
     def has(self, rule: Rule, location: Location, least: Severity = Severity.INFO) -> bool:

@@ -10,7 +10,11 @@ from typing import NamedTuple
 
 _OURS = re.compile(r"\s*twinform\s*(?::|\s(?=allow\b))\s*", re.IGNORECASE)
 _WORDS = re.compile(
-    r"(?P<word>allow|allow-file)\s+(?P<rules>[^\s,]+(?:\s*,\s*[^\s,]+)*)(?:\s+--?\s+\S.*)?\s*", re.DOTALL
+    # One hyphen, since XML has no `--` in a comment: libxml2 and expat refuse such a file, and only
+    # tinyxml does not. Two are understood, and the file gets a `repaired-xml` finding as any other
+    # with such a comment.
+    r"(?P<word>allow|allow-file)\s+(?P<rules>[^\s,]+(?:\s*,\s*[^\s,]+)*)(?:\s+--?\s+\S.*)?\s*",
+    re.DOTALL,
 )
 USAGE = "write 'twinform: allow RULE, RULE - reason', or 'allow-file' for all of the file; the reason may be left out"
 

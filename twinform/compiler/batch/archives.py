@@ -127,6 +127,7 @@ class _Room:
             path.unlink(missing_ok=True)
             with path.open("xb") as file:
                 while piece := member.content.read(_PIECE):
+                    # Sizes in headers are believed where they are too large, and never otherwise.
                     self._bytes += len(piece)
                     if self._bytes > self.most_bytes:
                         raise LargeArchiveError(

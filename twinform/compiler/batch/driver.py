@@ -65,6 +65,8 @@ class Batch:
         asked += [list(map(str, each)) for each in folders]
         asked += [[each.label, each.name] for each in load_options.profiles]
         asked += [sorted(load_options.arguments.items()), load_options.variables]
+        # A development version that is edited in place keeps its version number; --fresh is for
+        # that.
         asked += [[_named_version(name) for name in READERS], self.job.request]
         return digest(json.dumps(asked).encode())
 
@@ -128,6 +130,10 @@ def _results(
     search = asked.load_options.search
     folders = (*search.own, *search.models, *search.packages, *search.workspaces)
     asking = checked(runner.for_jobs(len(todo)), asked.source, todo, folders)
+    # One process plans and writes, and any executor does the work. A database of jobs that workers
+    # share would need a server (SQLite does not work over a file server), and every worker would
+    # write where the results are. Here a worker that dies has written nothing, and results are the
+    # same wherever they were made.
     for task, result in run_on(asking, work, tasks):
         done = _done(result)
         if done.is_unfit:

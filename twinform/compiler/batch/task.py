@@ -149,6 +149,10 @@ def _alone(task: Task) -> Task:
 
 def _worked(task: Task) -> Done:
     try:
+        # Models are opened here, in a process with a time limit: a pipe called `robot.urdf` would
+        # hold the planning process forever. They are never URLs: includes, packages and macros are
+        # looked for around a model by `stat` and by listing folders, which mounting a store
+        # provides.
         content = task.load_options.search.readable(task.path).read(task.path, task.load_options.limits.size)
     except OSError as error:
         return Done(

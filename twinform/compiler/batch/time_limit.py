@@ -28,6 +28,7 @@ def time_limit(seconds: float | None) -> Generator[None]:
     def end() -> None:
         with lock:
             if not ended:
+                # What hangs in C is not reached; the limits on size and depth are there for that.
                 ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), ctypes.py_object(LateError))
 
     timer = threading.Timer(seconds, end)

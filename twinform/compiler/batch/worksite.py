@@ -19,6 +19,8 @@ from twinform.compiler.observing import digest
 from twinform.compiler.workers import Runner
 from twinform.file_access import read_regular
 
+# Versions of Python and lxml may differ between machines: they change the wording of some messages
+# and no result that we know of.
 READERS = ("collada", "pycollada", "scipy", "trimesh", "xacro")
 """Packages that need not be there, and that what comes of a model depends on."""
 _SAMPLE = 16
@@ -86,6 +88,7 @@ def _opened(runner: Runner, paths: Sequence[str]) -> Generator[Executor]:
 
 
 def _require_version(ask: Callable[[Callable[..., object], tuple[object, ...]], Mapping[str, object]]) -> None:
+    # A function of Python itself, which a worker of any version knows.
     for machine, found in ask(version, ("twinform",)).items():
         if isinstance(found, PackageNotFoundError):
             raise UnfitWorkerError(f"{machine} has no twinform")

@@ -31,7 +31,12 @@ def report_for_consumers(loaded: LoadResult, load_options: LoadOptions, sink: Di
     sink.has_errors = any(each.is_error for each in sink.diagnostics)
     sink.extend(findings(found))
     sink.extend(
-        unread(each.profile, _format(loaded), loaded.path) for each in found if each.profile.named and not each.reads
+        # `for` in twinform.toml is about all files of a project, of both formats: that MuJoCo does
+        # not read the SDF beside its URDF is no finding there. Typed on a command line, nothing
+        # would be judged at all.
+        unread(each.profile, _format(loaded), loaded.path)
+        for each in found
+        if each.profile.named and not each.reads
     )
 
 

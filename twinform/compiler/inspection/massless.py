@@ -14,6 +14,7 @@ def report_massless(document: Document, sink: DiagnosticSink) -> None:
     """Report what moves without mass. In SDF it has one kilogram, and that is an info."""
     if document.format is Format.SDF:
         for link in (link for body in moving_bodies(document) for link in body if link.inertial is None):
+            # In SDF the default is often meant. In URDF, Gazebo drops such a link.
             message = f"link {link.name!r} moves but has no <inertial>; simulators take 1 kg and 1 kg m^2"
             sink.report(
                 MISSING_INERTIAL, message, link.location, expected="<inertial>", help=_HELP, severity=Severity.INFO

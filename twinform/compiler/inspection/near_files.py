@@ -56,6 +56,7 @@ def _is_slip(name: str, near: str) -> bool:
     from difflib import SequenceMatcher  # noqa: PLC0415 - few files are missing
 
     same = sum(block.size for block in SequenceMatcher(None, name, near, autojunk=False).get_matching_blocks())
+    # `ball_valve_wall` is another model and not a misspelt `ball_valve`.
     return len(name) + len(near) - 2 * same <= _FEW
 
 

@@ -24,6 +24,9 @@ def run_read_only(
     for step in lent:
         if isinstance(step, FilesPass):
             raise _refusal(step, "writes a file")
+        # What a pass does counts, and not a flag that it declares: a pass of another package needs
+        # no new declaration, and one that would change the model is refused instead of being run
+        # for nothing.
         if Pipeline((step,)).run(document, sink) != document:
             raise _refusal(step, "changes the model")
 

@@ -71,6 +71,10 @@ class ProcessExecutor(Executor):
             # that the task comes along imports what it needs before a job is taken, and its time begins
             spawn_context()
             context: Any = _WorkerContext()  # pebble describes contexts more narrowly than they are
+            # pebble limits the time of each job, and a job that dies takes no other with it;
+            # `concurrent.futures` has no time limit, and loky none for each job. It is typed,
+            # maintained and 37 kB without dependencies. LGPL 3 allows a program under any license
+            # to import it unchanged.
             self._pool = ProcessPool(self._processes, self._most_jobs, _begin, (fn,), context)
             if self._patience is not None:
                 _require_ready(self._pool, self._patience)
@@ -120,6 +124,8 @@ def _require_ready(pool: ProcessPool, patience: float) -> None:
         NotStartedError: none does.
     """
     try:
+        # Starting Python and importing the compiler takes longer than most models do, and several
+        # seconds on a busy machine. The time of a job counts from when its process is there.
         pool.schedule(os.getpid).result(patience)
     except TimeoutError as error:
         raise NotStartedError(f"no process was ready within {patience:g} seconds") from error

@@ -45,4 +45,8 @@ def _cause(finding: Diagnostic) -> object:
     message = finding.message
     for name in {name for name in _NAME.findall(finding.location.path) if name and name != finding.found}:
         message = message.replace(f"'{name}'", "''")
+    # Numbers count: two inertias that no body has are two mistakes. So does another joint in the
+    # message, as in `missing-inertial`, where each link needs its own. In the corpus the files with
+    # the most findings have 145 times `dialect`, 35 `unused-axis` and 29 `unnamed-material`, each
+    # of which is one cause once the name of the link does not count.
     return finding.rule.name, finding.severity, finding.location.file, message, finding.help, finding.related != ()

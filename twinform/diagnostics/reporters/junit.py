@@ -46,6 +46,7 @@ def _test(diagnostic: Diagnostic, file: str) -> str:
     column = f":{where.column}" if where.column else ""
     place = f"{where.line}{column}" if where.line else ""
     test = _attributes(
+        # Rule, place and path, so that two findings never have one name.
         name=" ".join(part for part in (diagnostic.rule.name, place, where.path) if part),
         classname=file,
         file=name,
@@ -66,6 +67,8 @@ def _test(diagnostic: Diagnostic, file: str) -> str:
 
 def _outcome(diagnostic: Diagnostic, body: str) -> str:
     what = _attributes(type=f"{diagnostic.severity}: {diagnostic.rule.name}", message=diagnostic.message)
+    # A skipped test is shown by Jenkins and GitLab and fails nothing, like the exit code of a
+    # warning.
     tag = "failure" if diagnostic.severity is Severity.ERROR else "skipped"
     return f"<{tag}{what}>{_escaped(body)}</{tag}>"
 
@@ -76,4 +79,6 @@ def _attributes(**values: str) -> str:
 
 def _escaped(text: str) -> str:
     """Text or a value; what XML has no character for is escaped as the other reports do it."""
+    # Names from hostile files have characters that XML has no form for. This is the only difficult
+    # part, and `junitparser` and `junit-xml` do not do it.
     return "\n".join(map(printable, text.split("\n"))).translate(_ENTITIES)
