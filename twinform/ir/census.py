@@ -23,6 +23,8 @@ from twinform.ir.tree import children_of, node_fields
 from twinform.ir.visual import Material, Visual
 from twinform.ir.world import World
 
+# A bit for each of the 298 fields would make every census dear, and nobody asks for most of them.
+# What is listed is derived from the facts tables and held to them by a test.
 RARE: dict[type[Node], tuple[str, ...]] = {
     Axis: ("expressed_in", "mimic", "use_parent_model_frame"),
     Capsule: ("length", "radius"),
@@ -48,6 +50,9 @@ A pose counts where it says more than six numbers.
 
 PLAIN = 1
 """Opaque parts, and the content of `<gazebo>` elements: text, and names without a namespace."""
+# A file may have any number of names, so names share bits by a hash. Two that share one cost time
+# and change nothing. A bit that is missing would leave a part unconverted without a word, so a test
+# converts files with and without the census and asks for the same bytes.
 _BUCKETS = 128
 PREFIXED = (1 << _BUCKETS) - 1 << 1
 """The same with names in a namespace: many names share a bit, since there may be any number of them."""
@@ -103,6 +108,7 @@ def census_of(node: Node) -> int:
     except AttributeError:  # Pydantic has made it
         found = None
     if found is None:
+        # Nodes are frozen, so a census never goes stale; a copy starts without one.
         found = _count(node)
         _set(node, _shared(found))
     return found
@@ -155,6 +161,7 @@ def _bits_of_element(element: Element) -> int:
 
 @lru_cache(maxsize=1024)
 def _bit_of_name(name: str) -> int:
+    # Not `hash`, which differs from process to process.
     return 1 << 1 + crc32(name.encode()) % _BUCKETS
 
 

@@ -19,6 +19,7 @@ RANGE: Mapping[Format, Limit] = {
     Format.SDF: Limit.unchecked(lower=-math.inf, upper=math.inf),
 }
 """The ends of a `<limit>` that is written without them, in rad or m."""
+# The default of <lower> and <upper> in the SDF specification up to 1.9 (`joint.sdf`).
 UNLIMITED = 1e16
 """What stands for infinity in URDF, and in SDF before 1.10: rad, m, N m, N, rad/s or m/s."""
 UNLIMITED_STRENGTH = -1.0

@@ -227,6 +227,7 @@ class FrameGraph:
         """The vertex in its parent."""
         if vertex.local is None:
             pose = Transform.from_pose(vertex.pose)
+            # `placement_frame`: the pose is that of this frame and not of the model frame.
             pose = pose.compose(self._placement(vertex).inverse()) if vertex.placement else pose
             vertex.local = pose.inverse() if vertex.is_around else pose
         return vertex.local
@@ -246,6 +247,7 @@ class FrameGraph:
         if start is base:
             return _IDENTITY
         self._settle(start)
+        # The frame's own pose is given back as it was written, with its notation.
         if start.parent is base:
             return self._local(start).compose(_IDENTITY)
         self._settle(base)

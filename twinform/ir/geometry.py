@@ -25,6 +25,7 @@ class ShapeNode(Node):
         from pydantic_core import core_schema  # noqa: PLC0415 - only Pydantic calls this
 
         schema = handler(source)
+        # `exclude_defaults` would leave the kind out, which the discriminator needs.
         schema["serialization"] = core_schema.wrap_serializer_function_ser_schema(_with_kind)
         return schema
 

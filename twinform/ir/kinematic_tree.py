@@ -42,6 +42,8 @@ class KinematicTree:
         FrameError: an end of a joint is not known, or frames go round in a circle.
     """
 
+    # What hangs from what needs the frames of the whole model. A method of a frozen node would
+    # resolve them at each call, or keep them where nobody sees it.
     def __init__(self, holder: Model | World) -> None:
         scopes = [*_scopes(holder)]
         self.frames = FrameGraph(holder)

@@ -76,6 +76,9 @@ def _rotate(
     Gives the cosine and the sine of the angle.
     """
     coupling = entries[off]
+    # Relative to both diagonal elements instead of the largest one: this is what keeps small
+    # eigenvalues as exact as large ones (Demmel and Veselic, "Jacobi's method is more accurate than
+    # QR").
     if abs(coupling) <= _EPSILON * math.sqrt(abs(entries[first])) * math.sqrt(abs(entries[second])):
         return None
     entries[off] = 0.0

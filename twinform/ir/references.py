@@ -28,6 +28,10 @@ massless one that stands for it, gives its name to; `material`: a shared materia
 ReferenceChange = Callable[[ReferenceKind, str], str]
 """The new name of what a reference of this kind names."""
 
+# A table and not annotations on the fields, since the kind is not a matter of the field alone: the
+# pose of a link names a joint in URDF and any frame in SDF, and the pose of a nested model belongs
+# to the scope around it. A test wants every text field of the IR here or in a list of those that
+# are no references.
 REFERENCES: dict[type[Node], dict[str, ReferenceKind]] = {
     Axis: {"expressed_in": "any"},
     Frame: {"attached_to": "any"},

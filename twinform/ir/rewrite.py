@@ -15,6 +15,9 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 Wanted = TypeVar("Wanted", bound=Node)
 
 
+# One class at a time: a mapping `{Joint: f, Link: g}` cannot be typed so that each handler takes
+# what its key is, and a visitor finds its methods by names that no checker reads. Of some forty
+# callers three had two classes.
 def rewrite(
     node: AnyNode,
     kind: type[Wanted],
@@ -82,6 +85,7 @@ def _with_changed(node: AnyNode, fields: tuple[str, ...], change: Callable[[Node
 @cache
 def _plan(kind: type[Node], wanted: type[Node]) -> tuple[tuple[str, ...], bool]:
     """The fields in which a node of a class may hold, at any depth, one of another class; and whether it is one."""
+    # A walk for joints never looks into links.
     return tuple(name for name in node_fields(kind) if _may_hold(kind, name, wanted)), issubclass(kind, wanted)
 
 

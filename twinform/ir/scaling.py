@@ -7,6 +7,8 @@ import math
 from collections.abc import Iterable
 
 
+# Products of masses and squares of lengths leave the range of doubles long before their results do,
+# and Python raises at some of these places (`**`, `fsum`, `ldexp`) and not at others.
 def common_exponent(numbers: Iterable[float]) -> int:
     """The power of two that brings the largest of some numbers to between a half and one; 0 where all are zero."""
     return math.frexp(max(map(abs, numbers), default=0.0))[1]

@@ -129,6 +129,7 @@ def rounded(vector: Vector3) -> Vector3:
 
 
 def _rounded(number: float) -> float:
+    # Poses composed along a chain of frames end in 0.30000000000000004.
     short = round(number, _DIGITS)
     return short + 0.0 if abs(number - short) <= _NOISE * max(1.0, abs(number)) else number
 

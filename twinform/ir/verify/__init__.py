@@ -32,4 +32,5 @@ def verify_again(document: Document, sink: DiagnosticSink) -> None:
     """
     found = DiagnosticSink(file=sink.file, strict=sink.strict)
     verify(document, found)
+    # Warnings would be those about the source, phrased differently.
     sink.extend_new(each for each in found.diagnostics if each.is_error or each.rule in _OF_SDF)

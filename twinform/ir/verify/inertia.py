@@ -8,6 +8,8 @@ from twinform.ir.principal_moments import Symmetric, principal_moments, relative
 from twinform.ir.solids import tensor
 from twinform.ir.verify.poses import verify_rotation
 
+# Real files cut digits off, and libsdformat refuses a model for it: 26 of 1,448 files in the
+# corpus. `check` warns of exactly these.
 _ROUNDING = 5e-15
 """Ten times what a double rounds, as a part of half the trace: libsdformat forgives no more."""
 _HELP = "correct the numbers, or let --passes balance-inertia write the nearest that a body can have"

@@ -13,6 +13,8 @@ def has_plain_frames(model: Model) -> bool:
 
     False says nothing: names may be there twice or be those of other models, which only a `FrameGraph` can tell.
     """
+    # A graph of all frames was built only to find circles, and nearly every model is a tree at
+    # first sight.
     if model.models or model.includes or model.placement_frame:
         return False
     bases: dict[str, str] = {MODEL: _NOTHING}

@@ -5,6 +5,7 @@ import math
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir.pose import Pose
 
+# One in 1,489 corpus files has such an angle.
 _MOST = 4 * math.pi
 """Two turns, in radians: more is a number of degrees."""
 _ROUNDING = 1e-3

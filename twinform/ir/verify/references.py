@@ -53,6 +53,8 @@ class References:
 
     def is_link(self, name: str) -> bool:
         """Whether a name stands for a link, or for something in an include that was not read."""
+        # A name that only the file of an unread include knows is taken for good, so that such an
+        # include does not hide what is wrong beside it.
         return self.scope.find(name) in {"link", "unread", "twice"}
 
     def _model(self, model: Model) -> None:

@@ -160,6 +160,8 @@ class _Verifier:
 
     def _resolve(self, holder: Model | World, before: int) -> None:
         """Report frames that go round in a circle, where all names lead somewhere, and what they resolve to."""
+        # Unknown names are reported at the attribute that has them; resolving frames would only say
+        # it again in other words.
         if any(each.is_error for each in self.sink.diagnostics[before:]):
             return
         if isinstance(holder, Model) and has_plain_frames(holder):
