@@ -74,6 +74,8 @@ class BalanceInertia(Pass):
             if inertial is None or inertial.auto or not matches(link.name, self.links):
                 return link
             matrix = inertia_matrix(inertial.inertia, MOMENT[document.format])
+            # A mass without <inertia> is an inertia of zero to readers of URDF, on which DART
+            # aborts.
             if inertial.inertia is None and document.format is Format.URDF and has_mass(inertial):
                 matrix = _NOTHING
             return link if matrix is None else self._balance(link, inertial, matrix, sink)
@@ -90,6 +92,9 @@ class BalanceInertia(Pass):
             sink.report(UNBALANCED_INERTIA, message, inertial.location, help="run fill-inertia{replace=impossible}")
             return link
         floor = self._floor(inertial.mass or 0.0, matrix)
+        # MuJoCo's `balanceinertia` sets all three moments to their mean, which also moves those
+        # that were right; adding a constant until the triangle inequality holds moves the smallest
+        # ones most.
         found = nearest_possible(matrix, floor) if floor < math.inf else None
         if found is None or not all(map(math.isfinite, found)):
             message = f"the inertia that is nearest to that of link {link.name!r} is too large for a double"

@@ -112,6 +112,7 @@ def _check_inertial(link: Link, inertial: Inertial, format_: Format, eps: float,
     if mass is not None and not mass > 0 and not sink.has(NON_POSITIVE_MASS, inertial.location, Severity.WARNING):
         message = f"the mass of link {link.name!r}, which moves, is {mass:g}; it has to be positive"
         sink.report(NON_POSITIVE_MASS, message, inertial.location, found=f"{mass:g}", expected="more than 0")
+    # A link with neither mass nor inertia is a frame to its author.
     if matrix is not None and (mass != 0 or any(matrix)):
         report_moments(link, inertial, matrix, eps, sink, least=ROUNDING)
 

@@ -141,6 +141,8 @@ class FillInertia(AssetPass):
     def _weighed(self, inertial: Inertial | None, whole: Solid, shapes: tuple[PlacedShape, ...]) -> _Filling:
         """The solid with the mass that it is to have, but for its part of the total."""
         overrides = self.replace == "all" and any(getattr(self, name) is not None for name in _AMOUNTS)
+        # A mass is mostly weighed or taken from CAD; of an inertia with a placeholder the mass is
+        # still worth keeping.
         if inertial is not None and inertial.mass is not None and has_mass(inertial) and not overrides:
             return _Filling(with_mass(whole, inertial.mass), keeps_mass=True, shapes=shapes)
         return _Filling(whole if self.mass is None else with_mass(whole, self.mass), keeps_mass=False, shapes=shapes)

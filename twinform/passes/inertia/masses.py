@@ -62,6 +62,9 @@ class Masses:
         address = self._addresses[id(donor)]
         graph = self._graph(address.root)
         at = graph.resolve(inertial.pose, address.name, self._addresses[id(taker)].name)
+        # As if the body had been split at the joint: mass, center of mass and inertia at the zero
+        # position stay exactly what they were. A token mass would change the robot, and is too
+        # little for some solvers and too much for others.
         taken = placed(with_mass(Solid(mass, ORIGIN, matrix), part * mass), at)
         self._changed[id(donor)] = _scaled(inertial, matrix, 1 - part)
         self.give(taker, taken)

@@ -96,6 +96,8 @@ def nearest_moments(moments: Moments, floor: float) -> Moments:
 
 def _onto_cone(smallest: float, middle: float, largest: float) -> Moments:
     """The nearest to three sorted moments of which none exceeds the sum of the others."""
+    # Three cases in closed form. A test holds the result to the inequality that defines a
+    # projection onto a convex set.
     excess = largest - smallest - middle
     if excess <= 0 <= smallest:
         return smallest, middle, largest

@@ -59,6 +59,8 @@ class Plausible:
             at = " ".join(f"{part:.4g}" for part in body.center)
             message = f"the center of mass of link {link.name!r}, {at}, is {outside:.4g} m outside of its shapes"
             self.sink.report(rules.DISTANT_CENTRE_OF_MASS, message, inertial.location, found=at, expected=_words(box))
+        # The second moment of a mass within a length L is at most m (L/2)^2: all of it at both
+        # ends.
         reaches = ((length + 2 * slack) / 2 for length in size)
         most = (reach * reach * body.mass for reach in reaches)
         spread = zip(_spread(body.inertia), most, _AXES, strict=True)

@@ -66,6 +66,7 @@ class FillLimits(Pass):
     def _fill(self, joint: Joint, format_: Format, sink: DiagnosticSink) -> Joint:
         if joint.type not in _DRIVEN or not matches(joint.name, self.joints):
             return joint
+        # In SDF, <limit> is part of <axis>, whose <xyz> nobody has written.
         if joint.axis is None and format_ is Format.SDF:
             return joint
         axis = joint.axis or Axis()

@@ -79,6 +79,7 @@ def _in_order(joint: Joint, limit: Limit | None, sink: DiagnosticSink) -> Limit 
     was, now = f"{lower:g} to {upper:g}", f"{upper:g} to {lower:g}"
     message = f"the limits of joint {joint.name!r} were {was} and are {now}"
     sink.report(ORDERED_LIMITS, message, limit.location, found=was, expected=now)
+    # libsdformat does the same where it reads URDF, with a warning; DART aborts on such limits.
     return limit.copy(lower=upper, upper=lower)
 
 
@@ -88,4 +89,6 @@ def _positive(joint: Joint, dynamics: Dynamics | None, sink: DiagnosticSink) -> 
     for name in names:
         message = f"the {name} of joint {joint.name!r} was below zero and is 0"
         sink.report(ORDERED_LIMITS, message, dynamics.location, expected="0")
+    # Negative damping drives a joint, and DART aborts on it; there is no other value that it could
+    # stand for.
     return dynamics.copy(**dict.fromkeys(names, 0.0))

@@ -35,6 +35,8 @@ def _revolute(joint: Joint, sink: DiagnosticSink) -> Joint:
         return joint
     message = f"joint {joint.name!r} was continuous and is revolute, without limits"
     sink.report(REPLACED_CONTINUOUS, message, joint.location.at("@type"), found=joint.name)
+    # No engine of Gazebo has `continuous` (DART makes such a joint a fixed one), and Drake turns
+    # it. An SDF file may be meant for either, so nothing is changed unless this pass is asked for.
     return joint.copy(type="revolute", axis=_endless(joint.axis))
 
 

@@ -59,6 +59,8 @@ class MeshProcess:
         if self._child is not None and self._child.poll() is not None:
             self.end()  # it has died since, and its pipes are still open
         if self._child is None:
+            # Not a pool of the standard library: worker processes of `batch` may not have children
+            # of that kind.
             self._child = subprocess.Popen(  # noqa: S603 - our own module
                 python_command("-m", "twinform.passes.mesh_jobs.child", str(self.memory)),
                 stdin=subprocess.PIPE,

@@ -99,6 +99,8 @@ class Result:
 
 def packed(head: Mapping[str, object], files: Sequence[bytes]) -> bytes:
     """A message."""
+    # No pickles: the cache holds nothing that can be executed when it is read, and the process at
+    # the other end may be taken over by a mesh.
     text = json.dumps({**head, "sizes": [len(each) for each in files]}).encode()
     return b"".join((len(text).to_bytes(_PREFIX, "big"), text, *files))
 

@@ -25,6 +25,7 @@ def limit_reading(size: int, memory: int = MEMORY) -> None:
     set_limit("CORE", 0)
     set_limit("AS", memory)
     set_limit("CPU", SECONDS)
+    # What the libraries have reserved does not count against the mesh.
     if taken := _address_space():
         _lower("AS", taken + _READING_MEMORY + _MEMORY_PER_BYTE * size)
     _lower("CPU", reading_seconds(size))
@@ -34,6 +35,8 @@ def allow_work() -> None:
     """Let the work on what has been read take more than reading it."""
     resource = limits()
     if resource is not None:
+        # Only once a mesh has been read: a file that takes a reader long is refused after about a
+        # second, while CoACD may take ten minutes.
         for kind in (resource.RLIMIT_AS, resource.RLIMIT_CPU):
             _, hard = resource.getrlimit(kind)
             resource.setrlimit(kind, (hard, hard))

@@ -39,6 +39,7 @@ def content_of(path: Path) -> bytes:
     if path.stat().st_size > LARGEST:
         raise RefusedMeshError(f"it is larger than {LARGEST >> 20} MiB")
     content = read_regular(path, LARGEST)
+    # Repositories of meshes are often checked out without Git LFS.
     if is_pointer(content):
         raise RefusedMeshError(f"it is {POINTER}: run `git lfs pull`")
     return content

@@ -107,6 +107,10 @@ class ConvertMeshes(MeshPass):
             return mesh
         source = bench.sources.find(uri)
         _require_whole(source, uri, isinstance(shape, Visual) and not self.drop_appearance and kind != "stl")
+        # No reader of URDF or SDF turns a COLLADA file by its <up_axis>: gz-common applies the unit
+        # and never asks for the axis, RViz tells assimp to ignore it, PyBullet leaves the file as
+        # it is. For glTF they differ: RViz and Drake turn y up to z up as the specification has it,
+        # gz-common keeps the coordinates.
         up = gltf_up if self.consumer else self.gltf_up
         outcome = bench.outcome("convert", mesh, {"gltf_up": up, "to": kind})
         lost = cast("list[str]", outcome.result.facts["lost"])

@@ -106,6 +106,8 @@ class DecimateVisuals(MeshPass):
         uris: list[str] = []
         for level in range(1, len(levels) + 1):
             files = {name: data for name, data in outcome.result.files.items() if name.startswith(f"_lod{level}")}
+            # An element of ours for levels of detail would be read by nobody. The files are for
+            # whoever packs the model for a renderer.
             uris.append(bench.add(outcome.stem, files))
         words = [f"{each['triangles']:.0f} at most {length(each['error'])} off" for each in levels]
         rest = ", and no coarser level is within the distance" if len(levels) < self.levels else ""

@@ -73,6 +73,7 @@ class Workbench:
 
     def _stem(self, job: Job, words: str) -> str:
         """What files made of a mesh are called, before what tells them apart; those of another mesh, otherwise."""
+        # `NAME_hull.obj` can be read and reviewed; a digest in the name cannot.
         usual = _UNUSUAL.sub("_", words).lstrip("._") or "mesh"
         own, stem, count = job.digest({}), usual, 1
         while self._stems.setdefault(stem.casefold(), own) != own:
@@ -93,6 +94,8 @@ class Workbench:
                 raise MeshError(rules.KEPT_MESH, f"a pass has made another file {path!r}", "give one of them a folder")
         for path, data in placed.items():
             if path.casefold() not in known:
+                # Images have no place for a mark: of these, only a file with the same bytes is
+                # written over.
                 mark = None if path.lower().endswith(_UNMARKED) else MARK.encode()
                 self.sink.side_files.append(SideFile(path, data, mark))
         return self.uri(next(iter(placed)))

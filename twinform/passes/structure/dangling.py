@@ -28,6 +28,8 @@ def report_dangling(before: Document, after: Document, removed: RemovedNames, si
     old, new = DiagnosticSink(sink.file, sink.strict), DiagnosticSink(sink.file, sink.strict)
     verify(before, old)
     verify(after, new)
+    # Both documents are verified, so that whatever refers to what is gone is found without a list
+    # of such references here.
     known = {(each.rule.name, each.location) for each in old.diagnostics}
     sink.extend_new(each for each in new.diagnostics if (each.rule.name, each.location) not in known)
 

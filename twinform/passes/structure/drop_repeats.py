@@ -67,6 +67,8 @@ def _without_repeats(node: Node, fields: dict[str, tuple[str, ...]], sink: Diagn
         name = part.element.name if part.element and not part.at else None
         if name in seen:
             message = f"a second <{name}> is left out: readers take the first"
+            # Where an element may stand once, urdfdom (`FirstChildElement`) takes the first, so
+            # that leaving out the second changes no robot.
             sink.account(Fate.DROPPED, REPEATED_ELEMENT, message, part.location if part.source else node.location)
             continue
         kept.append(part)

@@ -59,10 +59,13 @@ class _Obstacles:
         self.graph, self.named, self.meshes = graph, named, meshes
 
     def why(self, joint: Joint, parent: Link, child: Link) -> str | None:
+        # A force-torque sensor measures what goes through the joint, which would be gone.
         if joint.sensors:
             return f"there is a sensor on joint {joint.name!r}"
         if joint.name in self.named.joints:
             return f"{self.named.joints[joint.name]} names joint {joint.name!r}"
+        # A plugin that names a link applies forces to it or reads its speed. A frame is no answer
+        # to that, and few plugins have a parameter for an offset.
         if child.name in self.named.links:
             return f"{self.named.links[child.name]} names it"
         other = next(
@@ -231,6 +234,7 @@ def _same_canonical_link(model: Model, graph: FrameGraph, planned: Plan) -> Mode
     """The model, whose own frame moves with the body that it moved with before."""
     before = graph.body(MODEL, kind="model")
     body = planned.hosts.get(before, before)
+    # The model's own frame must not start to move with another body.
     if model.canonical_link is None and FrameGraph(model).body(MODEL, kind="model") == body:
         return model
     if model.canonical_link is not None and model.canonical_link not in planned.hosts:

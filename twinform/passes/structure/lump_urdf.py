@@ -94,6 +94,10 @@ class _Lumping:
             solid = body_of(guest, self.graph, Format.URDF)
             if solid.mass:
                 solids.append(placed(solid, at))
+                # The link and its joint stay: URDF has no frames, and a massless link on a fixed
+                # joint is what everybody uses for one. Transforms, sensors in <gazebo> and other
+                # tools still find the name; removing it would need every reference rewritten with
+                # an offset, which most of them cannot express.
                 self.links[name] = guest.copy(inertial=None)
             for field in _KINDS:
                 self._shapes(host, name, field, at)
@@ -105,6 +109,9 @@ class _Lumping:
         shapes = getattr(guest, field)
         if not shapes:
             return
+        # A tag such as <mu1> is about all shapes of a link: in one link they would get the same
+        # tags, and a carrier would be read by nobody else. The mass still moves. SDF has a surface
+        # for each shape.
         if self._about(into, field) != self._about(guest, field):
             message = f"the {field} of link {name!r} are not moved: <gazebo> sets other values for those of {host!r}"
             self.place.sink.report(rules.SHAPES_NOT_MOVED, message, guest.location, found=name)

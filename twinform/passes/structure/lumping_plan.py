@@ -52,6 +52,7 @@ def plan(model: Model, graph: FrameGraph, keep: tuple[str, ...], obstacle: Obsta
     ends = [
         Candidate(joint, _body(joint.parent, links, graph), _body(joint.child, links, graph)) for joint in model.joints
     ]
+    # A gearbox couples two joints and holds no link.
     carried = Counter(each.child for each in ends if each.joint.type != "gearbox")
     going: dict[str, Candidate] = {}
     for each in ends:

@@ -49,5 +49,6 @@ def _collect(element: Element, around: str, holder: str, found: Mentions) -> Non
 def _note(kind: ReferenceKind | None, text: str, holder: str, found: Mentions) -> None:
     where = {"link": found.links, "joint": found.joints}.get(kind or "")
     if where is not None:
+        # Some plugins take lists of names in one text.
         for name in (text, *text.replace(",", " ").split()):
             where.setdefault(name.rpartition("::")[2], holder)

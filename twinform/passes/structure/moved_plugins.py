@@ -21,6 +21,8 @@ def moved_plugin(plugin: Element, hosts: Mapping[str, str], graph: FrameGraph) -
     named = next((child.text for child in plugin.children if child.name in _BODIES and child.text in hosts), None)
     if named is None:
         return plugin
+    # parser_urdf.cc, ReduceSDFExtensionPluginFrameReplace: libsdformat rewrites these two parameters and
+    # their offsets, and no others.
     host = hosts[named]
     offset = Pose(xyz=_numbers(plugin.find("xyzOffset")), rpy=_numbers(plugin.find("rpyOffset")))
     at = graph.pose(named, host).compose(Transform.from_pose(offset))

@@ -97,6 +97,8 @@ def _why_not(joint: Joint) -> str:
     if joint.parent == WORLD:
         return "it holds the robot to the world"
     if joint.type not in REVERSIBLE:
+        # A chain of two rotations cannot be expressed the other way round by one axis each with the
+        # same positions.
         return f"a {joint.type} joint moves in several ways, one after the other"
     if measures_in_sensor(joint):
         return "a sensor on it measures in axes of its own"

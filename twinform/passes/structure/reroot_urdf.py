@@ -56,6 +56,9 @@ def _reversed(joint: Joint, at: Transform) -> _Reversed:
     if not _is_beside(joint, at):
         update = {"parent": child, "child": parent, "pose": back, "axis": with_axis(joint, opposite(at.rotate(axis)))}
         return _Reversed(joint.copy(**update))
+    # In URDF a link's frame is that of its joint, and on the other side of a turning joint that may
+    # lie beside the axis. The frame could be moved and the contents with it, but a frame is what
+    # other programs know of a link.
     name = helper_name(joint.name)
     update = {"parent": child, "child": name, "pose": Pose(relative_to=child), "axis": with_axis(joint, opposite(axis))}
     turned = joint.copy(**update)

@@ -24,6 +24,8 @@ def with_axis(joint: Joint, direction: Vector3) -> Axis | None:
     """The axis of a joint in another direction; a joint without a direction keeps what it has."""
     if joint.type in _WITHOUT_AXIS:
         return joint.axis
+    # Turning the axis around instead of the positions leaves limits, mimics, calibration and
+    # controllers as they are.
     return (joint.axis or Axis()).copy(xyz=direction)
 
 

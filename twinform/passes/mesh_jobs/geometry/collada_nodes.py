@@ -32,6 +32,7 @@ def require_few_parts(content: bytes) -> None:
         return  # the reader says what is wrong, or repairs it
     nodes = _Nodes({str(each.get("id")): each for each in root.iter("{*}node", "{*}geometry") if each.get("id")})
     placed = [nodes.load(node) for scene in root.iter("{*}visual_scene") for node in scene.iterchildren("{*}node")]
+    # A limit of time alone would say that it took too long, and not what to change.
     parts, size = sum(each.parts for each in placed), sum(each.size for each in placed)
     if parts > _MOST_PARTS:
         raise RefusedMeshError(f"its nodes place {parts:,} parts, of which {_MOST_PARTS:,} are read at most")

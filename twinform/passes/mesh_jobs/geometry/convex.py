@@ -40,6 +40,9 @@ def hull(points: Array) -> Surface:
     return Surface(found.points[used], index.reshape(-1, 3))
 
 
+# The parts that CoACD makes have up to thousands of corners: the seven collisions of a UR5, with
+# 5,328 triangles, became 43,586. With the corners that the distance needs it is 1,820, in a third
+# of the time.
 def reduced(convex: Surface, distance: float, triangles: int | None = None) -> Surface:
     """The hull of some corners of a hull: of as few as leave none out by more than a distance, or a budget allows.
 
@@ -56,6 +59,8 @@ def reduced(convex: Surface, distance: float, triangles: int | None = None) -> S
         above = left @ sides[:, :3].T + sides[:, 3]
         out = above.max(axis=1)
         peaks = np.unique(above.argmax(axis=0))
+        # What sticks out most comes first. The result lies inside of the hull, so that it grows no
+        # robot; the error is measured afterwards.
         peaks = peaks[np.argsort(-out[peaks], kind="stable")][: min(most - len(chosen), 1 + len(chosen) // _AT_ONCE)]
         peaks = peaks[out[peaks] > max(distance, _ROUNDING * convex.diagonal)]
         if not len(peaks):
@@ -118,6 +123,8 @@ def error_of(surface: Surface, parts: Sequence[Surface], tolerance: float, limit
     """
     sides = [spatial.ConvexHull(part.points).equations for part in parts]
     size = surface.diagonal
+    # The surface of a housing with a motor in it is far from its hull, inside, where nothing can
+    # touch it: only the outsides are compared. Faces along which convex parts meet are inside too.
     outside = farthest(
         surface, Nearest(_together(parts)), tolerance, _Inside(sides, 1e-9 * size, grain=tolerance), limit
     )

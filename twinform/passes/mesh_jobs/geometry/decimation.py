@@ -54,6 +54,7 @@ def _best(
 ) -> Decimated | None:
     """What has the fewest triangles of what is within the limit."""
     found: list[Decimated] = []
+    # The skirt keeps more of flat borders than they need, so both ways are tried.
     for careful in (False, True):
         made = _fewer(parts, share, careful=careful)
         error = _apart(whole, nearest, made, tolerance, limit)
@@ -87,6 +88,9 @@ def _carefully_collapsed(surface: Surface, count: int) -> Surface:
     The library moves borders at no cost as long as the surface is flat there, until nothing is left. So each border
     gets a skirt that stands on it and is taken off again: an edge with a skirt is as sharp as any other.
     """
+    # Parts are decimated one by one, so that colors stay where they are, and such parts are open:
+    # of a wrist of a UR5 with 14,074 triangles nothing could be saved within 1.6 mm, and with
+    # skirts 3,579 are left.
     skirted, is_skirt = _with_skirt(surface)
     target = round(count * len(skirted.faces) / len(surface.faces))
     points, faces = _near_unit(skirted)

@@ -109,6 +109,8 @@ def _bounds(triangles: Array, nearest: Nearest) -> tuple[list[tuple[Array, Array
     of_middles, below = to_others.min(axis=1), others[np.arange(len(others)), to_others.argmin(axis=1)]
     radius = np.linalg.norm(triangles - middles[:, None], axis=2).max(axis=1)
     corners = [(triangles[:, at], of_corners[:, at].min(axis=1)) for at in range(3)]
+    # A sampled Hausdorff distance says how far two surfaces are apart at least, and a bound that
+    # somebody asks for is about the most.
     bounds = np.minimum(of_corners.max(axis=1).min(axis=1), of_middles + radius)
     return [(middles, of_middles), *corners], bounds, below
 

@@ -52,6 +52,8 @@ def _stl(parts: Parts, stem: str, y_up: bool) -> dict[str, bytes]:
     del stem, y_up
     whole = trimesh.util.concatenate([_plain(part) for _, part in parts])
     data = trimesh.exchange.stl.export_stl(whole)
+    # OBJ, STL and glTF each have a place for who wrote them. Only a file with this mark is ever
+    # written over.
     return {".stl": MARK.encode().ljust(_STL_HEADER, b" ")[:_STL_HEADER] + data[_STL_HEADER:]}
 
 

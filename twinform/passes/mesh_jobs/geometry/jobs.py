@@ -38,6 +38,8 @@ def simplify(job: Job) -> Result:
     surface = scaled(joined(parts), job.options["scale"])
     limit, tried = _limit(job, surface), list[str]()
     facts: dict[str, object] = {"before": len(surface.faces), "limit": limit if math.isfinite(limit) else None}
+    # The first way within the distance is taken, since the cheapest is known beforehand: a
+    # primitive costs less than a hull, and a hull less than parts.
     for how in cast("Sequence[str]", job.options["how"]):
         found = _WAYS[how](job, surface, limit)
         if isinstance(found, Result):
@@ -115,6 +117,7 @@ def decimate(job: Job) -> Result:
     surface = joined(parts)
     before = sum(len(part.faces) for _, part in parts)
     facts: dict[str, object] = {"before": before, "appearance": sorted(appearance_of(parts))}
+    # Texture coordinates and colors of vertices do not survive the collapse of edges.
     if appearance_of(parts) & {"textures", "vertex colors"}:
         return Result({**facts, "kept": f"it has {' and '.join(sorted(appearance_of(parts) - {'colors'}))}"})
     stretch = max(abs(float(each)) for each in cast("Sequence[float]", job.options["scale"]))

@@ -78,6 +78,8 @@ def _in_units(triangles: _Triangles) -> tuple[_Triangles, list[float], int]:
     middle = [low / 2 + high / 2 for low, high in zip(least, greatest, strict=True)]
     exponent = common_exponent(high / 2 - low / 2 for low, high in zip(least, greatest, strict=True))
     half = math.ldexp(1.0, -exponent // 2)  # in two steps: the power itself may be no double
+    # The volume integrals of a mesh far from the origin are differences of large numbers: at 1e8 m
+    # nothing but rounding.
     triangles.vertices = (triangles.vertices - middle) * half * math.ldexp(1.0, -exponent - (-exponent // 2))
     return triangles, middle, exponent
 
@@ -88,6 +90,7 @@ def _closed(triangles: _Triangles, *, hull: bool) -> _Triangles | str:
         if triangles.volume < 0:  # turned inside out, by the file or by a negative scale
             triangles.invert()
         return triangles
+    # A mesh with a hole has no volume. It is never quietly replaced by its hull: that is an option.
     return _hull(triangles) if hull else f"has no inside: {_fault(triangles)}"
 
 

@@ -38,6 +38,7 @@ def scene_of(
     """
     if kind == "dae" and b"\0" in content:
         raise RefusedMeshError("it is not in UTF-8")  # where the next line would not see what it looks for
+    # pycollada parses with lxml's defaults, which resolve entities, and with `huge_tree`.
     if kind == "dae" and b"<!" in content.replace(b"<!--", b"").replace(b"<![CDATA[", b""):
         raise RefusedMeshError("it declares a document type, which may name other files")
     if kind == "dae":

@@ -57,6 +57,7 @@ def read_scene(
     if not meshes:
         raise UnusableMeshError("it has no triangles")
     uses = len(scene.graph.nodes_geometry)
+    # Checked before the parts are copied to their places: a part may be placed any number of times.
     if (
         uses * max(len(each.faces) for each in meshes)
         > MOST_TRIANGLES
