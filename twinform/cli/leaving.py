@@ -12,8 +12,9 @@ import threading
 from collections.abc import Callable
 from typing import NoReturn
 
+# New objects before the garbage collector looks for cycles. With Python's own 700 it would walk
+# every import again.
 _MANY = 50_000
-"""New objects before the garbage collector looks for cycles; of Python's 700 it would look at each import anew."""
 
 
 def run(command: Callable[[], object]) -> NoReturn:

@@ -8,8 +8,9 @@ from typing import NamedTuple
 from twinform.compiler.input.limits import LARGEST
 from twinform.file_access import STREAMS, Readable, read_up_to
 
+# Bytes that contain the root element of every file, except those that begin with a very long
+# comment.
 _ENOUGH = 2**16
-"""Bytes that hold the root element of every file but those with a very long comment."""
 
 _FORMATS = {b"robot": "urdf", b"sdf": "sdf"}
 _SUFFIXES = {".urdf": "urdf", ".sdf": "sdf", ".world": "sdf", ".json": "json"}

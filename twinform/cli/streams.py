@@ -8,12 +8,13 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import NoReturn
 
+# A copy of `twinform.cli.failure.UNUSABLE`, which would import the commands.
 _UNUSABLE = 2
-"""`twinform.cli.failure.UNUSABLE`, which only commands import."""
 _UNREAD = 128 + 13
 """The exit code of a program that is ended by a broken pipe, as shells give it."""
+# How the null device replaces a closed stream. Standard output is opened for reading, so that
+# writing to it is an error.
 _CLOSED = {0: ("stdin", os.O_RDONLY, "r"), 1: ("stdout", os.O_RDONLY, "w"), 2: ("stderr", os.O_WRONLY, "w")}
-"""How the null device takes the place of a closed stream; for standard output so that writing into it is an error."""
 
 
 def hold_standard_streams() -> None:

@@ -16,8 +16,9 @@ from twinform.compiler.observing import Observation, observed
 
 _INTERRUPTED = 130
 """The exit code of a program that is ended by Ctrl-C, as shells give it."""
+# How long to wait for the system to report a change before looking: not every file system reports
+# them.
 _MILLISECONDS = 1000
-"""How long to wait for the system to tell of a change before looking: not every file system tells."""
 _MOST_WAITS = 5
 """So many times, before new models are looked for in all folders."""
 

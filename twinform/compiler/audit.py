@@ -19,15 +19,16 @@ from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.schemas import XmlElement, path_of
 
 _OURS = f"{{{NAMESPACE}}}"
+# Elements and attributes whose numbers depend on the frame that they are expressed in, so that no
+# value can be expected.
 _COMPUTED = frozenset({"pose", "origin", "xyz", "rpy", "axis", "inertia", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"})
-"""Elements and attributes whose numbers depend on the frame that they are expressed in."""
 _SHAPE_NAME = re.compile(r"(.+)_(?:visual|collision)(?:_\d+)?")
 _MATERIAL = re.compile(r"(.+)_material(?:_\d+)?")
 _SCHEME = re.compile(r"\b[a-z]+://")
+# Elements of one format that imply a word of the other: a frame stands for a fixed joint.
 _IMPLIED_BY = {"frame": "fixed"}
-"""Elements of one format that imply a word of the other: a frame stands for a fixed joint."""
+# Booleans that the other format writes as their opposites.
 _OPPOSITES = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
-"""Booleans of one format that the other writes by their opposites."""
 _SYNONYMS = {"revolute": "continuous", "continuous": "revolute"}
 """Words that may be another one in the other format: a joint that turns without an end."""
 _TRUTHS = {"true": "1.0", "yes": "1.0", "false": "0.0", "no": "0.0"}

@@ -24,8 +24,8 @@ from twinform.profiles import Assessment, Judgment, Profile, Subject, assess, fi
 from twinform.profiles.physics import described
 from twinform.profiles.remedies import in_order, remedies
 
+# How often a conversion starts over; each time, a pass has brought something else to light.
 _ROUNDS = 5
-"""How often a conversion is begun again; each time a pass has brought something else to light."""
 
 
 def convert_for_consumers(

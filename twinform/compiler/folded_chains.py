@@ -24,8 +24,8 @@ _OLD_NAMES = tuple(f"{_OURS}{word}" for word in (NAME, SCOPED_NAME))
 _UNSAID = f"{_OURS}{UNSAID}"
 _MIMIC = f"{_OURS}{MIMIC}"
 _COMPUTED_MASS = f"{_OURS}{COMPUTED_MASS}"
+# The mass in SDF of a link that has none in URDF.
 _TOKEN_MASS = format_number(TOKEN_MASS)
-"""What a link of SDF weighs that weighs nothing in URDF."""
 _NAMED = ("link", "joint", "frame", "model", "visual", "collision")
 
 

@@ -18,6 +18,7 @@ from twinform.passes.plugins.worlds import (
     with_systems,
 )
 
+# Satellite receivers need some place on earth; as long as none is given, any is as good.
 _EQUATOR = (
     ("surface_model", "EARTH_WGS84"),
     ("world_frame_orientation", "ENU"),
@@ -26,7 +27,6 @@ _EQUATOR = (
     ("elevation", "0"),
     ("heading_deg", "0"),
 )
-"""A place on earth, for receivers of satellites: any other one is as good as long as none is given."""
 
 
 def bridge_text(document: Document, release: str, sink: DiagnosticSink, world: str | None = None) -> str:

@@ -23,6 +23,7 @@ from typing import Any
 # not, and one that is forgotten gives a stale result that nobody notices.
 _WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT
 _OPEN, _LISTINGS = "open", frozenset({"os.listdir", "os.scandir"})
+# Python, its packages and devices: their version is part of the request, and nobody edits them.
 _KNOWN_BY_VERSION = tuple(
     f"{folder}{os.sep}"
     for folder in {
@@ -33,7 +34,6 @@ _KNOWN_BY_VERSION = tuple(
         "/sys",
     }
 )
-"""Where Python and its packages are, and what is no file of anybody."""
 _CODE = (".py", ".pyc", ".so", ".pyd")
 
 
@@ -90,10 +90,10 @@ def note_look(path: str) -> None:
 
 _STAT = os.stat
 _SECOND = 1_000_000_000
+# Nanoseconds: FAT counts in steps of two seconds, NFS and HFS in steps of one.
 _TICK = 2 * _SECOND
-"""Nanoseconds: FAT counts in steps of two seconds, NFS and HFS in steps of one."""
+# The longest step of clocks that count fractions of seconds; that of ext4 is 4 ms.
 _FINE_TICK = 20_000_000
-"""The longest step of clocks that count parts of seconds; ext4 has steps of four milliseconds."""
 
 
 def is_coarse(time: int) -> bool:

@@ -19,8 +19,8 @@ _VERSION = 1
 _FINDINGS = "findings"
 _PLACES = re.compile(r"\[\d+\]")
 _LINES = re.compile(r"\b(line|lines|column) \d+")
+# Characters of a message that are kept. Longer ones quote the file, and begin with what is wrong.
 _LONGEST = 300
-"""Characters of a message that are kept; longer ones hold texts of the file, and begin with what is wrong."""
 
 
 class BaselineError(ValueError):

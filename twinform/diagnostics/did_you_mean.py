@@ -5,10 +5,11 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from itertools import islice
 
+# The longest name that is compared: a longer one is no typing mistake.
 _LONGEST = 80
-"""The longest name that is compared; longer ones are nobody's slip."""
+# Among more names nothing is suggested: a hostile file may have a hundred thousand, and as many
+# unknown ones.
 _MOST_KNOWN = 1000
-"""Among more names nothing is looked for: a hostile file may have a hundred thousand, and as many unknown ones."""
 _MOST_COMPARED = 200
 """The most names that are compared letter by letter."""
 _ALIKE = 0.6

@@ -16,8 +16,9 @@ _WORDS = {
     stat.S_IFBLK: "a device",
     stat.S_IFSOCK: "a socket",
 }
+# Bytes that are read at once. Most files are smaller, and Python reserves as much memory as it is
+# asked for.
 _PIECE = 2**16
-"""So much is read at once: most files are smaller, and Python reserves as much memory as it is asked for."""
 
 
 def read_regular(path: Path, size: int | None = None, check: Callable[[str], object] | None = None) -> bytes:

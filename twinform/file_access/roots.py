@@ -14,8 +14,9 @@ PACKAGE = ("package.xml", "model.config")
 # folder read keys out of the home folder.
 PROJECT = ("twinform.toml", *PACKAGE)
 """What makes a folder a root where there is no repository."""
+# Folders in which neighbors are looked for: a file in `ws/src/repository/package/urdf/parts` still
+# sees `ws/src`.
 _MOST_SEARCHED = 7
-"""Folders in which neighbors are looked for: a file in `ws/src/repository/package/urdf/parts` still sees `ws/src`."""
 
 
 def find_root(file: Path) -> Path:

@@ -60,8 +60,8 @@ OPAQUE = PLAIN | PREFIXED
 ANYTHING = -1
 _FIRST_BIT = 1 + _BUCKETS
 
+# Where a node keeps its census. Nodes that Pydantic has made have an empty slot.
 _SLOT: Any = Record.__dict__["_census"]
-"""Where a node keeps what was found; nodes that Pydantic has made have none yet."""
 _get, _set = _SLOT.__get__, _SLOT.__set__
 
 

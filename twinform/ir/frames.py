@@ -18,9 +18,9 @@ WORLD = "world"
 _OWN_FRAME = f"::{MODEL}"
 
 _IDENTITY = Transform()
+# Frames at most this many steps apart are resolved along the path between them, which keeps the
+# numbers of the file. Others go through the root, where each frame is resolved once.
 _NEAR = 64
-"""Frames that are at most so many steps apart are resolved along the way between them, which keeps the numbers of the
-file; others over the root, where each frame is resolved once."""
 
 
 class FrameError(Exception):

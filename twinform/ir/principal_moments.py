@@ -11,8 +11,9 @@ Symmetric = tuple[float, float, float, float, float, float]
 # couple the pair with the third axis.
 _PLANES = ((0, 1, 3, 4, 5), (0, 2, 4, 3, 5), (1, 2, 5, 3, 4))
 _EPSILON = 2.0**-53
+# Five or six are enough. The rest is for matrices whose elements differ by hundreds of orders of
+# magnitude.
 _SWEEPS = 40
-"""Five or six are enough; the rest is for matrices whose elements differ by hundreds of orders of magnitude."""
 
 
 Axes = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]

@@ -19,8 +19,9 @@ ELEMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 """The fields of an inertia in the order of a tensor."""
 ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 _USUAL_ELEMENTS = {name: getattr(INERTIAL.inertia, name) for name in ELEMENTS}
+# A shape thinner than this part of its length has no volume: fourth powers of thinner ones lose
+# digits.
 _THINNEST = 1e-70
-"""What is thinner than this part of its length fills no volume: the fourth powers of thinner ones lose digits."""
 
 
 @dataclass(frozen=True, slots=True)

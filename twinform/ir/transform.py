@@ -16,14 +16,16 @@ Matrix4 = tuple[Row4, Row4, Row4, Row4]
 
 _ORIGIN: Vector3 = (0.0, 0.0, 0.0)
 _UNTURNED: Matrix3 = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0)
+# With a cosine of the pitch below this, roll and yaw turn about one axis to the last digit, and yaw
+# is taken as zero.
 _GIMBAL_LOCK = 1e-15
-"""Below this cosine of the pitch, roll and yaw turn about one axis to the last digit, and yaw is taken as zero."""
 
+# Between these, the length of a quaternion is computed to the last digit.
 _TINY, _HUGE = 1e-290, 1e300
-"""Between these, the length of a quaternion has all its digits."""
 
+# Hand-written numbers have at most this many decimals, and composing a few of them errs by less
+# than the noise.
 _DIGITS, _NOISE = 12, 2e-15
-"""Hand-written numbers have at most so many digits behind the point; composing some of them errs by less."""
 
 
 @dataclass(frozen=True, slots=True)

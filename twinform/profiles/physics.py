@@ -11,8 +11,9 @@ from twinform.ir.scopes import scoped_models
 Part = Link | Joint
 _NO_PHYSICS = frozenset({"name", "visuals", "sensors", "lights", "opaque", "plugins"})
 """Fields of links and joints that no engine computes with."""
+# Another path of a mesh is no change of the physics: a pass for a consumer writes the same surface
+# in another format. Nor is another name of a shape.
 _NO_VALUES = ("/shape/uri", "]/name")
-"""Where a mesh lies: a pass for a consumer writes the same surface in another format; and what a shape is called."""
 _Key = tuple[str, str]
 
 

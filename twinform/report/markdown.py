@@ -14,8 +14,8 @@ from twinform.report.parts import count, place
 
 LARGEST = 65_536
 """What GitHub takes as a comment; counted in bytes, which is never less than in characters."""
+# Rows of a list, fewer each time the whole is too long for a comment.
 _LISTED = (25, 10, 3, 0)
-"""So many rows are in a list; fewer, where the whole would be too long."""
 _LONGEST = 300
 _DRAWN = 60
 _SIGNS = re.compile(r"[!\"#$%&'()*+\-./:;<=>?@\[\\\]^_`{|}~]")

@@ -18,8 +18,8 @@ from twinform.compiler.inspection import inspect
 from twinform.diagnostics import Diagnostic, rules
 from twinform.server.settings import Settings
 
+# Missing in a xacro file that others include, so these are not reported there.
 _OF_WHOLE_ROBOTS = frozenset({rules.EMPTY_MODEL.name, rules.MISSING_ATTRIBUTE.name, rules.MISSING_ELEMENT.name})
-"""What is missing in a xacro file that others include, and is not looked for in it."""
 
 
 class Job(NamedTuple):

@@ -19,8 +19,9 @@ _DIRNAME = re.compile(r"\$\(dirname\)/?")
 ENDINGS = (".urdf", ".xacro", ".sdf", ".world", ".gazebo")
 """The names of files that are looked through for includes."""
 _MOST_FILES = 500
+# The most includes of one document that are followed: one that leads nowhere is looked for in every
+# folder.
 _MOST_INCLUDES = 2_000
-"""Includes of one document that are followed: each that leads nowhere is looked for in every folder."""
 _MOST_FOLDERS = 2_000
 _SKIPPED = frozenset({"node_modules", "build", "install", "log", "__pycache__"})
 

@@ -10,8 +10,8 @@ from twinform.server.documents import Document
 from twinform.server.includes import includes_of, resolved, target
 from twinform.server.uris import uri_of
 
+# Elements of SDF whose text names a file that a person opens; the library of a plugin is none.
 _TEXTS = frozenset({"uri", "albedo_map", "normal_map", "roughness_map", "metalness_map", "filename", "file"})
-"""The elements of SDF whose texts name files; a plugin's library is none that a person opens."""
 _MOST = 2_000
 
 

@@ -27,8 +27,9 @@ DEFINED = ("link", "joint", "frame", "model", "material", "sensor")
 _SCOPES = frozenset({"model", "world", "robot"})
 _STATES = frozenset({"model", "model_state"})
 _MACRO = "xacro:macro"
+# Deeper names are not followed: each step of `a::b::c` is known by all those before it, which is
+# quadratic.
 _MOST_STEPS = 64
-"""More models in each other than this have no name that is followed: each step is known by all those before it."""
 _FIELDS: dict[str, ReferenceKind] = {
     f"{node.__name__}.{field}": kind for node, fields in REFERENCES.items() for field, kind in fields.items()
 }

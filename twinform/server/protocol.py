@@ -32,12 +32,12 @@ Call = Generator[tuple[Any, tuple[Any], None], Any, None]
 """What pygls is to call: a handler, its arguments, and no names for them."""
 Message = dict[str, Any]
 _LONGEST = 500
+# pygls would keep notebooks in memory, and nobody reads them.
 _NOTEBOOKS = (
     types.NOTEBOOK_DOCUMENT_DID_OPEN,
     types.NOTEBOOK_DOCUMENT_DID_CHANGE,
     types.NOTEBOOK_DOCUMENT_DID_CLOSE,
 )
-"""What pygls would keep in memory, and nobody reads."""
 
 
 class Protocol(LanguageServerProtocol):

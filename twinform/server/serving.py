@@ -14,8 +14,9 @@ from twinform.server.framing import read_messages
 from twinform.server.settings import SettingsOf, no_settings
 from twinform.server.wiring import Server, make_server
 
+# The garbage collector looks rarely: a walk over all trees and imported modules takes longer than a
+# key may.
 _SELDOM = (100_000, 50, 100)
-"""When the garbage collector looks: all trees, and all that was imported, take it longer than a key may."""
 
 
 class _Writer:

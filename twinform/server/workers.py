@@ -11,8 +11,8 @@ from twinform.compiler.workers.processes import ProcessExecutor
 
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
+# The longest task. Checking the largest document that is followed takes a tenth of it.
 _SECONDS = 30.0
-"""The longest task; to check the largest document that is followed takes a tenth of it."""
 
 
 class TaskError(Exception):

@@ -10,8 +10,8 @@ from functools import partial
 from http import HTTPStatus
 from typing import Any
 
+# The port is not compared: it may be forwarded from another machine by SSH.
 _LOCAL_HOSTS = frozenset({"127.0.0.1", "localhost"})
-"""The names under which a browser on this machine finds the server; its port may be forwarded from another one."""
 _REFUSAL = "Open the address that twinform view has printed.\n"
 _server: Any = importlib.import_module("websockets.asyncio.server")
 

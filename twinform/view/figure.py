@@ -21,10 +21,10 @@ Handle = Any
 
 UNPAINTED: Rgb = (200, 200, 205)
 MARK: Rgb = (255, 170, 0)
+# Meters from the origin beyond which a shape does not count for the camera: the ground of a world.
 _FAR = 1e4
-"""Meters from the origin beyond which something does not count for where the camera is: the ground of a world."""
+# A shape with a side of at least this many meters is the ground that a robot stands on.
 _GROUND = 50.0
-"""The side in meters from which a shape is taken for the ground that a robot is on."""
 _LEAST = 1e-3
 _SHARE = 0.06
 """The length of the axes of a frame, as a share of the whole robot."""

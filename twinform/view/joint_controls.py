@@ -17,8 +17,8 @@ _TURN, _WAY = math.pi, 1.0
 _BEYOND = 2
 """So many times as far they go where limits are ignored."""
 _STEPS = 200
+# The step of sliders in their unit, unless the whole range is too small for it.
 _FINEST = 1e-3
-"""The step of sliders in their unit, unless that is too coarse for their way."""
 _FARTHEST = 1e6
 """Positions beyond this, in rad or m, are not taken from text."""
 _MOST_ROWS = 100

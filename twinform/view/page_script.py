@@ -9,14 +9,14 @@ from functools import cache
 from html import escape
 from importlib.resources import files
 
-# viser reports clicks and drags, but not where the mouse is. Asking the server with each motion
+# viser sets the content of its controls as `innerHTML`, where scripts do not run but event handlers
+# do. viser reports clicks and drags, but not where the mouse is. Asking the server with each motion
 # would need a second picking of all triangles in Python and works in no page without a server; a
 # server of our own in front of viser's means a second port. The script asks the scene that is drawn
 # already. It uses `window.__viserMutable`, which is not public, so all of it is guarded: where
 # something is missing there is no tip and no error.
 _RUN = "if(!window.twinform?.show){const s=document.createElement('script');s.textContent=this.dataset.script;\
 document.head.append(s)}twinform.show(JSON.parse(this.dataset.news))"
-"""Content of a control of viser is set as HTML, where scripts do not run, but handlers do."""
 
 
 def control(labels: Mapping[str, str], selected: Iterable[str]) -> str:

@@ -21,8 +21,8 @@ from twinform.view.tree import Mark, tree
 
 _MOST_ROWS = 100
 """So many findings or differences have controls of their own; the page says how many more there are."""
+# With a smaller share of shapes drawn, the skeleton is shown at first.
 _FEW_DRAWN = 0.5
-"""With a smaller share of shapes than this, the skeleton is shown at first."""
 
 
 @dataclass(slots=True)

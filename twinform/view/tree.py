@@ -8,8 +8,8 @@ from twinform.compiler.scene import Scene, SceneJoint
 from twinform.ir.motion import spanning_tree
 from twinform.view.names import shortened
 
+# Levels that are indented and can be folded: browsers flatten elements that are nested too deep.
 _DEEPEST = 60
-"""Levels of a tree that are indented and can be folded; browsers do not nest without end."""
 _MOST_OPEN = 300
 """With more links than this, what is below the roots is folded at first."""
 _STYLE = """<style>

@@ -12,8 +12,8 @@ from twinform.cli.printing import print_line
 if TYPE_CHECKING:
     from rich.progress import Progress as RichProgress
 
+# Seconds between lines where there is no terminal: a short run prints none.
 _EVERY = 30.0
-"""Seconds between lines where there is no terminal, so that a short run prints none."""
 
 
 class Progress(Protocol):

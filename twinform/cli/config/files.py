@@ -15,10 +15,10 @@ OWN = "twinform.toml"
 _SHARED = "pyproject.toml"
 _LARGEST = 2**20
 _DEEPEST = 64
+# A dotted key with too many parts.
 # `tomllib` walks through all parts of a dotted key for each of them: 200,000 parts in a file of 400
 # kB took longer than a minute. No setting has more than three.
 _DEEP_KEY = re.compile(rb"""(?:\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*){%d}""" % _DEEPEST)
-"""A key of so many parts, for each of which `tomllib` goes through all before it."""
 _LINE = re.compile(r" \(at line (\d+), column \d+\)")
 # `int` raises a plain ValueError for so many digits, without a line.
 _LONG_NUMBER = re.compile(rb"[0-9_]{%d}" % sys.get_int_max_str_digits())

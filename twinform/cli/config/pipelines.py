@@ -11,9 +11,9 @@ from twinform.passes.framework.tables import TableError, parse_tables
 
 _DEEPEST = 32
 """Pipelines that may stand for each other, one in the other."""
-# 26 pipelines that each name the next one twice stand for 33 million passes.
+# A pipeline that names another one twice has twice as many passes: 26 such pipelines stand for 33
+# million.
 _MOST_PASSES = 1000
-"""Passes that a pipeline may stand for: each that names another one twice has twice as many."""
 
 
 class NamedPipelines:

@@ -8,8 +8,9 @@ _MODELS = (".urdf", ".sdf", ".world")
 _JSON_MARK = b"urn:twinform:document:"
 _ENOUGH = 2**12
 """Bytes of a JSON document that has the mark of ours, if it is ours."""
+# Bytes of a xacro file that is looked into; a larger one counts as a model and is refused when it
+# is read.
 _LARGEST = 2**24
-"""Bytes of a xacro file that is looked at; a larger one is read, and refused there."""
 _DEFINITIONS = frozenset({"arg", "include", "macro", "property", "insert_block"})
 """Elements of xacro that make no part of a robot by themselves."""
 _SHARED = frozenset({"material", "xacro:if", "xacro:unless"})

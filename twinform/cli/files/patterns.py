@@ -21,8 +21,9 @@ _FOLDERS_BETWEEN = "(?:/.+)?"
 """What pathspec makes of `/**` between two names."""
 _FOLDERS_BEFORE = "^(?:.+/)?"
 """What pathspec makes of `**/` before the first name."""
+# What pathspec makes of `*`. Brackets and names contain no slash, so these three expressions stand
+# for nothing else.
 _STAR = "[^/]*"
-"""What pathspec makes of `*`. In brackets and names there is no slash, so these three stand for nothing else."""
 _ONE = "[^/]"
 
 

@@ -57,6 +57,7 @@ def _kind(entry: Entry) -> tuple[str, str]:
     return entry.rule.name, entry.fate
 
 
+# Rules about what is only written differently: whoever reads the other format sees the same robot.
 _THE_SAME_ROBOT = frozenset(
     {
         rules.LEFT_COMMENT,
@@ -75,7 +76,6 @@ _THE_SAME_ROBOT = frozenset(
         rules.UNBOUNDED_LIMIT,
     }
 )
-"""Rules about what is only written in another way: whoever reads the other format sees the same robot."""
 _VERSION = "/sdf/@version"
 _LANGUAGES: dict[Format, Language] = {Format.URDF: "urdf", Format.SDF: "sdf"}
 

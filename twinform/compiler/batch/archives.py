@@ -27,19 +27,22 @@ LEAST_BYTES = 2**28
 """What any archive may unpack to."""
 MOST_TIMES = 100
 """An archive may unpack to so many times its own size; XML shrinks to a tenth or twentieth."""
+# The most headers that a file in a tar archive has: its own, and two for a long name or its
+# attributes.
 _HEADERS = 3
-"""Headers that a file in a tar archive has at most: its own and two for a long name, or its attributes."""
 _TOP = ".hg"
 """Marks a folder as the top of a repository: files are not looked for above it."""
 _PIECE = 2**20
 _LONGEST = 1024
 _DEEPEST = 64
+# Seconds since 1970. A file time beyond it is nonsense, and an error on some systems.
 _LATEST = 2**33
-"""Seconds since 1970, as a time of a file; what is beyond them is nonsense, and an error of some systems."""
+# Bytes of a zip archive's list of files that are read in any case: `zipfile` keeps all of it in
+# memory.
 _DIRECTORY = 2**22
-"""Bytes of a zip archive's list of files that are read in any case, which `zipfile` keeps in memory."""
+# The methods that zip archives are made with. LZMA is not among them, and asks for up to 4 GiB of
+# memory.
 _METHODS = frozenset({zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_BZIP2})
-"""What zip archives are made with; LZMA is not, and asks for up to 4 GiB of memory."""
 _ENDINGS = (".zip", ".tar", ".tar.gz", ".tgz", ".tar.bz2", ".tbz2", ".tar.xz", ".txz")
 _ADVICE = "unpack it yourself if this is meant, and name the folder"
 

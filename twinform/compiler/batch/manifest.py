@@ -22,8 +22,8 @@ FOLDER = ".twinform-batch"
 _BEGIN = b'{"source": '
 _DECODER = json.JSONDecoder()
 _DEPENDENCIES = ("dependencies", "results")
+# A file is rewritten once it has this many times the lines that count.
 _TIDY = 2
-"""A file with so many times the lines that count is written anew."""
 
 
 class _Line(NamedTuple):

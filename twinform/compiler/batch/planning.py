@@ -14,8 +14,9 @@ from twinform.compiler.batch.manifest import Manifest
 from twinform.compiler.batch.record import Outcome, Record
 from twinform.compiler.observing import digest
 
+# The most paths of which the status is kept: several models share macro libraries, meshes and
+# folders.
 _MOST_REMEMBERED = 2**16
-"""Paths that several models share: libraries of macros, meshes, folders."""
 
 
 class Known(NamedTuple):

@@ -16,12 +16,11 @@ from twinform.text import SourceText, apply
 MOST_ROUNDS = 100
 _MOST_CHECKS = 200
 _LEAST_CHECKS = 10
+# Which of a hundred fixes makes a file worse is found by halving, and each half is read again: so
+# many times, and so many bytes in all, but at least the least number. Fixes that are not tried then
+# are left out.
 # A hostile file of 400 kB costs ten times what `check` costs, instead of 200 times.
 _MOST_BYTES = 4_000_000
-"""So often a file is read to find the fixes that make new findings, and so much of it, but for the least number.
-
-Fixes that are not tried then are left.
-"""
 _PREDICATE = re.compile(r"\[(?:@name='(?:.*?'\](?=[/\[]|$)|.*)|\d+\](?=[/\[]|$))")
 
 Group = list[Diagnostic]

@@ -9,10 +9,10 @@ from twinform.compiler.fixing.site import FixableFile, Site, touches_expressions
 from twinform.compiler.input.loading import LoadResult
 from twinform.diagnostics import Diagnostic, Fix, rules
 
+# Rules whose path may lead to an element that is not written: in URDF a <limit> implies its axis.
 _ABOUT_WHAT_IS_NOT_THERE = frozenset({rules.UNUSED_AXIS.name})
-"""Rules whose paths may lead to an element that URDF has no need of, as its `<limit>` says the same."""
+# A fix with more edits is offered at the first of its findings only.
 _MANY_EDITS = 100
-"""A fix of more edits is offered at the first finding that it is for."""
 _ATTRIBUTE = re.compile(r"/@[^/\]']+$")
 
 

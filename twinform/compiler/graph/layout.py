@@ -18,8 +18,8 @@ BOX = 30
 """The height of a box."""
 MARGIN = 24
 _ROW = 54
+# More room between rows of different clusters, per level of nesting, for their frames and names.
 _BETWEEN = 28
-"""More room between rows of different clusters, for each level of nesting: their frames and names stand there."""
 BEND = 44
 """How wide a line bends to the height of a child."""
 SMALL = 6.4

@@ -22,8 +22,8 @@ from twinform.schemas import versions_of
 
 _DEEPEST = 32
 _MOST = 10_000
+# About as deep as one file can nest models, since its elements may be 256 deep.
 _DEEPEST_MODELS = 250
-"""About as deep as one file can nest them, given that its elements may be 256 deep."""
 _NEWEST_WITHOUT_HARM = "1.11"
 """What URDF becomes where the file around it has no version."""
 

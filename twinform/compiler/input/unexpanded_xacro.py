@@ -10,10 +10,11 @@ from twinform.schemas import XmlElement
 from twinform.schemas.xml import path_of
 
 _HELP = "give the file the suffix .xacro, or pass --xacro"
+# Neither part of the robot nor of what Gazebo makes of it: expressions there are for whoever reads
+# them.
 _SETTINGS = frozenset({"ros2_control", "transmission"})
-"""What is neither the robot nor becomes a part of it in Gazebo: expressions there are for whoever reads it."""
+# Nearly no element has an expression, and libxml2 finds that out faster than Python.
 _MAY_HAVE_EXPRESSIONS = etree.XPath("descendant-or-self::*[(text() | @*)[contains(., '${')]]")
-"""Nearly no element has one, and libxml2 is quicker to say so."""
 
 
 def report_unexpanded(root: XmlElement, sink: DiagnosticSink) -> None:

@@ -9,8 +9,8 @@ from twinform.passes.control.carried_elements import elements
 
 _HOLDERS = ("transmission", "ros2_control")
 _JOINTS = ("joint", "passive_joint")
+# Elements of a transmission that name the joint that it drives; the last four are those of the PR2.
 _WITH_JOINT = frozenset({*_JOINTS, "gap_joint", "simulated_actuated_joint", "flexJoint", "rollJoint"})
-"""The elements of a transmission that name the joint it drives; the last four are those of the PR2."""
 
 
 def report_driven_joints(document: Document, sink: DiagnosticSink) -> None:

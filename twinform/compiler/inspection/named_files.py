@@ -13,10 +13,10 @@ from twinform.ir import Document
 from twinform.passes.transforms.uris import Kind, map_uris
 from twinform.schemas import XmlElement
 
+# Different URIs that are looked for; a hostile file may have a million.
 _MOST = 1000
-"""Different URIs that are looked for; a hostile file may have a million."""
+# The most missing files for which similar names are looked for.
 _MOST_NEAR = 50
-"""Missing files of which is asked what they may be called."""
 _WORDS: dict[Kind, str] = {"mesh": "mesh", "texture": "file", "include": "included model"}
 
 

@@ -15,8 +15,9 @@ from twinform.file_access.roots import folders_around
 
 _MOST_ENTRIES = 2000
 """Entries of a folder that are looked at."""
+# Models and packages are often not on this machine at all, so only a very similar name is taken for
+# the intended one.
 _ALIKE = 0.75
-"""Models and packages that are not here at all are usual: only what is very near is taken for a slip."""
 _FEW = 3
 """Letters that are in one of two names and not in the other."""
 _NAMED = frozenset({"model", "package"})

@@ -14,8 +14,8 @@ from twinform.storage.staging import temporary_folder
 from twinform.storage.writing import write_new_file
 
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
+# Characters of a model's name in a file name: file systems take 255 bytes in all.
 _LONGEST = 60
-"""Characters of a model's name in that of a file: file systems take 255 in all."""
 _MOST = 1000
 """Files of one name; more are somebody's mistake."""
 

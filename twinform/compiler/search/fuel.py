@@ -18,10 +18,10 @@ SERVER = FUEL_SERVERS[0]
 """The server that addresses are written for."""
 TIP = "tip"
 """What stands for the newest version in an address."""
+# Environment variables that name the cache; releases up to Fortress read the second one.
 _VARIABLES = ("GZ_FUEL_CACHE_PATH", "IGN_FUEL_CACHE_PATH")
-"""What names the cache; the second one did until Fortress."""
+# One server under two names: fuel.ignitionrobotics.org became fuel.gazebosim.org.
 _TWINS = {SERVER: FUEL_SERVERS[1], FUEL_SERVERS[1]: SERVER}
-"""One server under two names."""
 _ADDRESS = re.compile(r"/(?:\d+\.\d+/)?(?P<owner>[^/]+)/(?P<kind>models|worlds)/(?P<name>[^/]+)(?:/(?P<rest>.*))?")
 _FIRST_OWNER = "openrobotics"
 """Whose models are taken first where several owners have one of a name."""

@@ -35,8 +35,9 @@ from twinform.schemas import XmlElement, table
 _UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
 """What some file system or shell would not take in a name."""
 
+# Files in which libsdformat describes SDF to itself; it would take an include of such a name for
+# these.
 _OF_LIBSDFORMAT = frozenset(f"{name}.sdf" for name in ("root", "urdf", *table("sdf").definitions))
-"""Files with which libsdformat describes SDF to itself; an include of that name would find these."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -46,13 +46,13 @@ class _Threshold(NamedTuple):
     passes: str
 
 
+# Above these a cost is worth a look: rules of thumb, for one robot on one machine in real time.
 _ADVICE = (
     _Threshold("collision", "touched_triangles", 1_000, "triangles", "simplify-collisions"),
     _Threshold("rendering", "drawn_triangles", 100_000, "triangles", "decimate-visuals"),
     _Threshold("sensors", "pixels_per_second", 1e7, "pixels a second", "limit-sensors{max-rate=15 max-pixels=307200}"),
     _Threshold("sensors", "rays_per_second", 1e6, "rays a second", "limit-sensors{rays-per-second=1000000}"),
 )
-"""Beyond what a cost is worth a look: rules of thumb, for one robot on one machine in real time."""
 
 
 def cost_of(model: Model, meshes: Sequence[MeshCost]) -> Cost:

@@ -15,8 +15,9 @@ from twinform.compiler.workers.running import Failure, Runner, UnavailableError
 
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
+# Jobs that the scheduler holds at a time: enough for as many processors, and all that is lost if it
+# goes away.
 _WINDOW = 512
-"""Jobs that the scheduler has at a time: enough for as many processors, and all that is done twice if it goes away."""
 _PATIENCE = 600.0
 """Seconds for a scheduler or workers that went away to come back."""
 _PAUSE = 2.0

@@ -20,8 +20,8 @@ from twinform.compiler.workers.running import Failure, NotStartedError, Runner, 
 Arguments = ParamSpec("Arguments")
 Job = TypeVar("Job")
 Result = TypeVar("Result")
+# A process is replaced after this many jobs, whatever memory its libraries have kept.
 _MOST_JOBS = 1000
-"""Jobs after which a process gives way to a new one, whatever memory its libraries have kept."""
 _PATIENCE = 120.0
 """Seconds that a process may take to start, on a machine that is busy with other things."""
 

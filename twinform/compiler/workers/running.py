@@ -11,8 +11,8 @@ from typing import Generic, TypeVar
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
+# Executors in a row that break before any result has come back.
 _MOST_BREAKS = 5
-"""Executors in a row that break before anything has come of them."""
 _PAUSE = 5.0
 """Seconds of silence after which somebody looks whether an executor is still there."""
 

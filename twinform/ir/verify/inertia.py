@@ -8,15 +8,15 @@ from twinform.ir.principal_moments import Symmetric, principal_moments, relative
 from twinform.ir.solids import tensor
 from twinform.ir.verify.poses import verify_rotation
 
-# Real files cut digits off, and libsdformat refuses a model for it: 26 of 1,448 files in the
-# corpus. `check` warns of exactly these.
+# Ten times the rounding of a double, relative to half the trace: libsdformat forgives no more. Real
+# files cut digits off and are refused for it: 26 of 1,448 in the corpus. `check` warns of exactly
+# these.
 _ROUNDING = 5e-15
-"""Ten times what a double rounds, as a part of half the trace: libsdformat forgives no more."""
 _HELP = "correct the numbers, or let --passes balance-inertia write the nearest that a body can have"
+# Far above what rounding does to the minors of a matrix, relative to powers of its trace.
 _DOUBT = 1e-12
-"""Far above what rounding does to the minors of a matrix, as a part of the powers of its trace."""
+# Traces whose third power is far from the limits of a double.
 _USUAL = (1e-90, 1e90)
-"""Traces whose third power is a double by far."""
 
 
 def verify_inertial(link: Link, default: float | None, sink: DiagnosticSink) -> None:

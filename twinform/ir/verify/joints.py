@@ -18,10 +18,10 @@ _LIMITED = frozenset({"revolute", "prismatic"})
 # of five up to 360, the corpus has ten joints of five grippers with -20 to 20, and nothing else.
 _MOST_TURNS = 4 * math.pi
 _WHOLE_TURN = 360
+# Limits in degrees are mostly multiples of this; those of a winch in radians hardly ever.
 _STEP = 5
-"""Limits in degrees are mostly multiples of this; those of a winch, in radians, hardly ever."""
+# How far the length of an axis may be from 1: files write three digits.
 _ROUNDING = 1e-3
-"""How far from 1 the length of an axis may be: files write three digits."""
 
 
 def verify_joint(joint: Joint, sink: DiagnosticSink, *, every_axis: bool = False) -> None:

@@ -5,11 +5,11 @@ import math
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir.pose import Pose
 
-# One in 1,489 corpus files has such an angle.
+# Two turns, in radians. An angle beyond is one in degrees: one in 1,489 corpus files has such an
+# angle.
 _MOST = 4 * math.pi
-"""Two turns, in radians: more is a number of degrees."""
+# How far the length of a quaternion may be from 1: files write three digits.
 _ROUNDING = 1e-3
-"""How far from 1 the length of a quaternion may be: files write three digits."""
 
 
 def verify_rotation(pose: Pose | None, sink: DiagnosticSink) -> None:

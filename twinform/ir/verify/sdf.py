@@ -21,12 +21,13 @@ from twinform.ir.verify.shapes import verify_shapes
 from twinform.ir.verify.tree import report_loops
 from twinform.ir.world import World
 
+# In these versions links and joints are no frames yet, and two with one name are only bad style.
 _BEFORE_FRAMES = frozenset({"1.2", "1.3", "1.4", "1.5", "1.6"})
-"""Versions in which links and joints were no frames yet: two of one name were bad style only."""
 _BEFORE_SCOPES = _BEFORE_FRAMES | {"1.7"}
 """Versions in which a name may have `::` in it."""
+# From 1.8 on a file has one of these at its top. The schema reader reports a second one and keeps
+# it.
 _ALONE = frozenset({"model", "light"})
-"""What may stand once at the top of a file from 1.8 on; the schema reader reports a second one and keeps it."""
 
 
 def verify_sdf(document: Document, sink: DiagnosticSink) -> None:

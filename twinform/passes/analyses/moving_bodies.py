@@ -7,8 +7,8 @@ from twinform.ir import Document, Joint, Link, Model
 from twinform.ir.groups import Groups
 from twinform.ir.scopes import outer_models
 
+# Both formats call what never moves `world`: SDF as the end of a joint, URDF as a root link.
 _GROUND = "world"
-"""What both formats call the thing that never moves: SDF as the end of a joint, URDF as a root link."""
 
 
 Body = tuple[Link, ...]

@@ -8,8 +8,8 @@ from importlib.resources import files
 from twinform.ir import Color
 
 _DATA = "data/classic_materials.toml"
+# OGRE's default for an ambient or diffuse color that a material script does not set.
 _WHITE = (1.0, 1.0, 1.0)
-"""What OGRE, whose scripts these are, takes for an ambient or diffuse color that is not written."""
 
 
 @dataclass(frozen=True, slots=True)

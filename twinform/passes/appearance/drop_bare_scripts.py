@@ -7,8 +7,8 @@ from twinform.diagnostics.rules import DROPPED_BARE_SCRIPT
 from twinform.ir import Document, Format, Material, Script, rewrite
 from twinform.passes.framework.base import Pass
 
+# libsdformat reads this as no name and as no URI.
 _NOTHING = frozenset({"", "__default__", None})
-"""What libsdformat reads as no name, and as no URI."""
 
 
 class DropBareScripts(Pass):

@@ -9,8 +9,8 @@ from twinform.passes.framework.registry import find_pass, registered_passes
 from twinform.passes.plugins.parts import Release
 
 _MATERIALS = "materials"
+# Fortress, whose ros2_control plugin has names of its own.
 _OWN_NAMES = 6
-"""The version of gz-sim, Fortress, whose ros2_control has names of its own."""
 _PLUGIN = "hardware/plugin"
 
 

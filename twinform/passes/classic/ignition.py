@@ -6,8 +6,8 @@ from twinform.ir import Element, Plugin
 from twinform.passes.plugins.catalog import is_ignition_name, modern_class, modern_file
 from twinform.passes.plugins.parts import Release
 
+# Fortress, in which the names of Ignition are the ones in use.
 _NATIVE = 6
-"""The version of gz-sim, Fortress, that still has these names of its own."""
 _ELEMENTS = {"ignition-gui": "gz-gui", "ignition_frame_id": "gz_frame_id"}
 _WORDS = re.compile(r"\bignition(?=\.msgs\.|-physics-|-rendering-|-gui\b)")
 _CLASSES = re.compile(r"\bignition::(?:gazebo|sim)::")

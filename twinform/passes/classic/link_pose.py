@@ -8,8 +8,8 @@ from twinform.ir.transform import Transform
 from twinform.passes.plugins.base_link import base_link
 from twinform.schemas import format_value
 
+# Frames that gazebo_ros_p3d takes for the world; any other is a link that the pose is relative to.
 _WORLDS = frozenset({"", "world", "/world", "map", "/map"})
-"""What gazebo_ros_p3d takes for the world; any other frame is a link that the pose is relative to."""
 _FRAMES = ("frameName", "frame_name")
 
 

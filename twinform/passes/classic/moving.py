@@ -12,8 +12,9 @@ from twinform.schemas import format_value
 _TRUTHS = {"true": "true", "True": "true", "1": "true", "false": "false", "False": "false", "0": "false"}
 _FIELD_OF_VIEW = 1.047
 """What SDF has for a camera's field of view where nothing is written, in rad."""
+# The time in s over which a bias wanders where none is given: that of hector_gazebo's sensor
+# models.
 _DRIFT_TIME = "3600"
-"""The time, in s, in which a bias wanders where it is not given: that of hector_gazebo's sensor models."""
 
 
 @dataclass(frozen=True, slots=True)

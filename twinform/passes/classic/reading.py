@@ -4,8 +4,8 @@ from twinform.ir import Plugin
 from twinform.passes.plugins.catalog import classic_plugins_of_file
 from twinform.passes.plugins.parts import PluginKind
 
+# The element with the settings of a node, which only plugins for ROS 2 have.
 _ROS = "ros"
-"""The element with the settings of a node, which only plugins for ROS 2 have."""
 
 
 def ros2_kind(plugin: Plugin) -> PluginKind | None:

@@ -21,8 +21,8 @@ from twinform.passes.plugins.sites import Site
 from twinform.schemas import format_value
 
 _FRAMES = ("frame_id", "gz_frame_id", "ignition_frame_id")
+# Fortress has another name for the element with a sensor's frame; gz-sensors 7 renamed it.
 _FRAME_BEFORE = "ignition_frame_id"
-"""What Fortress calls the element that names a sensor's frame; gz-sensors 7 renamed it."""
 _MANY = "multicamera"
 
 

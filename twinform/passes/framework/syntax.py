@@ -34,8 +34,8 @@ _WORD = re.compile(r'[^\s,={}\[\]"]+')
 _INTEGER = re.compile(r"[-+]?[0-9]+")
 _REAL = re.compile(r"[-+]?(?:[0-9]++\.?[0-9]*+|\.[0-9]++)(?:[eE][-+]?[0-9]++)?|[-+]?inf")
 _KEYWORDS: dict[str, Scalar] = {"true": True, "false": False, "null": None}
+# No double needs more digits, and Python refuses to read thousands of them.
 _LONGEST_NUMBER = 400
-"""No double needs more digits, and Python refuses to read thousands of them."""
 
 
 class PipelineError(ValueError):

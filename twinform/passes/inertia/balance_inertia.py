@@ -17,8 +17,8 @@ from twinform.passes.framework.base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.inertia.physical_consistency import distance, has_mass, is_clearly_possible, nearest_possible
 
+# A relative change this small restores digits that were cut off, and is no news.
 _NOTHING_MUCH = 1e-3
-"""A change of so small a part of an inertia is that of digits which were cut off, and no news."""
 _NOTHING: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 

@@ -17,8 +17,8 @@ from twinform.passes.analyses.shapes import NoSolidError, PlacedShape, Places, b
 from twinform.passes.framework.asset_access import NO_ASSETS
 from twinform.passes.inertia.physical_consistency import has_mass
 
+# How far a mass may reach out of its shapes, relative to their size: shapes are drawn by eye.
 _SLACK = 0.01
-"""How far a mass may reach out of its shapes, as a part of their size: shapes are drawn by eye."""
 _AXES = "xyz"
 _NO_MESHES = Meshes(NO_ASSETS)
 

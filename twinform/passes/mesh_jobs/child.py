@@ -26,11 +26,12 @@ _JOBS = {
 """In which module of `geometry` the function of a job is, which is called like the job."""
 _LIBRARIES = frozenset({"coacd", "collada", "fast_simplification", "numpy", "scipy", "trimesh"})
 """What the extra brings, as it is imported."""
+# Readers import these when they meet certain files, and could not do so once the process is
+# confined.
 _NEEDED_LATER = (
     "collada", "lxml.etree", "PIL.Image", "scipy.optimize", "scipy.spatial", "trimesh.exchange.load",
     "unicodedata", "encodings.idna", "encodings.latin_1", "encodings.utf_16", "encodings.cp437",
 )  # fmt: skip
-"""What readers import when they meet certain files, and could not import then."""
 
 
 def done(job: Job) -> Result:

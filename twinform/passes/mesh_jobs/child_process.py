@@ -11,10 +11,11 @@ from twinform.child_python import python_command
 from twinform.passes.mesh_jobs.job import BadMessageError, Job, Result
 from twinform.passes.mesh_jobs.limits import MEMORY
 
+# Seconds of the wall clock, on a busy machine, after which a job is given up; its limit of
+# processor time is shorter.
 _PATIENCE = 900.0
-"""Seconds of the clock after which a job is given up, on a machine that is busy; it has fewer of the processor."""
+# A pool of threads reserves address space for each processor, which counts against the limit.
 _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS"), "1")
-"""A pool of threads reserves memory for each processor, which counts."""
 
 
 @dataclass(slots=True)

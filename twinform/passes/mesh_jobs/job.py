@@ -16,8 +16,8 @@ Trouble = Literal["missing", "unreadable"]
 
 _PREFIX = 8
 _LONGEST_TEXT = 2**26
+# Of all files of a message. The process that sends it may have been taken over by a mesh.
 _MOST_BYTES = 2**30
-"""Of all files of a message. Whoever sends it may be a process that a mesh has taken over."""
 
 
 class BadMessageError(ValueError):

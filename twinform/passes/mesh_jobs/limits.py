@@ -11,8 +11,8 @@ SECONDS = 600
 """Of processor time, for the same."""
 _READING_MEMORY, _READING_SECONDS = 3 * 2**26, 1
 """What reading a small file may take beside the libraries."""
+# How that grows with the size. The slowest reader takes a fifth of a second for this much text.
 _MEMORY_PER_BYTE, _BYTES_PER_SECOND = 16, 2**21
-"""How that grows with its size. The slowest reader takes a fifth of a second for so many bytes of text."""
 
 
 def reading_seconds(size: int) -> int:

@@ -15,8 +15,9 @@ _USUAL = {"odometry": "odom", "joint_state": "joint_states"}
 """What ROS usually calls the last part of a topic."""
 _TRANSFORMS = "gz.msgs.Pose_V"
 _TRANSFORM_TOPIC = "/tf"
+# Transforms on topics with these last parts are for the tree of ROS (`/tf`). Others keep their
+# name, so that the tree stays whole.
 _TREES = frozenset({"tf", "pose", "pose_static"})
-"""The last parts of topics whose transforms are for the tree of ROS; others keep their name, and the tree whole."""
 _STRANGE = re.compile(r"[^A-Za-z0-9_]")
 _IGNITION = "fortress"
 """The release whose bridge calls messages by the name of Ignition."""

@@ -45,8 +45,9 @@ LATEST = "main"
 DEFAULT_SYSTEMS = ("physics", "user-commands", "scene-broadcaster")
 """What gz-sim adds to a world without any plugin, and to no other one."""
 
+# Beyond this many names none is suggested: a comparison takes 10 us, and a hostile file has many of
+# both.
 _TOO_MANY = 2000
-"""Names beyond which none is guessed: comparing takes 10 us for each, and a hostile file has many of both."""
 
 Family = Literal["noetic", "ros2"]
 

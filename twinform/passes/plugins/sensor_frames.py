@@ -9,10 +9,11 @@ from twinform.passes.plugins.catalog import release
 from twinform.passes.transforms.notation import in_radians
 
 _ELEMENTS = frozenset({"frame_id", "gz_frame_id", "ignition_frame_id"})
+# Cameras with nothing but images. Those with clouds stamp both with one frame, and a cloud of
+# Gazebo looks along x.
 _IMAGES = frozenset({"camera", "thermal_camera", "segmentation_camera", "wideanglecamera"})
-"""Cameras with nothing but images. Those with clouds stamp both with one frame, and a cloud of Gazebo looks along x."""
+# The frame of an image in that of its camera: it looks along z, with x to the right (REP 103).
 _OPTICAL = Transform.from_pose(Pose(rpy=(-math.pi / 2, 0.0, -math.pi / 2)))
-"""How the frame of an image stands in that of its camera: it looks along z, with x to the right (REP 103)."""
 
 
 def frames_of(sensor: Sensor) -> Iterator[str]:

@@ -29,8 +29,9 @@ from twinform.passes.plugins.elements import plugin_element, plugin_of, sensor_e
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
+# Where a plugin of Gazebo may stand. The <plugin> in <hardware> of a <ros2_control> is one of
+# ros2_control.
 _SCOPES = frozenset({"world", "model", "include", "link", "joint", "sensor", "visual", "projector", "actor", "gui"})
-"""What a plugin of Gazebo may stand in; the `<plugin>` in the `<hardware>` of a `<ros2_control>` is something else."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,25 +26,27 @@ from twinform.passes.transforms.lumped_links import lumped_joints, lumped_links
 _CLOUD = re.compile(r"points|cloud", re.IGNORECASE)
 """What is in names of topics with point clouds: `velodyne_points`, `lidar/points`, `cloud_in`."""
 _CLOUD_TOPICS = frozenset({"{topic}/points", "({topic}/points)"})
+# CameraSensor.cc reads <camera_info_topic>; other sensors choose the topic themselves.
 _OWN_INFO = "camera"
-"""The kind of sensor that reads `<camera_info_topic>` (CameraSensor.cc): others put it where they want."""
 _ANY_WORLD = "{world}"
 """What stands for the name of a world that is not known."""
+# Its topic is the same for all where the element is there and has the default (LogicalCamera.cc,
+# AddLogicalCamera; LogicalCameraSensor.cc, Load).
 _LOGICAL_CAMERA = "logical_camera"
-"""The kind of sensor that has one topic for all where the element is there and has the default (LogicalCamera.cc,
-AddLogicalCamera, and LogicalCameraSensor.cc, Load)."""
 _BOXES = "boundingbox_camera"
+# BoundingBoxCameraSensor.cc, Load.
 _BOX_TYPES = frozenset({"2d", "visible_2d", "visible_box_2d", "full_2d", "full_box_2d", "3d"})
-"""What the sensor takes for `<box_type>` (BoundingBoxCameraSensor.cc, Load)."""
+# Sensors without a service for their rate (EnvironmentalSensorSystem.cc, Load, returns before it).
 _WITHOUT_RATE = frozenset({"contact", "environmental_sensor"})
-"""The kinds of sensors that need no service for their rate (EnvironmentalSensorSystem.cc, Load, goes on without)."""
+# The topic of a contact sensor stands in <contact> and is not made valid (contact/Contact.cc,
+# Load).
 _CONTACT = "contact"
-"""The kind of sensor whose topic stands in `<contact>`, and is not made valid (contact/Contact.cc, Load)."""
+# `__default__` stands for no topic, but in <contact> (sdf/contact.sdf).
 _UNNAMED = {_CONTACT: "__default_topic__"}
-"""The topic that stands for none: `__default__`, but in `<contact>` (sdf/contact.sdf)."""
+# In these releases, plugins leave the world out of the name that they have when they are loaded. A
+# model of the world is in it by then; a spawned one is not, and so leaves out its own name
+# (SdfEntityCreator.cc, PosePublisher.cc).
 _WITHOUT_WORLD = frozenset({"ionic", "jetty"})
-"""Releases in which plugins leave the world out of the name that they have when they are loaded. A model of the world
-is in it by then, and a spawned one is not, so these leave out its own name (SdfEntityCreator.cc, PosePublisher.cc)."""
 
 
 @dataclass(frozen=True, slots=True)

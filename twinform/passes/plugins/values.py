@@ -5,8 +5,8 @@ from collections.abc import Callable
 from twinform.passes.plugins.parts import Parameter
 from twinform.schemas import parse_value
 
+# Characters that gz-transport accepts in no topic.
 _NOT_IN_TOPICS = ("@", ":=", "//", "~")
-"""What gz-transport takes in no topic."""
 
 _TRUTHS = frozenset({"true", "false", "0", "1"})
 

@@ -16,8 +16,9 @@ from twinform.passes.plugins.parts import PluginKind, SensorKind
 from twinform.passes.plugins.sites import plugins_of
 
 _CUSTOM = "custom"
+# Water up to a height of zero and air above, in kg/m^3. With one density everywhere, everything
+# would float away.
 _LAYERS = {"default_density": "1000", "above_depth": "0", "density": "1"}
-"""Water up to the height of zero and air above, in kg/m^3: one density everywhere would make everything float away."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,8 @@ Value = str | bool | int | float | None | Sequence["Value"] | Mapping[str, "Valu
 
 _PLAIN = re.compile(r"[A-Za-z_/][A-Za-z0-9_/.-]*(?: [A-Za-z0-9_/.]+)*")
 """Text that needs no quotes in any place, but for the words below."""
+# YAML 1.1 reads these as something else than text, and ROS as numbers.
 _WORDS = frozenset({"true", "false", "yes", "no", "on", "off", "null", "y", "n", "nan", "inf", "infinity"})
-"""What YAML 1.1 reads as something else than text, and ROS as a number."""
 _SURROGATES = re.compile(r"\\u(d[89ab][0-9a-f]{2})\\u(d[c-f][0-9a-f]{2})")
 
 

@@ -13,10 +13,11 @@ from twinform.passes.transforms.nodes import text_piece
 from twinform.schemas import format_value
 
 _SINCE = (1, 10)
+# Readers of older versions take this for no limit: rad or m, N m or N, rad/s or m/s. A range keeps
+# its sign.
 _UNLIMITED = {
     "lower": UNLIMITED, "upper": UNLIMITED, "effort": UNLIMITED_STRENGTH, "velocity": UNLIMITED_STRENGTH,
 }  # fmt: skip
-"""What readers of older versions take for no limit: rad or m, N m or N, rad/s or m/s. A range keeps its sign."""
 
 
 class BoundLimits(VersionPass):

@@ -13,8 +13,8 @@ _MEASURED = {"rate": "angular_velocity", "accel": "linear_acceleration"}
 _NUMBERS = ("mean", "stddev", "bias_mean", "bias_stddev")
 _ANNOTATION = f"{{{NAMESPACE}}}noise"
 """In an IMU whose noise was written once for all axes: `<tf:noise/>`."""
+# The type of noise of an IMU that names none. On an axis, the default is no noise.
 _DEFAULT = "gaussian"
-"""The noise of an IMU that does not say of what type it is; on an axis the default is none."""
 
 
 class SpreadImuNoise(VersionPass):

@@ -8,8 +8,9 @@ from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
 from twinform.schemas import format_value
 
+# The parameters that libsdformat rewrites when it lumps a link (parser_urdf.cc,
+# ReduceSDFExtensionPluginFrameReplace).
 _BODIES = ("bodyName", "frameName")
-"""The parameters that libsdformat follows."""
 _OFFSETS = ("xyzOffset", "rpyOffset")
 
 

@@ -15,8 +15,9 @@ _WHOLE: dict[str, ReferenceKind] = {
     "reference": "any",
     "mimic": "joint",
 }
+# The first part that occurs in a word decides: `joint` before `link`, as in `jointLinkName`, and
+# `link` before `frame`.
 _PARTS: dict[str, ReferenceKind] = {"joint": "joint", "link": "link", "body": "link", "frame": "frame"}
-"""The first part that a word has decides: `joint` before `link`, as in `jointLinkName`, and `link` before `frame`."""
 _NOT_NAMES = frozenset({"frames", "framerate", "frame_rate", "update_frame", "joint_state_topic", "visualize_frame"})
 
 

@@ -11,8 +11,8 @@ from twinform.passes.structure.gazebo_blocks import blocks
 from twinform.passes.structure.reversal import ABOUT_A_POINT, TURNING, opposite, swapped_block, with_axis
 from twinform.passes.transforms.notation import in_radians
 
+# Meters by which a link's origin may be beside an axis that goes through it: the rounding of zero.
 _ON_AXIS = 1e-12
-"""Meters by which a link's origin may be beside an axis that goes through it: what rounding makes of zero."""
 
 
 class _Reversed(NamedTuple):

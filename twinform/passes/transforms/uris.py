@@ -43,11 +43,12 @@ _ELEMENTS = frozenset(
      "ambient_occlusion_map", "glossiness_map", "specular_map", "environment_map", "color_range_image", "cubemap_uri"}
 )  # fmt: skip
 """Elements whose text is a path wherever they stand."""
+# Elements whose text is a path only inside another one: a terrain's texture has images where a
+# material has colors.
 _INNER_ELEMENTS = frozenset(
     {("skin", "filename"), ("animation", "filename"), ("projector", "texture"), ("texture", "diffuse"),
      ("texture", "normal")}
 )  # fmt: skip
-"""Those whose text is a path only in another one: a terrain's texture has images where a material has colors."""
 _HOLDERS: dict[str, Kind] = {"mesh": "mesh", "skin": "mesh", "animation": "mesh", "include": "include"}
 """What a file is for, by the element that its URI stands in."""
 

@@ -31,8 +31,8 @@ from twinform.profiles.subject import Subject
 
 _LATE_SENSORS = frozenset({"air_speed"})
 """What SDF 1.9 has no sensor of."""
+# The smallest field of view of a camera in SDF 1.9, as libsdformat 12 has it, in rad.
 _NARROW = 0.1
-"""The least field of view of a camera in SDF 1.9 as libsdformat 12 has it, in rad."""
 _COMMON = frozenset({"revolute", "fixed"})
 """The types of joints that every engine has."""
 

@@ -9,15 +9,14 @@ from twinform.profiles.reading.forms import number_in
 from twinform.profiles.reading.nodes import Node
 
 Fact = Iterator[tuple[Node, str]]
-# MuJoCo's mjMINVAL.
+# mjMINVAL, at or below which MuJoCo counts a mass (kg) or a moment (kg m2) as none.
 _LIGHTEST = 1e-15
-"""What counts as no mass, in kg, and as no moment, in kg m2."""
+# In kg m2: MuJoCo counts smaller principal moments as none.
 _SMALLEST = 1e-14
-"""In kg m2: principal moments below it are none to MuJoCo."""
+# Drake accepts a largest moment that exceeds the sum of the others by this part of it.
 _SLACK = 1e-9
-"""By so much of it the largest moment may be more than the sum of the others, to Drake."""
+# What finding the axes of an inertia costs, relative to its largest moment.
 _ROUNDING = 1e-14
-"""What is lost where the axes of an inertia are found, as a part of its largest moment."""
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 

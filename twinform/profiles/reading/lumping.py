@@ -26,8 +26,8 @@ _NOTHING: Symmetric = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 _STREAM, _STREAMS = FORMS["stream"][1], FORMS["stream3"][1]
 _ROUNDING = 1e-12
 """How much of the greatest moment the digits of a file may lack."""
+# In kg: libsdformat before 12.7.2 leaves out links that do not weigh more, with all below them.
 _DROPPED = 1e-6
-"""In kg: libsdformat before 12.7.2 leaves out links that do not weigh more."""
 
 
 _Head = tuple[int | None, Node | None, str]

@@ -13,8 +13,9 @@ from twinform.report.listed_findings import WORDS, anchors, worst
 from twinform.report.markup import Markup, Part, element, join
 from twinform.report.parts import count, folded
 
+# Browsers flatten elements nested deeper than about 500, and a chain of 1,000 links is nothing
+# unusual in tests. Below this level the rest is one list.
 _DEEPEST = 40
-"""Browsers nest no deeper than about 500 elements: below this level the rest stands in one list."""
 _OPEN = 300
 """Larger trees begin folded."""
 _DRAWN = 400

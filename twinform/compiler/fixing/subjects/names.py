@@ -3,8 +3,9 @@
 from twinform.compiler.fixing.site import FixableFile, Fixers, Site, unsafe
 from twinform.diagnostics import Fix, TextEdit, meant_name, nearest_name, rules
 
+# How much of two words has to be the same for a tag to be taken for the other one; with less, the
+# help only asks.
 _SURE = 0.72
-"""How much of two words is the same where a tag is taken for the other one: what is less is only asked."""
 _ENDS = frozenset({"parent", "child"})
 """What names a link where a joint has its name too."""
 

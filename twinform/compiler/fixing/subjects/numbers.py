@@ -10,14 +10,15 @@ from twinform.compiler.fixing.site import Fixers, Site, safe, unsafe
 from twinform.diagnostics import Fix, Safety, TextEdit, meant_name, rules
 from twinform.schemas import VALUE_TYPES
 
+# A number may not start in the middle of another one, or each digit of a long one would be a start
+# (quadratic time).
 _NUMBER = r"[-+]?(?<![\d.])(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?"
-"""A number that does not begin in the middle of another one: else each digit of a long one would be a beginning."""
 _LONGEST = 1000
 """The longest text, in characters, that somebody may have meant something by."""
+# What word processors make of a minus, a comma, a point and a blank.
 _CHARACTERS = str.maketrans(
     {"\u2212": "-", "\u2013": "-", "\ufe63": "-", "\uff0d": "-", "\uff0c": ",", "\uff0e": ".", "\u00a0": " "}
 )
-"""What a text program makes of a minus, a comma, a point and a blank."""
 _BRACKETS = str.maketrans("()[]{}", "      ")
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d+)?")
 _DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)|(?<![\d.]),(?=\d)")
@@ -40,8 +41,8 @@ _SCALES = {
 }
 _WITH_UNIT = re.compile(rf"(?P<number>{_NUMBER})\s*+(?P<unit>[A-Za-z\u00b0][A-Za-z/*.^\d]*+)")
 _WORDS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
+# Here a minus means neither "no limit" nor a direction.
 _NEVER_NEGATIVE = frozenset({"capsule", "cylinder", "dynamics", "length", "mass", "radius", "size", "sphere"})
-"""What a negative number says nothing of, neither that there is no limit nor a direction."""
 _POSE = 6
 
 
@@ -133,8 +134,8 @@ def _out_of_range(site: Site) -> Fix | None:
 
 
 _WHITE = 255
+# A color between 1 and this is too bright rather than one from 0 to 255.
 _MOST_BRIGHT = 2
-"""Above 1 and below this a color is rather too bright than one of 255."""
 
 
 def _angles_in_degrees(site: Site) -> Fix | None:

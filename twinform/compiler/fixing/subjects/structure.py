@@ -12,11 +12,11 @@ from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit, rules
 from twinform.schemas import VALUE_TYPES, Fact, parse_version, print_version, table, versions_of
 from twinform.text import same_element
 
+# Products of inertia: whoever leaves them out means zero.
 _ZERO = frozenset({"ixy", "ixz", "iyz"})
-"""Products of inertia: who leaves them out means none."""
 _NUMBERS_TO_FIND = frozenset({"effort", "velocity"})
+# Things of their own: a second one does not repeat the first.
 _OF_THEIR_OWN = frozenset({"actor", "camera", "joint", "light", "link", "model", "world"})
-"""What is a thing by itself: a second one is not the first one said again."""
 _SHOWN = 40
 
 

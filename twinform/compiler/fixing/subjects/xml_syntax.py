@@ -37,8 +37,9 @@ _NO_BLANK = re.compile(r"""(?<==)\s*(?P<value>"[^"<]*"|'[^'<]*')(?=[A-Za-z_])"""
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 _DOCTYPE = re.compile(r"<!DOCTYPE\s+\w+\s*>\s*", re.IGNORECASE)
 _SURE = 0.7
+# The most namespaces of a root to which more are added. libxml2 names a hundred prefixes at a time;
+# real files have 16.
 _MOST_DECLARED = 100
-"""Namespaces of a root to which more are added. libxml2 names a hundred prefixes at a time; real files have 16."""
 
 
 def _in_markup(pattern: re.Pattern[str], text: str) -> Iterator[re.Match[str]]:

@@ -22,20 +22,22 @@ from twinform.compiler.search.uris import SearchPath, UriError
 
 _WORKER = Path(__file__).with_name("worker") / "__main__.py"
 _LIBRARIES = ("xacro", "yaml")
+# Of the wall clock, on a busy machine. The worker itself has 10 s of processor time.
 _SECONDS = 60
-"""Of the clock, on a machine that is busy; the worker itself has 10 of the processor."""
+# Of processor time, for all questions of one file: what is done here for the worker is not in its
+# own ten.
 # Without this, 30,000 calls of `$(optenv)` ran until the clock limit of 60 seconds.
 _SECONDS_TO_ANSWER = 3
-"""Of the processor, for all questions of one file: what is done here for the worker is not in its own ten."""
+# Questions that repeat do not count: the worker keeps the answers.
 _MOST_QUESTIONS = 5000
-"""What is asked again is not asked of us: the worker keeps the answers."""
+# The longest name of a file, package or variable that is looked up, in characters: as long as a
+# path may be.
 _LONGEST_NAME = 4096
-"""The longest name of a file, package or variable that is looked for, in characters: as long as a path may be."""
 _LONGEST_MESSAGE = 4 * LARGEST
 _QUESTIONS = frozenset({"environment", "find", "match", "read"})
 _PASSED_ON = ("APPDATA", "HOME", "LANG", "PATH", "SYSTEMROOT", "TEMP", "TMPDIR", "USERPROFILE")
+# Python needs these to find its modules. Nothing else of the environment is in the process.
 _PASSED_ON_STARTS = ("COV", "DYLD_", "LC_", "LD_", "PYTHON")
-"""What Python needs of the environment to find its modules; the rest is not in the process at all."""
 
 
 def ask_worker(path: Path, load_options: LoadOptions) -> dict[str, Any]:

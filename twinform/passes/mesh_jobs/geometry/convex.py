@@ -10,10 +10,11 @@ from twinform.passes.mesh_jobs.geometry.surface import Surface, UnusableMeshErro
 
 _CONCAVITIES = (0.1, 0.05, 0.02, 0.01)
 """Thresholds of CoACD that are tried, from few parts to many."""
+# The most triangles that CoACD is given. A finer mesh is decimated first, and the error is still
+# measured to all of it.
 _MOST_FOR_PARTS = 20_000
-"""Triangles that CoACD is given; a finer mesh is decimated first, and the error still measured to all of it."""
+# How long CoACD searches for a cut. With more the parts are much the same.
 _ITERATIONS = 60
-"""How long CoACD looks for a cut: with more, the parts are much the same."""
 _AT_ONCE = 16
 """Of a hull with this many corners, one more is added at once."""
 _ROUNDING = 1e-9

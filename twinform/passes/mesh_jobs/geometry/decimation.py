@@ -14,8 +14,8 @@ _STEPS = 4
 _LEAST = 4
 WORTH = 0.95
 """A mesh that keeps more of its triangles than this is left as it is."""
+# How aggressive the library is. With less, it stops early and keeps shapes better.
 _HASTY, _CAREFUL = 7.0, 3.0
-"""How aggressive the library is: with less, it stops early and keeps shapes better."""
 
 
 class Decimated(NamedTuple):

@@ -20,8 +20,8 @@ _FINEST = 24
 """A side of a triangle has so many samples at most."""
 _NEAREST, _NEAREST_TO_CORNER = 4, 2
 _CHUNK = 20_000
+# With this many triangles left to split, the bound so far has to do.
 _MOST_OPEN = 300_000
-"""Where so many triangles are to be split, what is known so far has to do."""
 _DEEPEST = 20
 _TINY = 1e-3
 _WORTH, _ALIKE = 0.02, 3.0

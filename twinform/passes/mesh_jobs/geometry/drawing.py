@@ -10,8 +10,8 @@ from twinform.passes.mesh_jobs.job import Job, Result
 
 _SHARP = 0.6
 """Angles between triangles, in radians, from which there is an edge to be seen."""
+# Larger meshes are drawn with the vertices that they have: looking for edges takes time.
 _MOST_SMOOTHED = 100_000
-"""Larger meshes are drawn with the points that they have: looking for edges takes time."""
 _UNPAINTED = (200, 200, 205, 255)
 
 

@@ -11,20 +11,21 @@ from twinform.passes.mesh_jobs.geometry.solver_libraries import optimize
 from twinform.passes.mesh_jobs.geometry.surface import Surface
 
 _AROUND, _FINENESS = 48, 3
+# Triangles in a round surface are deepest at their middle or at that of a side, or very near.
 _MARGIN = 1.2
-"""Triangles in a round surface are deepest at their middle or that of a side, or very near."""
 _STEPS = 400
 _REFINED = 6
 """So many of the candidates are refined."""
 _POINTS = 600
 """About so many points of the hull are looked at for that."""
+# Of two that fit about as well, the one of the simpler kind is taken.
 _AS_GOOD = 1.05
-"""Of two that fit about as well, the one of the simpler kind is taken."""
+# A primitive that fills the bounding box is preferred to a refined one unless it fits worse by more
+# than this factor: most likely it has the numbers that the mesh was made with.
 _PLAIN = 2.5
-"""One that fills the box around the mesh is taken before a refined one, if it does not fit worse than that: it most
-likely has the numbers that somebody made the mesh with."""
+# Only this many candidates have their error bounded, which is expensive. By samples, the others are
+# worse.
 _CERTIFIED = 2
-"""So many of the candidates have their error measured; the others are known to be worse by samples."""
 
 
 class Primitive(NamedTuple):

@@ -12,10 +12,11 @@ from twinform.passes.mesh_jobs.geometry.libraries import trimesh
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError
 
 _MOST_CORNERS = 1000
+# The reader cuts a face into triangles one by one, and a line may continue in the next.
 _LONG_FACE = re.compile(rb"(?m)^[ \t]*f(?:(?:[ \t]|\\\r?\n)+[^ \t\r\n\\]+){%d}" % (_MOST_CORNERS + 1))
-"""A face is cut into triangles one by one, and a line may go on in the next."""
+# Of a glTF scene, and of faces of one material in an OBJ file: the reader makes a mesh or a node
+# for each.
 _MOST_PIECES = 10_000
-"""Of a glTF scene, and of the faces of one material in an OBJ file: for each, the reader makes a mesh or a node."""
 _GLB_SIZE, _GLB_HEADER = 12, 20
 """Where a GLB file says how long its JSON is, and where that begins."""
 

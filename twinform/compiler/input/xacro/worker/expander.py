@@ -21,10 +21,12 @@ from twinform.compiler.input.xacro.worker.vocabulary import vocabulary
 if TYPE_CHECKING:
     from twinform.compiler.input.xacro.worker.data_files import DataFiles
 
+# Functions of xacro whose first argument is the element that they work on: from them errors get
+# their place.
 _WATCHED = ("eval_all", "check_attrs", "grab_property", "grab_macro", "process_include", "handle_macro_call")
-"""Functions of xacro whose first argument is the element that it is at."""
+# Taken away from xacro's modules, so that a use of them that is not replaced fails instead of
+# running.
 _BARRED = ("compile", "eval", "exec", "open")
-"""What the modules of xacro have no more: whatever of them is not replaced fails in place of running."""
 
 
 class Expander:

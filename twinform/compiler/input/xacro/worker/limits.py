@@ -12,10 +12,10 @@ MEMORY = 2**29
 # others take less than 0.4 s.
 SECONDS = 10
 """Of processor time. The slowest real file that we know takes from one to nine, as machines are."""
+# Seconds of processor time to report where the time went.
 _GRACE = 2
-"""More seconds, to report where the time went."""
+# Frames of Python. xacro takes about ten for each macro inside a macro.
 _DEEPEST = 4000
-"""Frames of Python. xacro takes about ten for each macro inside a macro."""
 
 
 def limit() -> None:

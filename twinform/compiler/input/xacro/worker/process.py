@@ -16,8 +16,9 @@ from twinform.confinement import confine
 from twinform.confinement.parent import end_with_parent
 
 _MOST_REMARKS = 1000
+# Python imports these when it meets certain characters, and could not do so once the process is
+# confined.
 _NEEDED_LATER = ("unicodedata", "encodings.cp1252", "encodings.iso8859_15", "encodings.utf_16")
-"""Modules that Python imports when it meets certain characters, and could not import then."""
 
 
 class _Arguments(dict[str, str]):

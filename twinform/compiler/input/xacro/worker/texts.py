@@ -7,10 +7,10 @@ from collections.abc import Callable
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget, require_length
 from twinform.compiler.input.xacro.worker.expressions.values import Names, Value, text_of
 
+# The four tokens of xacro's own lexer (`QuickLexer` in xacro/__init__.py), in its order.
 _PART = re.compile(
     r"\$(?P<escaped>\$+[{(])|\$\{(?P<expression>[^}]*)\}|\$\((?P<substitution>[^)]*)\)|(?P<plain>[^$]+|\$[^{($]+|\$$)"
 )
-"""The same four that xacro's own lexer knows, in its order."""
 
 
 class Texts:

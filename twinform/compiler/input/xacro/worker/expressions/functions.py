@@ -22,15 +22,15 @@ from twinform.compiler.input.xacro.worker.expressions.values import (
     weigh,
 )
 
+# Decimal places before or behind the point; there are no floating point numbers beyond.
 _MOST_ROUNDED = 400
-"""Places before or behind the point; beyond them there are no floating point numbers."""
+# Functions whose result never has more than a few hundred digits, whatever they are given.
 _NUMERIC = (
     "acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "cbrt", "ceil", "copysign", "cos", "cosh", "degrees",
     "dist", "erf", "erfc", "exp", "exp2", "expm1", "fabs", "floor", "fmod", "frexp", "fsum", "gamma", "gcd", "hypot",
     "isclose", "isfinite", "isinf", "isnan", "isqrt", "ldexp", "lgamma", "log", "log10", "log1p", "log2", "modf",
     "nextafter", "pow", "radians", "remainder", "sin", "sinh", "sqrt", "tan", "tanh", "trunc", "ulp",
 )  # fmt: skip
-"""What makes a number of no more than a few hundred digits of whatever it is given."""
 
 
 def math_functions(budget: Budget) -> dict[str, Function]:

@@ -18,8 +18,8 @@ from twinform.compiler.input.xacro.worker.expressions.values import (
 
 Method = Callable[..., Value]
 """Takes the value before the dot, the budget, and the arguments."""
+# Characters that `strip` looks for: it compares each of them with each of the text.
 _LONGEST_SET = 1000
-"""Characters that `strip` looks for: each is held against each of the text."""
 _FIELD = re.compile(r"\{\{|\}\}|\{(\w*)\}|[{}]")
 
 
