@@ -15,15 +15,22 @@ from twinform.schemas import XmlElement, declared_namespaces, path_of
 
 LARGEST = 64 * 2**20
 """The largest file, in bytes, where nobody says otherwise. The largest real one has 2 MB; 10,000 links have 10."""
+# 16 million elements fit into 64 MB of text and fill 3 GB once they are parsed. Counting `<` costs
+# a third of a millisecond per MB.
 MOST_TAGS = 1_000_000
 """The most tags where nobody says otherwise. A chain of 10,000 links has 280,000, the largest real file 40,000."""
+# 50,000 take two seconds. --max-tags above a million lifts this limit too: 100,000 links are all in
+# one element.
 MOST_CHILDREN = 50_000
 """The most elements in one, unless more tags are allowed: each is read as a part of the model. A chain of 10,000 links
 has 20,000."""
+# Files of 400 kB with 80,000 of them took `diff` ten seconds.
 MOST_STRAY_TEXTS = 10_000
 """The most texts between elements, unless more tags are allowed: each is a part that no format has, and is carried."""
 MOST_COLONS = 10_000
 """The most names with two colons behind their prefix. Other faults need no limit: libxml2 lists a hundred of them."""
+# Attributes, namespaces, depth and lengths are no options, unlike size and tags: no robot comes
+# near, and what they bound grows faster than the file.
 MOST_ATTRIBUTES = 256
 """The most attributes of one element, since libxml2 looks each of them up among all. The most in a real file is 12."""
 MOST_LOOKUPS = 250_000_000
@@ -34,6 +41,8 @@ That takes five seconds at most, and is reached by 11,000 of both. The most name
 LONGEST_NAME = 1024
 """The longest name, in characters: the path of each finding repeats the names around it."""
 
+# 250 of them ended in a traceback. 64 are converted, written as JSON and read again within the
+# limits of Python and Pydantic.
 DEEPEST_MODELS = 64
 """The most models in each other, since a part in them is reached through all. The most in a real file are four."""
 

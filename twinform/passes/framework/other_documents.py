@@ -28,6 +28,8 @@ Refusal = Callable[[str], str | None]
 """The reason why a pass must not have the file of a path; None where it may."""
 
 
+# A registry of services would hide what a pass needs; files that the command line reads beforehand
+# would make options of one pass a matter of every caller.
 class DocumentPass(Pass):
     """A pass whose purpose needs other documents. Whoever runs it lends it a reader, by `with_reader`."""
 

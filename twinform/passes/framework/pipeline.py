@@ -82,6 +82,9 @@ def _run(
     try:
         new = step.run(old, sink)
     except Exception as cause:
+        # The error carries the pass and the document that it was given, so the file that reproduces
+        # a fault needs no hook and no second run: it is there wherever a pass fails, be it in an
+        # include, in legalisation or on the way back.
         error = FailedPassError(step, old, cause)
         instrumentation.failed(step, error, sink)
         raise error from cause

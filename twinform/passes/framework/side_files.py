@@ -55,6 +55,9 @@ class SideFilePass(FilesPass):
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The same document."""
+        # `bridge-config` once wrote to the path in its option, whatever became of the conversion. A
+        # pipeline may stand in a configuration or a reproducer, so a model downloaded with a
+        # twinform.toml could write any file of its reader.
         sink.side_files.append(SideFile(self.file, self.text(document, sink)))
         return document
 

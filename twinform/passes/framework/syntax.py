@@ -26,6 +26,7 @@ Scalar = str | float | bool | None
 Value = Scalar | list[Scalar]
 
 _BLANKS = re.compile(r"\s*")
+# No pass can be called `@NAME`: names begin with a letter.
 _NAME = re.compile(r"[a-z][a-z0-9]*(?:-[a-z0-9]+)*")
 KEY = re.compile(r"[A-Za-z0-9_-]+")
 """The name of a pipeline."""

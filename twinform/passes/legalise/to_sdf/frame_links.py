@@ -49,8 +49,12 @@ class FrameLinks(ModelPass):
             joint.child: joint
             for joint in model.joints
             if joint.type == "fixed"
+            # A massless root stays a link, although a massive child may be fixed to it: as a frame
+            # it would leave another link as the root of every program that asks for it.
             and joint.parent in links
             and joint.child in links
+            # A force-torque sensor measures what goes through the joint, and often sits in front of
+            # a massless frame with the tool behind it.
             and not joint.sensors
             and find_annotation(joint, EXTENSION) is None
             and is_massless(links[joint.child])
@@ -89,6 +93,8 @@ class FrameLinks(ModelPass):
         annotation = find_annotation(link, FRAME)
         if annotation is not None and is_synthesized(joint):
             return (frame_as_before(joint, link, annotation, pose),)
+        # Two frames, so that both names stay, the origin stays as it is written, and joints below
+        # keep the link's name as their parent.
         mount = Frame(
             name=joint.name, attached_to=joint.parent, pose=pose, opaque=_carriers(joint), source=joint.source
         )

@@ -44,6 +44,9 @@ class UrdfJoints(ModelPass):
         """The model with joints of SDF."""
         held = links_in_static_models(model)
         free = {joint.child: joint for joint in model.joints if needs_no_joint(joint, held)}
+        # urdfdom takes a <mimic> of a fixed joint, of the joint itself or of none; libsdformat
+        # refuses the whole file since version 14. The joint is free then, as it is for other
+        # readers of the URDF.
         mimicking = self._without_useless_mimics(model, sink) if any(map(_mimic_of, model.joints)) else model.joints
         joints = tuple(self._joint(joint, sink) for joint in mimicking if not needs_no_joint(joint, held))
         links = model.links
@@ -153,8 +156,11 @@ class UrdfJoints(ModelPass):
         if limit is not axis.limit:
             update["limit"] = limit
         if axis.xyz is None:
+            # The default axis is x in URDF and z in SDF.
             update["xyz"] = AXIS[Format.URDF]
         if joint.type == "continuous":
+            # DART makes a `continuous` joint a fixed one. SDF's revolute joint without limits is
+            # the same joint.
             joint = joint.copy(type="revolute")
         if not update:
             return joint

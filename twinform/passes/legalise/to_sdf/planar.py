@@ -64,6 +64,7 @@ def planar_chain(joint: Joint, names: Names) -> Chain:
         axis=Axis(xyz=normal),
     )
     links = (
+        # Any mass worth the name would change the mass matrix of the robot.
         Link(name=first_link, pose=Pose(relative_to=first), inertial=TOKEN, source=source),
         Link(name=second_link, pose=Pose(relative_to=second), inertial=TOKEN, source=source),
     )

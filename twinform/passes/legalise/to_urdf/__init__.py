@@ -54,19 +54,25 @@ def to_urdf(
     """
     words: UrdfVersion = "1.2" if mixed else urdf_version
     return (
+        # URDF holds one robot.
         SelectModel.unchecked(model=model),
         ShowScopedElements.unchecked(),
         UpgradeSdf.unchecked(carriers=carriers, mixed=mixed_source),
         GatherImuNoise.unchecked(version=versions_of("sdf")[-1], annotated=True),
         FlattenForUrdf.unchecked(carriers=carriers),
         FoldPlanarJoints.unchecked(carriers=carriers),
+        # Inertias first: shapes that URDF lacks leave their links further below, and count for an
+        # automatic inertia.
         ComputeInertias.unchecked(carriers=carriers),
         FillInertials.unchecked(carriers=carriers),
         RestoreLinks.unchecked(carriers=carriers),
         ResolveJointEnds.unchecked(carriers=carriers),
         ExpressAxes.unchecked(carriers=carriers),
+        # Frames before the tree: a frame that an edit put into a circle is fixed to its link first,
+        # and the joint of the edit is the one that is cut.
         TurnFramesIntoLinks.unchecked(carriers=carriers),
         BuildTree.unchecked(carriers=carriers),
+        # After the tree, which says which joint holds each link.
         RelateGearboxes.unchecked(carriers=carriers),
         UnfoldJoints.unchecked(carriers=carriers),
         MapJoints.unchecked(carriers=carriers, urdf_version=urdf_version),
@@ -86,5 +92,6 @@ def to_urdf(
         UnpackUrdf.unchecked(),
         RestoreInertias.unchecked(),
         PlaceFreeLinks.unchecked(carriers=carriers),
+        # Last: whatever carrier nobody has taken by now fits nothing any more.
         DropStale.unchecked(to=Format.URDF),
     )

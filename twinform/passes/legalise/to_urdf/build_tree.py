@@ -79,12 +79,15 @@ def _reversed(model: Model, names: set[str], keeper: Keeper) -> Model:
 
 
 def _annotated(joint: Joint, before: Joint, keeper: Keeper) -> Joint:
+    # A word and no copy: reversing again is exact whatever was edited in between.
     joint = keeper.annotate(joint, REVERSED, always=True)
     attributes = joint_pose_attributes(before)
     return keeper.annotate(joint, POSE, attributes=attributes) if attributes else joint
 
 
 def _first_root(model: Model, tree: JointTree, keeper: Keeper) -> str:
+    # Readers without Gazebo's extensions learn from the joint to `world` that nothing moves. A
+    # model that came from URDF had <static> in an extension and hung from nothing.
     if (model.static and not keeper.back) or tree.holds_any(WORLD):
         return WORLD
     return tree.root(FrameGraph(model).body(MODEL, kind="model"))

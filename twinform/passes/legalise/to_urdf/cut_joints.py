@@ -24,6 +24,8 @@ def cut_joints(
         child = joint.child or ""
         base, kind = keeper.frame_of(child, parent_joint.get(child))
         placed = graph.pose(joint.name, base, kind="joint", base=kind)
+        # libsdformat copies what stands in <gazebo> of the robot into the model, so Gazebo still
+        # closes the loop.
         blob = to_element(joint.copy(pose=placed.to_pose()), "joint", "sdf")
         extensions.append(GazeboExtension(content=(blob,), source=joint.source))
     model = model.copy(joints=tuple(kept), extensions=tuple(extensions))

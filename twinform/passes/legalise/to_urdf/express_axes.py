@@ -51,6 +51,7 @@ def _express(joint: Joint, field: str, graph: FrameGraph, keeper: Keeper) -> Joi
         return joint if made is axis else joint.copy(**{field: made})
     turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")
     x, y, z = turn.rotate(direction(axis, Format.SDF))
+    # Adding zero turns -0.0 into 0.0, which would be written otherwise.
     xyz = (x + 0.0, y + 0.0, z + 0.0)
     made = axis.copy(**{"xyz": xyz, "expressed_in": None, OLD_NAME: None})
     turned = joint.copy(**{field: made})

@@ -80,6 +80,7 @@ class JointTree:
 
     def _shorter_way(self, *links: str) -> _Way | None:
         """The way up to its root from the link that has fewer joints above it; None where none can be reversed."""
+        # Both ways are walked in turns, so that the work is that of the shorter one.
         ways = [_Way(link, link) for link in links]
         while ways:
             for way in tuple(ways):

@@ -53,6 +53,8 @@ class MapGeometry(ToUrdfPass):
 
 
 def _map_link(link: Link, sayable: Sayable, keeper: Keeper) -> Link:
+    # A shape in a carrier is carried after the link's frame has moved onto its joint, so that its
+    # pose means the same place as in SDF.
     link = _sort(link, "collisions", "collision", link.collisions, sayable, keeper)
     return _sort(link, "visuals", "visual", link.visuals, sayable, keeper)
 
@@ -79,6 +81,7 @@ def _sort(link: Link, field: str, tag: str, shapes: tuple[AnyShaped, ...], sayab
 def _can_say(geometry: Geometry | None, sayable: Sayable) -> bool:
     shape = geometry.shape if geometry else None
     if isinstance(shape, Mesh):
+        # urdfdom reads the whole file of a mesh.
         return shape.uri is not None and not any(
             part.element and part.element.name == "submesh" for part in shape.opaque
         )

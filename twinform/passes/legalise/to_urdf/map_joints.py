@@ -37,6 +37,7 @@ class MapJoints(ToUrdfPass):
 
     def run_model(self, model: Model, keeper: Keeper) -> Model:
         """The model with joints of URDF."""
+        # URDF 1.0 and 1.1 ask for finite numbers where SDF has infinity.
         strength = UNLIMITED if urdf_row(self.urdf_version, "joint", "limit", "@effort").required else None
         return model.copy(joints=tuple(_map(joint, strength, keeper) for joint in model.joints))
 
@@ -59,6 +60,8 @@ def _map(joint: Joint, strength: float | None, keeper: Keeper) -> Joint:
     joint = _map_mimic(joint, joint.axis, keeper)
     axis = joint.axis or Axis.unchecked()
     limit = axis.limit or Limit.unchecked()
+    # URDF asks for limits in a revolute joint, so a joint of a URDF without any can only have been
+    # continuous, and nothing needs to be annotated.
     endless = limit.lower is None and limit.upper is None if keeper.back else _is_endless(limit)
     if joint.type == "continuous" or (joint.type == "revolute" and endless):
         joint, limit = _continuous(joint.copy(type="continuous"), limit, strength, keeper)

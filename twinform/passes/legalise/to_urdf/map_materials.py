@@ -80,6 +80,8 @@ def _keep_colors(visual: Visual, material: Material, keeper: Keeper) -> Visual:
 
 def _note_gazebo(visual: Visual, material: Material, keeper: Keeper) -> None:
     """An entry in the ledger where Gazebo makes another material of that of URDF."""
+    # A <material> in <gazebo> would give Gazebo the SDF's color. A color that somebody edits in the
+    # URDF would then count for RViz and not for Gazebo: one fact would stand twice in the file.
     if what := seen_by_gazebo(urdf_color(material.diffuse or material.ambient or ()), material.albedo_map):
         message = f"Gazebo shows visual {visual.name!r} {what} when it reads URDF"
         keeper.sink.account(Fate.APPROXIMATED, rules.GAZEBO_MATERIAL, message, material.location, weight=0)

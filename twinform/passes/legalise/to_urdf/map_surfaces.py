@@ -53,6 +53,8 @@ def _shared(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]
     first, content, fields = collisions[0], list[Element](), list[str]()
     for field in OF_ALL_COLLISIONS:
         value = getattr(first, field)
+        # A <gazebo> element is about all collisions of a link, and names of the reader's own for
+        # shapes that must have no tag would stop working when libsdformat fixes its naming.
         if value is None or any(getattr(other, field) != value for other in collisions[1:]):
             continue
         fields.append(field)
@@ -71,6 +73,8 @@ def _note_unshared(link: Link, keeper: Keeper) -> None:
         names = ", ".join(repr(name) for name in dict.fromkeys(one.name for _, one in left))
         what = " and ".join(dict.fromkeys(field for field, _ in left))
         message = f"{what} of {names} of link {link.name!r} is not that of all its collisions: Gazebo gets none of it"
+        # A massless link for such a collision, fixed to its own, would work in every version. It is
+        # not made here: it would be a link of the robot to all other readers.
         hint = "give Gazebo the SDF, or move such collisions to links of their own that are fixed to this one"
         keeper.sink.report(UNSHARED_SURFACE, message, left[0][1].location, found=left[0][1].name, help=hint)
 

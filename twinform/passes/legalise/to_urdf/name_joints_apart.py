@@ -27,6 +27,8 @@ class NameJointsApart(ToUrdfPass):
         if keeper.back or not clashes:
             return model
         taken = links | {joint.name for joint in model.joints}
+        # Model.cc (Load) renames the joint of an SDF file before 1.7 in the same way, so the URDF has the
+        # name that Gazebo has for the joint of the source.
         new = {name: free_name(f"{name}_joint", taken) for name in clashes}
         names: Names = {("joint", old): made for old, made in new.items()}
         joints = tuple(self._noted(joint, new, keeper) if joint.name in new else joint for joint in model.joints)

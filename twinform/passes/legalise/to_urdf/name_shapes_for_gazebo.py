@@ -32,6 +32,11 @@ class NameShapesForGazebo(ToUrdfPass):
 
         if keeper.back:
             return model
+        # parser_urdf.cc, CreateCollision and InsertSDFExtensionCollision: libsdformat calls a shape
+        # whose name does not begin with that of its link `LINK_fixed_joint_lump__NAME_collision`,
+        # and takes that for a shape of another link, which gets no tag of this one. Leaving out the
+        # names of all shapes would work too, but would cost every other reader names that nobody
+        # had a problem with.
         named = named_for_gazebo(model, rename)
         for old, new in zip(_sensed(model), _sensed(named), strict=True):
             if old != new:

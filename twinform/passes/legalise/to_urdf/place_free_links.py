@@ -32,6 +32,8 @@ class PlaceFreeLinks(ToUrdfPass):
         if not floating:
             return model
         written = {frame.name: frame for frame in _frames_of(model, {joint.name for joint in floating})}
+        # The frame is a second pose, and there is no way around it. The one of the joint counts;
+        # `stale-carrier` says where an edit has made the two differ.
         frames = (*placing_frames(model, filter(is_synthesized, floating)).values(), *written.values())
         extensions = (GazeboExtension(content=(to_element(frame, "frame", "sdf"),)) for frame in frames)
         return model.copy(

@@ -106,6 +106,8 @@ class _Rebase:
         if is_synthesized(link) or part_of(link) is not None:
             return moved
         if not offset.is_identity:
+            # An offset and no poses: the reverse conversion applies it to all that is in the link
+            # by then, also to what was added by hand or by a pass.
             moved = self.keeper.annotate(moved, OFFSET, attributes=offset_attributes(offset), always=True)
         if find_annotation(link, FRAME) is None:
             moved = self._annotated(moved, written)

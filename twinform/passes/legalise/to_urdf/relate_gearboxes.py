@@ -36,6 +36,8 @@ class RelateGearboxes(ToUrdfPass):
                 _report_uncoupled(gearbox, str(error), keeper)
                 continue
             joints[found.follower] = _follower(joints[found.follower], found)
+            # A gearbox couples two joints and holds no link, so it has no place in the tree. It
+            # also goes along as a joint in <gazebo>, for Gazebo Classic, which does not know mimic.
             message = f"gearbox {gearbox.name!r}: joint {found.follower!r} mimics {found.leader!r}"
             _report(gearbox, message, Severity.INFO, keeper)
         holding = {joint.child or "": joint for joint in joints.values()}

@@ -99,7 +99,11 @@ def _last(joint: Joint, parent: str | None, step: Step, opaque: tuple[Opaque, ..
     """The joint that keeps the name, the child and the place."""
     update: dict[str, object] = {"type": step.type, "parent": parent, "axis": step.axis, "opaque": opaque}
     said = PITCHES if joint.type == "screw" else ("axis2",)  # the second axis of a screw is one that nobody reads
+    # The last joint keeps the name: a joint's frame moves with its child in SDF, and so does that
+    # of the last joint. Sensors, <physics> and frames that name the joint mean the same as before.
     last = joint.copy(**{**dict.fromkeys(said), **update})
+    # Only the type is annotated. Axes, limits, damping and springs are read back from the chain as
+    # it stands, so that an edit of them is an edit of the joint.
     return with_annotation(last, CHAIN, attributes={"type": joint.type}) if keeper.carriers else last
 
 

@@ -20,6 +20,8 @@ def urdf_uri(shape: Shape, kind: str, written: str, keeper: Keeper) -> tuple[Sha
     shape = without_annotation(shape, kind)
     if annotation is not None and annotation.get("scheme") == scheme_of(written) == GAZEBO:
         return shape, written
+    # Gazebo looks up `model://` in its resource path and ROS `package://` in its own; both name a
+    # folder and a path in it.
     uri, lost = package_uri(written)
     if lost:
         keeper.account(rules.SDF_ONLY, f"{written!r} has the scheme that model:// becomes", shape.location, 1)
