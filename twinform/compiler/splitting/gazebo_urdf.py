@@ -1,7 +1,8 @@
 """Checks what Gazebo's reader of URDF, libsdformat, would refuse, leave out or rename in a robot that came from SDF.
 
-It lumps links that are fixed to each other, leaves out what then has no mass, with all that hangs from it, and refuses
-floating joints; the rules are those of its `parser_urdf.cc`, tried on libsdformat 12 and 17.
+It lumps links that are fixed to each other, leaves out what then has no mass, with all that hangs from it, and has no
+floating joints: it refuses one unless a frame in `<gazebo>` has its name, by which it finds the link. The rules are
+those of its `parser_urdf.cc`, tried on libsdformat 12 and 17.
 """
 
 from collections import defaultdict
@@ -10,7 +11,7 @@ from collections.abc import Set as AbstractSet
 from typing import NamedTuple
 
 from twinform.diagnostics import Location
-from twinform.ir import Capsule, Model
+from twinform.ir import Capsule, Element, Model
 from twinform.ir.frames import WORLD
 from twinform.ir.scopes import SCOPE
 from twinform.passes.transforms.lumped_links import lumped_links
@@ -45,8 +46,9 @@ def changes(original: Model, made: Model, named: AbstractSet[str] = frozenset())
     for joint in original.joints:
         if joint.type not in _SHARED:
             yield Change(f"{joint.type} joint {joint.name!r} would not be one for Gazebo", joint.location)
+    frames = {frame.get("name") for frame in _in_extensions(made, "frame")}
     for joint in made.joints:
-        if joint.type in {"floating", "planar"}:
+        if joint.type == "planar" or (joint.type == "floating" and joint.name not in frames):
             yield Change(f"Gazebo refuses URDF with a {joint.type} joint, which holds {joint.child!r}", joint.location)
     yield from _of_mass(made, named)
 
@@ -84,6 +86,11 @@ def _of_mass(made: Model, named: AbstractSet[str]) -> Iterator[Change]:
 
 def _named_in_extensions(made: Model) -> Iterator[str]:
     """The links at the ends of joints of SDF in `<gazebo>` elements."""
+    for joint in _in_extensions(made, "joint"):
+        yield from (end.text for end in joint.children if end.name in {"parent", "child"} and end.text)
+
+
+def _in_extensions(made: Model, name: str) -> Iterator[Element]:
+    """The elements of a name in `<gazebo>`."""
     for block in made.extensions:
-        for joint in (element for element in block.content if element.name == "joint"):
-            yield from (end.text for end in joint.children if end.name in {"parent", "child"} and end.text)
+        yield from (element for element in block.content if element.name == name)

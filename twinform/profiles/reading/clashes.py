@@ -43,6 +43,16 @@ def _shared(root: Node) -> Fact:
             yield joint, f"joint {_name(joint)!r} has the name of a link"
 
 
+def _placeless(root: Node) -> Fact:
+    """Joints that libsdformat leaves out while it poses their links relative to them; a frame may have their names."""
+    blocks = (block for block in root.all("gazebo") if not block.attributes.get("reference"))
+    frames = {_name(frame) for block in blocks for frame in block.all("frame")}
+    for joint in root.all("joint"):
+        type_ = joint.attributes.get("type")
+        if type_ in {"floating", "planar"} and _name(joint) not in frames:
+            yield joint, f"joint {_name(joint)!r} is {type_}, and no <frame> in <gazebo> has its name"
+
+
 def _weighing_world(root: Node) -> Fact:
     for link in root.all("link"):
         if _name(link) == "world" and link.first("inertial") is not None:
@@ -82,5 +92,6 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "shared-name": _shared,
     "weighing-world": _weighing_world,
     "forked-world": _forked_world,
+    "placeless-link": _placeless,
 }
 """Facts by their names in tables."""

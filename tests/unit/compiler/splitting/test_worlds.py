@@ -71,7 +71,6 @@ def test_a_model_that_cannot_be_urdf_stays_sdf() -> None:
 @pytest.mark.parametrize(
     ("model", "why"),
     [
-        ('<link name="a"/><link name="b"/>', "Gazebo refuses URDF with a floating joint, which holds 'b'"),
         (
             f"""<link name="a">{_BODY}</link><link name="b">{_BODY}</link>
             <joint name="caster" type="ball"><parent>a</parent><child>b</child></joint>""",
@@ -95,6 +94,19 @@ def test_a_model_stays_sdf_where_gazebo_would_make_something_else_of_its_urdf(mo
         f"model 'm' stays SDF: {why}"
     ]
     assert list(found.files) == ["m.sdf", "room.sdf"]
+
+
+@pytest.mark.parametrize("type_", ["floating", "planar"])
+def test_a_model_stays_sdf_where_its_urdf_had_a_joint_that_gazebo_refuses(type_: str) -> None:
+    body = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    joint = f'<joint name="j" type="{type_}"><parent link="a"/><child link="b"/></joint>'
+    urdf = f'<robot name="m"><link name="a">{body}</link><link name="b">{body}</link>{joint}</robot>'
+    model = twinform.convert(urdf.encode(), to="sdf").text.partition("<model")[2].partition("</sdf>")[0]
+    text = f'<sdf version="1.9" xmlns:tf="urn:twinform:1"><world name="w"><model{model}</world></sdf>'
+    found = split(ConversionRequest(to="urdf"), text.encode(), LoadOptions(), name="room.sdf")
+    assert [each.message for each in found.diagnostics if each.rule.name == "kept-as-sdf"] == [
+        f"model 'm' stays SDF: Gazebo refuses URDF with a {type_} joint, which holds 'b'"
+    ]
 
 
 def test_a_ball_joint_stays_one_without_carriers_too() -> None:
