@@ -33,6 +33,8 @@ class DropBareScripts(Pass):
 
 def is_bare(script: Script | None) -> bool:
     """Whether a script lacks its name or URI."""
+    # libsdformat refuses the whole file for it (Material.cc, Load): "A <script> element is missing
+    # a child <uri>".
     return script is not None and (script.name in _NOTHING or not script.uris or not _NOTHING.isdisjoint(script.uris))
 
 

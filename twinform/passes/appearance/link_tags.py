@@ -46,6 +46,8 @@ def _with_content(
             extensions.append(extension)
             continue
         first.setdefault(name, index)
+        # Several <gazebo> elements may name one link, and libsdformat takes the last tag of a kind:
+        # so all of them get the new value.
         wanted[name] += extension.content
         extensions.append(extension.copy(content=change(extension.content)))
     for name, content in wanted.items():
@@ -61,6 +63,8 @@ def _with_content(
 def _changed(element: Element, tags: Mapping[str, str]) -> Element:
     if element.name not in tags:
         return element
+    # libsdformat reads a tag's `value` attribute before its text, so an old attribute would
+    # overrule the new text.
     kept = tuple(pair for pair in element.attributes if pair[0] != "value")
     return element.copy(text=tags[element.name], attributes=kept)
 

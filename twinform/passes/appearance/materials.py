@@ -74,6 +74,8 @@ class Materials(Pass):
     def _made_pbr(self, material: Material, script: ClassicMaterial | None) -> Material:
         """The material with metalness and roughness, if it has a color and no PBR."""
         color = material.diffuse or material.ambient
+        # A workflow of the author stays as it is, and a material without any color gets none from
+        # here.
         if color is None or material.albedo_map or any(_is_pbr(part) for part in material.opaque):
             return material
         numbers = {"metalness": self.metalness, "roughness": self._roughness(script)}

@@ -101,6 +101,8 @@ class SetSurface(Pass):
         for link in model.links:
             meant = self._matching(link)
             matched += meant
+            # A <gazebo> element is about all collisions of its link; there is no place in URDF for
+            # one of them.
             if meant and len(meant) < len(link.collisions):
                 names = ", ".join(repr(one.name) for one in meant)
                 message = f"URDF has one surface for all collisions of link {link.name!r}, not one for {names}"

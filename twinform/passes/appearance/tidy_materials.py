@@ -91,6 +91,8 @@ class _Materials:
         """The shared materials that stay."""
         for material in self.model.materials:
             name = material.name or self._fresh(material)
+            # urdfdom refuses the whole file for a shared material without color and texture, and
+            # for two of one name.
             if not _says_something(material):
                 self._drop(material, f"the shared material {name!r} has no color and no texture")
             elif name in self.known:

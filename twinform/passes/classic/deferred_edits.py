@@ -48,6 +48,8 @@ class DeferredEdits:
 
     def run(self, document: Document) -> Document:
         """The document with everything done."""
+        # Changes wait until all plugins are visited: the walk over plugins rebuilds the models, and
+        # a change made in between would be of a model that is no longer part of the document.
         if not self.models and not self.worlds:
             return document
         models = tuple(self._model(model, ("",)) for model in document.models)

@@ -54,4 +54,6 @@ def _without_emptied(before: Model, after: Model) -> Model:
 
 
 def _is_emptied(before: GazeboExtension, after: GazeboExtension) -> bool:
+    # A <gazebo> that was empty in the source stays: only what this migration emptied is cleared
+    # away.
     return bool(before.content) and not after.content and not after.opaque

@@ -9,6 +9,8 @@ from twinform.passes.plugins.parts import Release
 # Fortress, in which the names of Ignition are the ones in use.
 _NATIVE = 6
 _ELEMENTS = {"ignition-gui": "gz-gui", "ignition_frame_id": "gz_frame_id"}
+# Only where the word names a library or a message. `ignition` alone may be a topic or a model of
+# the author.
 _WORDS = re.compile(r"\bignition(?=\.msgs\.|-physics-|-rendering-|-gui\b)")
 _CLASSES = re.compile(r"\bignition::(?:gazebo|sim)::")
 

@@ -25,6 +25,9 @@ def offset_of(plugin: Plugin, bodies: tuple[str, ...], model: Model | None, form
     """
     body = next((child.text or "" for child in plugin.content if child.name in bodies), "").rpartition("::")[2].strip()
     frame = next((child.text or "" for child in plugin.content if child.name in _FRAMES), "").strip()
+    # gazebo_ros_p3d reports a link, OdometryPublisher a model. A link fixed to the base gets its
+    # offset from the model's frame; any other pose would be a different quantity under the same
+    # topic, and is refused.
     if frame not in _WORLDS:
         raise OtherQuantityError(f"the pose was relative to link {frame!r}, and OdometryPublisher knows the world only")
     if model is None or body not in {link.name for link in model.links}:
@@ -54,6 +57,8 @@ def _rigid(model: Model, link: str) -> set[str]:
         if joint.type == "fixed" and joint.parent and joint.child:
             beside.setdefault(joint.parent, []).append(joint.child)
             beside.setdefault(joint.child, []).append(joint.parent)
+    # Along fixed joints in both directions: the base may be the child of a fixed joint, as below a
+    # base_footprint.
     found, open_ = {link}, [link]
     while open_:
         news = [each for each in beside.get(open_.pop(), ()) if each not in found]

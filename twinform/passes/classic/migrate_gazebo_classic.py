@@ -65,6 +65,9 @@ class MigrateGazeboClassic(Pass):
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document for gz-sim."""
         target, raising = release(self.release), scratch(sink)
+        # <mimic>, <lidar> and <frame_id> are syntax of newer versions than most files for Gazebo
+        # Classic have, so the version is raised first, by the steps of `--sdf-version`. Older
+        # releases of gz-sim read no newer version than their own.
         raised = _raised(document, target, raising)
         migrating = scratch(sink)
         changed = raised if raising.has_errors else self._migrated(raised, target, migrating)
@@ -77,6 +80,8 @@ class MigrateGazeboClassic(Pass):
         return declare_carriers(changed) if carried else changed
 
     def _migrated(self, document: Document, target: Release, sink: DiagnosticSink) -> Document:
+        # Sensors first: they take the plugins that belong to them, and what is left are plugins of
+        # models and worlds.
         edits = DeferredEdits(document.format)
         sensed = map_sensors(document, SensorMigration(target, sink))
         migration = PluginMigration(
@@ -90,6 +95,8 @@ class MigrateGazeboClassic(Pass):
         )
         done = edits.run(without_emptied(sensed, map_plugins(sensed, migration)))
         done = ship_models(modern_hardware(done, target, sink), sink)
+        # Worlds are completed after all plugins and sensors have their new form, since the systems
+        # that they need follow from these.
         done = in_colors(complete_worlds(done, target, sink), sink)
         if done is not document:
             report_needs(done, target, sink)

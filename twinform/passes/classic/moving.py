@@ -50,6 +50,8 @@ class Moved:
                 before = self.element
                 self._take(parameter, move)
                 self.moved.add(parameter.name)
+                # One bad value (`<updateRate>$(arg rate)</updateRate>`) must not cost the whole
+                # sensor: the step is taken back and the parameter reported.
                 if self.element is not before and not self.is_valid(self.element):
                     self.element = before
                     self.lost.append(DroppedParameter(parameter, f"{parameter.text!r} is no value for it"))
@@ -64,6 +66,7 @@ class Moved:
             self.lost.append(DroppedParameter(parameter, "it is empty", harmless=True))
         elif move.choose is not None:
             self._choose(parameter, text, move)
+        # The plugin of Gazebo Classic took several where the system of gz-sim reads one.
         elif move.first and parameter.name in self.moved:
             self.lost.append(DroppedParameter(parameter, "the system has one value for all", harmless=False))
         elif parameter.children or parameter.attributes:
@@ -91,6 +94,7 @@ class Moved:
     def _values(self, text: str, move: Move) -> Iterator[tuple[str, str]]:
         if move.each:
             numbers = text.split()
+            # One number for all three axes, as hector_gazebo's sensor models take it.
             many = numbers if len(numbers) == len(move.each) else numbers[:1] * len(move.each)
             yield from zip(move.each, many, strict=False)
             return
@@ -114,11 +118,15 @@ class Moved:
             self._keep_offset(parameter, path[1:], value)
             return
         old = text_at(self.element, path)
+        # Sensor and plugin both have a rate, and Gazebo Classic measured at the sensor's and
+        # published at the plugin's: the smaller one is what subscribers saw.
         if move.least and old is not None:
             value = _least(old, value)
         elif old is not None and self.repeats(path):
             self.element = added(self.element, Element(name=path, text=value))
             return
+        # Settings of the sensor count more than what its plugin repeats (ranges, clips, fields of
+        # view); the plugin's value that differs is reported.
         elif old is not None:
             if not _same(old, value):
                 self.lost.append(DroppedParameter(parameter, f"the {self.element.name} itself has {path} {old}"))

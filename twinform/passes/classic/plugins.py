@@ -45,6 +45,7 @@ class PluginMigration:
         migration = migration_of(plugin.filename or "", read.content)
         if migration is None:
             return self._of_no_table(plugin, site, report)
+        # Some releases of gz-sim have the plugin under its old name.
         if self.release.name in migration.native:
             return (plugin,)
         if migration.none is not None:
@@ -66,6 +67,8 @@ class PluginMigration:
         if modern is not plugin:
             report.renamed(modern)
         elif site.scope != "gui" and not systems_of_file(plugin.filename or "") and _is_called_like_a_library(plugin):
+            # It may be the author's own and already ported; whoever deletes it on a guess takes the
+            # robot's behavior with it.
             message = f"{report.what} is neither of Gazebo Classic nor of gz-sim; it is kept unchanged"
             self.sink.report(rules.UNKNOWN_PLUGIN, message, report.where, found=plugin.filename)
         elif site.scope == "gui" and _is_called_like_a_library(plugin):
@@ -82,6 +85,8 @@ class PluginMigration:
             made, lost = made_systems(plugin, migration, site, self.release.name)
         except (LookupError, OtherQuantityError) as error:
             return self._without(plugin, report, str(error))
+        # A system of the world cannot be put into a model file: with a second model it would run
+        # twice.
         if any(row.scope == "world" for _, row in made) and site.world is None:
             return self._without(plugin, report, f"{made[0][0].name} has to be in a world, and there is none here")
         report.migrated(" and ".join(each.name or "" for each, _ in made), lost)
@@ -119,6 +124,8 @@ class PluginMigration:
         if site.model is None or holder not in _names(site.model, make.on):
             return self._without(plugin, report, f"there is no {make.on} {holder!r} to put the sensor on")
         element = Element(name="sensor", attributes=(("name", plugin.name or make.type), ("type", make.type)))
+        # What is reported about a sensor that cannot be made in the end must not stay in the
+        # report.
         trial = SensorMigration(self.release, scratch(self.sink))
         sensor = sensor_of(trial.move(plugin, migration, element, site))
         if sensor is None:
@@ -136,6 +143,7 @@ class PluginMigration:
         for name in (follower, leader):
             if name not in joints:
                 return self._without(plugin, report, f"there is no joint {name!r}")
+        # Of URDF <mimic> can be written for any release; in SDF the element came with 1.11.
         if self.format is Format.SDF and _number_of(self.release.sdf) < (1, 11):
             reason = f"SDF {self.release.sdf}, which gz-sim of {self.release.name} reads, has no <mimic>"
             return self._without(plugin, report, reason)

@@ -19,6 +19,9 @@ def ros2_kind(plugin: Plugin) -> PluginKind | None:
     written = {child.name for child in plugin.content}
     new = {row.name for row in kinds["ros2"].parameters}
     old = {row.name for row in kinds["noetic"].parameters} if "noetic" in kinds else set[str]()
+    # Files of gazebo_ros_pkgs have one name for ROS 1 and ROS 2, and many robots keep parameters of
+    # both in one plugin. A mixture counts as ROS 1 unless <ros> says otherwise: nothing that was
+    # read then gets lost.
     is_new = _ROS in written or not old or (bool(written & new - old) and not written & old - new)
     return kinds["ros2"] if is_new else None
 
@@ -28,5 +31,7 @@ def as_read(plugin: Plugin) -> Plugin:
     kind = ros2_kind(plugin)
     if kind is None or kind.free:
         return plugin
+    # What the plugin of ROS 2 does not read had no effect, so it must have none after the migration
+    # either.
     content = tuple(child for child in plugin.content if kind.parameter(child.name) is not None)
     return plugin if len(content) == len(plugin.content) else plugin.copy(content=content)

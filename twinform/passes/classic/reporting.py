@@ -54,6 +54,8 @@ class Report:
 
     def _account(self, message: str, lost: Iterable[DroppedParameter]) -> None:
         self.sink.report(rules.MIGRATED_PLUGIN, message, self.where, found=self.plugin.filename)
+        # The ledger counts elements and attributes of the source: what each lost parameter weighs
+        # is taken off, so that nothing is counted twice.
         weight = plugin_element(self.plugin).weight
         for each in lost:
             weight -= each.parameter.weight

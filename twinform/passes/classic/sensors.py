@@ -118,8 +118,12 @@ class SensorMigration:
         shared = tuple(child for child in whole.children if child.name != "camera")
         gone = {id(plugin) for plugin, _ in found}
         rest = tuple(plugin for plugin in sensor.plugins if id(plugin) not in gone)
+        # gz-sim has no multicamera. Each camera becomes a sensor, and the plugins are applied to
+        # all of them, but reported once.
         quiet = SensorMigration(self.release, DiagnosticSink())
         for number, camera in enumerate(cameras):
+            # Sensors of a link need names of their own; the name of the camera alone may be taken
+            # by that of another multicamera.
             name = f"{sensor.name}_{camera.get('name') or number}"
             element = _one_camera(whole, name, camera, shared)
             for plugin, migration in found:
@@ -167,6 +171,9 @@ def complete_lens(element: Element) -> Element:
         path = f"camera/lens/{group}"
         camera = element.find("camera")
         lens = camera.find("lens") if camera is not None else None
+        # SDF gives each missing value of <intrinsics> its own default (fx 277, cx 160, cy 120),
+        # which belongs to an image of 320 x 240 pixels: a plugin that sets only fx would leave the
+        # others at those.
         if lens is None or lens.find(group) is None:
             continue
         for name, value in values.items():
@@ -205,6 +212,7 @@ def _placed(moved: Moved, release: Release) -> Element:
     element = moved.element
     if moved.frame and not any(child.name in _FRAMES for child in element.children):
         element = with_text(element, release.frame_element or _FRAME_BEFORE, moved.frame)
+    # A pose of the sensor itself counts more than the offset of its plugin.
     if moved.offsets and element.find("pose") is None:
         pose = f"{moved.offsets.get('xyz', '0 0 0')} {moved.offsets.get('rpy', '0 0 0')}"
         element = with_text(element, "pose", pose)

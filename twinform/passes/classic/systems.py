@@ -38,6 +38,8 @@ def made_systems(
         content = [*moved.element.children]
         content += [Element(name=path, text=names.topic(pattern)) for path, pattern in row.topics.items()]
         content += _transforms(row, read, names)
+        # The tables hold places for the newest release; an older one may not read a parameter,
+        # which is then reported instead of written in vain.
         kept, unread = _read_by(kind, content, release)
         lost += [each for each in moved.lost if each.parameter.name not in taken]
         lost += [
@@ -96,6 +98,8 @@ def _transforms(row: SystemRow, plugin: Plugin, names: RosNames) -> Iterator[Ele
         if parameter.name in on and truth is not None:
             on[parameter.name] = truth
             names.used.add(parameter.name)
+    # Transforms that were off in Gazebo Classic go to a topic that the bridge does not take for
+    # /tf; otherwise the tree of ROS would get a second parent for the base.
     yield Element(name="tf_topic", text="/" + names.topic(_ON if all(on.values()) else _OFF))
 
 
@@ -115,6 +119,8 @@ def _origins(plugin: Plugin, row: SystemRow, unread: set[str]) -> Iterator[tuple
 
 
 def _plugin(plugin: Plugin, kind: PluginKind, content: list[Element], *, alone: bool) -> Plugin:
+    # A location belongs to one node. Where one plugin became several systems, none of them is the
+    # plugin.
     source = plugin.source if alone else None
     return Plugin(name=kind.class_name, filename=kind.file, content=tuple(content), source=source)
 

@@ -30,6 +30,7 @@ class RosNames:
     def topic(self, pattern: str) -> str:
         """The name that a pattern stands for here, without the slash that it begins with."""
         pieces = [self._piece(piece) for piece in _BETWEEN.split(pattern)]
+        # As in ROS, an absolute name discards everything before it, the namespace included.
         last = next((at for at in reversed(range(len(pieces))) if pieces[at].startswith("/")), None)
         name = "/".join(pieces) if last is None else "/".join(pieces[last:])
         return self._remapped(name if last is not None else f"{self.namespace}/{name}")
@@ -83,6 +84,8 @@ class RosNames:
 
     def _remapped(self, name: str) -> str:
         """A name as the first rule about it has it; rules are about whole names (rcl, remap.c)."""
+        # So `image_raw:=x`, which older documentation teaches for cameras, renames nothing in Foxy
+        # and later: the topic is CAMERA/image_raw. It is reported as a leftover.
         for old, new in self._remappings():
             if _clean(name) == self._expanded(old):
                 self.remapped.add(old)
@@ -93,6 +96,7 @@ class RosNames:
         """A name in a rule, with the namespace and the name of the node that it is relative to."""
         name = name.removeprefix("rostopic://")
         node, colon, rest = name.partition(":")
+        # A rule `node:old:=new` is for the node of that name only.
         if colon:
             return self._expanded(rest) if node == self.node else ""
         if name.startswith("/"):

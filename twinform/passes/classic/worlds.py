@@ -27,6 +27,8 @@ def ship_models(document: Document, sink: DiagnosticSink) -> Document:
 
     def change(include: Include) -> Include:
         old = include.uri or ""
+        # Gazebo Classic had `model://sun` and `model://ground_plane` on every machine; gz-sim has
+        # them on Fuel.
         new = models.get(old.rstrip("/"))
         if new is None:
             return include
@@ -74,6 +76,8 @@ def _complete(world: World, release: Release, sink: DiagnosticSink) -> World:
     kinds = _kinds(world, release)
     needed = [kind for each in kinds for kind in requirements_of(each).systems]
     needed += needed_by_plugins(Document(format=Format.SDF, worlds=(world,)), world, release.name)
+    # A world without any plugin gets the default systems from gz-sim itself; as soon as one is
+    # written here, all of them have to be.
     defaults = missing_defaults(world.plugins) if world.plugins or needed else ()
     missing = [kind for kind in dict.fromkeys((*defaults, *needed)) if not has_system(world, kind)]
     for kind in missing:
@@ -100,6 +104,8 @@ def _kinds(world: World, release: Release) -> list[SensorKind]:
 def _unread(element: Element, whole: Mapping[str, str], inside: Mapping[str, str]) -> Iterator[tuple[Element, str]]:
     if element.name in whole:
         yield element, whole[element.name]
+    # A stack, not recursion: opaque elements may be nested as deeply as the limits of the reader
+    # allow.
     stack = [(element, element.name)]
     while stack:
         here, path = stack.pop()

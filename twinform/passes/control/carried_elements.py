@@ -16,6 +16,8 @@ def element_of(part: Opaque, format_: Format) -> Element | None:
         return part.element
     if not is_carrier(part, "urdf"):
         return None
+    # One carrier may hold several pieces, or one from further inside a node; neither is an element
+    # of a robot as it stood in URDF.
     pieces = unpack(part)
     return pieces[0].element if len(pieces) == 1 and not pieces[0].at else None
 
@@ -41,6 +43,8 @@ def replace(model: Model, gone: Iterable[Opaque], new: Iterable[Opaque], *, afte
     for part in model.opaque:
         if id(part) not in gone_ids:
             parts.append(part)
+        # Also where the part itself is gone: the new ones take its place, so that files keep their
+        # order.
         if part is after:
             parts.extend(new)
     return model.copy(opaque=tuple(parts))

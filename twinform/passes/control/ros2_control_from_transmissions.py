@@ -63,6 +63,8 @@ class Ros2ControlFromTransmissions(Pass):
         if not taken:
             return model
         system = self._system(model, format_, work.joints(taken), [each for _, each in taken])
+        # What only other programs read in a transmission has no place in <ros2_control>, so such a
+        # one stays beside its successor.
         gone = [part for part, each in taken if not (self.keep or each.foreign)]
         for part, each in taken:
             work.account(part, each, stays=part not in gone)
@@ -156,6 +158,8 @@ class _Work:
             message = f"joint {joint!r} has the interface {interface!r}, which ros2_control does not have"
             self.sink.report(rules.FOREIGN_HARDWARE_INTERFACE, message, self._place(part), found=interface)
             return ()
+        # An error in ros2_control (component_parser.cpp): a joint that mimics takes no command
+        # interface.
         if commands and self._mimics(joint):
             message = f"joint {joint!r} mimics another, so ros2_control takes no commands for it"
             self.sink.report(rules.FOREIGN_HARDWARE_INTERFACE, message, self._place(part), found=interface)
@@ -172,6 +176,8 @@ class _Work:
 
 def _joint(name: str, commands: Iterable[str]) -> Element:
     interfaces = [_interface("command_interface", each) for each in commands]
+    # JointStateHandle of ros_control tells all three for every joint, so controllers that were
+    # written for it expect all three.
     interfaces += [_interface("state_interface", each) for each in STATES]
     return Element(name="joint", attributes=(("name", name),), children=tuple(interfaces))
 

@@ -62,6 +62,8 @@ class AddPlugin(SelectingPass):
     @classmethod
     def fields_for(cls, word: str) -> Fields:
         """The options of a system."""
+        # The options are fields of a class that is made for the chosen system: 667 parameters over
+        # 81 systems. As free text they would have no types, no defaults and no place in a message.
         kind = system(word)
         return {option: field_of(path, row, kind) for option, (path, row) in options_of(kind).items()}
 
@@ -114,6 +116,7 @@ class AddPlugin(SelectingPass):
             return document
         message = f"world {world.name!r} gets {needed.class_name}"
         sink.report(rules.ADDED_WORLD_SYSTEM, message, world.location)
+        # The plugin was added to a model in it, so the world is a new object by now.
         now = next(each for each in document.worlds if each.name == world.name)
         return replace_node(document, now, with_systems(now, [needed]))
 

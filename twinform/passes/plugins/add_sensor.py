@@ -108,6 +108,8 @@ class AddSensor(SelectingPass):
         made, is_new = self._named(document, model, holder, content)
         world = world_of(document, model)
         if is_new:
+            # libsdformat lumps links on fixed joints of URDF, and the joint goes with its sensor
+            # unless <preserveFixedJoint> keeps it.
             kept = isinstance(holder, Joint) and holder.type == "fixed"
             new = add_sensor(model, holder.name, made, document.format, kept=kept)
             type_ = sensor(self.type).type
@@ -115,6 +117,8 @@ class AddSensor(SelectingPass):
             if own is not None:
                 new = with_own_frame(new, own, made, type_, self.link or "", document.format)
             document = replace_node(document, model, new)
+        # Nothing is added to a model without a world: a world system in a model works only until a
+        # second model brings the same one. The finding has the line that the world needs instead.
         if world is None:
             self._say_what_is_needed(made, holder, sink)
             return document
@@ -129,6 +133,7 @@ class AddSensor(SelectingPass):
         taken, first = {each.name for each, _ in everywhere}, self.sensor_name or settings_of(self.type).name
         for number in count():
             made = self._sensor(f"{first}_{number}" if number else first, content, model)
+            # A pipeline that runs twice must not add a second sensor under a numbered name.
             same = next((each for each in here if _plain(each) == _plain(made)), None)
             if same is not None or made.name not in taken:
                 return made, same is None
@@ -140,6 +145,7 @@ class AddSensor(SelectingPass):
         found = next((each for each in nodes if each.name == name), None)
         if found is None:
             missing(model, word, name, [each.name for each in nodes], sink)
+        # libsdformat takes the link `world` of a URDF for the world itself and makes no link of it.
         elif word == "link" and name == WORLD and document.format is Format.URDF:
             message = "a sensor cannot be on the link 'world': it stands for the world of Gazebo, which is no link"
             sink.report(rules.NOTHING_TO_ADD_TO, message, found.location, found=name)

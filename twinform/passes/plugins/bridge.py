@@ -46,6 +46,8 @@ CLOCK = Topic("/clock", "/clock", "gz.msgs.Clock", "<", "", Document(format=Form
 def bridges(document: Document, release: str, sink: DiagnosticSink, world: str | None = None) -> list[Bridge]:
     """An entry for the clock and for each topic that ROS knows the message of; what is left out is reported."""
     wanted = [CLOCK, *(topic for topic in topics_of(document, release, world) if _can_be_bridged(topic, sink))]
+    # Two plugins may share a topic (cmd_vel of a drive and of a controller); the bridge needs one
+    # entry for it.
     wanted = list({(topic.name, topic.direction): topic for topic in wanted}.values())
     names = list(_ros_names(wanted))
     return [_bridge(topic, name, release) for topic, name in zip(wanted, names, strict=True)]
@@ -84,6 +86,7 @@ def _can_be_bridged(topic: Topic, sink: DiagnosticSink) -> bool:
 
 def _ros_names(topics: list[Topic]) -> Iterator[str]:
     """The topics of ROS: short, below the model's name where there are several, and each one of its own."""
+    # Names stay short for a single robot, as the nodes of ROS expect them: cmd_vel, odom, scan.
     several = len({topic.model for topic in topics if topic.model}) > 1
     names = [_short(topic, several=several) for topic in topics]
     count = Counter(name for name in names if name != _TRANSFORM_TOPIC)

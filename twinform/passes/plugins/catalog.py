@@ -74,6 +74,8 @@ def nearest(name: str, known: Iterator[str] | list[str] | tuple[str, ...]) -> st
     near = get_close_matches(name, listed, n=1)
     if near:
         return near[0]
+    # A second try without case and dashes: difflib compares characters as they are, and DiffDrive
+    # is far from diff-drive for it.
     folded = {each.lower().replace("-", "_"): each for each in listed}
     near = get_close_matches(name.lower().replace("-", "_"), folded, n=1)
     return folded[near[0]] if near else None
@@ -178,6 +180,7 @@ def sensor(type_: str) -> SensorKind:
     kinds = sensors()
     word = type_.replace("-", "_")
     found = kinds.get(word) or next((kind for kind in kinds.values() if word in kind.aliases), None)
+    # Custom sensors are found by their `gz:type`; their key in the table is no type of SDF.
     if found is None or found.custom is not None:
         raise UnknownNameError("sensor", type_, list(kinds))
     return found

@@ -75,6 +75,8 @@ class CheckPlugins(Pass):
 
 def _check_plugin(plugin: Plugin, site: Site, release: str, names: Names, sink: DiagnosticSink) -> None:
     kinds = systems_of_file(plugin.filename or "")
+    # A file that is in no table is somebody's own plugin and is left alone, unless its name or
+    # class shows that a system of Gazebo was meant.
     if not kinds:
         _check_stranger(plugin, sink)
         return
@@ -90,11 +92,14 @@ def _check_plugin(plugin: Plugin, site: Site, release: str, names: Names, sink: 
         message = f"{kind.class_name} is not in {release}; releases that have it: {have}"
         sink.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=plugin.filename)
         return
+    # What an <include> brings is not known here: it may be an actor.
     if site.scope not in kind.scopes and not (site.included and "actor" in kind.scopes):
         scopes = " or ".join(f"<{scope}>" for scope in kind.scopes)
         message = f"{kind.class_name} is in <{site.scope}> and has to be in {scopes}"
         sink.report(rules.WRONG_PLUGIN_SCOPE, message, plugin.location, found=site.scope, expected=scopes)
     _check_needs(plugin, kind, site, sink)
+    # A world system names joints and links of models anywhere in the world, with scopes; only those
+    # of a model plugin can be looked up.
     model = site.model if "world" not in kind.scopes else None
     check_parameters(plugin, ParameterContext(kind, release, model, names, sink))
 
@@ -150,6 +155,8 @@ def is_classic(file: str) -> bool:
 
 
 def _check_defaults(world: World, sink: DiagnosticSink) -> None:
+    # A plugin of Gazebo Classic is not loaded, so it does not switch off the default systems,
+    # either in gz-sim or in what is reported here.
     ours = [plugin for plugin in world.plugins if not is_classic(plugin.filename or "")]
     missing = missing_defaults(ours) if ours else ()
     if missing:

@@ -27,6 +27,8 @@ def frames_of(sensor: Sensor) -> Iterator[str]:
 
 def named_frame(sensor: Sensor, frame: str, gazebo: str) -> Sensor:
     """The sensor with the frame of its messages, as a release reads it."""
+    # <optical_frame_id> of cameras is deprecated since SDF 1.12, so all kinds of sensors get the
+    # same element, which has three spellings: ignition_frame_id, gz_frame_id, and frame_id.
     element = release(gazebo).frame_element
     if element is None or element == "frame_id":
         return sensor.copy(frame_id=frame if element else None)
@@ -36,6 +38,8 @@ def named_frame(sensor: Sensor, frame: str, gazebo: str) -> Sensor:
 
 def own_frame(model: Model, sensor: Sensor, type_: str) -> str | None:
     """The name for a frame of its own, which a sensor needs that is not where its link is, or makes images."""
+    # ROS takes the data of a message for measured at the origin of the frame that it names. A
+    # sensor that sits off its link's origin therefore needs a frame of its own.
     if type_ not in _IMAGES and not is_placed(sensor):
         return None
     name = f"{sensor.name}_optical_frame" if type_ in _IMAGES else f"{sensor.name}_frame"
@@ -56,6 +60,8 @@ def with_own_frame(model: Model, name: str, sensor: Sensor, type_: str, link: st
     if format_ is Format.SDF:
         pose = at.to_pose(sensor.pose.relative_to if sensor.pose else None)
         return model.copy(frames=(*model.frames, Frame(name=name, attached_to=link, pose=pose)))
+    # URDF has no frames. A massless link on a fixed joint is read as a frame by Gazebo, and
+    # robot_state_publisher publishes its transform.
     joint = _unused(f"{name}_joint", model)
     mount = Joint(name=joint, type="fixed", parent=link, child=name, pose=in_radians(at, link))
     held = Link(name=name, pose=Pose(relative_to=joint))

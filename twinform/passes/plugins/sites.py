@@ -174,6 +174,7 @@ class _Walk:
         if element is None or element.name.startswith("{"):  # what is in a carrier belongs to another language
             return (part,)
         at = site if not part.at else replace(site, scope=part.at.rsplit("/", 1)[-1], holder="")
+        # The line of an opaque part is kept at the part; findings about a plugin in it need one.
         if element.source is None and part.source is not None:
             element = element.copy(source=part.source)
         made = tuple(self._element(element, at))
@@ -192,6 +193,8 @@ class _Walk:
         inside = replace(site, scope=element.name, holder=element.get("name") or "")
         if element.name in {"link", "joint"}:
             inside = replace(inside, link_or_joint=inside.holder)
+        # Everything else is walked through: plugins of actors, projectors and the GUI stand in
+        # elements that have no class here.
         return (replace_fields(element, children=self._elements(element.children, inside)),)
 
     def _plugin_element(self, element: Element, site: Site) -> Iterable[Element]:

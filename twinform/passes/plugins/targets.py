@@ -18,6 +18,8 @@ def models_of(document: Document) -> Iterator[tuple[str, Model]]:
 def find_model(document: Document, name: str | None, sink: DiagnosticSink) -> Model | None:
     """The model of this name, or the only one; None, with a finding, where there is none or the name is needed."""
     models = list(models_of(document))
+    # A nested model is never "the only one": it has to be named, since the model around it is meant
+    # otherwise.
     outer = [model for called, model in models if SCOPE not in called]
     if name is None and len(outer) == 1:
         return outer[0]

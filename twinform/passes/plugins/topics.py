@@ -156,6 +156,8 @@ def _topic_of(scope: str) -> str:
 
 def _without_world(scope: str) -> str:
     """The names without the first two parts, whatever stands in them (`Util.cc`, removeParentScope)."""
+    # removeParentScope drops the first two names without asking whether they are `world/NAME`, so a
+    # name with a slash in it shifts the rest. The same is done here.
     for _ in range(2):
         scope = scope[scope.find("/") + 1 :]
     return scope
@@ -163,7 +165,13 @@ def _without_world(scope: str) -> str:
 
 def _of_sensor(sensor: Sensor, kind: SensorKind, place: _Place, lumped: "_Lumped") -> Iterator[Topic]:
     site = place.site
+    # A sensor of URDF publishes below the link that its own is lumped into: the launch file spawns
+    # the URDF. To write a <topic> into the user's file would be a change that nobody asked for.
     holder = lumped.links.get(site.holder, site.holder) if site.scope == "link" else site.holder
+    # Gazebo's code decides what becomes of a topic with a blank, `@`, `~`, `//` or `:=`: most
+    # systems make a valid name of it, a few take another topic, and some publish nowhere. The rows
+    # of the catalog say which, from the sources; tests/unit/passes/plugins/advertised.py has a
+    # second table for comparison.
     own, service = _written_topic(sensor), None
     if kind.type == _LOGICAL_CAMERA and own is None and sensor.topic is not None:
         names = (*(each.name for each in site.models), holder or "", sensor.name or "")
@@ -246,6 +254,8 @@ def _of_plugin(plugin: Plugin, kind: PluginKind, place: _Place) -> Iterator[Topi
     around = (f"/world/{world}", f"/{place.models}", f"/model/{model}")
     stopped = ""
     for channel in (*kind.checks, *kind.channels):
+        # In the order in which the plugin advertises: at a topic that gz-transport refuses, some
+        # plugins stop, and all that would follow is missing too.
         written = _read(plugin, kind, channel, place.release)
         if place.release not in channel.releases or not _is_there(channel, kind, written):
             continue
@@ -283,6 +293,9 @@ def _read(plugin: Plugin, kind: PluginKind, channel: Channel, release: str) -> d
 def _taken(text: str, channel: Channel) -> str | None:
     """What a plugin takes of the text of a topic; None where it takes the default."""
     match channel.spelling:
+        # What each spelling in the catalog stands for: the plugin takes any text that is not empty;
+        # takes a valid form of it or its default; takes it only if it is valid as written; or hands
+        # it to gz-transport as it is.
         case "if-any":
             return text or None
         case "or-default":

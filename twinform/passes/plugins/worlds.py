@@ -73,12 +73,16 @@ def has_system(world: World, kind: PluginKind) -> bool:
 
 def missing_defaults(plugins: Iterable[Plugin]) -> tuple[PluginKind, ...]:
     """The systems that gz-sim would have added if there were no plugins."""
+    # gz-sim adds its default systems only to a world without any plugin: the first explicit plugin
+    # switches all of them off, physics included.
     has = {each.name for plugin in plugins for each in systems_of_file(plugin.filename or "")}
     return tuple(system(name) for name in DEFAULT_SYSTEMS if name not in has)
 
 
 def system_plugin(kind: PluginKind) -> Plugin:
     """The plugin that is a system, with the parameters that nobody leaves out."""
+    # Buoyancy without parameters fills the whole world with water, and everything in it floats
+    # away.
     content = {"sensors": (Element(name="render_engine", text="ogre2"),), "buoyancy": (_water_and_air(),)}
     return Plugin(name=kind.class_name, filename=kind.file, content=content.get(kind.name, ()))
 

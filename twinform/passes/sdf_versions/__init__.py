@@ -35,6 +35,8 @@ def change_version(declared: str | None, asked: str, *, carriers: bool = True) -
     if parse_version(old) < parse_version(asked):
         steps = raise_version(old, asked, carriers=carriers)
     else:
+        # Carriers of parts that the older version has come back before anything is lowered, so that
+        # they are lowered as part of the model.
         back = PutBack.unchecked(version=asked, source=old, carriers=carriers)
         steps = (back, *lower_version(old, asked, carriers=carriers))
     return (*steps, SetVersion.unchecked(version=asked))
@@ -49,6 +51,7 @@ def raise_version(declared: str | None, asked: str, *, carriers: bool = True) ->
         after.append(kinds.WritePlainPoses.unchecked(version=asked, carriers=carriers))
     if new >= _NAMED_STATES:
         after.append(kinds.RenameStates.unchecked(version=asked, carriers=carriers))
+    # Raising a version leaves parts out too: SDF dropped some elements along the way.
     return (*forward(old, new), back, *after, kinds.LeaveOut.unchecked(version=asked, carriers=carriers))
 
 

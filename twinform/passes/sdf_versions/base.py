@@ -47,6 +47,8 @@ class VersionPass(Pass):
 
 def _report(error: FrameError, document: Document, version: str, sink: DiagnosticSink) -> None:
     """Report which frame cannot be resolved, and how it could be where an include was not read."""
+    # A frame that nobody knows is a mistake in the file, unless there are includes that were not
+    # read: then it may be theirs.
     if error.rule is not DANGLING_FRAME or not _has_includes(document):
         error.report(sink)
         return
@@ -71,6 +73,7 @@ def map_own_elements(node: AnyNode, change: Callable[[Element], Element]) -> Any
 
 def map_inside(element: Element, change: Callable[[Element], Element]) -> Element:
     """The element with all below it changed, from the inside out, and then itself; plugins are left alone."""
+    # A plugin may call an element of its own `pose` or `state` and mean something else by it.
     if element.name == "plugin" or is_foreign(element):
         return element
     return change(replace_fields(element, children=tuple(map_inside(child, change) for child in element.children)))
@@ -84,4 +87,6 @@ def is_foreign(element: Element) -> bool:
 def known_version(declared: str | None) -> str:
     """The version that a file is read as: the newest where it declares none that exists."""
     versions = versions_of("sdf")
+    # What declares a version that does not exist is reported elsewhere, and most likely has today's
+    # syntax.
     return declared if declared in versions else versions[-1]

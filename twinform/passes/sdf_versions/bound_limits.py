@@ -47,6 +47,8 @@ def _bound(keeper: Keeper, joint: Joint, field: str, axis: Axis) -> Joint:
     infinite = {name: getattr(limit, name) for name in _UNLIMITED if _is_infinite(getattr(limit, name))}
     if limit is None or not infinite:
         return joint
+    # Up to 1.9 the defaults of `lower` and `upper` are -1e16 and 1e16, and those of `effort` and
+    # `velocity` -1.
     made = {name: _finite(name, value) for name, value in infinite.items()}
     bounded = axis.copy(limit=limit.copy(**made))
     pieces: list[Opaque] = [text_piece(name, format_value(value), f"{field}/limit") for name, value in infinite.items()]

@@ -61,6 +61,8 @@ class _Scope:
 
 def _clear(model: Model, sink: DiagnosticSink) -> Model:
     taken = {node.name for node in (*model.models, *model.links, *model.joints, *model.frames)}
+    # The order (models, links, joints, frames) and the suffixes are those of libsdformat (Model.cc,
+    # Load), so the names are the ones that Gazebo shows for the older file.
     owned = {nested.name for nested in model.models}
     links = _clashes(model.links, "link", owned, taken)
     owned |= {link.name for link in model.links}
@@ -99,4 +101,5 @@ def _clashes(nodes: Iterable[Named], suffix: str, owned: set[str], taken: set[st
 
 
 def _is_reserved(name: str) -> bool:
+    # `world` and names between double underscores, such as `__model__` (SDF 1.7, reserved names).
     return name == _RESERVED or (name.startswith("__") and name.endswith("__"))

@@ -59,4 +59,5 @@ def _sorted_element(element: Element) -> Element:
 def same(one: Node, other: Node) -> bool:
     """Whether two nodes say the same; something that is not a number is like itself here."""
     one, other = comparable(one), comparable(other)
+    # A NaN is not equal to itself, but it has the same text.
     return one == other or one.model_dump_json() == other.model_dump_json()

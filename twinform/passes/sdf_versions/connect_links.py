@@ -60,18 +60,22 @@ def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper, *
     resolved, pieces = resolve_ends(joint, links, graph)
     if not pieces:
         return joint
+    # From 1.7 on, frames exist and the reader of the include finds the link; before that nobody
+    # can.
     if _UNKNOWN in (resolved.parent, resolved.child):
         if frames:
             return joint
         end = joint.parent if resolved.parent == _UNKNOWN else joint.child
         message = f"joint {joint.name!r} is at {end!r}, which moves with no link that is known"
         raise FrameError(DANGLING_FRAME, message, joint.location, end or "")
+    # Two frames of one link: libsdformat refuses a joint that connects a link to itself.
     if resolved.parent == resolved.child:
         report_self_joint(joint, resolved, keeper.sink)
         return joint
     message = f"joint {joint.name!r} connects the links that {named_ends(pieces)} moves with"
     gone: tuple[str, ...] = ()
     weight = len(pieces)
+    # A joint is posed in its child. Another child means other numbers for the same place.
     if resolved.pose is not joint.pose:
         gone = ("pose",) if joint.pose is None else ()
         pieces = [*pieces, *_written(joint)]

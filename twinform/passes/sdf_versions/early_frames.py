@@ -10,6 +10,7 @@ NAMED_FRAMES: Version = (1, 7)
 
 def has_early_frames(document: Document) -> bool:
     """Whether a document of a version before 1.7 has frames, which may stand in 1.5 and 1.6 and mean nothing there."""
+    # Some files of 1.5 and 1.6 have <frame> elements in models; their meaning came with 1.7.
     early = document.format is Format.SDF and parse_version(known_version(document.version)) < NAMED_FRAMES
     if not early or not census_of(document) & bits_of(Frame):
         return False

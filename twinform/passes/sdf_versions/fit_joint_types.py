@@ -48,6 +48,8 @@ def _joint(keeper: Keeper, version: Version, joint: Joint) -> Joint:
 def _continuous(keeper: Keeper, joint: Joint) -> Joint:
     pieces = [_type(joint)]
     changed = joint.copy(type="revolute")
+    # A range counts in a revolute joint and not in a continuous one, so it has to go before the
+    # type changes.
     limit = joint.axis.limit if joint.axis else None
     if joint.axis and limit:
         ends = {name: getattr(limit, name) for name in ("lower", "upper") if getattr(limit, name) is not None}
@@ -62,6 +64,7 @@ def _fixed(keeper: Keeper, joint: Joint) -> Joint:
     if joint.axis is not None:
         written = to_element(Joint(name="", type="fixed", axis=joint.axis), "joint", "sdf").find("axis")
         pieces += [Opaque.unchecked(element=written)] if written else []
+    # What older versions of libsdformat made of a fixed joint of URDF themselves.
     changed = joint.copy(type="revolute", axis=_STILL)
     return _keep(keeper, changed, joint, pieces, VersionCondition(since=_NEWER["fixed"], without=("axis",)))
 

@@ -36,6 +36,8 @@ class FlattenNested(VersionPass):
             return model
         flat = without_synthesized(flatten(model, lambda frame, shell: frame))
         since = parse_version(self.source)  # whose syntax the nested model is in
+        # Carriers are unpacked last in, first out: from the end, so that each model comes back at
+        # its index.
         for index in reversed(range(len(model.models))):
             nested = model.models[index]
             message = f"model {nested.name!r} is in model {model.name!r}, which SDF has since 1.5"

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from twinform.passes.sdf_versions.write_inertias import WriteInertias
     from twinform.passes.sdf_versions.write_plain_poses import WritePlainPoses
     from twinform.passes.sdf_versions.write_thread_pitches import WriteThreadPitches
+# A conversion within one version imports none of these modules, and one from 1.6 to 1.11 a handful:
+# the start of the command depends on it.
 else:
     __getattr__ = lazy_attributes(
         __name__,

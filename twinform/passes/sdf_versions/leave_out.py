@@ -45,6 +45,7 @@ class _UndefinedRemover:
 
     def whole_node(self, node: Any, form: Shape) -> Any:
         """A node whose element can hold carriers, with all that was left over in it."""
+        # Nearly all subtrees have nothing that the version lacks; a bit test skips them.
         if not census_of(node) & self.lacking:
             return node
         changed, left = self.node(node, form)
@@ -96,6 +97,8 @@ class _UndefinedRemover:
             if condition is None and repetition and kept:
                 condition = repetition.condition(self.version)
             if condition is not None:
+                # Last in, first out: the last of several is packed first, so that unpacking meets
+                # the lower indexes while they are still right.
                 left.insert(0, Leftover((field,), (value,), condition))
             elif row is not None and row.reference not in self.whole:
                 kept.append(self.whole_node(value, shape_of(row)))
@@ -107,6 +110,8 @@ class _UndefinedRemover:
         """When there is such a thing, if not in this version."""
         if row is None:
             return span.condition(self.version, index)
+        # A visual without its shape is invalid and a collision without it means nothing, so the
+        # whole part is carried.
         if isinstance(value, Visual | Collision) and value.geometry and value.geometry.shape:
             known = shape("geometry").kinds.get(value.geometry.shape.kind)
             if known and known.row(self.version) is None:
@@ -118,6 +123,8 @@ class _UndefinedRemover:
         where = left.location if left.location.line else node.location
         message = f"SDF {print_version(self.version)} does not have {called}"
         rule = rules.GONE_FROM_SDF
+        # A warning for what is newer, since the result lacks what the author meant. What only older
+        # versions have goes into the ledger alone: leaving it behind is what an upgrade is for.
         if left.condition.since is not None:
             rule = rules.OLDER_VERSION
             self.keeper.sink.report(rule, message, where, found=called)
@@ -196,6 +203,7 @@ class _Elements:
         for child in element.children:
             children += self._child(child, form, where)
         gone = [pair for pair, _ in lost]
+        # An element of text alone can hold no carrier; its lost attributes are carried beside it.
         if form.fact.type is None:
             for pair, condition in lost:
                 children += self._keep(Opaque.unchecked(attribute=pair), condition, f"the attribute {pair[0]!r}", where)

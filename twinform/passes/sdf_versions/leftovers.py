@@ -69,6 +69,8 @@ def node_pieces(node: Node, left: Leftover) -> list[Opaque]:
 def _with_only(node: Node, fields: tuple[str, ...], value: object) -> Node:
     first, *rest = fields
     inner = _with_only(getattr(node, first), tuple(rest), value) if rest else value
+    # The writer makes the element: a node with nothing but the leftover is written, and what is in
+    # that text is the piece.
     blank = {name: each.default for name, each in fields_of(type(node)).items() if name not in _ABOUT}
     return node.copy(**{**blank, first: inner})
 

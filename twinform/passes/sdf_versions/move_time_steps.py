@@ -51,6 +51,8 @@ def _back(physics: Element) -> Element:
 
 def _rename(element: Element, path: tuple[str, ...], name: str, into: tuple[str, ...] = ()) -> Element:
     """The element with the one at a path moved, unless there is one in its new place."""
+    # A step that is written in both syntaxes stays where it is: the one in the version's own place
+    # counts.
     if has(element, (*into, name)):
         return element
     left, taken = take(element, path)

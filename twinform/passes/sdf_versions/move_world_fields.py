@@ -33,6 +33,7 @@ class MoveWorldFields(VersionPass):
 
 def _forth(world: World) -> World:
     for part in world.opaque:
+        # Only the first <physics> of a world counts for gravity.
         if part.element and part.element.name == "physics" and not part.at:
             return _out_of(world, part, part.element)
     return world
@@ -78,6 +79,7 @@ def _back(carriers: bool, field: bool, world: World) -> World:
 
 def _made(*, carriers: bool) -> Element:
     """A `<physics>` that is there for its gravity alone."""
+    # Marked as made, so that the conversion back takes the whole <physics> out again.
     annotations = version_carriers([], VersionCondition(since=_SINCE, without=(".",))) if carriers else ()
     children = tuple(part.element for part in annotations if part.element)
     return Element.unchecked(name="physics", attributes=(("type", "ode"),), children=children)

@@ -49,6 +49,8 @@ def _joint(joint: Joint, *, always: bool, named: bool, both: bool, frame: str) -
 
 
 def _in_model(axis: Axis, *, always: bool) -> bool:
+    # Before 1.5 every axis was in the model frame; with 1.5 the default became the joint's, and the
+    # attribute came to say otherwise.
     if axis.use_parent_model_frame is None:
         return always
     return axis.use_parent_model_frame

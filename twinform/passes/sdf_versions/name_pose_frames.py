@@ -44,6 +44,8 @@ def _renamed(node: Node) -> Node:
 
 def _pose(pose: Pose) -> Pose:
     found = next((part for part in pose.opaque if part.attribute and part.attribute[0] == _OLD), None)
+    # The specification of 1.5 and 1.6 gives `frame` an empty default, and exporters write
+    # `frame=""` into every pose.
     if found is None or not found.attribute or not found.attribute[1] or pose.relative_to is not None:
         return pose
     rest: tuple[Opaque, ...] = tuple(part for part in pose.opaque if part is not found)

@@ -103,6 +103,8 @@ def nest(model: Model, sink: DiagnosticSink, among: frozenset[str] | None = None
         if name and inner[name].joint_is_inside(joint):
             inner[name].joints.append(joint)
         else:
+            # Since 1.8 `::` in a name is an error, and a joint between two models belongs to
+            # neither.
             joints.append(joint.copy(name=joint.name.replace(SCOPE, "_")) if name else joint)
     for frame in model.frames:
         name = first(frame.name)
@@ -187,6 +189,8 @@ def _frame(frame: Frame, inner: _Inner, base: str, graph: FrameGraph) -> Frame:
     around = (pose.relative_to if pose else None) or frame.attached_to
     if not inner.holds(around):
         pose = graph.pose(frame.name, base, kind="frame", base="frame").to_pose(MODEL)
+    # A model in a model cannot name a frame of the one around it, so the frame is attached to the
+    # link that it moves with.
     held_by = frame.attached_to if held else graph.body(frame.name, kind="frame")
     return inner.moved(frame, {"attached_to": held_by if inner.holds(held_by) else None, "pose": pose})
 

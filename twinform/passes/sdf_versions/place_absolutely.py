@@ -107,6 +107,7 @@ class _Placer:
     def _without_frames(self, holder: Holder) -> Holder:
         if self.named:
             return holder
+        # Last in, first out, so that each frame comes back at its index.
         for index in reversed(range(len(holder.frames))):
             frame = holder.frames[index]
             message = f"frame {frame.name!r} has no place in SDF before 1.7"
@@ -185,6 +186,9 @@ class _Poses:
             joint = joint.copy(sensors=_sensors(joint.sensors, moved, self.elements()))
         if joint.pose is None or joint.pose.relative_to is None:
             return joint
+        # Before 1.7 a joint is posed in its child, and where that is only the file of an include
+        # knows. A sensor on the joint measures in its frame, so such a joint is refused like one
+        # that moves.
         if joint.type == "fixed" and not joint.sensors and not self.graph.knows(joint.child or WORLD):
             # only an include knows the child, and where between two links a fixed joint is makes no difference
             return self.placer.replace(joint, Transform(), None)

@@ -38,6 +38,7 @@ def _place(link: Link, graph: FrameGraph, sink: DiagnosticSink) -> Link:
     if inertial is None or pose is None or pose.relative_to is None:
         return link
     placed = pose.copy(relative_to=None)
+    # An empty name is written by exporters and means the link, as everywhere before 1.8.
     if pose.relative_to:
         placed = graph.resolve(pose, link.name, link.name).to_pose()
         message = f"the inertial of link {link.name!r} is posed relative to {pose.relative_to!r}"

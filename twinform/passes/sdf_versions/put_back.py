@@ -84,6 +84,7 @@ class PutBack(VersionPass):
         """A node in the syntax of the file's version."""
         sink = DiagnosticSink()
         document = Document.model_validate({"format": "sdf", "version": self.version}).copy(**{field: (node,)})
+        # The proof by repetition: lowered once more, the restored model has to equal the file.
         for step in backward(self.number, parse_version(self.source)):
             document = step.run(document, sink)
         return without_carriers(document)
@@ -107,8 +108,11 @@ def restored_itself(node: AnyNode, version: Version) -> AnyNode:
     if own:
         kept = tuple(part for part in node.opaque if not any(part is each for each in own))
         node = node.copy(opaque=kept)
+        # The last carrier that was made stands first: each is unpacked into the state that it was
+        # packed from.
         for part in reversed(own):
             condition = condition_of(part)
+            # Somebody has written the element by hand since. That is an edit, and edits win.
             if any(is_already_there(node, piece, condition) for piece in carried(part)):
                 raise CarrierError("the file now has its own element for what it holds")
             node = absorb(node, carried(part), condition, version)

@@ -62,6 +62,9 @@ class _Renaming:
             return child
         changed = self.inside(child, child.name if self.back else name)
         known = {inner.name for inner in table("sdf").resolve(row).rows}
+        # 1.12 made `joint_state` hold velocities and `collision_state` poses, which had no place
+        # before. Renamed, they would be lost; with the old name, `leave-out` carries the whole
+        # state.
         lost = [inner for inner in changed.children if not is_foreign(inner) and inner.name not in known]
         return child if lost else changed.copy(name=name)
 

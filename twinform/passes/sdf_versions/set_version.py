@@ -21,5 +21,6 @@ class SetVersion(Pass):
         """The document in its new version."""
         namespaces = document.namespaces
         if any(entry.fate is Fate.CARRIED for entry in sink.entries) and (PREFIX, NAMESPACE) not in namespaces:
+            # The prefix is ours from here on, also where the file bound it to something else.
             namespaces = (*(pair for pair in namespaces if pair[0] != PREFIX), (PREFIX, NAMESPACE))
         return document.copy(version=self.version, namespaces=namespaces)

@@ -56,6 +56,7 @@ class Span:
         for since, until, each in self.rows:
             for mine, theirs in _both(merged, shape_of(each)):
                 for name, span in theirs.items():
+                    # The inner parts of a row exist no longer than the row itself.
                     clipped = [(max(since, first), min(until, last), inner) for first, last, inner in span.rows]
                     mine.setdefault(name, Span()).rows.extend(clipped)
         return merged
@@ -129,6 +130,8 @@ def whole(version: Version) -> frozenset[str]:
     """The definitions of which a version has everything that any version has, all the way down."""
     definitions = table("sdf").definitions
     found = set(definitions)
+    # A greatest fixed point: definitions refer to each other in circles (a model holds models), so
+    # all count as whole until one of their parts is not.
     while lacking := {name for name in found if not _is_whole(shape(name), found, version)}:
         found -= lacking
     return frozenset(found)

@@ -59,6 +59,8 @@ def gathered(element: Element) -> Element:
         return element
     noises = {old: _common_noise(element, new) for old, new in _MEASURED.items()}
     types = {noise.get("type") for noise in noises.values() if noise is not None}
+    # The old element has one type for both measurements, and one set of numbers for the three axes
+    # of each.
     if None in noises.values() or len(types) != 1:
         return element
     kept = tuple(child for child in element.children if child.name not in {*_MEASURED.values(), _ANNOTATION})
@@ -100,6 +102,8 @@ def _imu(annotate: bool, element: Element) -> Element:
         children = tuple(child for child in numbers.children if child.name in _NUMBERS)
         made = Element.unchecked(name="noise", attributes=(("type", type_),), children=children)
         for axis in ("x", "y", "z"):
+            # Files with the syntax of several versions have both; the noise of an axis is the one
+            # that readers of 1.6 and newer take.
             if not has(imu, (new, axis, "noise")):
                 imu = put(imu, (new, axis), made)
     return imu.copy(children=(Element.unchecked(name=_ANNOTATION), *imu.children)) if annotate else imu

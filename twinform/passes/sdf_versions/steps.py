@@ -32,6 +32,8 @@ def _to_named_frames(changes: Changes, version: str, old: Version, *, names: boo
         yield kinds.NameTheNameless.unchecked(version=version)
     if changes(7):
         yield kinds.NamePoseFrames.unchecked(version=version)
+    # Each pass has its place: frames are named before names are cleared, and models nest only when
+    # all of their frames have names that are unique.
     if changes(5) or changes(7):
         yield kinds.NameAxisFrames.unchecked(version=version, source_before_1_5=old < (1, 5), both=mixed)
     if changes(7) and names:
@@ -51,6 +53,9 @@ def _from_named_frames(changes: Changes, version: str, *, names: bool) -> Iterat
 
 def unversioned(version: str, *, carriers: bool = True) -> Iterator[Pass]:
     """The passes for syntax of any version in a text that declares none, where no newer version has another meaning."""
+    # Only old syntax that no newer version uses for something else. What depends on the version,
+    # such as the frame of an axis without a word, is taken as the newest version has it: <gazebo>
+    # declares none.
     yield kinds.SpreadImuNoise.unchecked(version=version, annotate=carriers)
     yield kinds.NamePoseFrames.unchecked(version=version)
     yield kinds.NameAxisFrames.unchecked(version=version)
@@ -85,6 +90,8 @@ def _models_back(changes: Changes, version: str, source: str, *, carriers: bool)
     if changes(11):
         yield kinds.WriteInertias.unchecked(version=version, carriers=carriers)
     if changes(5):
+        # From the outside in: models first, then joints and axes, and poses last, since each step
+        # asks for frames that the next one takes away.
         yield kinds.FlattenNested.unchecked(version=version, carriers=carriers, source=source)
     if changes(8):
         yield kinds.ConnectLinks.unchecked(version=version, carriers=carriers)

@@ -72,6 +72,7 @@ class _Turner:
             axis.expressed_in or joint.name, base, kind="joint", base="model" if to_model else "joint"
         )
         x, y, z = turn.rotate(direction(axis, Format.SDF))
+        # Adding 0.0 turns -0.0 into 0.0.
         xyz = None if axis.xyz is None and (x, y, z) == AXIS[Format.SDF] else (x + 0.0, y + 0.0, z + 0.0)
         plain = axis.copy(xyz=xyz, expressed_in=None)
         turned = joint.copy(**{field: plain})

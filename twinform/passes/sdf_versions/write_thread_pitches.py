@@ -36,6 +36,8 @@ class WriteThreadPitches(VersionPass):
 def _forth(joint: Joint) -> Joint:
     if joint.type != "screw" or joint.thread_pitch is not None or joint.screw_thread_pitch is not None:
         return joint
+    # Since 1.10 an absent pitch means 1 m per turn by the new element; before, it meant 1 rad/m by
+    # the old.
     return joint.copy(thread_pitch=_DEFAULT)
 
 
@@ -45,6 +47,8 @@ def _back(keeper: Keeper, joint: Joint) -> Joint:
         return joint
     pitch = _DEFAULT if written is None else written
     message = f"screw joint {joint.name!r} moves {pitch:g} m per turn"
+    # `thread_pitch` counts radians per meter with the opposite sign, `screw_thread_pitch` meters
+    # per turn.
     made = -math.tau / pitch if pitch else 0.0
     changed = joint.copy(thread_pitch=made, screw_thread_pitch=None)
     pieces = [] if written is None else [text_piece("screw_thread_pitch", format_value(written))]
