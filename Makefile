@@ -55,12 +55,12 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.passes.framework.pages docs/reference/passes.md
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md
-	$(BIN)/python -m twinform.profiles.page docs/reference/profiles.md
+	$(BIN)/python -m twinform.profiles.page docs/reference/profiles
 	$(BIN)/python -m twinform.compiler.compare.page docs/reference/not_compared.md
 	$(BIN)/python -m twinform.cli.pages docs/reference/commands.md
 	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md
-	$(BIN)/python -m twinform.server.mapping.pages urdf docs/reference/urdf.md
-	$(BIN)/python -m twinform.server.mapping.pages sdf docs/reference/sdf.md
+	$(BIN)/python -m reports.mapping.elements urdf docs/reference/urdf
+	$(BIN)/python -m reports.mapping.elements sdf docs/reference/sdf
 	$(BIN)/python -m reports libsdformat_codes
 	$(BIN)/python -m reports mapping
 	$(BIN)/python -m reports.mapping.destinations twinform/server/mapping/destinations.json
@@ -78,12 +78,12 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.passes.framework.pages docs/reference/passes.md --check
 	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md --check
 	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md --check
-	$(BIN)/python -m twinform.profiles.page docs/reference/profiles.md --check
+	$(BIN)/python -m twinform.profiles.page docs/reference/profiles --check
 	$(BIN)/python -m twinform.compiler.compare.page docs/reference/not_compared.md --check
 	$(BIN)/python -m twinform.cli.pages docs/reference/commands.md --check
 	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md --check
-	$(BIN)/python -m twinform.server.mapping.pages urdf docs/reference/urdf.md --check
-	$(BIN)/python -m twinform.server.mapping.pages sdf docs/reference/sdf.md --check
+	$(BIN)/python -m reports.mapping.elements urdf docs/reference/urdf --check
+	$(BIN)/python -m reports.mapping.elements sdf docs/reference/sdf --check
 	$(BIN)/python -m reports libsdformat_codes --check
 	$(BIN)/python -m reports mapping --check
 	$(BIN)/python -m reports.mapping.destinations twinform/server/mapping/destinations.json --check

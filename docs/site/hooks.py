@@ -1,4 +1,4 @@
-"""Hooks of the site's build: the list of evidence pages, what the search puts first, and links that lead out of docs/.
+"""Hooks of the site's build: lists of pages, the rules, what the search puts first, and links that lead out of docs/.
 
 A page of docs/ links to files of the repository, such as cases and examples, as a code host wants it. Here such a file
 goes into the site as it is, below `source/`; a link to a folder becomes its text.
@@ -12,12 +12,17 @@ from typing import Any
 from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
 
+from twinform.diagnostics import catalog
+from twinform.diagnostics.pages import rule_page
+
 _ROOT = Path(__file__).parents[2]
 _LINK = re.compile(r"\[(?P<text>(?:[^\[\]]|\[[^\]]*\])*)\]\((?P<path>(?:\.\./)+[^)#\s]*)(?P<anchor>#[^)\s]*)?\)")
 _TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
 _LISTED = {"Evidence": "evidence"}
 _LATER = {"evidence": 0.2, "explanation": 0.4}
 """What the search makes of matches in pages of a folder: who looks for a word wants to use it first."""
+_RULES = "twinform/diagnostics/rules/"
+"""Where the rules are written; the site has their pages below `reference/rules/`."""
 _copied: dict[str, File] = {}
 
 
@@ -36,16 +41,19 @@ def _pages(folder: str) -> list[Any]:
 
 
 def on_files(files: Files, config: Any) -> Files:
-    """Put every file that a page links to into the site."""
+    """Put the rules into the site, and every file that a page links to."""
     _copied.clear()
+    for rule in catalog().values():
+        page = File.generated(config, f"reference/rules/{rule.name}.md", content=rule_page(rule))
+        files.append(page)
+        _copied[f"{_RULES}{rule.name}.md"] = page
     for page in files.documentation_pages():
         for match in _LINK.finditer(page.content_string):
             target = _outside(page.src_uri, match["path"])
             if target is not None and (_ROOT / target).is_file() and target not in _copied:
                 text = (_ROOT / target).read_bytes()
                 _copied[target] = File.generated(config, f"source/{target}.txt", content=text)
-    for file in _copied.values():
-        files.append(file)
+                files.append(_copied[target])
     return files
 
 
@@ -60,7 +68,7 @@ def on_page_markdown(markdown: str, *, page: Page, config: Any, files: Files) ->
             return match[0]
         if target not in _copied:
             return match["text"]
-        copy = posixpath.relpath(f"source/{target}.txt", posixpath.dirname(page.file.src_uri) or ".")
+        copy = posixpath.relpath(_copied[target].src_uri, posixpath.dirname(page.file.src_uri) or ".")
         return f"[{match['text']}]({copy})"
 
     return _LINK.sub(changed, markdown)

@@ -50,9 +50,9 @@ def first(names: Sequence[str], most: int | None = 3) -> str:
     return ", ".join(names[:most]) + (", .." if most is not None and len(names) > most else "")
 
 
-def rule_links(rules: Iterable[str], page: str = "../reference/rules.md") -> str:
-    """Links to the pages of rules."""
-    return ", ".join(f"[{rule}]({page}#{rule})" for rule in rules)
+def rule_links(rules: Iterable[str], root: str = "../..") -> str:
+    """Links to the pages of rules; `root` leads from the page to the root of the repository."""
+    return ", ".join(f"[{rule}]({root}/twinform/diagnostics/rules/{rule}.md)" for rule in rules)
 
 
 def without_names(path: str) -> str:

@@ -55,7 +55,7 @@ def announced() -> dict[str, list[str]]:
 
 
 def _table(title: str, rows: tuple[Row, ...], cases: dict[str, list[str]]) -> str:
-    found = ((row.title, rule_links(row.rules, "rules.md") or row.note, _shown(row, cases)) for row in rows)
+    found = ((row.title, rule_links(row.rules) or row.note, _shown(row, cases)) for row in rows)
     return table([title, "rules", "cases"], found)
 
 

@@ -10,28 +10,40 @@ from twinform.schemas.facts import Fact, print_version
 from twinform.server.mapping.rows import Row
 from twinform.server.mapping.targets import field_of, targets
 
+ROOT = "../../.."
+"""From a page to the root of the repository."""
+_COUNTS = {"1": "once", "?": "", "*": "any number", "+": "at least one"}
 _LABELS: dict[Severity, str] = {Severity.ERROR: "**refused:** ", Severity.WARNING: "warning: ", Severity.INFO: "note: "}
 
 
 def name_of(row: Row) -> str:
-    """The steps of a row, linked to the section of its type where it has one of its own."""
+    """The steps of a row, linked to the page of its type where it has one of its own."""
     if not row.fact.reference:
         return f"`{row.steps}`"
-    return f"[`{row.steps}`](#{row.format}-{row.fact.reference})"
+    return f"[`{row.steps}`]({row.fact.reference}.md)"
 
 
 def kind(fact: Fact) -> str:
-    """Count, type, unit, bounds, default and enumerated values of a row."""
-    free = "anything" if fact.any else ""
-    bounds = ((">=", fact.min), ("<=", fact.max))
-    parts = [fact.count, fact.type or fact.reference or free]
-    parts += [fact.unit or "", *(f"{sign} {bound:g}" for sign, bound in bounds if bound is not None)]
-    if fact.default is not None:
-        parts.append(f"= {fact.default}")
+    """How often a row may stand, its type, unit, bounds, default, dialect and enumerated values."""
+    return ", ".join(_kind(fact))
+
+
+def _kind(fact: Fact) -> Iterator[str]:
+    if _COUNTS[fact.count]:
+        yield _COUNTS[fact.count]
     if fact.enum:
-        parts.append(" ".join(fact.enum))
-    parts += [f"{value} ({dialect})" for value, dialect in fact.also]
-    return ", ".join(part for part in parts if part)
+        yield "one of " + ", ".join(fact.enum)
+    elif fact.type or fact.any:
+        yield fact.type or "anything"
+    if fact.unit:
+        yield f"in {fact.unit}"
+    if fact.min is not None:
+        yield f"at least {fact.min:g}"
+    if fact.max is not None:
+        yield f"at most {fact.max:g}"
+    if fact.default is not None:
+        yield f"default `{fact.default}`" if fact.default else "empty by default"
+    yield from (f"{value} ({dialect})" for value, dialect in fact.also)
 
 
 def versions(fact: Fact) -> str:
@@ -51,7 +63,7 @@ def where(row: Row, seen: Seen) -> tuple[str, str]:
     if (text := destinations(row.format).get(row.path)) is not None:
         return field, text
     if found := targets(row):
-        return field, ", ".join(f"[`{path}`](#{other}-{path.partition('/')[0]})" for path in found)
+        return field, ", ".join(f"[`{path}`](../{other}/{path.partition('/')[0]}.md)" for path in found)
     return field, _by_fate(row, seen)
 
 
@@ -73,8 +85,8 @@ def became(seen: Seen) -> str:
 def rules_seen(seen: Seen) -> Iterator[str]:
     """The rules of the ledger first, then those of findings, the worst first."""
     if seen.ledger:
-        yield rule_links(sorted(seen.ledger))
+        yield rule_links(sorted(seen.ledger), ROOT)
     for severity in sorted(set(seen.rules.values()), reverse=True):
         own = sorted(rule for rule, each in seen.rules.items() if each is severity and rule not in seen.ledger)
         if own:
-            yield _LABELS[severity] + rule_links(own)
+            yield _LABELS[severity] + rule_links(own, ROOT)

@@ -132,8 +132,8 @@ class _Silent(SimpleHTTPRequestHandler):
 
 
 _ANSWERS = {
-    "mimic": "reference/rules.html#mimic-cycle",
-    "unknown-element": "reference/rules.html#unknown-element",
+    "mimic": "reference/rules/mimic-cycle.html",
+    "unknown-element": "reference/rules/unknown-element.html",
     "KinematicTree": "reference/api.html",
     "--ledger": "how-to/see-what-was-lost.html",
     "gz::sim::systems::Imu": "reference/plugins.html",

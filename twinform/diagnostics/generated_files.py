@@ -1,8 +1,8 @@
-"""Command line of generators: write a generated file, or check that the committed one is up to date."""
+"""Command line of generators: write a generated file or folder, or check that the committed one is up to date."""
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from twinform.storage.writing import write_atomically
@@ -26,6 +26,34 @@ def main(text: str, arguments: Sequence[str]) -> int:
         sys.stdout.write(text)
     else:
         write_atomically(given.file, text)
+    return 0
+
+
+def main_of_folder(pages: Mapping[str, str], arguments: Sequence[str]) -> int:
+    """The command line of a generator of all Markdown files of a folder: write them, delete all others, or compare.
+
+    Args:
+        pages: The texts by the names of their files.
+        arguments: The words of the command line.
+
+    Returns:
+        The exit code.
+    """
+    parser = argparse.ArgumentParser()
+    parser.add_argument("folder", type=Path, help="where to write")
+    parser.add_argument("--check", action="store_true", help="write nothing; exit 1 where a file is out of date")
+    given = parser.parse_args(arguments)
+    folder: Path = given.folder
+    others = [file for file in folder.glob("*.md") if file.name not in pages]
+    if given.check:
+        for file in others:
+            sys.stderr.write(f"{file} is not generated any more; run the generator without --check\n")
+        return max([min(len(others), 1), *(_check(folder / name, text) for name, text in pages.items())])
+    folder.mkdir(parents=True, exist_ok=True)
+    for file in others:
+        file.unlink()
+    for name, text in pages.items():
+        write_atomically(folder / name, text)
     return 0
 
 

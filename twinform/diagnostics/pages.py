@@ -1,4 +1,4 @@
-"""The pages of the rules: `python -m twinform.diagnostics.pages FILE [--check]` writes or checks them."""
+"""The list of the rules: `python -m twinform.diagnostics.pages FILE [--check]` writes or checks it."""
 
 import sys
 from collections.abc import Iterator
@@ -11,8 +11,13 @@ from twinform.diagnostics.rule import Rule
 _INTRODUCTION = """\
 # Rules
 
-Every kind of finding, sorted by name. `twinform explain RULE` prints one page.
+Every kind of finding. The page of each has an example, what is better, and where the rule comes from;
+`twinform explain RULE` prints it. The last column is the option of `twinform check` that fixes what was found, if there
+is a fix.
 This file is made by `python -m twinform.diagnostics.pages docs/reference/rules.md`; do not edit it.
+
+| rule | severity | what it finds | fixed by |
+| --- | --- | --- | --- |
 """
 
 FIXES = {
@@ -21,6 +26,7 @@ FIXES = {
     Safety.DISPLAY: "Editors propose one; something in it has to be filled in.",
 }
 """What the page of a rule says of its fixes, by how safe they are at best."""
+_OPTIONS = {Safety.SAFE: "`--fix`", Safety.UNSAFE: "`--unsafe-fixes`", Safety.DISPLAY: "editors"}
 
 
 def severity_words(rule: Rule) -> str:
@@ -44,13 +50,20 @@ def sections(rule: Rule) -> Iterator[tuple[str, str]]:
 
 
 def rules_page() -> str:
-    """All rules in Markdown."""
-    return "\n".join([_INTRODUCTION, *(_chapter(rule) for rule in catalog().values())])
+    """The list of all rules in Markdown."""
+    return _INTRODUCTION + "".join(map(_row, catalog().values()))
 
 
-def _chapter(rule: Rule) -> str:
-    body = "\n".join(f"**{heading}.** {text}\n" for heading, text in sections(rule))
-    return f"## {rule.name}\n\nSeverity: {severity_words(rule)}.\n\n{body}"
+def rule_page(rule: Rule) -> str:
+    """A rule in Markdown, as the site shows it."""
+    body = "\n".join(f"## {heading}\n\n{text}\n" for heading, text in sections(rule))
+    return f"# {rule.name}\n\nSeverity: {severity_words(rule)}.\n\n{body}"
+
+
+def _row(rule: Rule) -> str:
+    link = f"[{rule.name}](../../twinform/diagnostics/rules/{rule.name}.md)"
+    finds = rule.finds.replace("|", "\\|").replace("\n", " ")
+    return f"| {link} | {severity_words(rule)} | {finds} | {_OPTIONS[rule.fix] if rule.fix else ''} |\n"
 
 
 if __name__ == "__main__":

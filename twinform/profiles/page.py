@@ -1,9 +1,9 @@
-"""Generator of the reference page of profiles: `python -m twinform.profiles.page FILE [--check]`."""
+"""Generator of the reference pages of profiles: `python -m twinform.profiles.page FOLDER [--check]`."""
 
 import sys
 from collections.abc import Iterator
 
-from twinform.diagnostics.generated_files import main
+from twinform.diagnostics.generated_files import main_of_folder
 from twinform.profiles.profile import PORTABLE, Profile, Row, load, names
 from twinform.profiles.reading.notation import Demand, Step, reads
 from twinform.profiles.remedies import REMEDIES
@@ -13,11 +13,14 @@ _INTRODUCTION = """\
 
 What programs that read models refuse, drop, read otherwise or warn about: `twinform check --for NAME` reports it about
 a file, `twinform convert --for NAME` runs the passes that help, and `twinform advise` compares all programs. `portable`
-is all that are tested. [Write a model for several consumers](../how-to/write-for-several-consumers.md) has how to use
-them, and whether they are right is [measured](../evidence/loaders.md).
+is all that are tested. [Write a model for several consumers](../../how-to/write-for-several-consumers.md) says how to
+use them, and whether they are right is [measured](../../evidence/loaders.md).
 
 *Refuses* is an error under `--for`, *drops* and *misreads* are warnings, *warns* is a note. This file is made by
-`python -m twinform.profiles.page docs/reference/profiles.md`; do not edit it.
+`python -m twinform.profiles.page docs/reference/profiles`; do not edit it.
+
+| profile | reads | what it is |
+| --- | --- | --- |
 """
 _REMEDIES = """\
 ## Passes that help
@@ -27,18 +30,26 @@ refuses them.
 """
 
 
-def page() -> str:
-    """The whole page."""
-    physics = {each.name: "\\*" if each.physics else "" for each in REMEDIES}
-    steps = "\n".join(f"1. [{name}](passes.md#{name}){star}" for name, star in physics.items())
+def pages() -> dict[str, str]:
+    """A page for each profile, and one that lists them, by the names of their files."""
     profiles = [each for name in names() if name != PORTABLE for each in load(name)]
-    return "\n".join([_INTRODUCTION, *map(_profile, profiles), _REMEDIES, steps, ""])
+    return {"README.md": _list(profiles), **{f"{each.name}.md": _profile(each) for each in profiles}}
+
+
+def _list(profiles: list[Profile]) -> str:
+    rows = "".join(f"| [{each.name}]({each.name}.md) | {_formats(each)} | {each.about} |\n" for each in profiles)
+    physics = {each.name: "\\*" if each.physics else "" for each in REMEDIES}
+    steps = "\n".join(f"1. [{name}](../passes.md#{name}){star}" for name, star in physics.items())
+    return f"{_INTRODUCTION}{rows}\n{_REMEDIES}\n{steps}\n"
+
+
+def _formats(profile: Profile) -> str:
+    return " and ".join(each.upper() for each in profile.formats)
 
 
 def _profile(profile: Profile) -> str:
     seen = f"Seen in {profile.seen}." if profile.tested else "Not tested: read in its sources and documentation."
-    reads_ = " and ".join(each.upper() for each in profile.formats)
-    lines = [f"## {profile.name}\n", f"{_sentence(profile.about)} It reads {reads_}. {seen}\n"]
+    lines = [f"# {profile.name}\n", f"{_sentence(profile.about)} It reads {_formats(profile)}. {seen}\n"]
     if profile.rows:
         lines += [
             "| what is found | format | effect | what it does | passes that help |",
@@ -51,14 +62,15 @@ def _profile(profile: Profile) -> str:
             "| --- | --- | --- | --- |",
         ]
         lines += [*_demands(profile.reads), ""]
-    return "\n".join(lines)
+    return "\n".join(lines).rstrip("\n") + "\n"
 
 
 def _row(row: Row) -> str:
     narrowed = f", `{row.message}`" if row.message else ""
     format_ = row.format.upper() if row.format else ""
     passes = f"`{row.pipeline}`" if row.pipeline else ""
-    cells = (f"[{row.rule}](rules.md#{row.rule}){_escaped(narrowed)}", format_, row.effect, row.about, passes)
+    rule = f"[{row.rule}](../../../twinform/diagnostics/rules/{row.rule}.md){_escaped(narrowed)}"
+    cells = (rule, format_, row.effect, row.about, passes)
     return f"| {' | '.join(cells)} |"
 
 
@@ -89,4 +101,4 @@ def _escaped(text: str) -> str:
 
 
 if __name__ == "__main__":
-    sys.exit(main(page(), sys.argv[1:]))
+    sys.exit(main_of_folder(pages(), sys.argv[1:]))

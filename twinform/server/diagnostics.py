@@ -6,7 +6,7 @@ from pathlib import Path
 from lsprotocol import types
 
 from twinform.diagnostics import Diagnostic, Location, Severity, Span, catalog
-from twinform.diagnostics.addresses import RULES
+from twinform.diagnostics.addresses import rule_address
 from twinform.server.documents import Document
 from twinform.server.tree import Node, Tree
 
@@ -90,4 +90,4 @@ def _related(found: Diagnostic, document_of: DocumentOf) -> list[types.Diagnosti
 
 def _page(found: Diagnostic) -> types.CodeDescription | None:
     """The page of one of our own rules."""
-    return types.CodeDescription(f"{RULES}#{found.rule.name}") if found.rule.name in catalog() else None
+    return types.CodeDescription(rule_address(found.rule.name)) if found.rule.name in catalog() else None

@@ -36,7 +36,7 @@ def test_rules_are_sorted_and_unique() -> None:
 
 
 def test_the_page_has_every_rule_once_in_order() -> None:
-    assert re.findall(r"^## (.*)$", rules_page(), re.MULTILINE) == list(catalog())
+    assert re.findall(r"^\| \[(.*?)\]", rules_page(), re.MULTILINE) == list(catalog())
 
 
 def test_the_committed_page_is_up_to_date() -> None:

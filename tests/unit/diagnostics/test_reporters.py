@@ -133,7 +133,7 @@ def test_sarif_lists_the_rules_that_were_found_with_their_pages() -> None:
     known = Diagnostic(DANGLING_LINK, "no link", NOWHERE, Severity.ERROR)
     own, other = sarif([Findings("a.urdf", (FULL, known, BARE))])["tool"]["driver"]["rules"]
     assert (own["id"], other["id"]) == ("dangling-link", "odd-value")
-    assert own["helpUri"].endswith("docs/reference/rules.md#dangling-link")
+    assert own["helpUri"].endswith("twinform/diagnostics/rules/dangling-link.md")
     assert "helpUri" not in other
     assert other["help"]["text"].startswith("What it finds: Odd.\n")
     assert other["help"]["markdown"].startswith("**What it finds.** Odd.\n\n")

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import quote
 
-from twinform.diagnostics.addresses import HOME, RULES
+from twinform.diagnostics.addresses import HOME, rule_address
 from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.location import Location
@@ -42,7 +42,7 @@ def _rule(rule: Rule) -> dict[str, object]:
     page = list(sections(rule))
     text = "\n".join(f"{heading}: {body}" for heading, body in page)
     markdown = "\n\n".join(f"**{heading}.** {body}" for heading, body in page)
-    address = {"helpUri": f"{RULES}#{rule.name}"} if rule.name in catalog() else {}
+    address = {"helpUri": rule_address(rule.name)} if rule.name in catalog() else {}
     return {
         "id": rule.name,
         "shortDescription": {"text": rule.finds},
