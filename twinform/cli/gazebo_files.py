@@ -64,6 +64,8 @@ class GazeboFiles:
 
         document, found = conversion.document, DiagnosticSink(file=name)
         if self.world is not None:
+            # The model stands in the world file itself: libsdformat looks for the file of an
+            # include only in its own path, and did not find one that lay beside the world.
             outputs.add("--world", self.world, world_text(document, self.gazebo, found, _WORLD))
         if self.bridge is not None:
             world = _WORLD if self.world else None

@@ -70,9 +70,14 @@ def convert_once(
         CompileError: the source, a pass or the result has an error.
     """
     with garbage_collection_paused():
+        # The tree of libxml2 takes as much memory as the document, or twice that; whoever wants it
+        # parses the text again (`Conversion.source`).
         load_options = replace(load_options, keep_tree=False).read_by(request.sdf_version)
         loaded = read(source, load_options, name=name)
         request = replace(request, assets=LocalAssets(load_options.search, Path(loaded.path)))
+        # SDF to SDF keeps its includes: a world with 525 models from Fuel is read and written
+        # without opening any of them. URDF has none, so there those of the chosen model are
+        # expanded, and no others.
         if loaded.accepted and (request.expand_includes or request.to == "urdf" or request.model is not None):
             from twinform.compiler.includes.expanding import expand  # noqa: PLC0415 - most conversions need no includes
 
@@ -86,6 +91,8 @@ def convert_once(
         try:
             return _run(loaded, loaded.document, request, load_options, instrumentation=instrumentation)
         except (PassError, LookupError, ValueError, RecursionError) as error:
+            # An allowed error is left out where the file is read, and conversions go on in spite of
+            # it. Where one fails, it is for that error.
             allowed = [each for each in loaded.allowed if each.is_error]
             if not allowed:
                 raise
@@ -142,8 +149,11 @@ def _run(
         allowed=list(loaded.allowed),
     )
     passes = _with_files(request, load_options, loaded.path)
+    # The document is verified between the user's passes. Legalization leaves it half in one format
+    # and half in the other, so there the check comes at the end.
     changed = passes.run(document, sink, instrumentation=instrumentation, verify=verify if loaded.accepted else None)
     changed = _remedied(changed, request, sink, instrumentation, accepted=loaded.accepted)
+    # A file with an error that a pass mends: only afterwards can it be said whether it is mended.
     if not loaded.accepted:
         verify(changed, sink)
     text = ""
@@ -153,6 +163,8 @@ def _run(
         document, text = written(changed, request, sink, instrumentation, kept=kept_words, comments=comments)
     if sink.has_errors:
         raise CompileError(tuple(sink.diagnostics))
+    # The ledger counts what is preserved by what is left over, so that a fate which nobody wrote
+    # down shows as a false "preserved" in the audit.
     lost = sum(entry.weight for entry in sink.entries)
     ledger = Ledger(max(0, loaded.size - lost), sink.traced_entries())
     origin = loaded.tree if loaded.content is None else loaded.content
@@ -177,6 +189,8 @@ def _remedied(
         document = Pipeline((step,)).run(
             before, sink, instrumentation=instrumentation, verify=verify if accepted else None
         )
+        # A pass that may change the physics often does not (a capsule that is only seen becomes
+        # three shapes), so the two documents are compared.
         sink.entries.extend(physics_changes(before, document, step.name))
     return document
 
@@ -217,6 +231,8 @@ def written(
     if request.to == "json":
         from twinform.compiler.output.json import json_text  # noqa: PLC0415 - few conversions need it
 
+        # JSON has no format of its own to violate: the XML is written for its findings, and thrown
+        # away.
         emit(document, sink)
         return document, json_text(document, sink)
     legal = request.legalisation(document)

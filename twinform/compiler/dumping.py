@@ -26,6 +26,8 @@ def dumps(document: Document, *, to: Written | None = None) -> str:
         raise ValueError(
             f"the document is {document.format.upper()}; twinform.convert makes {to.upper() if to else to}"
         )
+    # A document that a program has put together may hold anything: it is written and read again, as
+    # any file would be.
     checked = read(document, LoadOptions())
     sink = DiagnosticSink(checked.path, diagnostics=[each for each in checked.diagnostics if each.is_error])
     text = ""

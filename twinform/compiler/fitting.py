@@ -43,6 +43,8 @@ def convert_for_consumers(
     """
     name = name or (str(source) if isinstance(source, str | Path) else "")
     request = fitted(request, source, load_options, name=name)
+    # Once more with the passes that were found, since instrumentation (printing, timing) is to see
+    # one conversion and not all attempts.
     made = convert_once(request, source, load_options, name=name, instrumentation=instrumentation)
     told = findings(assessed(made, load_options, name))
     if any(each.is_error for each in told):
@@ -62,9 +64,13 @@ def fitted(
     request = replace(request, sdf_version=request.sdf_version or newest_sdf(load_options.profiles))
     steps: tuple[Pass, ...] = ()
     mends = frozenset(row.rule for each in load_options.profiles for row in each.rows if row.pipeline)
+    # The result is judged, and not the source: legalization changes much, and encodings, odd
+    # numbers and stray comments are gone once a file is written anew. It costs a conversion more,
+    # and only under `--for`.
     for _ in range(_ROUNDS):
         request = replace(request, remedies=Pipeline(in_order(steps)), mends=mends)
         found, entries = _tried(request, source, load_options, name)
+        # Not which passes run, but what they changed: many that could change the physics do not.
         if request.keep_physics:
             _require_kept(entries)
         more = [each for each in remedies(found, Format(request.to)) if each not in steps]
@@ -107,6 +113,7 @@ def _tried(
     try:
         made = convert_once(request, source, load_options, name=name)
     except CompileError as error:
+        # The errors of a source that a pass mends must not stop the search for that pass.
         subject = Subject(name, None, diagnostics=tuple(each for each in error.diagnostics if each.is_error))
         found = assess(subject, load_options.profiles)
         if not any(each.judgments for each in found):

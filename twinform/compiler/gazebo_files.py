@@ -66,6 +66,7 @@ def _world(document: Document, release: str, name: str) -> tuple[Document, World
 
 
 def _on_the_ground(model: Model) -> Model:
+    # A pose that the author wrote is where the model is meant to be.
     depth = lowest_point(model) if model.pose is None and not model.static else None
     return model if not depth else model.copy(pose=Pose(xyz=(0.0, 0.0, round(-depth, 9))))
 

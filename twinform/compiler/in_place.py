@@ -72,6 +72,9 @@ def convert_bytes_in_place(
         CompileError: they cannot be converted, or cannot be changed in their place.
     """
     request = replace(request, comments=False)  # the text of the file has them
+    # The document is written twice, as it was before the passes and after: what differs between
+    # these trees is changed in the tree of the file. What our writer spells otherwise than the
+    # author is the same in both, and never touched.
     conversion = run_conversion(request, data, load_options, name=name, instrumentation=instrumentation)
     loaded = read(data, load_options, name=name)
     if loaded.document is None:  # it could be converted a moment ago

@@ -42,6 +42,9 @@ def convert_into(
         before = run_conversion(replace(request, model=None), built, load_options, name=str(into))
     sink = DiagnosticSink(str(into), load_options.strict)
     made = updated(file_bytes(into, sink, load_options), before.document, conversion, sink, same=base is None)
+    # A merge pairs parts by names, content and likeness, and a wrong pair would write a wrong robot
+    # silently. So the file as it would be is compared with the edited one. It costs two
+    # comparisons.
     _require_the_robot(made, before, into, load_options)
     return made
 
@@ -87,6 +90,8 @@ def _require_the_robot(made: Updated, before: Conversion, path: Path, load_optio
         return
     after, sink = made.conversion, DiagnosticSink(str(path), load_options.strict)
     name = next((each.name for each in after.document.models), None)
+    # As `diff` asks by default, without our carriers: an edit that reaches only a carrier has not
+    # reached RViz or Gazebo, for whom this file is kept.
     compared = partial(compare_files, load_options=load_options, names=(str(path), str(path)), model=name)
     try:
         found = compared(made.data, after.text.encode()).counted
@@ -97,6 +102,7 @@ def _require_the_robot(made: Updated, before: Conversion, path: Path, load_optio
             Location(line=1, path="/"),
         )
         raise CompileError((*after.diagnostics, *sink.diagnostics)) from error
+    # What differed before the edit is none of its doing.
     known = {_key(each) for each in compared(path, before.text.encode()).counted} if found else set[Key]()
     for each in found:
         if _key(each) not in known:

@@ -42,6 +42,7 @@ class _Reason(NamedTuple):
 def choose(facts: Facts) -> Choice:
     """The format of the first decisive reason that holds, else of the first that holds, and all reasons for it."""
     holding = [(each, words) for each in _REASONS if (words := each.words(facts))]
+    # `min` keeps the first of equals, so the order of the table is the order of reasons.
     first = min(holding, key=lambda one: not one[0].decisive)[0]
     return Choice(first.format, tuple(words for each, words in holding if each.format is first.format))
 
@@ -62,6 +63,7 @@ def _has_no_sdf(facts: Facts) -> str:
 
 
 def _refusal(form: Form) -> str:
+    # That several models are in a file is a reason of its own, and no fault of the model.
     errors = [each for each in form.errors if each.rule is not MODEL_NOT_CHOSEN]
     return f"it cannot be written as {form.format.upper()}: {errors[0].message}" if errors else ""
 

@@ -87,6 +87,8 @@ def own_form(loaded: LoadResult, document: Document) -> Form:
 
 def converted_form(source: Input, name: str, to: Format, load_options: LoadOptions, model: str | None = None) -> Form:
     """The model converted into a format; `model` is the one of several."""
+    # The file is converted and its losses are counted, instead of judging it by its kind: a world,
+    # a <plugin> or a frame may be lost or not.
     request = ConversionRequest(to=_LANGUAGES[to], model=model, comments=False)
     try:
         made = run_conversion(request, source, load_options, name=name)

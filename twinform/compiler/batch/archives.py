@@ -127,6 +127,8 @@ class _Room:
         try:
             self._make_folder(path.parent)
             self._count_file()
+            # As tar has it, the last file of a name counts; unlinked first, since "xb" refuses what
+            # is there and never writes through a link.
             path.unlink(missing_ok=True)
             with path.open("xb") as file:
                 while piece := member.content.read(_PIECE):
@@ -161,6 +163,7 @@ class _Room:
 
 def _place(name: str) -> PurePosixPath:
     path = PurePosixPath(name)
+    # A backslash separates folders on Windows, and `C:` or `name:stream` mean other places there.
     strange = "\\" in name or "\0" in name or ":" in path.parts[0] if path.parts else True
     if strange or path.is_absolute() or ".." in path.parts:
         raise BrokenArchiveError(f"the name {name[:_LONGEST]!r} in it leads out of it, or is none everywhere")

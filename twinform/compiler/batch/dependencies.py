@@ -172,6 +172,7 @@ def _noted(path: str, kind: Kind, before: os.stat_result | None) -> Dependency |
     now = status(path)
     if before is None or now is None:
         return Dependency(path, Kind.ABSENT) if before is now else None
+    # The file has changed between being read and now: what was read may be any mixture of both.
     if _marks(before) != _marks(now):
         return None
     usual = stat.S_ISREG if kind is Kind.READ else stat.S_ISDIR

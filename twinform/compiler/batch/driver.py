@@ -122,6 +122,8 @@ def _results(
     for entry in entries:
         if missing := _missing(entry, asked, recorder.request):
             yield Result(missing, known=False)
+        # Known results are passed on before any work begins, so that a run with nothing to do
+        # starts no worker.
         elif known := plan.known(entry, names[entry.name]):
             yield recorder.note(known)
         else:
@@ -185,6 +187,8 @@ def _task(entry: Entry, asked: Batch, output: str, plan: Plan, recorder: Recorde
 
 
 def _done(result: Done | Failure) -> Done:
+    # A worker that crashed or ran late tells nothing about what it read, so nothing is remembered
+    # and the model is done again.
     if isinstance(result, Failure):
         return Done(outcome=Outcome.LATE if result.late else Outcome.CRASHED, message=result.cause, dependencies=None)
     return result

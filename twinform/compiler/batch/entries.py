@@ -66,6 +66,7 @@ def of_folder(source: Path, patterns: Sequence[str] = PATTERNS, results: Path | 
     found: list[str] = []
     for place, folders, files in os.walk(source):
         here = Path(place)
+        # In place, as os.walk asks for: it descends into what is left in this list.
         folders[:] = [name for name in folders if not name.startswith(".") and (here / name).resolve() != left_out]
         inside = PurePosixPath(here.relative_to(source).as_posix())
         found += [str(inside / name) for name in files if any((inside / name).match(each) for each in patterns)]
@@ -78,6 +79,7 @@ def of_names(source: Path, text: bytes) -> list[Entry]:
     Raises:
         FolderError: one is not in the folder.
     """
+    # As `find -print0` and `git ls-files -z` write them: a name may contain a line break.
     names = text.split(b"\0") if b"\0" in text else text.splitlines()
     paths = {_inside(source, os.fsdecode(name)) for name in names if name.strip()}
     return [Entry(name, name) for name in sorted(paths)]
@@ -151,6 +153,8 @@ def _is_relative(path: str) -> bool:
 def _rows(table: Path) -> Iterator[tuple[str, dict[str, str]]]:
     """Each row with its place; cells that are empty are left out."""
     try:
+        # Excel begins a CSV file with a byte order mark, which would be part of the first column's
+        # name.
         text = Readable.of(table).read(table).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise FolderError(f"{table} is not in UTF-8") from error

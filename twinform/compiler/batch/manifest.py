@@ -59,6 +59,8 @@ class Manifest:
         with locked(self.folder, self._shard):
             try:
                 self._read()
+                # Appending a line is atomic enough and fast; rewriting the file for each model
+                # would take quadratic time.
                 if not self._shard and self._count > _TIDY * len(self._lines):
                     self._tidy()
                 self._log = self._own.open("ab")
@@ -142,6 +144,7 @@ class Manifest:
         self._log.write(record_line(record))
         self._log.flush()
         if self._journal is not None and self._journal.tell():
+            # The record is on the disk, so the announcement has done its work.
             self._journal.truncate(0)
             self._journal.seek(0)
 

@@ -55,6 +55,7 @@ def expand(
     sink = _sink(loaded, load_options)
     reader = _Reader(load_options, sink, carriers)
     whole = reader.expanded(document, Path(loaded.path), (), wanted)
+    # Each file may be within the limits and the sum of them not.
     excess = excess_of_names(len(whole.document.namespaces), whole.size)
     if excess is not None:
         sink.report(rules.TOO_MANY_INCLUDES, excess.message, document.location)
@@ -154,11 +155,16 @@ class _Reader:
         except UriError as error:
             self.sink.report(error.rule, error.message, include.location.at("uri"), found=include.uri, help=error.help)
             return None
+        # An include may name the SDF file itself instead of the folder of its model.
         if not path.is_dir():
             return path
         config = manifest(path)
         if config is not None:
             self.load_options.search.seen.add(config)
+            # A model.config may list a file for each version of SDF, and libsdformat takes the
+            # newest that it can read, whatever the file with the include declares. So one world has
+            # another model in Fortress than in Harmonic; we take what the reader of the result
+            # takes.
             return model_file(config, newest_read(document, self.load_options), self.sink)
         usual = path / "model.sdf"
         rule = rules.MISSING_MODEL_CONFIG if usual.is_file() else rules.BROKEN_MODEL_CONFIG
@@ -173,6 +179,7 @@ class _Reader:
             message = f"{include.uri!r} is {str(path)!r}, which is no file"
             self.sink.report(rules.UNRESOLVED_URI, message, include.location.at("uri"), found=include.uri)
             return None
+        # By real paths, since a symbolic link would hide the circle.
         if real in above:
             names = " includes ".join(repr(each.name) for each in (*above[above.index(real) :], real))
             self.sink.report(rules.INCLUDE_CYCLE, names, include.location.at("uri"), found=include.uri)

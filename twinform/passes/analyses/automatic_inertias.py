@@ -47,6 +47,8 @@ def automatic(
         NoInertiaError: there is no collision, or one of a shape without an inside, or of a mesh that is not found.
         FrameError: a collision is posed in a frame that is not known.
     """
+    # The order of libsdformat (Link::ResolveAutoInertials): the collision's own <density>, then
+    # that of the inertial, then 1000 kg/m^3.
     usual = own_density(inertial)
     parts = [_filled(link, one, usual, graph, meshes) for one in collisions]
     if not parts:
@@ -61,6 +63,8 @@ def written_out(inertial: Inertial, found: Solid) -> tuple[Inertial, list[Opaque
     With it, as pieces of SDF, that it was automatic, and the pose and inertia that readers of SDF overlook; and the
     names of the fields that are computed.
     """
+    # A pose or inertia that is written beside auto="true" is ignored by readers of SDF. It travels
+    # all the same, so that the file comes back as it was.
     overlooked = to_element(inertial.copy(mass=None, opaque=()), "inertial", "sdf")
     pieces = [Opaque.unchecked(attribute=pair) for pair in overlooked.attributes]
     pieces += [Opaque.unchecked(element=child) for child in overlooked.children]

@@ -41,6 +41,7 @@ def name_once_expanded(before: Document | None, after: Document | None, name: st
     if not after or len(nameless) != 1:
         return name
     place = nameless[0].source
+    # What an include becomes keeps the include's place in the file, which no other model has.
     return next((one.full_name for one in candidates(after) if place and one.model.source is place), name)
 
 
@@ -53,6 +54,8 @@ def wanted_includes(document: Document | None, name: str | None) -> Callable[[In
     among = list(candidates(document)) if document else []
     found = [one for one in among if one.answers_to(name)]
     if name is None:
+        # With several candidates the conversion asks for a name, and must not open files for models
+        # that nobody chose.
         found = found if len(found) == 1 else []
     elif not found:
         found = [one for one in among if one.model.name is None]

@@ -46,11 +46,13 @@ def relation(gearbox: Joint, joints: Mapping[str, Joint], graph: FrameGraph) -> 
         raise UngearedError("it names no reference body")
     leader, forth = _turn(gearbox, gearbox.parent, gearbox.axis, joints, graph)
     follower, back = _turn(gearbox, gearbox.child, gearbox.axis2, joints, graph)
+    # A joint has one <mimic>, and can follow no second joint.
     if _mimic(joints[follower]):
         raise UngearedError(f"joint {follower!r} mimics another already")
     if _follows(leader, follower, joints):
         raise UngearedError(f"joint {leader!r} follows {follower!r} already")
     ratio = GEARBOX_RATIO if gearbox.gearbox_ratio is None else gearbox.gearbox_ratio
+    # Adding 0.0 turns -0.0 into 0.0, which a file would show as "-0".
     return Relation(leader, follower, -ratio * forth * back + 0.0)
 
 
@@ -66,6 +68,8 @@ def _turn(
         cosine = _cosine(turn.rotate(direction(joint.axis, Format.SDF)), direction(axis, Format.SDF))
         if abs(abs(cosine) - 1) > _PARALLEL:
             raise UngearedError(f"joint {joint.name!r} turns about another axis")
+        # A joint may be written from the reference body to the end or the other way round, about
+        # the axis or against it.
         sign = 1.0 if cosine > 0 else -1.0
         return joint.name, sign if joint.parent == reference else -sign
     raise UngearedError(f"no joint turns {body!r} at {reference!r}")

@@ -54,6 +54,8 @@ class Meshes:
         if "open" in facts:
             help = None if self.hull else "close it, or use its convex hull"
             raise MeshError(rules.OPEN_MESH, f"the mesh {mesh.uri!r} {facts['open']}", help)
+        # The numbers come back scaled by a power of two: those of very small or large meshes would
+        # leave the range of doubles on the way.
         exponent, volume = cast("int", facts["exponent"]), cast("float", facts["volume"])
         rows = [[density * entry for entry in row] for row in cast("Sequence[Sequence[float]]", facts["inertia"])]
         inertia = (rows[0][0], rows[1][1], rows[2][2], rows[0][1], rows[0][2], rows[1][2])
@@ -87,6 +89,8 @@ class Meshes:
             raise MeshError(error.rule, error.message, error.help) from error
         submesh, center = submesh_of(mesh)
         scale = list(mesh.scale) if mesh.scale else None
+        # Most readers of robots take a glTF file's axes as they stand, z up, though the format says
+        # y.
         wanted = {**options, "submesh": submesh, "center": center, "scale": scale, "gltf_up": "z"}
         key = (name, path, *map(str, wanted.values()))
         if key not in self._known:
@@ -100,6 +104,7 @@ def _vector(found: object) -> Vector3:
 
 
 def _done(name: str, path: Path, uri: str, options: Options) -> Result:
+    # A FIFO or a device under the name of a mesh would block the reader or never end.
     if not path.is_file():
         raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} is no file")
     if kind_of(path) not in READ:

@@ -87,6 +87,8 @@ def _collect(model: Model, scope: str, groups: Groups, links: dict[str, Link], *
             groups.join(_GROUND, key)
     for nested in model.models:
         _collect(nested, inside, groups, links, static=static)
+    # A model's frame moves with its canonical link, so what is attached to the frame is in the same
+    # body.
     groups.join(f"{inside}__model__", outside)
     canonical = model.canonical_link or next((part.name for part in (*model.links, *model.models)), None)
     if canonical is not None:

@@ -62,6 +62,7 @@ def sensor_of(element: Element, around: Source | None) -> Sensor:
 def sensor_cost(sensor: Sensor) -> SensorCost:
     """What a sensor costs; nothing where it has neither images nor rays."""
     rate = sensor.update_rate
+    # `not rate > 0` and not `rate <= 0`: it is true for NaN as well.
     assumed = rate is None or not rate > 0 or not math.isfinite(rate)
     pixels = sum(width * height for width, height in images(sensor))
     return SensorCost(ALWAYS if assumed or rate is None else rate, pixels, _rays(sensor), assumed)

@@ -33,6 +33,8 @@ class RosNames:
         # As in ROS, an absolute name discards everything before it, the namespace included.
         last = next((at for at in reversed(range(len(pieces))) if pieces[at].startswith("/")), None)
         name = "/".join(pieces) if last is None else "/".join(pieces[last:])
+        # The name that the topic had in ROS becomes the topic of gz-transport, so the bridge joins
+        # equal names and the programs of ROS need no change.
         return self._remapped(name if last is not None else f"{self.namespace}/{name}")
 
     @property

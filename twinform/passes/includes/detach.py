@@ -37,6 +37,8 @@ class _Detached:
         frames = tuple(self._frame(frame) for frame in world.frames)
         joints = tuple(self._joint(joint) for joint in world.joints)
         rest = world.copy(frames=frames, joints=joints, models=())
+        # Only where the model itself stands: poses in it name its own frames, which go with it into
+        # its file.
         models = tuple(model.copy(pose=self._own(model.pose)) for model in world.models)
         return rewrite(rest, Pose, self._pose).copy(models=models)
 
@@ -61,6 +63,8 @@ class _Detached:
         base = self._base_for(frame.attached_to)
         if base is None or frame.attached_to is None:
             return frame
+        # Links keep their names in URDF, frames of the model may not; so frames and joints of the
+        # world hold on to links.
         body = self.graph.body(frame.attached_to)
         placed = self._relative(frame.pose, frame.attached_to, base)
         return frame.copy(attached_to=body, pose=placed)

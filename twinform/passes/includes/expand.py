@@ -50,8 +50,12 @@ def expand_includes(document: Document, resolve: Resolver, sink: DiagnosticSink,
     lacks is carried, or dropped without `carriers`.
     """
     found = [resolve(include) for include in _includes(document)]
+    # The newest version wins where files meet: to lower a file would carry away what its author
+    # wrote, and to raise one only rewrites it.
     version = newest(document.version, *(each.document.version for each in found if each), *_needs(document))
     document = upgrade_document(document, version, sink, carriers=carriers)
+    # By identity, since two equal includes in different folders may name different files. Upgrading
+    # makes new nodes, so the pairs are made after it.
     by_identity = {id(include): each for include, each in zip(_includes(document), found, strict=True)}
     document = _Expansion(by_identity, version, sink, carriers).document(document)
     namespaces = joined(document.namespaces, (each.document.namespaces for each in found if each))
@@ -134,6 +138,8 @@ class _Expansion:
         done = self.ready.get(id(source))
         if done is None:
             done = upgrade_document(source.document, self.version, self.sink, carriers=self.carriers)
+            # libsdformat leaves a relative path alone and finds the file by the place of the file
+            # that it was read from; a text has no such memory.
             done = relocate(done, source.folder)
             self.ready[id(source)] = done
         return done

@@ -45,6 +45,7 @@ def _merged(holder: Holder, include: Include, model: Model, around: str, sink: D
         "models": tuple(map(into.posed, model.models)),
         "includes": tuple(map(into.posed, model.includes)),
         "plugins": model.plugins,
+        # Attributes of the included model are its settings, and there is no such model any more.
         "opaque": tuple(part for part in model.opaque if part.element),
     }
     return holder.copy(**{name: (*getattr(holder, name), *parts) for name, parts in contents.items() if parts})
@@ -63,6 +64,8 @@ def _proxy(model: Model, around: str, sink: DiagnosticSink) -> Frame | None:
         return None
     base = model.pose.relative_to if model.pose and model.pose.relative_to else around
     attached = None if body == MODEL else body
+    # The name is that of libsdformat (Utils.cc, computeMergedModelProxyFrameName), so that a file
+    # that names this frame still finds it.
     return Frame(
         name=f"_merged__{model.name}__model__", attached_to=attached, pose=placed.to_pose(base), source=model.source
     )

@@ -21,6 +21,7 @@ def placed_model(include: Include, model: Model, sink: DiagnosticSink, frame: Tr
     `frame` is the frame of the model in the one that the include places.
     """
     placement = include.placement_frame or model.placement_frame
+    # libsdformat refuses it: <pose> is required with <placement_frame>.
     if include.placement_frame is not None and include.pose is None:
         message = f"the include of {include.uri!r} has a placement_frame and no pose"
         sink.report(rules.PLACEMENT_WITHOUT_POSE, message, include.location, found=include.placement_frame)
@@ -46,6 +47,8 @@ def frame_of_sdf(robot: Model) -> Transform:
 
 def _pose(include: Include, frame: Transform) -> Pose | None:
     """Where the model's frame is; a frame that the include places by name is at that place."""
+    # libsdformat places the root link of an included URDF, whatever frame the model had in the SDF
+    # that it was converted from. To read it otherwise would be another world than Gazebo's.
     if include.pose is None or include.placement_frame is not None or frame.is_identity:
         return include.pose
     return Transform.from_pose(include.pose).compose(frame).to_pose(include.pose.relative_to)

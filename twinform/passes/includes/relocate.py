@@ -23,5 +23,7 @@ def relocated(path: str | None, folder: str) -> str | None:
     """One path; what is absolute, a URI or empty stays."""
     if not path or not path.strip() or _ABSOLUTE.match(path.strip()) or folder in _HERE:
         return path
+    # `model://arm` and `meshes/a.dae` are `model://arm/meshes/a.dae`; without taking the scheme
+    # apart, normpath would make one slash of two.
     scheme, separator, rest = folder.rpartition("://")
     return f"{scheme}{separator}{normpath(f'{rest}/{path.strip()}')}"

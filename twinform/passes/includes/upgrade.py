@@ -21,6 +21,7 @@ def upgrade_document(document: Document, version: str | None, sink: DiagnosticSi
     own = DiagnosticSink(document.location.file or sink.file, sink.strict, origins=sink.origins)
     for step in raise_for_merging(document.version, version, carriers=carriers):
         document = step.run(document, own)
+    # A file that is included a hundred times is reported once.
     sink.extend_new(own.diagnostics)
     sink.entries.extend(own.entries)
     return document

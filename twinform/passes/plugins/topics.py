@@ -223,6 +223,9 @@ def _named_for_cloud(made: str, name: str, kind: SensorKind) -> str:
 
     gz has the scan or image under that name and the cloud on `points` below it.
     """
+    # Plugins of Gazebo Classic for clouds published one topic, and what it was meant for stands
+    # only in its name after the migration. An annotation would overrule the next edit of the topic,
+    # or be overruled by it.
     if _CLOUD.search(name.rpartition("/")[2]) and any(each.pattern in _CLOUD_TOPICS for each in kind.publishes):
         made = {name: f"{name}/{kind.suffix}", f"{name}/points": name}.get(made, made)
     return made.lstrip("/")

@@ -72,6 +72,9 @@ class ElementPoses:
             child if child.name == "pose" or child.name[0] == "{" else self._move(child, holder, moves=False)
             for child in element.children
         )
+        # A pose may stand at any depth of an element that has no class (a camera in a sensor, an
+        # emitter in a link). Only the outermost is in the frame of the link; each further one is in
+        # that of the element around it.
         pose, annotation = element.find("pose"), element.find(POSE_ANNOTATION)
         if annotation is not None:
             return self._as_annotated(element, children, annotation, holder, pose, moves=moves)
@@ -123,6 +126,8 @@ class ElementPoses:
 def link_elements(part: str) -> frozenset[str]:
     """The elements of a link without a typed form that may have such a part: a `pose`, or a `@name`."""
     facts = table("sdf")
+    # Read off the facts tables, so that a new element of a link is moved along without anybody
+    # having to think of it.
     rows = [row for row in facts.definitions["link"].children if row.place is None]
     return frozenset(row.name for row in rows if any(inner.name == part for inner in facts.resolve(row).rows))
 
@@ -149,6 +154,7 @@ def _is_annotated(element: Element) -> bool:
 
 def read_pose(element: Element) -> Pose:
     """The pose that an element defines; SDF before 1.7 calls its frame `frame`."""
+    # The findings are thrown away: this element was checked when the file was read.
     context = Context(DiagnosticSink(), "", "sdf", table("sdf").newest)
     pose = Pose.model_validate(reader("sdf", context.version).read(element_xml(element), context, "pose"))
     return pose.copy(relative_to=_frame_of(element), opaque=())

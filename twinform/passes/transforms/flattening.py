@@ -19,11 +19,14 @@ def flatten(model: Model, keep: Callable[[Frame, Model], Frame]) -> Model:
     """
     graph = FrameGraph(model)
     links, joints, frames = list(model.links), list(model.joints), list(model.frames)
+    # A stack, not recursion: models may be nested as deeply as the reader allows.
     stack = [(nested, _Scope("")) for nested in reversed(model.models)]
     while stack:
         nested, around = stack.pop()
         scope = _Scope(f"{around.prefix}{nested.name}::")
         emptied = {"links": (), "joints": (), "frames": (), "models": ()}
+        # A frame for each nested model: what is posed in the model's own frame needs one, and the
+        # conversion back makes the model of it again.
         frames.append(keep(_own_frame(nested, around, scope, graph), nested.copy(**emptied)))
         links.extend(scope.link(link) for link in nested.links)
         joints.extend(scope.joint(joint) for joint in nested.joints)
@@ -72,5 +75,7 @@ def _own_frame(model: Model, around: _Scope, scope: _Scope, graph: FrameGraph) -
     pose = (model.pose or Pose()).copy(relative_to=base)
     if model.placement_frame:
         pose = graph.pose(name, base, kind="model", base="joint").to_pose(base)
+    # SDF attaches a model's frame to its canonical link. A model without links, or one that only
+    # holds includes which were not read, has none.
     attached = body if graph.knows(body) and body not in (name, MODEL) else around.frame_name
     return annotate_synthesized(Frame(name=name, attached_to=attached, pose=pose, source=model.source))

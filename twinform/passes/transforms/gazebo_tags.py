@@ -20,6 +20,7 @@ class Tag(NamedTuple):
 
 def value_text(element: Element) -> str:
     """The value of a tag, which may be written as an attribute or as text."""
+    # As libsdformat (GetKeyValueAsString): the attribute counts before the text.
     value = element.get("value")
     return (value if value is not None else element.text or "").strip()
 
@@ -36,6 +37,8 @@ def _count(text: str) -> object:
     return parse_value("int", text)
 
 
+# Of flags in <gazebo>, libsdformat takes these for true and all other texts for false. Booleans of
+# SDF itself are `true` and `1`.
 TRUE = frozenset({"true", "yes", "1"})
 FALSE = frozenset({"false", "no", "0"})
 
@@ -46,6 +49,8 @@ def _truth(text: str) -> bool:
 
 def _gravity(text: str) -> bool:
     """turnGravityOff: only these values leave gravity on."""
+    # The tag is the opposite of the element: `turnGravityOff` true is <gravity> false. libsdformat
+    # compares with the words for false here, so any other text turns gravity off.
     return text.lower() in FALSE
 
 
@@ -100,5 +105,6 @@ def flag_tags(link: Link) -> Iterator[Element]:
             yield Element.unchecked(name=tag, text="true" if value is same else "false")
 
 
+# libsdformat writes this URI beside the name, whatever the material is called.
 SCRIPT_URI = "file://media/materials/scripts/gazebo.material"
 """Where Gazebo Classic keeps the materials that `<material>` names."""

@@ -30,6 +30,8 @@ def resolve_ends(joint: Joint, links: Container[str], graph: FrameGraph) -> tupl
         if body != name:
             changed[end] = body
             pieces.append(text_piece(end, name))
+    # A joint without a frame is posed in its child. The child changes to the link below the frame,
+    # and the place must not.
     if "child" in changed and not (joint.pose and joint.pose.relative_to):
         changed["pose"] = (joint.pose or Pose()).copy(relative_to=joint.child)
     return (joint.copy(**changed) if changed else joint), pieces

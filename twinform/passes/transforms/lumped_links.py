@@ -24,6 +24,7 @@ def lumped_links(model: Model) -> dict[str, str]:
     for link in model.links:
         way = {link.name: None}
         last = link.name
+        # Hosts that are known are not walked again, so a chain of fixed links takes linear time.
         while last in above and last not in hosts:
             last = above[last].parent or ""
             if last in way:  # a circle, which Gazebo refuses

@@ -47,6 +47,8 @@ def as_annotated(transform: Transform, annotation: Element | None, relative_to: 
     elif degrees == "true":
         roll, pitch, yaw = transform.rpy()
         update["rpy"] = (math.degrees(roll), math.degrees(pitch), math.degrees(yaw))
+    # A pose in SDF is one text of six or seven numbers; with a rotation in another notation it
+    # cannot leave the zeros out.
     return plain.copy(**{**update, "xyz": plain.xyz or (0.0, 0.0, 0.0), "relative_to": relative_to})
 
 
@@ -81,6 +83,8 @@ def _vector(text: str | None) -> Vector3:
     if text is None:
         return (0.0, 0.0, 0.0)
     x, y, z = map(float, text.split())
+    # The annotation stands in a file that somebody may have edited, or written to do harm: `nan`
+    # would spread to every pose of the link.
     if not all(map(math.isfinite, (x, y, z))):
         raise ValueError(f"{text!r} is not three numbers")
     return (x, y, z)

@@ -40,6 +40,8 @@ class Rebasing:
 
     def link(self, link: Link) -> Link:
         """The link with all that is in it; its own pose is somebody else's."""
+        # Most frames of links are on their joints already, and then nothing in the link has to be
+        # looked at.
         still = self.graph.pose(link.name, self.base[0], base=self.base[1]).is_identity
         update: dict[str, object] = {
             "inertial": link.inertial and self._move(link.inertial, "inertial", still=still),

@@ -18,6 +18,9 @@ def with_static_models_fixed(model: Model) -> Model:
     Raises:
         FrameError: an end of a joint is not known, or frames go round in a circle.
     """
+    # gz-sim hands <static> down: links of models in a static model are held whatever these say
+    # themselves (SdfEntityCreator.cc, CreateEntities: `_model->Static() || _staticParent`). Drake
+    # holds those of the nested model and leaves models in it free.
     roots = [] if model.static else [*_static_roots(model, "")]
     if not roots:
         return model
@@ -28,6 +31,8 @@ def with_static_models_fixed(model: Model) -> Model:
         taken.add(name)
         weld = Joint(name=name, type="fixed", parent=WORLD, child=root, source=nested.source)
         welds.append(annotate_synthesized(weld))
+    # Joints between the links stay, as in a model that is static as a whole: URDF is a tree, and
+    # they place the links.
     return model.copy(joints=(*welds, *model.joints))
 
 

@@ -24,6 +24,8 @@ def model_uri(uri: str) -> tuple[str, bool]:
 
 def with_scheme(uri: str, scheme: str, instead_of: str) -> str:
     """The URI with a scheme in the place of another, if it has that one."""
+    # Gazebo looks `model://` up in its resource path and ROS `package://` in its own; both name a
+    # folder and a path in it, so the text behind the scheme stays.
     old = f"{instead_of}://"
     return f"{scheme}://{uri[len(old) :]}" if uri.startswith(old) else uri
 

@@ -59,6 +59,7 @@ def map_uris(node: AnyNode, change: Change) -> AnyNode:
 
 
 def _with_uris(change: Change, node: Node) -> Node:
+    # A parameter of a plugin may be called <uri> and mean a server or a topic.
     if isinstance(node, Plugin):
         return node
     update: dict[str, object] = {}
