@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+# Regular expressions and no compiler: the C++ asks for elements in a dozen ways, all of them visible in
+# the text, and a compiler would need Gazebo's dependencies.
 _TOKEN = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|//[^\n]*|/\*.*?\*/', re.DOTALL)
 _JOINED = re.compile(r'"\s*"')
 _OPENING, _CLOSING = "([{", ")]}"

@@ -10,6 +10,9 @@ from twinform.passes.plugins.catalog import sensors, systems
 from twinform.passes.plugins.parts import Alternative, Channel, Parameter, PluginKind, SensorKind
 from twinform.passes.plugins.topic_patterns import without_parentheses
 
+# Names are compared wherever they stand in a plugin: the path of an element goes through variables in
+# the C++. A difference needs a reason in known.toml, and a reason for what no release has any more is
+# an error too.
 _AS_READ = {"topic": "text", "joint": "text", "link": "text", "collision": "text"}
 """The kind of value that a type of the catalog is read as, where it has another name."""
 _ZEROS = {"bool": {"false"}, "number": {"0"}, "integer": {"0"}, "vector": {"0 0 0"}}

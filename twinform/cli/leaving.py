@@ -1,7 +1,7 @@
 """The program `twinform`: the command line in a process of its own, which it leaves without taking Python down.
 
 Python frees all modules, classes and schemas one by one when it ends, which takes a quarter of a short run. What counts
-at the end is done here, and the rest is left to the system; docs/explanation/decisions.md says what counts.
+at the end is done here, and the rest is left to the system.
 """
 
 import atexit

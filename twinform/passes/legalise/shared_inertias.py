@@ -63,6 +63,8 @@ def is_refused(matrix: Symmetric | None) -> bool:
     """Whether libsdformat refuses an inertia, or may."""
     if matrix is None or not any(matrix) or not all(map(math.isfinite, matrix)) or is_plain(matrix):
         return False
+    # Within the rounding of the file's own digits, an inertia on the boundary (a thin rod, a flat
+    # plate) is possible.
     return min(clearances(matrix)) < -max(_ROUNDING, doubt(matrix))
 
 
@@ -73,6 +75,10 @@ def _of_body(members: Sequence[Link], needy: AbstractSet[str], graph: FrameGraph
         return {}
     places = {name: graph.pose(name, members[0].name) for name in own}
     solids = {name: placed(one, places[name]) for name, one in own.items()}
+    # The way that keeps all centers of mass comes first. hyq's root of 1e-6 kg has 1e-6 in all nine
+    # elements, which Gazebo takes in URDF, where it lumps the body, and refuses in SDF. The nearest
+    # possible inertia alone would make another robot, by some digits; lumping the links, another
+    # tree.
     found = _with_givers(solids, needy)
     if found:
         return {name: replace(own[name], inertia=turned(each, places[name].inverse())) for name, each in found.items()}
@@ -91,6 +97,8 @@ def _with_givers(solids: Mapping[str, Solid], needy: AbstractSet[str]) -> dict[s
     for name in [name for name in inertias if name in needy]:
         made = nearest_possible(inertias[name], _MARGIN * abs(sum(inertias[name][:3])))
         change = _minus(made, inertias[name])
+        # The largest giver, for which the change is the smallest part; by name between equals, so
+        # that results do not depend on hashing.
         others = sorted(inertias.keys() - {name}, key=lambda each: (-sum(inertias[each][:3]), each))
         rest = ((other, _minus(inertias[other], change)) for other in others if is_clearly_possible(inertias[other]))
         giver = next(((other, left) for other, left in rest if is_clearly_possible(left)), None)
@@ -109,6 +117,8 @@ def _minus(one: Symmetric, other: Symmetric) -> Symmetric:
 def _together(solids: Mapping[str, Solid], needy: AbstractSet[str]) -> dict[str, Solid]:
     """Impossible links, and as many others, heavy ones first, as it takes: each is its part of what they all are."""
     group = {name: one for name, one in solids.items() if name in needy}
+    # Possible wherever the body is, since each is a scaled copy of the whole; but it moves centers
+    # of mass. Needed for two hands of a robot whose moments all lie apart.
     whole = combined([*group.values()])
     for name in sorted(solids.keys() - needy, key=lambda each: (-solids[each].mass, each)):
         if whole.mass and is_clearly_possible(whole.inertia):

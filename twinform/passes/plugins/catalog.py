@@ -99,6 +99,8 @@ def release(name: str) -> Release:
         raise UnknownNameError("release of Gazebo", name, list(releases())) from None
 
 
+# The tables are from the sources, since comments and tutorials of gz-sim are wrong too often. `make
+# report NAME=systems` holds them against checkouts.
 @cache
 def systems() -> dict[str, PluginKind]:
     """The systems of gz-sim by their name here, such as `diff-drive`."""

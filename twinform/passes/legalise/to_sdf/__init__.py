@@ -80,6 +80,8 @@ def to_sdf(
         DropStale.unchecked(to=Format.SDF),
         DeclareQuaternions.unchecked(),
         RoundTinyNumbers.unchecked(),  # when no more is computed
+        # A robot whose SDF had syntax of newer versions goes back to such a file: only what means
+        # something else in its version is rewritten.
         *(lower_meaning(version) if mixed else lower_version(None, version, carriers=carriers)),
         *([RestoreNames.unchecked(to=Format.SDF, apart=True)] if before_named_frames else []),
         *([HideScopedElements.unchecked(carriers=carriers)] if parse_version(version) >= _NAMES_MEAN_MODELS else []),

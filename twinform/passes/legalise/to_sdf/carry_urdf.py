@@ -52,6 +52,7 @@ class CarryUrdf(ModelPass):
         """The model without opaque parts of URDF."""
         joints = frozenset(joint.name for joint in model.joints)
         back = came_from(model, Format.SDF)
+        # Only nodes with something to sweep are rewritten; in a plain robot that is none.
         having = OPAQUE | (bits_of(Joint) if any(joint.type in BALLS for joint in model.joints) else 0)
         swept = rewrite(model, Node, lambda node: self._sweep(node, sink, back), having=having)
         return swept.copy(opaque=tuple(_with_doubt(part, joints) for part in swept.opaque))
@@ -61,6 +62,8 @@ class CarryUrdf(ModelPass):
             return node
         if isinstance(node, Joint) and node.type in BALLS:
             message = f"{node.type} joint {node.name!r} has a type that only dialects of URDF have"
+            # Bullet's `spherical` and Drake's `ball` are ball joints of SDF. The name of the type
+            # travels along, so the conversion back makes no chain of it.
             kept = [Opaque.unchecked(attribute=("type", node.type))]
             ball = self._swept(node.copy(type="ball"), sink, back)
             return self._carry(ball, kept, sink, message)
@@ -118,6 +121,8 @@ def _with_doubt(part: Opaque, joints: Container[str]) -> Opaque:
 def _unpacked(part: Opaque) -> tuple[Opaque, ...]:
     """What is in a carrier of SDF, if the model does not say it already in elements of its own; else the carrier."""
     pieces = unpack(part) if is_carrier(part, "sdf") and part.element and part.element.get("index") is None else ()
+    # A carrier whose element the model may have by now in a field waits for `unpack-sdf`: nothing
+    # may be stated twice.
     fit = all(piece.element and not piece.at and piece.element.name not in _typed_in_sdf() for piece in pieces)
     return pieces if pieces and fit else (part,)
 

@@ -79,11 +79,13 @@ def find_chain(last: Joint, kind: str, around: Neighbors) -> Chain:
     chain = _walk(last, known, around)
     _check_links(chain, around)
     for joint in (*chain.above[1:], last):
+        # An offset inside of the chain moves its axes apart: then it is three joints, and no ball.
         if not Transform.from_pose(joint.pose).is_identity:
             raise StaleChainError(f"joint {joint.name!r} is not at the place of the others")
     for joint in chain.above:
         if joint.sensors or not all(is_ours(part) or is_of_axis(part.at) for part in joint.opaque):
             raise StaleChainError(f"joint {joint.name!r} has more than an axis")
+        # In SDF a mimic names an axis of a joint. Of a ball or screw it would have none.
         if known not in TWO_AXES and joint.name in around.leaders:
             raise StaleChainError(f"a joint mimics {joint.name!r}")
     _check_limits(chain)
@@ -110,6 +112,7 @@ def _check_links(chain: Chain, around: Neighbors) -> None:
     inside = {joint.name for joint in (*chain.above, chain.last)}
     for link in chain.between:
         written = link.inertial
+        # A link with a mass would lose it, or change the mass matrix of the robot.
         weighs = written is not None and not is_token(written) and not is_chain_token(written)
         if weighs or any(getattr(link, field) for field in _NO_BODY):
             raise StaleChainError(f"link {link.name!r} has a body")
@@ -138,8 +141,10 @@ def _check_ball(chain: Chain) -> None:
     joints = (*chain.above, chain.last)
     for joint, xyz in zip(joints, BALL_AXES, strict=True):
         axis = joint.axis or Axis()
+        # A limited axis of the three is a limit that a ball joint cannot have.
         if axis.xyz != xyz or axis.mimic or joint.type != "continuous":
             raise StaleChainError(f"joint {joint.name!r} does not turn freely about {xyz}")
+    # A ball joint has one damping for all directions.
     if len({_damping(joint) for joint in joints}) != 1:
         raise StaleChainError("its joints differ in damping")
 
@@ -218,6 +223,8 @@ def _screw(joint: Joint, chain: Chain) -> Joint:
     ratio = multiplier(mimic)
     joint = _unpacked(joint.copy(axis=_in_sdf(chain.last)), PITCHES)
     written = metres_per_radian(joint)
+    # The pitch as it was written, in its own element and unit, unless the ratio of the chain was
+    # edited.
     if written is not None and math.isclose(written, ratio, rel_tol=_CLOSE):
         return joint
     return joint.copy(screw_thread_pitch=ratio * math.tau, thread_pitch=None)

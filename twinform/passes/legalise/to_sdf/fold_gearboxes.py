@@ -34,6 +34,8 @@ class FoldGearboxes(ModelPass):
             return model
         graph = FrameGraph(model)
         bare = {joint.name: _without_mimic(joint) for joint in annotated}
+        # Without their mimics, as the joints stood when the gearbox was converted: a joint that
+        # mimics cannot be geared.
         joints = {joint.name: bare.get(joint.name, joint) for joint in model.joints if joint.type != "gearbox"}
         gears = [joint for joint in model.joints if joint.type == "gearbox"]
         coupled: dict[str, Mimic] = {}

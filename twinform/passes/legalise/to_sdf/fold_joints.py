@@ -71,6 +71,8 @@ def _chains(model: Model, sink: DiagnosticSink) -> Iterator[tuple[Chain, Joint]]
 def _report_names(chain: Chain, sink: DiagnosticSink) -> None:
     """Report the parts that somebody has given a name: synthesized ones begin with that of their joint."""
     for part in (*chain.above, *chain.between):
+        # A name that somebody gave to a part is one that controllers and plugins of the URDF may
+        # know, and the one joint has no place for it.
         if not part.name.startswith(chain.last.name):
             message = f"{part.name!r} is a part of the {chain.kind} joint {chain.last.name!r}, and has no name in SDF"
             sink.report(rules.STALE_CARRIER, message, part.location, found=part.name)

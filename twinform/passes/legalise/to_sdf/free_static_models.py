@@ -47,6 +47,8 @@ def _free_models(model: Model, static: AbstractSet[str]) -> AbstractSet[str]:
     for link, scoped in names.items():
         joint = above.get(link)
         if joint is None or joint.type != "fixed" or joint.parent != WORLD:
+            # A joint between two links of one model is its own affair, so only the models that the
+            # parent is not in are let go.
             free |= (scopes_in(scoped) & static) - scopes_in(names.get((joint and joint.parent) or "", ""))
     return free
 

@@ -66,6 +66,8 @@ def _leave(link: Link, graph: FrameGraph, meshes: Meshes, sink: DiagnosticSink) 
         found = automatic(link, left, link.collisions, graph, meshes)
     except (CarrierError, NoInertiaError, FrameError) as error:
         return _stale(link, inertial, str(error), sink)
+    # Numbers and shapes can both be edited in URDF. The inertia is automatic again only where the
+    # shapes still give the numbers; otherwise the numbers count.
     if not _is_the_same(found, inertial):
         return _stale(link, inertial, "its numbers or its collisions were edited", sink)
     return link.copy(inertial=left)

@@ -85,5 +85,7 @@ def _free(base: str, taken: set[str], seen: set[str], numbers: Mapping[str, "cou
     """The base, or the base with the next number that gives a new name; numbers that were tried are not tried again."""
     name = base
     while name in taken or name in seen:
+        # A counter for each base: starting at 1 every time takes quadratic time with thousands of
+        # unnamed shapes in a link.
         name = f"{base}_{next(numbers[base])}"
     return name

@@ -31,6 +31,9 @@ class NoteLumping(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The same model."""
+        # No author means either: a flag of one link that works on all that is fixed to it, or a tag
+        # that misses a shape for its name. So our SDF has what is written, and this pass says where
+        # Gazebo reads the URDF in another way.
         if model.extensions and not came_from(model, Format.SDF):
             _report_flags(model, sink)
             for field in KINDS:
@@ -59,6 +62,7 @@ def _report_flags(model: Model, sink: DiagnosticSink) -> None:
             others = [names[0] for value, names in alike[hosts.get(name, ""), flag].items() if value != mine]
             if others and mine is not None:
                 other = min(others, key=massless.__contains__)
+                # A massless root such as base_footprint has nothing that gravity could act on.
                 severity = Severity.INFO if other in massless else Severity.WARNING
                 message = (
                     f"<{element.name}> is about link {name!r} alone in SDF; where Gazebo reads the URDF, "

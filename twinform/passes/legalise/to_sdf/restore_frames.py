@@ -32,6 +32,7 @@ from twinform.passes.transforms.rebasing import AnyPosed, Base, Posed, Rebasing
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 _AXES = ("axis", "axis2")
+# A NUL byte, since no name in XML can contain one.
 _BASE = "\0"
 """Behind the name of a link it calls the frame that the link had in SDF; alone, the frame that the model had."""
 
@@ -58,6 +59,8 @@ class RestoreFrames(ModelPass):
         model = _without_made_root(model)
         try:
             made = _Restoring(model, sink, old_words=self.old_words).run()
+            # Each annotation names a frame that was there; after an edit two of them may name each
+            # other. Then the usual frames are taken for all.
             if next(FrameGraph(made).problems(), None) is None:
                 return made
             message = f"the frames in which poses of {model.name!r} were written go round in a circle by now"
@@ -172,6 +175,8 @@ class _Restoring:
         pose = self._own_pose(link, "link", usual, graph)
         if usual != MODEL and not (pose and pose.relative_to):  # until it stands in that model, if it is in one
             pose = (pose or Pose()).copy(relative_to=usual)
+        # An automatic inertia is in the link's own frame whatever that is; its pose has no meaning
+        # to move.
         inertial = link.inertial if link.inertial and link.inertial.auto else inside.inertial
         return without_annotation(inside.copy(pose=pose, inertial=inertial), OFFSET, POSE)
 
@@ -209,6 +214,8 @@ class _Restoring:
             name, link = found.get(end) if found else None, getattr(joint, end)
             if name is None:
                 continue
+            # If the frame moves with another link by now, the edit of either of them counts, and
+            # the joint stays on the link.
             if graph.knows(name) and graph.body(name, kind="frame") == link:
                 ends[end] = name
             else:

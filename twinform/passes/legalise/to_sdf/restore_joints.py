@@ -62,6 +62,8 @@ def _continuous(joint: Joint, sink: DiagnosticSink) -> Joint:
         return joint
     joint = without_annotation(joint, CONTINUOUS)
     limit = joint.axis.limit if joint.axis and joint.axis.limit else Limit()
+    # A joint without a range is revolute in URDF's conversion, since no engine of Gazebo has
+    # `continuous`: DART makes such a joint a fixed one.
     if joint.type == "revolute" and limit.lower is None and limit.upper is None:
         return joint.copy(type="continuous")
     message = f"joint {joint.name!r} was continuous, and has another type or limits now"

@@ -54,6 +54,8 @@ def _without_hollow(model: Model, sink: DiagnosticSink) -> Model:
     for frame in model.frames:
         found = find_annotation(frame, NESTED)
         prefix = frame.name + SCOPE
+        # Names tell what is in a nested model. After an edit that renamed all its parts an empty
+        # model would be left, which SDF refuses.
         if found is None or any(name.startswith(prefix) for name in named):
             frames.append(frame)
             continue
@@ -91,11 +93,14 @@ class RestoreNested(ModelPass):
         annotated = {
             frame.name.removesuffix(_OWN): found for frame in model.frames if (found := find_annotation(frame, NESTED))
         }
+        # Before 1.8 `::` may stand in any name. Such names come back whatever became of the frames;
+        # since 1.8 they would be nested models.
         free = self.scopes and wrote_scopes(model)
         if not annotated and not free:
             return model
         try:
             _report_frames_outside(model, annotated, sink)
+            # The findings of nesting are about a change of version; here it only restores what was.
             nested = nest(model, DiagnosticSink(), None if free else frozenset(annotated))
             models = tuple(_with_rest(inner, inner.name, annotated, sink) for inner in nested.models)
             return _tidy(nested.copy(models=models))

@@ -43,6 +43,8 @@ def _by_its_name(shape: Shape) -> Shape:
     found = find_annotation(shape, NAME)
     if found is None:
         return shape
+    # The annotation counts while the synthesized name still stands; a name that was edited since is
+    # the author's.
     name = found.text if found.get("instead_of") == shape.name else shape.name
     return without_annotation(shape, NAME).copy(name=name)
 

@@ -39,6 +39,7 @@ def _rounded(node: Node, sink: DiagnosticSink) -> Node:
     for name, least in _numbers(type(node)):
         value = getattr(node, name)
         if value.__class__ is float:
+            # Zero would be nearer, but a radius, a mass or an effort limit has to stay positive.
             if 0 < abs(value) < least:
                 update[name] = math.copysign(least, value)
         elif value and any(0 < abs(each) < least for each in value):

@@ -28,6 +28,8 @@ class ShareInertias(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with inertias that libsdformat takes."""
+        # Such a URDF was never refused as SDF, and an edit that made an inertia impossible stands
+        # as it is written.
         if came_from(model, Format.SDF):
             return model
         found = shared_inertias(model)

@@ -35,6 +35,8 @@ class SharedMaterials(ModelPass):
         shared = {material.name: material for material in model.materials}
         defined: dict[str, Material] = {}
         for material in (*model.materials, *materials):
+            # The first definition counts, in document order, the shared ones before those of
+            # visuals: so does urdfdom.
             if material.name and (material.color or material.texture):
                 defined.setdefault(material.name, material)
         for material in model.materials:
@@ -90,6 +92,8 @@ def _note_gazebo(materials: Iterable[Material], sink: DiagnosticSink) -> None:
     """Report the first material that Gazebo shows in another way when it reads the URDF."""
     for material in materials:
         if what := seen_by_gazebo(material.color or (), material.texture):
+            # Once for a robot, and without an entry in the ledger: nothing is lost or approximated
+            # here.
             message = f"in SDF materials are as they are written; where Gazebo reads the URDF, it shows this one {what}"
             sink.report(GAZEBO_MATERIAL, message, material.location)
             return
@@ -126,7 +130,11 @@ def _sdf_material(material: Material, source: Material) -> Material:
         name=None,
         color=None,
         texture=None,
+        # Diffuse and ambient alike: what is in the file is what is shown. libsdformat divides the
+        # color by 0.8 and clamps it (parser_urdf.cc, CreateVisual), which brightens it and cannot
+        # be undone above 0.8.
         ambient=material.ambient or source.color,
         diffuse=material.diffuse or source.color,
+        # libsdformat reads no textures of URDF and writes a black material instead.
         albedo_map=material.albedo_map or source.texture,
     )

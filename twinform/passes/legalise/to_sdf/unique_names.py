@@ -73,6 +73,8 @@ def _reserved(name: str) -> bool:
 def _new(name: str, kind: str, links: Collection[str] = ()) -> str:
     """The name to take instead of one that is reserved, or that a link has."""
     bare = name.strip()
+    # libsdformat drops blanks around names where it reads them, so a link "a " would lose the
+    # joints that name it.
     return f"{bare.strip('_')}_{kind}" if bare == name or bare in links or _reserved(bare) else bare
 
 

@@ -80,6 +80,8 @@ def _without_carriers(node: AnyNode) -> AnyNode:
     for carrier in sorted(carriers, key=partial(_is_second, node)):  # after what it repeats, which may travel too
         if _is_blank_pose(carrier):
             continue
+        # What the file says counts. A carrier adds only where the file leaves something open; a
+        # carrier that overruled an edit would undo it silently.
         more = None if is_memory(carrier) or _is_overruled(carrier, node) else _with(node, carrier)
         node = node.copy(opaque=(*node.opaque, carrier)) if more is None else more
     return node
@@ -105,6 +107,8 @@ def _is_overruled(carrier: Opaque, node: Node) -> bool:
         return bool(again) and not (holder and all(_is_there(holder, name) for name in named))
     if isinstance(node, Joint):
         return at == "axis/limit" and node.type != "continuous" and bool(named & _ENDS)
+    # The rest of a material (a script, PBR maps) goes with its color. Where somebody took the
+    # material away, the rest must not bring a look back that nobody sees in the file.
     return isinstance(node, Visual) and at.startswith("material") and not _has_look(node.material)
 
 
@@ -139,6 +143,8 @@ def _with_colors(visual: Visual, sink: DiagnosticSink) -> Visual:
     except ValueError as error:
         of = ambient = diffuse = None
         sink.report(STALE_CARRIER, f"the kept colors of visual {visual.name!r} are invalid: {error}", visual.location)
+    # URDF has one color for two. The second travels with the one that URDF has, and counts while
+    # that is what it was.
     if material is None or material.diffuse is None or of is None or urdf_color(material.diffuse) != of:
         message = f"visual {visual.name!r} had two colors in SDF, and its color was edited since"
         sink.report(STALE_CARRIER, message, visual.location, found=found.get("of") or "")

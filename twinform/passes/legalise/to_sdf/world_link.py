@@ -30,6 +30,7 @@ class WorldLink(ModelPass):
             world is None
             or find_annotation(world, BODY) is not None
             or any(joint.child == "world" for joint in model.joints)
+            # A robot of nothing but a link "world" would be an empty model, which SDF refuses.
             or len(model.links) == 1
         ):
             return model
@@ -58,4 +59,6 @@ class WorldLink(ModelPass):
 def _on_model(joint: Joint) -> Joint:
     if joint.parent != "world" or joint.pose is None:
         return joint
+    # A robot that hangs from the world stands at the world's origin, so its frame and the model's
+    # are one.
     return joint.copy(pose=joint.pose.copy(relative_to="__model__"))

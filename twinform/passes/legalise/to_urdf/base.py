@@ -67,6 +67,8 @@ class Keeper:
 
         In a model that came from URDF a fixed joint goes to its link: all readers have links, and nothing turns there.
         """
+        # <origin> is what everybody reads in URDF; where a fixed joint itself is means nothing to
+        # them.
         if joint is None or (self.back and joint.type == "fixed"):
             return link, "link"
         return joint.name, "joint"

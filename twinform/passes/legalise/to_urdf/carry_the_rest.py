@@ -50,6 +50,7 @@ class CarryTheRest(Pass):
         namespaces = tuple(pair for pair in document.namespaces if pair[0] not in ("", PREFIX))
         if any(map(has_ours, models)):
             namespaces = (*namespaces, (PREFIX, NAMESPACE))
+        # urdfdom reads a missing version as 1.0, so a plain robot needs no attribute.
         version = None if self.urdf_version == "1.0" else self.urdf_version
         update = {"format": Format.URDF, "version": version, "models": models, "namespaces": namespaces}
         return document.copy(**update)

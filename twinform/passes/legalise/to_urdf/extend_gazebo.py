@@ -110,6 +110,8 @@ def _link_content(link: Link) -> tuple[list[Element], Link]:
 
 def _joint_content(joint: Joint, links: set[str], with_mass: set[str], keeper: Keeper) -> tuple[list[Element], Joint]:
     content: list[Element] = []
+    # Links of SDF are bodies. Without the tag, libsdformat would lump them into one when it reads
+    # the URDF, and contact sensors and plugins would lose the names that they know.
     if joint.type == "fixed" and joint.parent != WORLD and joint.child in with_mass and not is_synthesized(joint):
         content.append(Element.unchecked(name="preserveFixedJoint", text="true"))
     springs, joint = _springs(joint)
@@ -177,6 +179,7 @@ def _take_tags(element: Element, path: str, tags: list[Element]) -> Element | No
 
 
 def _model_extensions(model: Model) -> Iterator[GazeboExtension]:
+    # One <gazebo> for each plugin, as people write them by hand.
     for plugin in model.plugins:
         yield GazeboExtension(content=(to_element(plugin, "plugin", "sdf"),), source=plugin.source)
     for element in _verbatim(model.opaque, "model"):

@@ -23,4 +23,6 @@ class FillInertials(ToUrdfPass):
 
 
 def _fill_link(link: Link) -> Link:
+    # A link without <inertial> weighs 1 kg in SDF (the specification, and every reader) and nothing
+    # in URDF.
     return replace_fields(link, inertial=with_written_defaults(link.inertial))

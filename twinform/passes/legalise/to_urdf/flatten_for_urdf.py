@@ -64,6 +64,8 @@ def _legal_names(model: Model) -> Names:
     for part, field in (("link", "links"), ("joint", "joints"), ("frame", "frames")):
         for node in getattr(model, field):
             if SCOPE in node.name:
+                # libsdformat refuses `::` in a URDF (it writes SDF of a version where that is a
+                # scope).
                 name = names[part, node.name] = unique_name(node.name.replace(SCOPE, "__"), taken)
                 taken.add(name)
     return names

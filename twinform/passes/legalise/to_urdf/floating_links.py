@@ -53,6 +53,8 @@ def _annotated(model: Model) -> Iterator[tuple[Link, Element, bool]]:
             continue
         name, parent = annotation.get("joint"), annotation.get("parent")
         fits = bool(name) and name not in names and link.name not in holders
+        # A joint that an edit added may have put the old parent below the link: the floating joint
+        # would close a circle.
         fits = fits and parent is not None and not _hangs_from(link.name, parent, holders, graph)
         if fits and name and parent:
             names.add(name)

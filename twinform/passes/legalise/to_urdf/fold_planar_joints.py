@@ -44,6 +44,9 @@ class FoldPlanarJoints(ToUrdfPass):
         stale: set[str] = set()
         for joint in annotated:
             chain = _chain(joint, above, links)
+            # Made anew and compared: the planar joint returns only if it would become exactly this
+            # chain, names included. A name that somebody gave to a part is one that plugins know,
+            # and a planar joint has no place for it.
             if chain is None or not _is_as_made(joint, chain, links, taken):
                 message = (
                     f"joint {joint.name!r} was planar, and the joints that it became, or their names, have changed"

@@ -40,6 +40,9 @@ def ball(joint: Joint) -> tuple[Step, ...]:
 
 def screw(joint: Joint) -> tuple[Step, ...]:
     """A screw joint: it slides along its axis by `metres_per_radian` times the angle that it turns about it."""
+    # SDF does not say whether the limits of a screw joint are angles or lengths. Drake and DART count
+    # the angle, so the turning joint leads and has the limits in rad; the sliding one has them times
+    # the pitch.
     axis = joint.axis or _Z
     ratio = metres_per_radian(joint) or 0.0
     slide = Axis(xyz=axis.xyz, limit=_slide_limit(axis.limit, ratio), mimic=Mimic(joint=joint.name, multiplier=ratio))

@@ -107,6 +107,8 @@ def take_remainder(node: AnyNode, tag: str, known: KnownFields) -> tuple[AnyNode
 
     Nodes in tuples (links, visuals, ...) stay where URDF has them: they have remainders of their own.
     """
+    # Nearly every node fits. Asking that first costs a few attribute reads; taking a node apart
+    # costs many times as much.
     if fits(node, known):
         return node, [], []
     split = _split(node, known, "", own_element=True)
@@ -158,6 +160,8 @@ def _split(node: Node, known: KnownFields, path: str, *, own_element: bool) -> S
         if value is None or value is _NONE or name in _APART:
             continue
         if name not in known:
+            # The table of URDF decides, not a list in here: a field that a new version of URDF
+            # brings stays in the URDF from then on.
             split.left[name], split.kept[name] = value, _blank(node, name)
             continue
         inner = known[name]
@@ -200,6 +204,7 @@ def _is_empty(node: Node) -> bool:
 def _is_endless(value: object) -> bool:
     if value is None:
         return False
+    # Not isinstance: bool and int are no floats, and this is asked for every field of every node.
     if type(value) is float:
         return not math.isfinite(value)
     return isinstance(value, tuple) and any(map(_is_endless, value))  # pyright: ignore[reportUnknownArgumentType] - any

@@ -40,6 +40,8 @@ class RestoreInertias(ModelPass):
         restored = _with(model, old)
         shared, graph = shared_inertias(restored), FrameGraph(model)
         now = {link.name: body_of(link, graph, Format.URDF) for link in model.links if link.name in old}
+        # Proved by repetition: the old inertias come back if sharing them would give the numbers of
+        # the file again.
         if shared.keys() == old.keys() and all(_are_close(shared[name], now[name]) for name in old):
             return restored
         for link in model.links:

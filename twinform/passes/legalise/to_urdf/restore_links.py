@@ -70,6 +70,9 @@ def _with_links(model: Model, keeper: Keeper) -> Model:
 def _holding_a_link(joint: Joint, held_by: dict[str, str]) -> Joint:
     """The joint with the link as its child that a frame moves with: the frame's link has a joint already."""
     body = held_by.get(joint.child or "")
+    # Where an edit closes a circle over such a frame, its own fixed joint comes first, and the
+    # joint of the edit is the one that is cut and carried. The other way round, the result could
+    # not be read again.
     if body in {None, joint.parent, MODEL, WORLD}:
         return joint
     pose = joint.pose or Pose()

@@ -76,6 +76,8 @@ def _shared(model: Model, visuals: list[_Annotated]) -> dict[str, Material]:
             found[whole.name or ""] = whole
         elif part.element is not None and is_annotation(part, SHARED_MATERIAL) and counts[part.element.text or ""]:
             name = part.element.text or ""
+            # Somebody may have repainted some visuals in SDF. What the robot defines is what most
+            # of them look like; the others keep a color of their own.
             color, texture = counts[name].most_common(1)[0][0]
             if color or texture:
                 found[name] = Material.unchecked(name=name, color=color, texture=texture)

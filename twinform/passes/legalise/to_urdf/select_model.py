@@ -50,6 +50,8 @@ class Selector:
 
     def select(self, name: str | None, sink: DiagnosticSink) -> Document:
         """The document with the model of this name, or with the only one; the ledger has nothing of the others."""
+        # A world with thousands of models is taken apart model by model; looking each up among all
+        # others takes quadratic time.
         called = self._by_name.get(name, [])
         among = called if len(called) == 1 else self.among
         chosen = _choose(among, name, self.document.location, sink)
@@ -100,6 +102,7 @@ def _say_which(among: list[Candidate], name: str | None, count: int, where: Loca
         message = "there is no model in the file"
     elif name is None:
         message = f"there are {count} models, and a URDF file holds one robot; choose one of {names}"
+        # The one with the most joints is probably the robot, and the others furniture.
         advice = f"--model '{max(among, key=_joints).full_name}' takes that one"
     else:
         message = f"{count or 'no'} models are called {name!r}; there are {names}"

@@ -66,6 +66,7 @@ def _unfold(joint: Joint, taken: set[str], keeper: Keeper) -> tuple[tuple[Link, 
     *above, last = _STEPS[joint.type](joint)
     kept = _account(joint, keeper)
     parts_of_first, opaque = split_axes(kept.opaque) if joint.type in TWO_AXES else ((), kept.opaque)
+    # z, y and x of a ball's frame is the order of URDF's yaw, pitch and roll.
     links: list[Link] = []
     joints: list[Joint] = []
     parent = joint.parent

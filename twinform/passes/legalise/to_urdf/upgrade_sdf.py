@@ -26,6 +26,8 @@ class UpgradeSdf(Pass):
         """The document in new syntax; it still declares its version, for the reverse conversion."""
         if self.carriers and self.mixed:
             document = document.copy(models=tuple(map(with_mixed_words, document.models)))
+        # All passes after this one know the newest syntax only, instead of each knowing twelve
+        # versions.
         for step in raise_words(document.version, carriers=self.carriers, mixed=self.carriers and self.mixed):
             document = step.run(document, sink)
         return document
