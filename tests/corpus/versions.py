@@ -5,9 +5,10 @@ from pathlib import Path
 
 import twinform
 from tests.corpus.examine import rules_of
-from tests.corpus.ir_difference import first_difference
 from twinform.diagnostics import Fate, Ledger
 from twinform.ir import Document
+from twinform.ir.changes import changes
+from twinform.passes.framework.hooks.printing import line_of
 from twinform.passes.sdf_versions import known_version
 from twinform.passes.sdf_versions.comparison import comparable, without_carriers
 
@@ -66,6 +67,12 @@ def upgraded_difference(older: Path, newer: Path) -> str | None:
     there = twinform.load(newer)
     here = twinform.convert(older, to="sdf", sdf_version=known_version(there.version)).text
     return first_difference(comparable(without_carriers(twinform.loads(here))), comparable(there))
+
+
+def first_difference(one: Document, other: Document) -> str | None:
+    """The first difference of two documents but for their namespaces; None where there is none."""
+    found = next(changes(one.copy(namespaces=()), other.copy(namespaces=())), None)
+    return line_of(found).strip() if found else None
 
 
 def _read(text: str) -> Document:

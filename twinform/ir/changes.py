@@ -68,8 +68,13 @@ def _field(old: object, new: object, node: str, path: str) -> Iterator[Change]:
         yield from _whole(ChangeKind.ADDED, new, path)
     elif _has_parts(old) or _has_parts(new):
         yield from _lists(cast("Sequence[Sourced]", old or ()), cast("Sequence[Sourced]", new or ()), node, path)
-    elif old != new:
+    elif not _is_same(old, new):
         yield Change(ChangeKind.CHANGED, node, path, old, new)
+
+
+def _is_same(old: object, new: object) -> bool:
+    """Whether two values are equal; what is not a number is like itself here."""
+    return old == new or (isinstance(old, float | tuple) and repr(cast("object", old)) == repr(new))
 
 
 def _has_parts(value: object) -> bool:

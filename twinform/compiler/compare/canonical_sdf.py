@@ -5,9 +5,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from twinform.compiler.compare.memo import Memo
 from twinform.compiler.compare.readers import Reader, as_read_by
 from twinform.compiler.compare.robot import Robot
-from twinform.compiler.compare.robot_builder import RobotBuilder
+from twinform.compiler.compare.robot_builder import build_robot
 from twinform.compiler.compare.surroundings import Surroundings, read_surroundings
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes.expanding import expand
@@ -61,10 +62,10 @@ def read_robots(
     assets = LocalAssets(load_options.search, Path(loaded.path))
     known: dict[int, Robots] = {}
     found: dict[Reader, Robots] = {}
-    builders = defaultdict[str | None, RobotBuilder](lambda: RobotBuilder(document.format))
+    memos = defaultdict[str | None, Memo](Memo)
     for reader, seen in as_read_by(document, readers).items():
         if id(seen) not in known:
-            known[id(seen)] = _seen(loaded, seen, model, builders, sink, assets)
+            known[id(seen)] = _seen(loaded, seen, model, memos, sink, assets)
         found[reader] = known[id(seen)]
     return found
 
@@ -73,7 +74,7 @@ def _seen(
     loaded: LoadResult,
     document: Document,
     model: str | None,
-    builders: Mapping[str | None, RobotBuilder],
+    memos: Mapping[str | None, Memo],
     sink: DiagnosticSink,
     assets: Assets,
 ) -> Robots:
@@ -82,7 +83,7 @@ def _seen(
     around: dict[str, Surroundings] = {}
     try:
         if not sink.has_errors:
-            robots |= _robots(builders, document, canonical, model, sink)
+            robots |= _robots(memos, document, canonical, model, sink)
         if document.format is Format.SDF and model is None and not sink.has_errors:
             around = read_surroundings(canonical)
     except FrameError as error:
@@ -93,7 +94,7 @@ def _seen(
 
 
 def _robots(
-    builders: Mapping[str | None, RobotBuilder],
+    memos: Mapping[str | None, Memo],
     document: Document,
     canonical: Document,
     model: str | None,
@@ -112,7 +113,7 @@ def _robots(
         chosen = UniqueNames().run(chosen, DiagnosticSink())  # before 1.7 a joint and a link could share theirs
         chosen = chosen.copy(models=tuple(map(_comparable, chosen.models)))
         source = document.models[0] if document.format is Format.URDF else chosen.models[0]
-        robot = builders[name].build(chosen.models[0], source)
+        robot = build_robot(chosen.models[0], source, document.format, memos[name])
         yield (robot.name if called[robot.name] == 1 or name is None else name), robot
 
 

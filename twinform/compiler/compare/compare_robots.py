@@ -1,10 +1,9 @@
 """Compares two robots part by part: links, masses, joints, frames and placement."""
 
 import math
-from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from functools import cached_property
+from functools import partial
 from typing import TypeVar
 
 from twinform.compiler.compare.alignment import Alignment, align
@@ -16,6 +15,7 @@ from twinform.compiler.compare.joint_values import joint_type
 from twinform.compiler.compare.kinematics import KINEMATICS, compare_kinematics
 from twinform.compiler.compare.lumping import lump
 from twinform.compiler.compare.matching import compare_leaves, compare_parts
+from twinform.compiler.compare.memo import Memo
 from twinform.compiler.compare.robot import Body, JointView, Leaves, Mass, Robot
 from twinform.compiler.compare.values import (
     Delta,
@@ -42,78 +42,54 @@ _ABOUT_A_POINT = frozenset({"ball", "universal", "revolute2"})
 
 
 class RobotComparison:
-    """Two robots as one reader sees them; what the reader `before` saw alike is not compared again."""
+    """Two robots as one reader sees them; `memo` has what the reader before found of what it saw alike."""
 
-    def __init__(
-        self, a: Robot, b: Robot, terms: Terms, *, several: bool, before: "RobotComparison | None" = None
-    ) -> None:
-        self.robots = a, b
+    def __init__(self, a: Robot, b: Robot, terms: Terms, memo: Memo, *, several: bool) -> None:
         lumped = self.lumped = lump(a, b)
         self.a, self.b = lumped.a, lumped.b
         self.terms = terms
         self.several = several
-        self.before = before
+        self.memo = memo
         self.subject = Subject("model", lumped.a.name if several else "")
         self.found = Findings(terms, lumped.a.name if several else "")
         self.alignment: Alignment = align(self.a, self.b, terms)
         self.fixed = (FixedBodies(self.a), FixedBodies(self.b))
 
-    def run(self) -> tuple[Difference, ...]:
+    def run(self) -> list[Difference]:
         """Everything in which they differ; where they are two of `several`, their place among these counts."""
         self._model()
         self._note_lumped()
         self._each("link", self.a.bodies, self.b.bodies, self._body)
         self._each("joint", self.a.joints, self.b.joints, self._joint)
         compare_frames(self.found, self.a, self.b, self.alignment.bases)
-        if not self._moves_as_before():
-            compare_kinematics(self.found, self.a, self.b, self.alignment.bases)
-        return tuple(self.found.items)
+        moving = (self.alignment.bases, self.a.joints, self.b.joints)
+        self._once(KINEMATICS, "", moving, self._kinematics)
+        return self.found.items
 
-    @cached_property
-    def items_of(self) -> Mapping[tuple[str, str], Iterable[Difference]]:
-        """What was found, by group and name."""
-        found = defaultdict[tuple[str, str], list[Difference]](list)
-        for item in self.found.items:
-            found[item.group, item.name if item.group != KINEMATICS else ""].append(item)
-        return found
+    def _kinematics(self) -> None:
+        compare_kinematics(self.found, self.a, self.b, self.alignment.bases)
 
-    def _moves_as_before(self) -> bool:
-        """Take what was found before where no joint and no frame of a link is another one."""
-        before = self.before
-        if before is None or before.alignment.bases != self.alignment.bases:
-            return False
-        if before.a.joints != self.a.joints or before.b.joints != self.b.joints:
-            return False
-        self.found.items += before.items_of[KINEMATICS, ""]
-        return True
+    def _once(self, group: str, name: str, given: object, compare: Callable[[], None]) -> None:
+        """Add what a comparison finds, or what it found of the same things before."""
+        items = self.found.items
 
-    def _is_as_before(self, group: str, one: Body | JointView, other: Body | JointView) -> bool:
-        """Take what was found before of parts that are seen as before, as the links that they hang on are."""
-        before = self.before
-        if before is None or before.views(group, one.name) != (one, other):
-            return False
-        links = (one.name,) if isinstance(one, Body) else (one.parent, one.child)
-        if any(before.alignment.of(link) != self.alignment.of(link) for link in links):
-            return False
-        items = before.items_of[group, one.name]
-        if any(item.aspect.startswith(_SHARED) for item in items):
-            return False
-        self.found.items += items
-        return True
+        def make() -> list[Difference]:
+            start = len(items)
+            compare()
+            found = items[start:]
+            del items[start:]
+            return found
 
-    def views(self, group: str, name: str) -> tuple[Body | JointView | None, Body | JointView | None]:
-        """The links or joints of a name."""
-        if group == "link":
-            return self.a.bodies.get(name), self.b.bodies.get(name)
-        return self.a.joints.get(name), self.b.joints.get(name)
+        items += self.memo.once((group, name), given, make, _is_of_itself)
 
     def _each(
         self, group: str, a: Mapping[str, Named], b: Mapping[str, Named], compare: Callable[[Named, Named], None]
     ) -> None:
         for name, one in a.items():
             if name in b:
-                if not self._is_as_before(group, one, b[name]):
-                    compare(one, b[name])
+                links = (one.name,) if isinstance(one, Body) else (one.parent, one.child)
+                given = one, b[name], tuple(map(self.alignment.of, links))
+                self._once(group, name, given, partial(compare, one, b[name]))
             else:
                 self.found.only_in_one(Subject(group, name), "", group, one.where, in_a=True)
         for name, other in b.items():
@@ -221,6 +197,11 @@ class RobotComparison:
         if not off:
             message = f"joint {a.name!r} is defined at another place, which changes nothing ({_amount(away)} away)"
             self.found.note(subject, "frame", message, places)
+
+
+def _is_of_itself(found: Iterable[Difference]) -> bool:
+    """Whether what was found of a link or joint depends on no other one."""
+    return not any(item.aspect.startswith(_SHARED) for item in found)
 
 
 def _same_kind(a: JointView, b: JointView) -> tuple[Leaves, Leaves]:

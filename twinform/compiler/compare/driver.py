@@ -1,5 +1,6 @@
 """Do two files describe the same robot?"""
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Unpack
 
@@ -7,6 +8,7 @@ from twinform.compiler.compare.canonical_sdf import Robots, read_robots
 from twinform.compiler.compare.compare_robots import RobotComparison
 from twinform.compiler.compare.comparison import TOLERANCE, USUAL, Comparison, ComparisonOptions, Difference
 from twinform.compiler.compare.findings import Findings, Subject, Terms
+from twinform.compiler.compare.memo import Memo
 from twinform.compiler.compare.readers import Reader, reconcile
 from twinform.compiler.compare.robot import Robot
 from twinform.compiler.compare.surroundings import compare_surroundings
@@ -81,28 +83,28 @@ def _seen_by_all(a: Mapping[Reader, Robots], b: Mapping[Reader, Robots], toleran
     """What every reader finds, and what only some of them do."""
     first, *more = a
     pair = a[first], b[first]
-    known: dict[str, RobotComparison] = {}
-    found = list(_compared(*pair, tolerance, known))
+    memos = defaultdict[str, Memo](Memo)
+    found = list(_compared(*pair, tolerance, memos))
     for reader in more:
         seen = a[reader], b[reader]
         if seen[0] is not pair[0] or seen[1] is not pair[1]:
             files = pair[0].path, pair[1].path
-            found = reconcile(found, list(_compared(*seen, tolerance, known)), reader, files)
+            found = reconcile(found, list(_compared(*seen, tolerance, memos)), reader, files)
         pair = seen
     return found
 
 
-def _compared(a: Robots, b: Robots, tolerance: float, known: dict[str, RobotComparison]) -> Iterator[Difference]:
-    """What one reader finds; `known` are the robots as the reader before it has seen them."""
+def _compared(a: Robots, b: Robots, tolerance: float, memos: Mapping[str, Memo]) -> Iterator[Difference]:
+    """What one reader finds; `memos` have what the reader before it found in each pair of robots."""
     terms = Terms(a.path, b.path, a.format, b.format, tolerance, {**a.origins, **b.origins})
     yield from compare_surroundings(a.around, b.around, terms)
     if len(a.by_name) == len(b.by_name) == 1:
         (one,), (other,) = a.by_name.values(), b.by_name.values()
-        yield from _compared_robots(one, other, terms, known)
+        yield from _compared_robots(one, other, terms, memos[""])
         return
     for name, robot in a.by_name.items():
         if name in b.by_name:
-            yield from _compared_robots(robot, b.by_name[name], terms, known, name)
+            yield from _compared_robots(robot, b.by_name[name], terms, memos[name], several=True)
         else:
             yield from _missing(robot, terms, in_a=True)
     for name, robot in b.by_name.items():
@@ -110,15 +112,8 @@ def _compared(a: Robots, b: Robots, tolerance: float, known: dict[str, RobotComp
             yield from _missing(robot, terms, in_a=False)
 
 
-def _compared_robots(
-    a: Robot, b: Robot, terms: Terms, known: dict[str, RobotComparison], name: str = ""
-) -> Iterable[Difference]:
-    """What differs between two robots; of several they have a name."""
-    before = known.get(name)
-    if before is not None and before.robots[0] is a and before.robots[1] is b:
-        return before.found.items
-    known[name] = comparison = RobotComparison(a, b, terms, several=bool(name), before=before)
-    return comparison.run()
+def _compared_robots(a: Robot, b: Robot, terms: Terms, memo: Memo, *, several: bool = False) -> Iterable[Difference]:
+    return memo.once("robot", (a, b), lambda: RobotComparison(a, b, terms, memo, several=several).run())
 
 
 def _missing(robot: Robot, terms: Terms, *, in_a: bool) -> list[Difference]:

@@ -27,7 +27,8 @@ def compare_kinematics(findings: Findings, a: Robot, b: Robot, bases: Mapping[st
     other = Moving(b, {name: base.b for name, base in bases.items()})
     names = [name for name in a.bodies if name in bases]
     for sample in range(SAMPLES):
-        poses, likes = one.poses(sample), other.poses(sample)
+        positions = sampled_positions([*a.joints.values(), *b.joints.values()], sample)
+        poses, likes = one.poses(positions), other.poses(positions)
         for name in names:
             for gap in gaps(PoseValue(poses[name]), PoseValue(likes[name])):
                 known = worst.get(gap.aspect)
@@ -46,10 +47,9 @@ class Moving:
         self.kinematics = Kinematics(frames, [_comparable(joint, frames) for joint in robot.joints.values()])
         self.roots: dict[str, str] = {}
 
-    def poses(self, sample: int) -> dict[str, Transform]:
-        """The frame of each link at the joint positions of a sample, in that of the root that it hangs from."""
-        frames = self.kinematics.at_zero
-        poses = self.kinematics.poses(_positions(self.kinematics.joints.values(), sample))
+    def poses(self, positions: Positions) -> dict[str, Transform]:
+        """The frame of each link at these joint positions, in that of the root that it hangs from."""
+        frames, poses = self.kinematics.at_zero, self.kinematics.poses(positions)
         return {name: frames.get(self._root(name), _STILL).inverse().compose(pose) for name, pose in poses.items()}
 
     def _root(self, name: str) -> str:
@@ -72,7 +72,7 @@ def _comparable(joint: JointView, frames: Mapping[str, Transform]) -> JointView:
     return replace(joint, degrees=tuple(Degree(axis, False, -math.inf, math.inf) for axis in axes))
 
 
-def _positions(joints: Iterable[JointView], sample: int) -> Positions:
+def sampled_positions(joints: Iterable[JointView], sample: int) -> Positions:
     """Where each joint stands in a sample: by its name alone, from -1 to 1; also one that only a mimic names."""
     keys = dict.fromkeys((joint.name, number) for joint in joints for number in range(len(joint.degrees)))
     leaders = (degree.leader for joint in joints for degree in joint.degrees)

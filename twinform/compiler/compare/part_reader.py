@@ -54,6 +54,8 @@ _RESOLVED: Mapping[type[Node], frozenset[str]] = {
     Document: frozenset({"@version"}),
 }
 """What is compared in other terms than those in which it is written."""
+Places = Callable[[str], Source | None]
+"""Where what stands at a path was read."""
 _NOTHING = Element(name="nothing")
 _NOT_OF_THE_ROBOT = frozenset({"material", "link", "name", "type"})
 """What URDF's carriers hold that is about how the file is written, or that the model has in SDF syntax."""
@@ -98,37 +100,40 @@ class PartReader:
 
     def element(self, xml: XmlElement, tag: str, where: Source | None, frame: Transform) -> Part:
         """A part that is an element without a typed form."""
-        walk = Walk(self.resolve, lambda _: where, _RESOLVED[Model] if tag == "model" else frozenset())
         unpack_sdf(xml, definition(tag))
-        if definition(tag).any:
-            walk.enter_free(xml, "")
-        else:
-            walk.enter(xml, definition(tag), frame)
-        walk.found.pop("@name", None)
-        return Part(tag, _name(xml), walk.found, where, carried=xml.get(CARRIED) is not None)
+        skipped = _RESOLVED[Model] if tag == "model" else frozenset[str]()
+        leaves = self._leaves(xml, tag, lambda _: where, frame, skipped)
+        return Part(tag, _name(xml), leaves, where, carried=xml.get(CARRIED) is not None)
 
     def part(self, node: Node, tag: str, frame: Transform) -> Part:
         """A part with a typed form; a pose in it that names no frame is relative to `frame`."""
-        xml = _xml(node, tag)
-        places = _places(node)
+        xml, places = _xml(node, tag), _places(node)
         unpack_sdf(xml, definition(tag))
-        walk = Walk(self.resolve, places)
+        leaves = self._leaves(xml, tag, places, frame)
+        expressed, _ = self._of_urdf(xml, node)
+        return Part(tag, _name(xml), {**leaves, **expressed}, places(""))
+
+    def _leaves(
+        self, xml: XmlElement, tag: str, places: Places, frame: Transform, skipped: frozenset[str] = frozenset()
+    ) -> dict[str, Leaf]:
+        """The values of an element without its name, which is that of the part."""
+        walk = Walk(self.resolve, places, skipped | {"@name"})
         if definition(tag).any:
             walk.enter_free(xml, "")
+            walk.found.pop("@name", None)
         else:
             walk.enter(xml, definition(tag), frame)
-        walk.found.pop("@name", None)
-        expressed, _ = self._of_urdf(xml, node)
-        return Part(tag, _name(xml), {**walk.found, **expressed}, places(""))
+        return walk.found
+
+    def _free_leaves(
+        self, xml: XmlElement, path: str, where: Source | None, fact: Fact | None = None
+    ) -> dict[str, Leaf]:
+        walk = Walk(self.resolve, lambda _: where)
+        walk.enter_free(xml, path, fact=fact)
+        return walk.found
 
     def _own(
-        self,
-        xml: XmlElement,
-        tag: str,
-        places: Callable[[str], Source | None],
-        frame: Transform,
-        *,
-        skipped: frozenset[str],
+        self, xml: XmlElement, tag: str, places: Places, frame: Transform, *, skipped: frozenset[str]
     ) -> tuple[Leaves, list[Part]]:
         """The leaves of an element itself, and its named children as parts."""
         unpack_sdf(xml, definition(tag))
@@ -140,13 +145,10 @@ class PartReader:
                 xml.remove(child)
                 part = self.element(child, row.name, places(""), frame)
                 inner.append(replace(part, carried=True) if part.kind in _ALWAYS_TYPED else part)
-        walk = Walk(self.resolve, places, skipped | {"@name"})
-        walk.enter(xml, definition(tag), frame)
-        return walk.found, inner
+        return self._leaves(xml, tag, places, frame, skipped), inner
 
     def _of_urdf(self, xml: XmlElement, node: Node) -> tuple[dict[str, Leaf], list[Part]]:
         """What only URDF has elements for, which SDF holds in carriers: leaves, and named parts of the model."""
-        where = node.source
         leaves: dict[str, Leaf] = {}
         parts: list[Part] = []
         seen: dict[str, int] = {}
@@ -154,43 +156,33 @@ class PartReader:
         known = _names_of_joints(node) if pieces and isinstance(node, Model) else frozenset[str | None]()
         firsts: dict[tuple[str, str], XmlElement] = {}
         for at, piece in pieces:
-            name, row = piece.get("attribute"), _row_of_urdf(node, at, str(piece.tag))
-            first = firsts.setdefault((at, str(piece.tag)), piece)
+            name, tag, row = piece.get("attribute"), str(piece.tag), _row_of_urdf(node, at, str(piece.tag))
+            first = firsts.setdefault((at, tag), piece)
             if first is not piece and row is not None and not row.repeats and same_element(first, piece):
                 continue  # whoever takes the one or the other takes the same
-            if piece.tag == CARRIER_OF_URDF and name is None:
-                continue  # text between elements, which no reader looks at
             if name is not None:
-                walk = Walk(self.resolve, lambda _: where)
                 path = f"{at}/@{name}" if at else f"@{name}"
                 if name not in _NOT_OF_THE_ROBOT and path not in _IGNORED_LIMITS:
-                    walk.enter_free(_text_element(piece.get("value") or ""), path)
-                leaves |= walk.found
-            elif str(piece.tag) not in self._not_of_the_robot and not (
-                isinstance(node, Joint) and _is_idle(at, piece, node)
-            ):
-                walk = Walk(self.resolve, lambda _: where)
-                named = isinstance(node, Model) and not _is_foreign(piece)
-                if _is_about_nothing(piece, known) if isinstance(node, Model) else piece.tag in _typed_in_urdf():
-                    continue
-                walk.enter_free(piece, "" if named else numbered(str(piece.tag), seen), fact=row)
-                if named:
-                    walk.found.pop("@name", None)
-                    parts.append(
-                        Part(
-                            str(piece.tag),
-                            piece.get("name") or piece.get("reference") or "",
-                            walk.found,
-                            where,
-                            only=Format.URDF,
-                        )
-                    )
-                else:
-                    leaves |= walk.found
+                    leaves |= self._free_leaves(_text_element(piece.get("value") or ""), path, node.source)
+            elif tag == CARRIER_OF_URDF or not self._counts(at, piece, node, known):
+                continue  # text between elements, which no reader looks at, or what is about nothing
+            elif isinstance(node, Model) and not _is_foreign(piece):
+                found = self._free_leaves(piece, "", node.source, row)
+                found.pop("@name", None)
+                name = piece.get("name") or piece.get("reference") or ""
+                parts.append(Part(tag, name, found, node.source, only=Format.URDF))
+            else:
+                leaves |= self._free_leaves(piece, numbered(tag, seen), node.source, row)
         floating = find_annotation(node, FLOATING) if isinstance(node, Link) else None
         if floating is not None and floating.get("joint") and floating.get("parent"):  # else it makes no joint
-            leaves["joint"] = Leaf(Text(floating.get("joint") or ""), None, where)
+            leaves["joint"] = Leaf(Text(floating.get("joint") or ""), None, node.source)
         return {path: _only_urdf(leaf) for path, leaf in leaves.items()}, parts
+
+    def _counts(self, at: str, piece: XmlElement, node: Node, known: Collection[str | None]) -> bool:
+        """Whether an element from a carrier of URDF says something about the robot; `known` are names of joints."""
+        if str(piece.tag) in self._not_of_the_robot or (isinstance(node, Joint) and _is_idle(at, piece, node)):
+            return False
+        return not (_is_about_nothing(piece, known) if isinstance(node, Model) else piece.tag in _typed_in_urdf())
 
 
 @cache
@@ -255,7 +247,7 @@ def _is_idle(at: str, piece: XmlElement, joint: Joint) -> bool:
     return joint.axis is None or joint.type == "fixed" or (not at and joint.type not in WITHOUT_AXIS)
 
 
-def _places(node: Node) -> Callable[[str], Source | None]:
+def _places(node: Node) -> Places:
     """Where what stands at a path of a node was read: the nearest node around it knows."""
     known = {path: inner.source for path, inner in _inner(node, "") if inner.source is not None}
 

@@ -5,6 +5,7 @@ from typing import TypeVar
 
 from twinform.compiler.compare.joint_values import joint_leaves
 from twinform.compiler.compare.leaves import THERE
+from twinform.compiler.compare.memo import Memo
 from twinform.compiler.compare.part_reader import PartReader
 from twinform.compiler.compare.robot import Body, JointView, Leaf, Mass, NamedFrame, Part, Robot
 from twinform.compiler.kinematics import Degree, degrees_of
@@ -18,28 +19,20 @@ from twinform.passes.transforms.flattening import flatten
 from twinform.schemas import element_xml
 
 View = TypeVar("View", Body, JointView)
-Known = dict[str, tuple[tuple[object, ...], View]]
-"""What was built by name, after all that it was built of."""
 
 
-class RobotBuilder:
-    """Builds a robot as one reader of a file sees it after another: what both see alike is one object."""
+def build_robot(model: Model, source: Model, format: Format, memo: Memo) -> Robot:
+    """The robot of a model; `source` is the model as the file has it.
 
-    def __init__(self, format: Format) -> None:
-        self.format = format
-        self.bodies: Known[Body] = {}
-        self.joints: Known[JointView] = {}
-        self.last: tuple[Model, Model, Robot] | None = None
+    `memo` has what another reader of the file has seen: what both see alike is one object.
+    """
+    return memo.once("robot", (model, source), lambda: _built(model, source, format, memo))
 
-    def build(self, model: Model, source: Model) -> Robot:
-        """The robot of a model; `source` is the model as the file has it."""
-        if self.last is not None and self.last[:2] == (model, source):
-            return self.last[2]
-        shells: list[tuple[Frame, Model]] = []
-        flat = _without_made_root(flatten(model, lambda frame, shell: _noted(shells, frame, shell)))
-        robot = _Reading(flat, self).robot(source, shells)
-        self.last = model, source, robot
-        return robot
+
+def _built(model: Model, source: Model, format: Format, memo: Memo) -> Robot:
+    shells: list[tuple[Frame, Model]] = []
+    flat = _without_made_root(flatten(model, lambda frame, shell: _noted(shells, frame, shell)))
+    return _Reading(flat, format, memo).robot(source, shells)
 
 
 def _noted(shells: list[tuple[Frame, Model]], frame: Frame, shell: Model) -> Frame:
@@ -78,13 +71,13 @@ class _Poses:
 class _Reading:
     """The robot of one model, as one reader sees it."""
 
-    def __init__(self, model: Model, builder: RobotBuilder) -> None:
+    def __init__(self, model: Model, format: Format, memo: Memo) -> None:
         self.model = model
-        self.builder = builder
-        self.format = builder.format
+        self.format = format
+        self.memo = memo
         self.graph = FrameGraph(model)
         self.poses = _Poses(self.graph)
-        self.reader = PartReader(self.poses.resolve, builder.format)
+        self.reader = PartReader(self.poses.resolve, format)
 
     def robot(self, source: Model, shells: Iterable[tuple[Frame, Model]]) -> Robot:
         """All of it."""
@@ -108,23 +101,17 @@ class _Reading:
 
     def _known_body(self, link: Link) -> Body:
         frame = self.graph.place(link.name)
-        return self._once(self.builder.bodies, link.name, (link, frame), lambda: self._body(link, frame))
+        return self._once("link", link.name, (link, frame), lambda: self._body(link, frame))
 
     def _known_joint(self, joint: Joint) -> JointView:
         frame, ends = self.graph.place(joint.name, kind="joint"), (self._end(joint.parent), self._end(joint.child))
         degrees = tuple(degrees_of(joint, frame, Format.SDF, lambda name: self.graph.place(name, kind="frame")))
         given, make = (joint, frame, *ends, degrees), lambda: self._joint(joint, frame, ends, degrees)
-        return self._once(self.builder.joints, joint.name, given, make)
+        return self._once("joint", joint.name, given, make)
 
-    def _once(self, known: Known[View], name: str, given: tuple[object, ...], make: Callable[[], View]) -> View:
-        found = known.get(name)
-        if found is not None and found[0] == given:
-            return found[1]
+    def _once(self, group: str, name: str, given: object, make: Callable[[], View]) -> View:
         self.poses.named_frame = False
-        view = make()
-        if not self.poses.named_frame:
-            known[name] = given, view
-        return view
+        return self.memo.once((group, name), given, make, lambda _: not self.poses.named_frame)
 
     def _body(self, link: Link, frame: Transform) -> Body:
         leaves, parts = self.reader.parts(link, frame)

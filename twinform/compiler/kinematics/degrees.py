@@ -29,10 +29,10 @@ def degrees_of(
             yield Degree(unit(frame.rotate(axis)), slides=False, lower=-math.inf, upper=math.inf)
     for axis in axes_of(joint):
         turned = place(axis.expressed_in) if axis.expressed_in else frame
-        along = unit(direction(axis, format))
+        along = direction(axis, format)
         if any(along):
             yield from _in_plane(joint, along, turned)
-            yield _degree(joint, axis, turned.rotate(along), prefix, format)
+            yield _degree(joint, axis, unit(turned.rotate(along)), prefix, format)
 
 
 def _in_plane(joint: Joint, normal: Vector3, turned: Transform) -> Iterator[Degree]:

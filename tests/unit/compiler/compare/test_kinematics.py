@@ -2,7 +2,7 @@
 
 import pytest
 
-from twinform.compiler.compare.kinematics import Moving
+from twinform.compiler.compare.kinematics import Moving, sampled_positions
 from twinform.compiler.compare.robot import Body, JointView, Mass, Robot
 from twinform.compiler.kinematics import Degree, Leader
 from twinform.ir import Format, Pose
@@ -12,23 +12,23 @@ _AT = Transform.from_pose(Pose(xyz=(1, 0, 0)))
 _SLIDES = Degree((1.0, 0.0, 0.0), slides=True, lower=-1.0, upper=1.0)
 
 
-def _moving(*joints: JointView) -> Moving:
+def _poses(*joints: JointView) -> dict[str, Transform]:
     names = ["base", *(joint.child for joint in joints)]
     bodies = {name: Body(name, Transform(), Mass()) for name in names}
     robot = Robot("r", Format.SDF, Transform(), bodies, {joint.name: joint for joint in joints}, {})
-    return Moving(robot, dict.fromkeys(names, _AT))
+    return Moving(robot, dict.fromkeys(names, _AT)).poses(sampled_positions(joints, 1))
 
 
 def test_a_link_is_seen_from_the_root_that_it_hangs_from():
-    poses = _moving(JointView("j", "fixed", "base", "tip", _AT)).poses(3)
+    poses = _poses(JointView("j", "fixed", "base", "tip", _AT))
     assert poses["tip"] == Transform()
 
 
 def test_positions_belong_to_names_and_a_mimic_follows_its_leader():
     leader = JointView("leader", "prismatic", "base", "one", _AT, (_SLIDES,))
     following = Degree(_SLIDES.axis, True, -1.0, 1.0, leader=Leader("leader", 0, 2.0, 0.25, 0.0))
-    poses = _moving(leader, JointView("follower", "prismatic", "base", "two", _AT, (following,))).poses(1)
-    alone = _moving(leader).poses(1)
+    poses = _poses(leader, JointView("follower", "prismatic", "base", "two", _AT, (following,)))
+    alone = _poses(leader)
     assert abs(alone["one"].translation[0]) > 0.01
     assert poses["one"] == alone["one"]
     assert poses["two"].translation[0] == pytest.approx(2 * poses["one"].translation[0] + 0.25)
@@ -36,5 +36,6 @@ def test_positions_belong_to_names_and_a_mimic_follows_its_leader():
 
 def test_a_ball_turns_about_axes_of_the_base():
     turned = Transform.from_pose(Pose(rpy=(0.5, 0, 0)))
-    one, other = (_moving(JointView("j", "ball", "base", "tip", frame)).poses(2) for frame in (Transform(), turned))
+    degrees = (_SLIDES, _SLIDES, _SLIDES)  # which are not its own
+    one, other = (_poses(JointView("j", "ball", "base", "tip", frame, degrees)) for frame in (Transform(), turned))
     assert one["tip"] == other["tip"] != Transform()
