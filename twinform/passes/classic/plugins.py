@@ -12,7 +12,7 @@ from twinform.passes.classic.link_pose import OtherQuantityError, offset_of
 from twinform.passes.classic.moving import DroppedParameter, Moved
 from twinform.passes.classic.reading import as_read
 from twinform.passes.classic.reporting import Report, accept, reasons_to_look, scratch
-from twinform.passes.classic.sensors import SensorMigration
+from twinform.passes.classic.sensors import SensorMigration, in_frame
 from twinform.passes.classic.systems import made_systems, unused
 from twinform.passes.classic.tables import MakeRow, Migration, migration_of
 from twinform.passes.classic.topics import RosNames
@@ -124,6 +124,9 @@ class PluginMigration:
         if site.model is None or holder not in _names(site.model, make.on):
             return self._without(plugin, report, f"there is no {make.on} {holder!r} to put the sensor on")
         element = Element(name="sensor", attributes=(("name", plugin.name or make.type), ("type", make.type)))
+        if make.on == "joint":  # gazebo_ros_ft_sensor.cpp, Load: both plugins measure in the frame of the child
+            child = next(joint.child for joint in site.model.joints if joint.name == holder)
+            element = in_frame(element, child or "", self.release)
         # What is reported about a sensor that cannot be made in the end must not stay in the
         # report.
         trial = SensorMigration(self.release, scratch(self.sink))

@@ -8,7 +8,14 @@ from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Element, Plugin, Sensor
 from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.passes.classic.element_edits import text_at, with_text
-from twinform.passes.classic.moving import DroppedParameter, Moved, camera_height, camera_width, focal_length
+from twinform.passes.classic.moving import (
+    DroppedParameter,
+    Moved,
+    camera_height,
+    camera_width,
+    focal_length,
+    truth_of,
+)
 from twinform.passes.classic.reading import as_read, ros2_kind
 from twinform.passes.classic.reporting import Report, accept, reasons_to_look, scratch
 from twinform.passes.classic.systems import unused
@@ -78,7 +85,7 @@ class SensorMigration:
         moved.apply(read.content, {**migration.shared, **row.moves})
         moved.frame = moved.frame or _usual_frame(plugin, site)
         element = _with_sets(_placed(moved, self.release), migration, row, moved.moved)
-        for path, pattern in row.topics_of.get(element.get("type") or "", row.topics).items():
+        for path, pattern in _topics(row, element):
             topic = names.topic(pattern)
             if text_at(element, path) is None and migration.nothing is None:
                 element = with_text(element, path, topic)
@@ -147,6 +154,14 @@ def _inside(sensor: Sensor, site: Site) -> Site:
     return replace(site, scope="sensor", holder=sensor.name or "", sensor=sensor)
 
 
+def _topics(row: SensorRow, element: Element) -> Iterator[tuple[str, str]]:
+    """The paths of the topics that a sensor needs, and their patterns."""
+    yield from row.topics_of.get(element.get("type") or "", row.topics).items()
+    for path, topics in row.topics_where.items():
+        if truth_of(text_at(element, path) or ""):
+            yield from topics.items()
+
+
 def _usual_frame(plugin: Plugin, site: Site) -> str | None:
     """The frame of a plugin for ROS 2 that names none: the link of its sensor (utils.cpp, SensorFrameID)."""
     kind = ros2_kind(plugin)
@@ -162,6 +177,11 @@ def with_frame(element: Element, release: Release) -> Element:
         for child in element.children
     )
     return element if children == element.children else element.copy(children=children)
+
+
+def in_frame(element: Element, frame: str, release: Release) -> Element:
+    """A sensor with the frame of its messages."""
+    return with_text(element, release.frame_element or _FRAME_BEFORE, frame)
 
 
 def complete_lens(element: Element) -> Element:
@@ -211,7 +231,7 @@ def _placed(moved: Moved, release: Release) -> Element:
     """The sensor with the frame and the offset that its plugin names."""
     element = moved.element
     if moved.frame and not any(child.name in _FRAMES for child in element.children):
-        element = with_text(element, release.frame_element or _FRAME_BEFORE, moved.frame)
+        element = in_frame(element, moved.frame, release)
     # A pose of the sensor itself counts more than the offset of its plugin.
     if moved.offsets and element.find("pose") is None:
         pose = f"{moved.offsets.get('xyz', '0 0 0')} {moved.offsets.get('rpy', '0 0 0')}"

@@ -103,7 +103,10 @@ class SystemRow(_Row):
 
 
 class SensorRow(_Row):
-    """What becomes of the sensor that a plugin stands in. `topics_of` are those of one type alone.
+    """What becomes of the sensor that a plugin stands in.
+
+    `topics_of` are the topics of one type alone, and `topics_where` further ones where an element of the sensor is
+    true.
 
     `sets` are paths and what is written there where no parameter has chosen it: what the plugin took for granted.
     """
@@ -113,6 +116,7 @@ class SensorRow(_Row):
     moves: Moves = Field(default_factory=dict[str, Move])
     topics: Mapping[str, str] = Field(default_factory=dict[str, str])
     topics_of: Mapping[str, Mapping[str, str]] = Field(default_factory=dict[str, Mapping[str, str]])
+    topics_where: Mapping[str, Mapping[str, str]] = Field(default_factory=dict[str, Mapping[str, str]])
 
 
 class MakeRow(_Row):
@@ -154,8 +158,8 @@ class Migration(_Row):
         patterns = [pattern for row in self.systems for pattern in row.topics.values()]
         if self.sensor:
             tables.append(self.sensor.moves)
-            patterns += [*self.sensor.topics.values()]
-            patterns += [pattern for topics in self.sensor.topics_of.values() for pattern in topics.values()]
+            more = (*self.sensor.topics_of.values(), *self.sensor.topics_where.values())
+            patterns += [pattern for topics in (self.sensor.topics, *more) for pattern in topics.values()]
         named = {name for pattern in patterns for name in names_in(pattern)}
         switches = {name for row in self.systems for name in row.transforms or ()}
         makers = set(self.make.of if self.make else ())
