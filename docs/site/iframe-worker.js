@@ -1,4 +1,5 @@
-// The worker of the search. Names of options and systems are words to look for, and not its notation for queries; and
+// The worker of the search. mkdocs-material's own plugin for pages from the disk loads a script from another machine;
+// this does the same, so that nothing is asked of anybody. Names of options and systems are words to look for, and not its notation for queries; and
 // in pages that were opened from the disk, where browsers allow no workers, a hidden frame does the work instead.
 const query = 2;
 const plain = message => message.type !== query ? message

@@ -14,6 +14,7 @@ from twinform.schemas.value_stores import Data
 from twinform.schemas.xml import XmlElement, is_blank
 
 _INSTANCE = "{http://www.w3.org/2001/XMLSchema-instance}"
+# Left in, an `xsi:type` would let a file choose the type that it is validated by.
 _OF_SCHEMAS = frozenset({_INSTANCE + "type", _INSTANCE + "nil"})
 """Foreign attributes that make an XSD engine check an element in another way."""
 

@@ -38,6 +38,8 @@ from twinform.package_files import package_files
 
 Version = tuple[int, int]
 
+# A notation of our own: Python literals would need four times the lines and a type checker's
+# patience, and TOML and CSV cannot nest. It is documented and parsed here only.
 _LINE = re.compile(r"(?P<indent> *)(?P<name>@?[\w.]++)(?P<rest>.*)")
 _WORD = re.compile(r'->\s*\S+|\w+=(?:"[^"]*"|\S+)|\S+')
 _COUNTS = frozenset("1?*+")
@@ -87,6 +89,8 @@ class Fact:
     @property
     def needs_text(self) -> bool:
         """Whether blank text is a gap, and not another way to write the default."""
+        # The SDF specification requires 175 elements, and readers fill in nearly all of them.
+        # Required here is only what has no useful default: names, types, parents, children, URIs.
         return self.required and self.default is None
 
     @property
@@ -262,6 +266,8 @@ def rows_by_name(rows: Iterable[Fact], version: Version) -> dict[str, Fact]:
     """One row for each name: the one of this version, or else the last of another."""
     best: dict[str, Fact] = {}
     for row in rows:
+        # A file may use an element that only another version has. It is read by that row, and
+        # reported.
         if row.name not in best or not best[row.name].exists_in(version):
             best[row.name] = row
     return best

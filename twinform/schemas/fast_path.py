@@ -14,6 +14,8 @@ from twinform.schemas.xml import XmlElement, is_blank
 
 Parse = Callable[[Any], Any]
 
+# Where libxml2 has accepted the document, nearly no element needs a finding, so asking first
+# whether any does is cheaper than reading for findings.
 GIVE_UP = (ValueError, KeyError, TypeError)
 """What a quick parser raises: bad text, an unknown name, no text at all."""
 
@@ -126,6 +128,7 @@ class UsualElement:
             value = parse(text)
         except GIVE_UP:
             return False
+        # Seven numbers and a quaternion belong together; either alone is a finding.
         return self._type != "pose" or (len(value) == 6 and element.get("rotation_format") != "quat_xyzw")
 
     def _takes_children(self, element: XmlElement, context: Context) -> bool:

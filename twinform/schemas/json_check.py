@@ -12,6 +12,8 @@ from twinform.schemas.packaged import json_schema_text
 Schema = Mapping[str, Any]
 Json = dict[str, Any]
 JsonPath = tuple[str | int, ...]
+# A check of our own goes by the published schema, so what is published is what decides; the
+# jsonschema package, in the tests, judges that the two agree.
 _DEEPEST = 800
 """How deep objects and arrays may be in each other; an element in an element is two levels, and XML may have 256."""
 
@@ -145,6 +147,8 @@ class _Check:
         elif tag not in value:
             yield Fault(path, f"has no {tag!r}", None, tag)
         else:
+            # The branch is chosen by its tag before it is checked, so the findings are about the
+            # shape that was meant, and not about each of nine that were not.
             known = {_constants(each)[tag]: each for each in branches}
             word = value[tag]
             if isinstance(word, str) and word in known:

@@ -136,6 +136,8 @@ class _Format:
             "namespaces": _array({"$ref": "#/$defs/namespace"}, "The prefixes of names, each with its namespace."),
         }
         made.fields = {**head, **made.fields}
+        # Made from the facts tables and not from the classes of the IR, since only they know which
+        # field belongs to which format, and what it means.
         made.needed = ["format", *made.needed]
         return made.schema()
 

@@ -24,6 +24,7 @@ from twinform.schemas.facts import Fact, Table, table
 Path = tuple[str, ...]
 """The names from a definition down to a row."""
 
+# In files beside the facts: a sentence for each of 1,100 rows would bury the tables.
 _LINE = re.compile(r"(?P<indent> *)(?:= (?P<like>[\w. @]+)|(?P<name>@?[\w.]+): (?P<text>\S.*))")
 
 

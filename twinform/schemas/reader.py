@@ -153,6 +153,8 @@ class Reader:
                 check(child, context)
                 keep_element(child, node, at, context)
                 return
+            # Sources are found by name where there is one: a finding's path stays right when a part
+            # before it is removed.
             key = (child.get("name") if is_named else None) or (place if repeats else None)
             above, line = node["source"], child.sourceline or 0
             data: Data = {"source": locate(Source, (context.file, line, above, f"{at}/{name}" if at else name, key))}

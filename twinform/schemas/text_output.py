@@ -34,6 +34,8 @@ _ODD_IN_ATTRIBUTE = re.compile('[&<>"\n\t\r]')
 _REFERENCES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\n": "&#10;", "\t": "&#9;", "\r": "&#13;"}
 
 
+# Building a tree with lxml, indenting and serializing it takes more than twice as long as putting
+# the same text together. A property holds that both write the same bytes.
 class NeedsTree(Exception):  # noqa: N818 - it is no error
     """Something that can only be written as a part of the tree of its whole document."""
 

@@ -287,6 +287,8 @@ def _show(row: Fact) -> Show:
     place = row.place or ""
 
     def show_bool(value: bool, node: Any) -> str:
+        # `1` and `true` are the same boolean and different text, so that a file comes out as it
+        # went in. A spelling that no longer fits the value is not used: a pass has changed it.
         spelt = node.spelling.get(place) if node.spelling else None
         return spelt if spelt is not None and parse_bool(spelt) == value else format_value(value)
 
@@ -333,6 +335,7 @@ def in_order(items: list[tuple[Any, _Each]]) -> list[tuple[Any, _Each]]:
         if source is not None:
             file = source.file if file is None else file
             line = source.line if source.file == file else line
+        # Links and joints are separate tuples in the IR, but most authors write them in turns.
         keys.append(line)
     return [item for _, item in sorted(zip(keys, items, strict=True), key=itemgetter(0))]
 

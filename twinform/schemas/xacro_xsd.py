@@ -39,6 +39,7 @@ def xacro_schema_text(namespace: str = NAMESPACES[0]) -> str:
 
 def import_xacro(schema: XmlElement) -> None:
     """Let the schema of a format know xacro's elements."""
+    # xacro's namespace has three names in real files, and a schema document has one.
     for namespace in NAMESPACES:
         xs(schema, "import", namespace=namespace, schemaLocation=xacro_schema_name(namespace))
 
@@ -48,6 +49,9 @@ def unambiguous(facts: Table, version: Version) -> Iterator[tuple[str, str]]:
 
     A macro of URDF may be the inside of a `<gazebo>`, which holds SDF: only links are no less likely to be URDF's.
     """
+    # Of 320 xacro files of the corpus whose root is `robot` or `sdf`, 303 are taken. Of the 17
+    # others 14 are mistakes (<box> without a size, a <visual> with text), two are from before xacro
+    # needed a prefix, and one is a test of xacro itself.
     foreign = (
         {path[-1] for path, _ in rows_with_paths(table("sdf"))} - {"link"} if facts.format == "urdf" else set[str]()
     )

@@ -23,6 +23,9 @@ from twinform.schemas.xsd_assertions import declare_assertions
 from twinform.schemas.xsd_names import declare_names
 from twinform.schemas.xsd_values import XS, Values, allow_attributes, annotate, xs
 
+# XSD 1.0 has no way to take any element beside those that it knows; 1.1 has. Of 1,374 accepted
+# corpus files the strict XSD 1.0 refuses 275, the lenient one 80, and the lenient 1.1 20, for text
+# between elements and two numbers in transmissions.
 _MANY = {"minOccurs": "0", "maxOccurs": "unbounded"}
 _FOREIGN = "foreign"
 """A group of nothing but foreign elements. Where it stood inline, xmlschema 4.3 would let text pass as well."""

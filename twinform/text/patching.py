@@ -158,6 +158,7 @@ class _Patching:
         kept = {j: before[i] for i, j in pairs}
         stay = {i for i, _ in pairs}
         gone = [each for i, each in enumerate(before) if i not in stay]
+        # A part that moved takes its own text along, with its comments and spelling.
         moved = {self.contents.number(each): self.places[each].whole.of(self.text) for each in gone}
         for each in gone:
             self._replace(self.around.with_line(self.places[each].whole), "")

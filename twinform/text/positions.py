@@ -84,6 +84,9 @@ class ElementSpan:
             pending.extend(reversed(here.children))
 
 
+# libxml2 knows the line of an element and nothing else; expat gives the byte at which each tag
+# begins. It also refuses what libxml2 repairs, so a file that is not well-formed cannot be changed
+# in its place.
 class UnplacedError(ValueError):
     """The text is not well-formed, or has a document type declaration: nothing is known of its places.
 

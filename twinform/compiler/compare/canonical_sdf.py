@@ -78,6 +78,10 @@ def _seen(
     sink: DiagnosticSink,
     assets: Assets,
 ) -> Robots:
+    # Both files are rewritten in the newest SDF by the passes that conversions use, and then
+    # resolved in the model's frame. Compared node by node, a link frame that moved by a centimeter
+    # makes every number below it another one; and an engine's numbers know nothing of colors,
+    # sensors and plugins, nor of lines in the file.
     canonical = Pipeline(_to_newest_sdf(document)).with_files(assets).run(document, sink)
     robots: dict[str, Robot] = {}
     around: dict[str, Surroundings] = {}

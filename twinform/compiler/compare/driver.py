@@ -87,6 +87,8 @@ def _seen_by_all(a: Mapping[Reader, Robots], b: Mapping[Reader, Robots], toleran
     found = list(_compared(*pair, tolerance, memos))
     for reader in more:
         seen = a[reader], b[reader]
+        # What two readers see alike is built and compared once: asking for every reader costs
+        # little where carriers touch little.
         if seen[0] is not pair[0] or seen[1] is not pair[1]:
             files = pair[0].path, pair[1].path
             found = reconcile(found, list(_compared(*seen, tolerance, memos)), reader, files)

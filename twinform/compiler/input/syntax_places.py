@@ -32,6 +32,8 @@ _BEFORE: Mapping[str, str] = {
     "ERR_ATTRIBUTE_NOT_FINISHED": r"\s(?P<piece>[^\s=<>\"']+\s*=\s*[\"'])",
 }
 """The piece is the last of this form before the place that libxml2 gives."""
+# So the line of some findings is an earlier one than that of other tools, which report where the
+# parser noticed.
 _NEAR = 300
 _HERE = re.compile(r"</?[\w:.-]+|--|[\w:.-]+|\S")
 """What stands at that place, where that is the piece."""

@@ -148,6 +148,8 @@ class Builder:
     def _pool(self, made: Part, child: XmlElement, row: Fact) -> None:
         """Take in an extension of URDF; those of one reference are read as one, and one without content as none."""
         reference = child.get("reference") or ""
+        # Extensions of one reference are pooled: a conversion cannot know how many there were, and
+        # no reader asks.
         key = made.next_key(_EXTENSION, reference)._replace(number=1)
         before = made.children.get(key)
         part = before or self.part(child, row)
@@ -166,6 +168,9 @@ class Builder:
             made.values[TEXT] = literally(text)
         sdf = builder("sdf", table("sdf").newest)
         for child in element:
+            # <mu1> and a <collision> with a <surface>, in one or in two <gazebo> elements, set one
+            # field. Which of these the author wrote would be a second copy of the notation of each
+            # number, so a tag counts as the value that it sets.
             paths, found = tag_paths(child), tag_value(child)
             if found is not None and paths:
                 for path in paths:

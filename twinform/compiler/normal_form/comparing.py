@@ -128,6 +128,8 @@ def _paired(source: Part, back: Part) -> dict[Key, Key]:
             left.setdefault(key.tag, []).append(key)
     for key in source.children:
         candidates = left.get(key.tag) if key not in pairs else None
+        # A name that a conversion synthesized, and did not take back, is a discrepancy of its own:
+        # found at the part, and not as one part that is missing and another that is new.
         if candidates and bool(candidates[-1].name) != bool(key.name):
             pairs[key] = candidates.pop()
     return pairs

@@ -25,6 +25,9 @@ class NormalForm:
     @classmethod
     def of(cls, tree: XmlElement, file: str = "") -> "NormalForm":
         """That of a tree which `check` or `convert` has read."""
+        # It looks at the two files as their author would, with types and defaults from the facts
+        # tables, and at nothing of the compiler. A judge that compared the IR did not see what has
+        # no field. About 30 us an element.
         format = _FORMATS[str(tree.tag)]
         return cls(builder(format, declared_version(tree, format, DiagnosticSink())).root(tree), file)
 

@@ -30,6 +30,9 @@ def put_bases_first(model: XmlElement) -> None:
     """Put the frames of a model behind what they stand on, and change the order of nothing else."""
     children = list(model)
     ordered = _ordered(children, _names_of_element)
+    # Only in documents that came from URDF, where the order is ours. An SDF file that stays SDF
+    # keeps its order, also where Drake misreads it. A pass cannot do this: parts are written in the
+    # order of the lines that they came from.
     if [*ordered.parts, *ordered.circular] != children:
         model[:] = [*ordered.parts, *ordered.circular]
 
@@ -64,6 +67,8 @@ def _ordered(parts: list[_Part], names_of: Callable[[_Part], _Names]) -> _Ordere
         ready = [pair]
         while ready:
             part, (name, bases) = one = ready.pop()
+            # Each part waits under one base that is missing, and is looked at again when that one
+            # is there: linear, however long the chains are.
             base = next((base for base in bases if base in known and base not in done), None) if bases else None
             if base is not None:
                 waiting.setdefault(base, []).append(one)

@@ -25,6 +25,10 @@ _WHOLE = frozenset({"robot", "sdf", "world", "model"})
 """Elements that are not what is in them."""
 _REFERRED = ("link", "joint", "frame")
 """What an extension may refer to by its name."""
+# The IR does not know of comments: a field in each node would be copied and merged by a hundred
+# passes, and patching the text afterwards could tell by names only which piece came from where. A
+# node knows the line that it was read at and the writer which element it becomes, so comments
+# follow these. 200 comments in 1,000 links cost 45 %.
 _FAR = 8
 """So many elements behind a comment are looked at for one that it can stand before."""
 _MOST = 5000
@@ -55,6 +59,7 @@ class Comments:
 
     def travels(self, comment: XmlElement) -> bool:
         """Whether a comment goes along."""
+        # The finding that a suppression is about is one in its own format.
         if self.foreign and _OWN.match(comment.text or ""):
             return False
         if self.inside is None and not self.outside:

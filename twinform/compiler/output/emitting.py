@@ -58,6 +58,8 @@ def emit(
     if comments is not None:
         return _commented(document, sink, comments, fit=fit, kept=kept)
     text = text_without_tree(document)
+    # The text is validated as it stands. What is refused is written again as a tree, because
+    # findings, and what `fit` leaves out, are about its elements and their lines.
     if text is not None and is_valid_text(text, document.format, written_version(document)):
         return text
     return serialized(valid_tree(document, sink, fit=fit, kept=kept), document)

@@ -17,6 +17,8 @@ _ROOTS: dict[Format, type[Node]] = {Format.URDF: Model, Format.SDF: Document}
 
 def json_text(document: Document, sink: DiagnosticSink) -> str:
     """The JSON text of a document, and errors in the diagnostics where its format cannot express it."""
+    # A document as JSON could say what no file can: two robots in URDF, a robot in a robot, gravity
+    # of a link. So it is held against the published schema.
     data = json_data(document)
     for fault in json_faults(data):
         path = "/".join(map(str, fault.path))

@@ -38,6 +38,9 @@ class CollectFiles(AssetPass):
     name: ClassVar[str] = "collect-files"
 
     lenient: bool = False
+    # The one pass that keeps something: a package holds a model in several texts (SDF in two
+    # versions, URDF), and a mesh is there once. It has no entry point, so nobody but `package`
+    # makes one.
     _collection: Collection = PrivateAttr()
 
     @classmethod
@@ -49,6 +52,9 @@ class CollectFiles(AssetPass):
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with the URIs of the package."""
+        # In the scheme of the source, before the target is known: what the target wants instead is
+        # the business of legalization. To rewrite URIs in each finished text would need a second
+        # reader of both formats.
         scheme = "package" if document.format is Format.URDF else "model"
         missing: dict[str, AssetError | UncollectedError] = {}
         made = MadeFiles.of(sink.side_files)

@@ -27,6 +27,9 @@ _BEGINNING = 64
 _MOST_IN_FOLDER = 2000
 _TEXTURE_FOLDERS = ("", "../materials/textures", "../textures", "../../materials/textures")
 """Where an image may lie that is named without a folder, seen from the file that names it, as Gazebo looks."""
+# A package is given away, so its rules are stricter than those of reading: a document may name
+# files of the folders around it, but only meshes, images, sounds, and scripts go in, and what a
+# mesh names must lie in its own package, in that of the document, or in a folder that was named.
 _NAMED: dict[FileKind, frozenset[FileKind]] = {
     "mesh": frozenset({"image", "data"}),
     "data": frozenset({"image"}),
@@ -135,12 +138,16 @@ class Collection:
         key = (hashlib.sha256(data).hexdigest(), *sorted(named.items()))
         place = self._placed(found, kind, content, key, origins)
         names = {name: _as_seen(target, place, format_) for name, target in named.items()}
+        # Only the names are replaced, in the bytes of the file: a mesh that went through a library
+        # comes back with other numbers.
         if self.sources[place] == content and any(name != written for written, name in names.items()):
             self.files[place] = format_.rewritten(data, names)
         return place
 
     def _placed(self, found: Path, kind: FileKind, content: Path, key: tuple[object, ...], origins: Origins) -> str:
         """The place of a file: that of one of the same content, or a new one."""
+        # Files of one content and one ending are one file. The ending counts, since readers tell
+        # the format of a mesh by it.
         key = (suffix_of(found), *key)
         if key not in self._by_content:
             place = self._places.take(self._wanted(found, kind, origins))
@@ -166,6 +173,8 @@ class Collection:
             beginning = origins.assets.readable.read(path, _BEGINNING)
         except OutsideError as error:
             raise UncollectedError(f"{str(path)!r} {error.reason}", error.help, URI_LEAVES_FOLDER) from error
+        # A clone without `git lfs pull` has a text of three lines in the place of each mesh, which
+        # Gazebo would report as a broken mesh.
         if is_pointer(beginning):
             raise UncollectedError(f"{str(path)!r} is {POINTER}", "run `git lfs pull` in its repository")
         if kind_of(real) != kind_of(path):

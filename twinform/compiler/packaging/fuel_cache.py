@@ -61,8 +61,11 @@ def add(resource: Resource, cache: Path, server: str, owner: str, name: str, ver
     for part in (server, owner, name):
         if not _PART.fullmatch(part):
             raise FuelError(f"{part!r} cannot be a part of an address: it is empty, hidden, or has a slash")
+    # The layout of gz-fuel-tools, so that Gazebo finds the same models. Nothing here opens a
+    # network connection, and yet includes by address have to be found on a build machine.
     versions = cache / server.lower() / owner.lower() / resource.kind / name.lower()
     there = newest_first(versions)
+    # The same files are no new version, so that the command can stand in a script.
     same = next((each for each in there if _same(resource.folder, versions / each)), None)
     if version is not None and str(version) in there and same != str(version):
         raise FuelError(f"{versions / str(version)} is there with other files; give another --resource-version")

@@ -16,6 +16,10 @@ from twinform.ir.frames import WORLD
 from twinform.ir.scopes import SCOPE
 from twinform.passes.transforms.lumped_links import lumped_links
 
+# libsdformat 12 saw another world in 41 of 76 files of a sample of the corpus, and refused five
+# more, when every model became URDF. What would be another robot stays SDF: to refuse the world
+# would help nobody with a ground plane, and to write both forms would make two truths. `make report
+# NAME=worlds` holds this list against libsdformat.
 NO_MASS = 1e-6
 """What weighs no more, in kg, has no mass for libsdformat before 13."""
 _SHARED = frozenset({"fixed", "revolute", "continuous", "prismatic"})

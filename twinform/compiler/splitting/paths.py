@@ -72,9 +72,11 @@ def moved(document: Document, source: LocalAssets, folder: Path, sink: Diagnosti
         if path is None:
             return uri
         found = _found(path, source)
+        # Not guessed at: Gazebo may look for it in its resource folders.
         if found is None:
             _report(path, where, sink, missing)
             return uri
+        # By real paths, since `..` behind a symbolic link leads elsewhere.
         new = os.path.relpath(found.parent.resolve() / found.name, there).replace(os.sep, "/")
         made = _FILE + quote(new) if uri.strip().startswith(_FILE) else new
         assets.before[made] = uri

@@ -110,6 +110,8 @@ def split(
             message = "the file is URDF, which holds one robot; --split is for SDF"
             sink.report(rules.INVALID_VALUE, message, document.location, found="urdf", expected="sdf")
         if folder is not None:
+            # Before the passes that a target asks for, which look up what they need by the old
+            # paths; what they make of a path is then made of the new one.
             document, there = moved(document, assets, folder, sink)
             request = replace(request, assets=there)
         kept = mixed_words(checked) if checked.mixed else None
@@ -196,6 +198,8 @@ class _Files:
 
     def _as_urdf(self, document: Document, model: Model, named: frozenset[str]) -> tuple[_Urdf | None, str]:
         """The model as URDF, or why it cannot be."""
+        # libsdformat places the root link of an included URDF where the include says, and not the
+        # frame of the model. So the pose stands in the include, for the root.
         alone = _alone(document, model.copy(pose=None, placement_frame=None))
         sink = DiagnosticSink(self.sink.file, self.sink.strict, origins=self.sink.origins, allows=self.sink.allows)
         comments = self._comments_in(model, foreign=True)

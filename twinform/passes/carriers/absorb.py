@@ -71,6 +71,8 @@ def _absorb(node: AnyNode, piece: Opaque, condition: VersionCondition, version: 
     data = _read(piece, definition_of(node) or "", version)
     if condition.index and piece.at:
         return _beside(node, piece.at.split("/"), piece)
+    # A repeated element stays repeated: of two <material> readers take the first, and the second,
+    # put in its place, would be a look that nobody saw in the file.
     if condition.index and is_repeated(piece, node):
         return node.copy(opaque=(*node.opaque, piece))
     if piece.element is not None and piece.element.name == "pose" and not piece.at:

@@ -41,6 +41,8 @@ def with_annotation(
     node: AnyNode, kind: str, text: str | None = None, attributes: Mapping[str, str | None] | None = None
 ) -> AnyNode:
     """The node with one more annotation, before its other opaque parts."""
+    # Before the other parts, so that comments and elements of other tools keep their order among
+    # themselves.
     return node.copy(opaque=(annotation(kind, text, attributes), *node.opaque))
 
 

@@ -24,6 +24,8 @@ from lxml import etree
 from twinform.ir import Element, Node, Opaque, bits_named, untyped_elements
 from twinform.schemas import XmlElement, parse_version, versions_of, writer
 
+# Elements in a namespace are what none of thirteen readers refuses and none reads otherwise
+# (docs/evidence/readers.md). urdf_parser_py, and Drake in SDF, report that they skip them.
 NAMESPACE = "urn:twinform:1"
 PREFIX = "tf"
 _OURS = f"{{{NAMESPACE}}}"

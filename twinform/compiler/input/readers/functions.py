@@ -117,6 +117,9 @@ class FunctionWriter:
         part = self.part
         for row in () if part.at else self._placed(part.fact):
             self._require_field(row)
+        # Values go into a dict, which a part that is unusual is added to. As local variables they
+        # would make a node in 0.9 instead of 1.2 us, but what the schema reader adds would have to
+        # be merged at the end.
         steps = [self._attributes(), self._missing_attributes(), self._text(), self._children()]
         if not part.at:
             steps += self._finish()

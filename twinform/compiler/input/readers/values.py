@@ -26,6 +26,8 @@ __all__ = [
 
 Vector3 = tuple[float, float, float]
 
+# No validation by Pydantic follows. All that it could refuse is a node without a required field, or
+# with a word that its class does not have, and for these there is a finding.
 BOOLS: dict[str | None, bool] = {"true": True, "false": False}
 """The usual spellings; others are noted."""
 

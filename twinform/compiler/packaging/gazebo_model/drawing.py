@@ -44,6 +44,9 @@ def picture(faces: Sequence[Faces]) -> bytes:
         ImportError: the extra is not installed.
         UndrawableError: the triangles hide each other many times.
     """
+    # Gazebo's own thumbnails need Gazebo and a GPU, and light rendering libraries need OpenGL. A
+    # picture of 512 pixels needs a depth buffer: triangles are sampled as finely as the pixels, and
+    # numpy sorts the samples. The same model gives the same bytes.
     numpy: Any = importlib.import_module("numpy")
     image: Any = importlib.import_module("PIL.Image")
     side = _SIZE * _FINER

@@ -25,6 +25,8 @@ def reserve_names(collection: Collection) -> None:
 
 def sdf_names(versions: Iterator[str]) -> dict[str, str]:
     """The SDF files by their versions, the newest first: `model.sdf` for that, `model-1_9.sdf` for an older one."""
+    # Gazebo takes the newest file of model.config that it reads, so one folder serves several
+    # releases.
     newest, *older = sorted(set(versions), key=parse_version, reverse=True)
     return {newest: "model.sdf", **{each: f"model-{each.replace('.', '_')}.sdf" for each in older}}
 

@@ -77,6 +77,9 @@ def controllers_of(document: Document, sink: DiagnosticSink, release: str = "har
     found += drive
     for group, joints in groups.items():
         found += _commanding(group, [joint for joint in joints if joint.name not in wheels])
+    # Interfaces say what a joint takes, not what it is for. Positions have one usual controller;
+    # velocities and efforts have one without gains. A trajectory controller for these needs gains,
+    # and gains that nobody has measured are worse than none.
     found += [each for system in systems for each in _broadcasters(model, system, sink)]
     return tuple(_with_own_names(found))
 
@@ -136,6 +139,7 @@ def _drive(
 ) -> tuple[list[Controller], frozenset[str]]:
     """The controller of a differential drive, where there is one, and the joints that it commands."""
     model = document.models[0]
+    # A wheel turns without end; a revolute joint that takes velocities is part of an arm.
     endless = {joint.name for joint in model.joints if joint.type == "continuous"}
     commanded = [each for group in groups.values() for each in group]
     joints = [each.name for each in commanded if _is_spun(each) and each.name in endless]

@@ -38,6 +38,8 @@ def differential_drive(model: Model, joints: Sequence[str], others: Sequence[str
         if turning:
             raise NotMeasuredError(f"joint {turning!r} moves the wheel of joint {name!r}")
     radius = radius_of(wheels.values())
+    # Cars are told apart by a wheel on the same ground that turns with a commanded joint. A
+    # caster's swivel is not commanded, and an arm's joints reach no ground.
     steered = _steered(model, min(each.center[2] for each in wheels.values()) - radius, others, format_)
     if steered:
         raise NotMeasuredError(f"the wheel of joint {steered!r} is steered")

@@ -34,6 +34,10 @@ def runs_in_gazebo(system: System, release: str) -> bool:
 
 def controllers_uri(package: str) -> str:
     """What the plugin has for the path of its file, which the launch file puts in its place."""
+    # gz_ros2_control wants the file's path, which is known only after the installation. Other
+    # packages write a xacro with $(find ...) for that; then a name with ${...} in it would run, and
+    # what reads no xacro cannot read the robot. So the URDF stays a URDF, and two lines of the
+    # launch file put the path here.
     return f"package://{package}/{CONTROLLERS}"
 
 

@@ -44,6 +44,9 @@ def build(order: Order, collection: Collection) -> Built:
     conversion = _converted(order, collection)
     contents = _contents(order, conversion, [*collection.files, *order.beside], sink)
     texts = generated_files(contents)
+    # The robot is spawned in Gazebo from the URDF that robot_state_publisher publishes:
+    # gz_ros2_control needs the description anyway, so tf and Gazebo have one source, and whoever
+    # edits the URDF sees the change in both.
     texts[f"urdf/{order.name}.urdf"] = conversion.text
     texts[f"worlds/{order.name}.sdf"] = world_without_text(conversion.document, order.release, sink, _WORLD)
     files: dict[str, Content] = {path: text.encode() for path, text in texts.items()}

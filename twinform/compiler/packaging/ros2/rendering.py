@@ -4,6 +4,8 @@ import re
 from collections.abc import Mapping
 from importlib import resources
 
+# Templates read as what they become. A template engine would be a dependency of everybody for forty
+# marked lines.
 _NAME = re.compile(r"\{\{(\w+)\}\}")
 _PLAIN = re.compile(r"[A-Za-z0-9_./-]+")
 _CONDITION = re.compile(r"  #\? (\w+)$")
@@ -25,6 +27,7 @@ def render(template: str, values: Mapping[str, str], facts: Mapping[str, bool]) 
 
 def python_text(text: str) -> str:
     """Text as Python has it, in single quotes, as ROS 2 writes them, wherever that needs no more escapes."""
+    # Single quotes and 99 columns, as ament's linters want generated Python.
     return ascii(text)
 
 

@@ -12,6 +12,9 @@ from twinform.passes.framework.instrumentation import PassInstrumentation
 from twinform.passes.framework.pipeline import Pipeline
 
 
+# Values of the IR and no diff of the text: between the passes of legalization a document is half in
+# one format and half in the other, and there is no such text. Values also tell what is absent from
+# what has its default.
 class PrintChanges(PassInstrumentation):
     """Writes what each pass changed; nothing for a pass that changed nothing."""
 

@@ -114,9 +114,13 @@ class _Fold:
         elsewhere = {**MODEL_TAGS, **({} if link.name in self.joints else JOINT_TAGS)}
         sorter = self._sort(extensions, LINK_TAGS, elsewhere, shapes=True, idle=partial(lacks_shapes, link))
         if link.name in self.joints:
+            # A reference to a name that a link and a joint share means the link; only tags that joints
+            # alone have go to the joint.
             sorter.forget(JOINT_TAGS)
         link = set_link_fields(link, sorter.values)
         before: list[Blob] = []
+        # In the order of libsdformat: in each <gazebo> what goes into shapes comes first and the
+        # tags count beside it, and a later <gazebo> overrules an earlier one.
         for blobs, tags in sorter.in_order():
             for blob in blobs:
                 link = self._into_shapes(link, blob)
@@ -270,6 +274,8 @@ class _Fold:
         name = str(getattr(node, "name", None)) if kind != "model" else self.robot.name
         conflicts: list[str] = []
         merged = merge(node, read_content(kind, name, self.robot.name, content, self.sink), conflicts)
+        # A second <pose> would overrule an edit of the first one if it came back after that was
+        # deleted.
         again = [part for part in merged.opaque if _is_second(part) and part not in node.opaque]
         if again:  # a reader takes the first
             merged = merged.copy(opaque=tuple(part for part in merged.opaque if part not in again))

@@ -45,6 +45,7 @@ class FollowLumpedNames(ModelPass):
                 message = (
                     f"{found.name!r} is on link {found.link!r}, which no sensor on {extension.reference!r} can detect"
                 )
+                # A warning only: to move the sensor would change the robot.
                 hint = "convert with --passes 'lump-fixed-joints{compat=libsdformat}'"
                 sink.report(rules.UNSEEN_COLLISION, message, element.location, found=found.name, help=hint)
         content = tuple(followed(part, names, carriers=self.carriers) for part in extension.content)
@@ -65,6 +66,8 @@ def names_of_libsdformat(model: Model) -> dict[str, Followed]:
     """What names that only libsdformat gives mean: what it lumps has the same shapes, from where they were written."""
     own = own_collisions(model)
     known = {each.name for each in own.values()}
+    # The number in a lumped name counts all collisions of the body, so which one is meant is found
+    # by naming them all as libsdformat would.
     named = ((seen.name, own.get(seen.shape.source)) for seen in seen_shapes(model, "collisions") if seen.shape.source)
     return {name: meant for name, meant in named if meant and name not in known}
 

@@ -70,6 +70,8 @@ def _report(found: DiagnosticSink, step: str, reference: str, sink: DiagnosticSi
 
 def with_mass(link: Link) -> Link:
     """The link with all of its inertial written: what it leaves out is 1 kg or 1 kg m^2 in SDF, and nothing in URDF."""
+    # A link that only an extension has is SDF: Gazebo gives it 1 kg m^2 where nothing is written. A
+    # token, as for links of URDF, would make another robot.
     return replace_fields(link, inertial=_as_in_sdf(link.inertial))
 
 

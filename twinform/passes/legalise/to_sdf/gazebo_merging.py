@@ -10,6 +10,7 @@ from twinform.ir.tree import node_fields
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
+# Half of one inertia and half of another would be a body that nobody meant.
 _WHOLE = frozenset({"inertial", "geometry", "pose", "surface"})
 """What makes sense only as it was written."""
 _ONCE = frozenset({"physics"})

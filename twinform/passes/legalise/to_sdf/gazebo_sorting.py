@@ -180,6 +180,8 @@ class Sorter:
             message = f"<{element.name}> in <gazebo> is {text!r}; expected a value of its type"
             self._notes.report(rules.INVALID_VALUE, message, where, found=text)
             return
+        # libsdformat compares the text with a few words and takes all others for the same value, so
+        # a slip changes the robot silently.
         if tag.read in TRUTHS and text.lower() not in TRUE | FALSE:
             message = f"<{element.name}> in <gazebo> is {text!r}, which Gazebo takes for {str(value).lower()}"
             expected = "true or false"
