@@ -13,6 +13,8 @@ from twinform.testing.profiles import PROFILES
 PROFILE = os.environ.get("TWINFORM_PROFILE", "smoke")
 DEEP = PROFILE == "deep"
 REPEATED = PROFILE == "smoke"
+# New examples at each run could fail for a fault that was there for months, in the way of a change that has
+# nothing to do with it. A fault that the deep profile finds becomes a case.
 _CHEAP = 50 if REPEATED else 100
 """How many examples a property is tried with that does not ask for `examples`."""
 

@@ -69,6 +69,9 @@ class Outputs:
         Raises:
             click.UsageError: two of them are one file.
         """
+        # `-o` named twice is mostly a slip, so an output is never an input; --in-place is for that.
+        # A file that is read on the way, a mesh or an included model, is no place for an output
+        # either.
         known = {each: path for path in (*read, *self.inputs) for each in identities(path)}
         for each in (each for path in self.spared for each in identities(path)):
             known.pop(each, None)
@@ -115,6 +118,9 @@ class Outputs:
                 [(output.path, text) for output, text in self.texts], to_stdout=self.stdout is not None
             )
         try:
+            # What one call writes is one thing, the opposite of `batch`, where one bad model never
+            # stops the rest. All texts are written beside their places first, then standard output,
+            # then all are moved.
             write_all_atomically({output.path: text for output, text in self.texts}, self._print)
         except OSError as error:
             if not error.filename:
@@ -148,6 +154,8 @@ def require_as_read(path: Path, before: bytes) -> None:
 def _require_ours(path: Path, side_file: SideFile) -> None:
     """Raise where somebody else's file is in the place of a side file."""
     with suppress(OSError):  # writing it will say what is wrong
+        # A pipeline may come with a model that was downloaded, so it overwrites only what begins as
+        # twinform's own files do.
         data = read_regular(path)
         if not side_file.is_earlier(data[:HEAD]) and data != side_file.data:
             message = f"{path} is there, and twinform has not written it: remove it, or have another name"

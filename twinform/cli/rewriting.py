@@ -68,6 +68,8 @@ def write_back(rewrites: Sequence[Rewrite]) -> None:
     def require_unchanged() -> None:
         for path, each in files.items():
             require_as_read(path, each.before)
+            # A read-only file could be replaced by a rename, which asks for the permissions of its
+            # folder only. Whoever made it read-only did not mean that.
             if not _is_writable(path):
                 raise Unusable(f"{path} is read-only; nothing is written")
 

@@ -54,6 +54,7 @@ class _Watched:
 
     def note(self, name: str, seen: Observation) -> None:
         every = {**seen.looked_at, **seen.read}
+        # The time of a folder changes with every file in it, such as an editor's swap file.
         files = {path: status for path, status in every.items() if status is None or not stat.S_ISDIR(status.st_mode)}
         self.files[name] = {path: _Status.of(status) for path, status in files.items()}
 
@@ -124,7 +125,13 @@ def _wait(names: Sequence[str], watched: _Watched) -> None:
     waits = 0
     try:
         for changes in watchfiles.watch(
-            *folders, watch_filter=None, recursive=False, rust_timeout=_MILLISECONDS, yield_on_timeout=True
+            # Not recursive: a workspace of ROS holds a hundred thousand files, and inotify needs a
+            # watch for each folder.
+            *folders,
+            watch_filter=None,
+            recursive=False,
+            rust_timeout=_MILLISECONDS,
+            yield_on_timeout=True,
         ):
             waits += 1
             is_new = any(format_of_suffix(path) for _, path in changes)

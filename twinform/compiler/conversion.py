@@ -149,7 +149,7 @@ def _run(
         allowed=list(loaded.allowed),
     )
     passes = _with_files(request, load_options, loaded.path)
-    # The document is verified between the user's passes. Legalization leaves it half in one format
+    # The document is verified between the user's passes. Legalisation leaves it half in one format
     # and half in the other, so there the check comes at the end.
     changed = passes.run(document, sink, instrumentation=instrumentation, verify=verify if loaded.accepted else None)
     changed = _remedied(changed, request, sink, instrumentation, accepted=loaded.accepted)

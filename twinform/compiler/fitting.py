@@ -64,7 +64,7 @@ def fitted(
     request = replace(request, sdf_version=request.sdf_version or newest_sdf(load_options.profiles))
     steps: tuple[Pass, ...] = ()
     mends = frozenset(row.rule for each in load_options.profiles for row in each.rows if row.pipeline)
-    # The result is judged, and not the source: legalization changes much, and encodings, odd
+    # The result is judged, and not the source: legalisation changes much, and encodings, odd
     # numbers and stray comments are gone once a file is written anew. It costs a conversion more,
     # and only under `--for`.
     for _ in range(_ROUNDS):

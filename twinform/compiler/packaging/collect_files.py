@@ -53,7 +53,7 @@ class CollectFiles(AssetPass):
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with the URIs of the package."""
         # In the scheme of the source, before the target is known: what the target wants instead is
-        # the business of legalization. To rewrite URIs in each finished text would need a second
+        # the business of legalisation. To rewrite URIs in each finished text would need a second
         # reader of both formats.
         scheme = "package" if document.format is Format.URDF else "model"
         missing: dict[str, AssetError | UncollectedError] = {}

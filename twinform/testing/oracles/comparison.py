@@ -66,6 +66,7 @@ def judge(
     worst = _largest(found)
     weight = _largest(one for one in found if one.kind not in _POSES)
     apart = _largest(one for one in found if one.kind in _POSES)
+    # Links of chains weigh 2e-6 kg in URDF and nothing in SDF.
     exact = max(tolerance, IN_CHAINS) if chains else tolerance
     if cause := _other_parts(first, second, nothing) or _other_limits(first, second) or _other_numbers(found, exact):
         return _verdict(first, second, None, worst, cause)
@@ -78,6 +79,7 @@ def judge(
 
 def _by_scopes(first: Robot, second: Robot) -> Robot:
     """The second robot with the names that the links of models in the first one have there."""
+    # Links of nested models are called so in URDF.
     flat = {name.replace("::", "__"): name for name in first.links if "::" in name and name not in second.links}
     if not flat.keys() & set(second.links):
         return second

@@ -40,6 +40,8 @@ def read(path: Path, view: View) -> Robot:
     moving = {name: joint for name, joint in found.items() if is_simple(joint) and name not in view.still}
     reference = view.reference if view.reference in bodies else root(bodies, joints)
     origin = _pose(plant, plant.CreateDefaultContext(), bodies[reference]) if reference != WORLD else np.eye(4)
+    # Gravity along the axes of the reference link, since a conversion may place the model's frame
+    # elsewhere.
     plant.mutable_gravity_field().set_gravity_vector(origin[:3, :3] @ np.array([0.0, 0.0, -GRAVITY]))
     samples = (
         _sample(plant, bodies, moving, frames, origin, lambda name, number=number: position(name, number))
@@ -71,6 +73,9 @@ def parts(path: Path) -> tuple[Any, Parts, Parts, Parts]:
     plant = importlib.import_module("pydrake.multibody.plant").MultibodyPlant(0.0)
     parser = importlib.import_module("pydrake.multibody.parsing").Parser(plant)
     prefix = f"{plant.GetModelInstanceName(parser.AddModels(str(path))[0])}::"
+    # Drake 1.51 reads <mimic> in URDF and, in SDF, only its own drake:mimic: coupled joints would
+    # move apart for that reason alone. Whether a mimic is the same is a question for `twinform
+    # diff`.
     for constraint in plant.GetConstraintIds():
         plant.RemoveConstraint(constraint)
     plant.Finalize()

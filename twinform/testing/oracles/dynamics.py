@@ -80,6 +80,8 @@ def _simulated(path: Path, view: View, seconds: float) -> Trajectory:
     loose = {name: body for name, body in bodies.items() if body.is_floating_base_body()}
     analysis: Any = importlib.import_module("pydrake.systems.analysis")
     simulator = analysis.Simulator(plant)
+    # An integrator of high order and accuracy, so that what is left is the difference of the two
+    # models.
     analysis.ResetIntegratorFromFlags(simulator, "runge_kutta5", _LARGEST_STEP)
     simulator.get_mutable_integrator().set_target_accuracy(_ACCURACY)
     context = simulator.get_mutable_context()
@@ -94,6 +96,7 @@ def _simulated(path: Path, view: View, seconds: float) -> Trajectory:
 def _start(plant: Any, context: Any, joints: Mapping[str, Any], loose: Mapping[str, Any]) -> None:
     for name, joint in joints.items():
         positions, speeds = plant.GetPositions(context), plant.GetVelocities(context)
+        # By name and not by number: the order of joints is an engine's own business.
         positions[joint.position_start()] = _SWING * spread(f"{name}/position")
         speeds[joint.velocity_start()] = spread(f"{name}/velocity")
         plant.SetPositions(context, positions)

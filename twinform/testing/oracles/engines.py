@@ -11,6 +11,8 @@ from twinform.testing.oracles.verdict import EngineMissingError
 
 _EXTRA = "pip install 'twinform[oracles]'"
 _HERE = "twinform.testing.oracles"
+# Coarse where the engine itself rounds: libsdformat's reader of URDF prints some numbers with six
+# digits, and PyBullet turns inertias with few digits.
 _EXACT, _COARSE = 1e-9, 1e-6
 _SDF = {".sdf": _EXACT, ".world": _EXACT}
 _URDF = {".urdf": _EXACT}

@@ -37,6 +37,7 @@ def verdict_on(first: Robot, files: tuple[Path, Path], engines: tuple[str, str],
     here, there = chained(first, second), chained(second, first)
     if names or here:
         second = read_robot(result, after, View(names, first.reference, here))
+    # Both are seen from one link, or the poses of all others would differ by that of the root.
     if second.reference != first.reference or there:
         first = read_robot(source, before, View(reference=second.reference, still=there))
     tolerance = max(required(engine).formats[path.suffix] for engine, path in zip(engines, files, strict=True))

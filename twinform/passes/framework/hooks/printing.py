@@ -12,7 +12,7 @@ from twinform.passes.framework.instrumentation import PassInstrumentation
 from twinform.passes.framework.pipeline import Pipeline
 
 
-# Values of the IR and no diff of the text: between the passes of legalization a document is half in
+# Values of the IR and no diff of the text: between the passes of legalisation a document is half in
 # one format and half in the other, and there is no such text. Values also tell what is absent from
 # what has its default.
 class PrintChanges(PassInstrumentation):
