@@ -99,6 +99,10 @@ class FrameLinks(ModelPass):
             name=joint.name, attached_to=joint.parent, pose=pose, opaque=_carriers(joint), source=joint.source
         )
         body = Frame(name=link.name, attached_to=joint.name, source=link.source, opaque=_carriers(link))
+        if annotation is not None:  # its joint stays, so that in SDF it is a link like those of URDF
+            body = without_annotation(body, FRAME)
+            message = f"link {link.name!r} was one frame of SDF, and has a joint that was not made for it"
+            body = self._keep(body, [Opaque.unchecked(element=annotation)], message, sink)
         if self.carriers:
             body = with_annotation(body, LINK)
         return self._rest_of_joint(mount, joint, sink), self._rest_of_link(body, link, sink)
