@@ -2,10 +2,11 @@
 
 from collections.abc import Iterable, Mapping
 
-from twinform.ir import Element, Frame, Joint, Model
+from twinform.ir import Element, Format, Frame, Joint, Model
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import annotate_synthesized, find_annotation, is_synthesized
+from twinform.passes.carriers.provenance import came_from
 from twinform.passes.legalise.names import scoped_name
 from twinform.passes.transforms.notation import NESTED
 
@@ -14,9 +15,13 @@ _CLOSE = 1e-9
 
 
 def links_in_static_models(model: Model) -> frozenset[str]:
-    """The links of a model that is static, or of the static models that it has in SDF."""
+    """The links of a model that is static in the SDF that it came from, or of the static models that it has there.
+
+    A static model that does not say so keeps its joints to the world: nobody makes them anew, with their frames and all
+    that is set for them.
+    """
     if model.static:
-        return frozenset(link.name for link in model.links)
+        return frozenset(link.name for link in model.links if came_from(model, Format.SDF))
     frames = (*model.links, *model.frames)  # a frame of SDF is a link at first
     scopes = tuple(f"{scoped_name(frame)}::" for frame in frames if is_static(find_annotation(frame, NESTED)))
     return frozenset(link.name for link in model.links if scoped_name(link).startswith(scopes))
