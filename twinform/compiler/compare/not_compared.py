@@ -62,9 +62,10 @@ NOT_COMPARED = (
         " are the cameras of a sensor, the workflows of `<pbr>`, and what is in elements of other tools.",
     ),
     NotCompared(
-        "/robot/joint/mimic[not(@joint = //joint/@name) or @joint = //joint[@type = 'fixed']/@name]",
-        "a mimic of what does not move",
-        "No joint of that name moves, so readers have nothing to follow.",
+        "//joint//mimic[not(@joint = //joint/@name)"
+        " or @joint = //joint[@type='fixed' or @type='floating' or @type='ball' or @type='spherical']/@name]",
+        "a mimic of what has no axis",
+        "No joint of that name moves about one, so readers have nothing to follow.",
     ),
     NotCompared(
         "/robot/joint[@type='continuous']/limit/@*[name()='lower' or name()='upper']"

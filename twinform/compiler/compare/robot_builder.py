@@ -9,10 +9,11 @@ from twinform.compiler.compare.memo import Memo
 from twinform.compiler.compare.part_reader import PartReader
 from twinform.compiler.compare.robot import Body, JointView, Leaf, Mass, NamedFrame, Part, Robot
 from twinform.compiler.kinematics import Degree, degrees_of
-from twinform.ir import Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose
+from twinform.ir import Axis, Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.solids import placed, written_solid
 from twinform.ir.transform import Transform
+from twinform.ir.verify.joints import useless_leader
 from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.transforms.flattening import flatten
@@ -32,7 +33,7 @@ def build_robot(model: Model, source: Model, format: Format, memo: Memo) -> Robo
 def _built(model: Model, source: Model, format: Format, memo: Memo) -> Robot:
     shells: list[tuple[Frame, Model]] = []
     flat = _without_made_root(flatten(model, lambda frame, shell: _noted(shells, frame, shell)))
-    return _Reading(flat, format, memo).robot(source, shells)
+    return _Reading(_without_useless_mimics(flat), format, memo).robot(source, shells)
 
 
 def _noted(shells: list[tuple[Frame, Model]], frame: Frame, shell: Model) -> Frame:
@@ -48,6 +49,20 @@ def _without_made_root(model: Model) -> Model:
     name = link.name
     frames = (frame.copy(attached_to=MODEL) if frame.attached_to == name else frame for frame in model.frames)
     return model.copy(links=(), frames=tuple(frames), canonical_link=None)
+
+
+def _without_useless_mimics(model: Model) -> Model:
+    """The model without mimics of what does not move, or is not there: such a joint is free."""
+    if not any(axis and axis.mimic for joint in model.joints for axis in (joint.axis, joint.axis2)):
+        return model
+    known = {joint.name: joint for joint in model.joints}
+
+    def freed(joint: Joint, axis: Axis | None) -> Axis | None:
+        is_useless = axis and axis.mimic and useless_leader(joint, axis.mimic, known)
+        return axis.copy(mimic=None) if axis and is_useless else axis
+
+    joints = (each.copy(axis=freed(each, each.axis), axis2=freed(each, each.axis2)) for each in model.joints)
+    return model.copy(joints=tuple(joints))
 
 
 class _Poses:
