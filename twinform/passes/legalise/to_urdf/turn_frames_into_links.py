@@ -16,7 +16,7 @@ class TurnFramesIntoLinks(ToUrdfPass):
 
     Changes: 1. the link has the frame's name, the joint that name and `_joint`; 2. a model without any link gets one,
     called like the model, because URDF needs a root.
-    Diagnostics: in the ledger `frame-made-link`.
+    Diagnostics: in the ledger `frame-made-link`, but not for a frame that `place-free-links` writes as one again.
     """
 
     name: ClassVar[str] = "turn-frames-into-links"
@@ -31,11 +31,16 @@ class TurnFramesIntoLinks(ToUrdfPass):
             taken.add(model.links[0].name)
         graph = FrameGraph(model)
         links, joints = list(model.links), list(model.joints)
+        floating = {joint.name for joint in model.joints if joint.type == "floating"} if keeper.carriers else set[str]()
         for frame in model.frames:
             joint = unique_name(f"{frame.name}_joint", taken)
             taken.add(joint)
             body = graph.body(frame.name, kind="frame")
             links.append(_link(frame, body, keeper))
+            # a synthesized one stands for a nested model, and PlaceFreeLinks writes that of a floating joint as a frame
+            if not is_synthesized(frame) and frame.name not in floating:
+                message = f"frame {frame.name!r} becomes a link without mass"
+                keeper.account(rules.FRAME_MADE_LINK, message, frame.location, count_parts(frame))
             made = Joint(name=joint, type="fixed", parent=body, child=frame.name, source=frame.source)
             joints.append(annotate_synthesized(made))
         return model.copy(links=tuple(links), joints=tuple(joints), frames=())
@@ -46,12 +51,10 @@ def _link(frame: Frame, body: str, keeper: Keeper) -> Link:
     if not pose.relative_to:
         pose = pose.copy(relative_to=frame.attached_to or MODEL)
     link = Link(name=frame.name, pose=pose, source=frame.source, opaque=frame.opaque)
-    if is_synthesized(frame):  # it stands for a nested model, which is accounted for
+    if is_synthesized(frame):
         return keeper.annotate(
             without_annotation(link, SYNTHESIZED), FRAME, attributes={"attached_to": None}, always=True
         )
-    message = f"frame {frame.name!r} becomes a link without mass"
-    keeper.account(rules.FRAME_MADE_LINK, message, frame.location, count_parts(frame))
     holder = frame.attached_to or MODEL
     link = keeper.annotate(link, FRAME, attributes={"attached_to": None if holder == body else holder}, always=True)
     return keeper.annotate(link, POSE, attributes=pose_attributes(frame.pose)) if pose_attributes(frame.pose) else link
