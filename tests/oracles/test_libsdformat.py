@@ -134,3 +134,11 @@ def test_numbers_too_small_for_sdf_are_taken_in_urdf_and_in_the_sdf_made_of_it(t
     refused.write_text(sdf.read_text().replace("1.1754943508222875e-38", "1e-38"), encoding="utf-8")
     verdicts = libsdformat.judge([urdf, sdf, refused])
     assert [verdicts[path].ok for path in (urdf, sdf, refused)] == [True, True, False]
+
+
+def test_the_smallest_number_that_is_taken_in_sdf_is_taken_in_the_urdf_made_of_it(tmp_path: Path):
+    sdf, urdf, refused = CASES / "smallest_number.sdf", tmp_path / "made.urdf", tmp_path / "as_written.urdf"
+    urdf.write_text(twinform.convert(sdf, to="urdf").text, encoding="utf-8")
+    refused.write_text(urdf.read_text().replace("2.3e-308", "2.2250738585072014e-308"), encoding="utf-8")
+    verdicts = libsdformat.judge([sdf, urdf, refused])
+    assert [verdicts[path].ok for path in (sdf, urdf, refused)] == [True, True, False]

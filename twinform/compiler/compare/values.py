@@ -12,6 +12,8 @@ from twinform.ir.transform import Transform
 from twinform.schemas import format_value, parse_value
 
 _DIGITS = 10
+# Numbers that are closer than this are one: libsdformat reads none below, and conversions round them up.
+_NOTHING = 1e-37
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,7 +176,7 @@ def _apart(one: float, other: float) -> float:
     if one == other or (math.isnan(one) and math.isnan(other)):
         return 0.0
     gap = abs(one - other)
-    return gap if math.isfinite(gap) else math.inf
+    return 0.0 if gap < _NOTHING else gap if math.isfinite(gap) else math.inf
 
 
 def _places(a: Transform, b: Transform) -> Iterator[Delta]:

@@ -35,6 +35,11 @@ def test_two_places_differ_in_position_and_in_rotation():
     assert (rotation.aspect, rotation.absolute, rotation.unit) == ("rotation", pytest.approx(math.pi / 6), "rad")
 
 
+def test_numbers_that_are_too_small_for_others_are_one():
+    assert not any(gaps(Numbers((1e-310,)), Numbers((2.3e-308,))))
+    assert any(gaps(Numbers((0.0,)), Numbers((1e-14,))))
+
+
 @pytest.mark.parametrize("value", [Numbers((math.nan,)), Numbers((math.inf, 1.0)), Text("x"), PoseValue(_SIXTH)])
 def test_nothing_is_apart_from_itself(value: Value):
     assert not any(gap.exceeds(0.0) for gap in gaps(value, value))

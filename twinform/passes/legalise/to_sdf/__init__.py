@@ -4,6 +4,7 @@ from twinform.ir import Format
 from twinform.passes.framework.base import Pass
 from twinform.passes.legalise.drop_stale import DropStale
 from twinform.passes.legalise.names import RestoreNames
+from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers
 from twinform.passes.legalise.to_sdf.bodies import UrdfBodies
 from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf
 from twinform.passes.legalise.to_sdf.declare_quaternions import DeclareQuaternions
@@ -24,7 +25,6 @@ from twinform.passes.legalise.to_sdf.restore_joints import RestoreJoints
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.legalise.to_sdf.restore_shape_names import RestoreShapeNames
 from twinform.passes.legalise.to_sdf.retarget import RetargetSdf
-from twinform.passes.legalise.to_sdf.round_tiny_numbers import RoundTinyNumbers
 from twinform.passes.legalise.to_sdf.share_inertias import ShareInertias
 from twinform.passes.legalise.to_sdf.shared_materials import SharedMaterials
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
@@ -79,7 +79,7 @@ def to_sdf(
         RestoreNested.unchecked(scopes=scopes and parse_version(version) >= _NAMES_MEAN_MODELS),
         DropStale.unchecked(to=Format.SDF),
         DeclareQuaternions.unchecked(),
-        RoundTinyNumbers.unchecked(),  # when no more is computed
+        RoundTinyNumbers.unchecked(to=Format.SDF),  # when no more is computed
         # A robot whose SDF had syntax of newer versions goes back to such a file: only what means
         # something else in its version is rewritten.
         *(lower_meaning(version) if mixed else lower_version(None, version, carriers=carriers)),

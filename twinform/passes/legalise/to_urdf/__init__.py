@@ -4,6 +4,7 @@ from twinform.ir import Format
 from twinform.passes.framework.base import Pass
 from twinform.passes.legalise.drop_stale import DropStale
 from twinform.passes.legalise.names import RestoreNames
+from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers
 from twinform.passes.legalise.to_urdf.build_tree import BuildTree
 from twinform.passes.legalise.to_urdf.carry_the_rest import CarryTheRest
 from twinform.passes.legalise.to_urdf.compute_inertias import ComputeInertias
@@ -94,4 +95,5 @@ def to_urdf(
         PlaceFreeLinks.unchecked(carriers=carriers),
         # Last: whatever carrier nobody has taken by now fits nothing any more.
         DropStale.unchecked(to=Format.URDF),
+        RoundTinyNumbers.unchecked(to=Format.URDF),
     )

@@ -8,35 +8,35 @@ from typing import Any, ClassVar, get_args
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Color, Format, Model, Node, rewrite
 from twinform.ir.record import fields_of
-from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
 
 _DOUBLE = sys.float_info.min
 _FLOAT = 2.0**-126
 """The smallest float that is not subnormal: std::stof, by which libsdformat reads colors, refuses those below."""
+# libsdformat makes SDF of URDF, with fewer digits, and refuses what it makes of the smallest double: Param.cc.
+_IN_URDF = 2.3e-308
 
 
 class RoundTinyNumbers(ModelPass):
-    """Round numbers that are too small for libsdformat, which reads them in URDF and refuses SDF with them.
+    """Round numbers that are too small for libsdformat, which refuses files with them.
 
-    Changes: 1. a subnormal number becomes the smallest one of its sign that is not subnormal; 2. so does a part of a
-    color, of those that a float can hold.
-    Never touches: zero, numbers in what has no field, and a model that came from SDF.
+    Changes: 1. a subnormal number becomes the smallest one of its sign that libsdformat reads, which is 2.3e-308 in
+    URDF; 2. so does a part of a color in SDF, of those that a float can hold.
+    Never touches: zero, and numbers in what has no field.
     Diagnostics: ledger entries under `tiny-number`.
     """
 
     name: ClassVar[str] = "round-tiny-numbers"
+    to: Format
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with numbers that libsdformat reads."""
-        if came_from(model, Format.SDF):  # it refuses the SDF that they were in as well, and there they go back to
-            return model
-        return rewrite(model, Node, lambda node: _rounded(node, sink))
+        return rewrite(model, Node, lambda node: _rounded(node, self.to, sink))
 
 
-def _rounded(node: Node, sink: DiagnosticSink) -> Node:
+def _rounded(node: Node, to: Format, sink: DiagnosticSink) -> Node:
     update: dict[str, object] = {}
-    for name, least in _numbers(type(node)):
+    for name, least in _numbers(type(node), to):
         value = getattr(node, name)
         if value.__class__ is float:
             # Zero would be nearer, but a radius, a mass or an effort limit has to stay positive.
@@ -45,18 +45,22 @@ def _rounded(node: Node, sink: DiagnosticSink) -> Node:
         elif value and any(0 < abs(each) < least for each in value):
             update[name] = tuple(math.copysign(least, each) if 0 < abs(each) < least else each for each in value)
     for name in update:
-        message = f"Gazebo reads no number of SDF as small as one of {name!r}: the smallest that it reads is written"
+        message = f"Gazebo reads no number as small as one of {name!r}: the smallest that it reads is written"
         sink.account(Fate.APPROXIMATED, rules.TINY_NUMBER, message, node.location)
     return node.copy(**update) if update else node
 
 
 @cache
-def _numbers(kind: type[Node]) -> tuple[tuple[str, float], ...]:
+def _numbers(kind: type[Node], to: Format) -> tuple[tuple[str, float], ...]:
     """The fields of a class that hold numbers, each with the smallest that libsdformat reads there."""
     types: dict[str, Any] = {name: field.type for name, field in fields_of(kind).items()}
-    return tuple(
-        (name, _FLOAT if Color in get_args(type) else _DOUBLE) for name, type in types.items() if _holds_numbers(type)
-    )
+    return tuple((name, _least(type, to)) for name, type in types.items() if _holds_numbers(type))
+
+
+def _least(type: Any, to: Format) -> float:
+    if to is Format.URDF:
+        return _IN_URDF
+    return _FLOAT if Color in get_args(type) else _DOUBLE
 
 
 def _holds_numbers(type: Any) -> bool:
