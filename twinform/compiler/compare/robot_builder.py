@@ -42,9 +42,9 @@ def _noted(shells: list[tuple[Frame, Model]], frame: Frame, shell: Model) -> Fra
 
 
 def _without_made_root(model: Model) -> Model:
-    """The model without the link that was synthesized because URDF needs one."""
+    """The model without the link that was synthesized because URDF needs one; it has 1 kg in SDF if none is written."""
     link = model.links[0] if len(model.links) == 1 else None
-    if link is None or not is_synthesized(link) or (link.inertial and link.inertial.mass):
+    if link is None or not is_synthesized(link) or link.inertial is None or link.inertial.mass != 0:
         return model
     name = link.name
     frames = (frame.copy(attached_to=MODEL) if frame.attached_to == name else frame for frame in model.frames)
