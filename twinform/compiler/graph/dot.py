@@ -1,9 +1,9 @@
 """Writes a graph in DOT, the language of Graphviz."""
 
-from collections import defaultdict
 from collections.abc import Iterator, Mapping
 
-from twinform.compiler.graph.graph import Cluster, Graph, GraphJoint
+from twinform.compiler.graph.clusters import clustered, indented
+from twinform.compiler.graph.graph import Cluster, Graph, GraphJoint, GraphNode
 from twinform.compiler.graph.labels import shortened
 
 _SHAPES: Mapping[str, str] = {
@@ -17,20 +17,24 @@ _SHAPES: Mapping[str, str] = {
 
 def dot(graph: Graph) -> str:
     """A directed graph from the roots down: links are boxes, joints ellipses, frames hexagons."""
-    inside: dict[str | None, list[Cluster]] = defaultdict(list)
-    for cluster in graph.clusters:
-        inside[cluster.inside].append(cluster)
-    parts: dict[str | None, list[str]] = defaultdict(list)
-    for node in graph.nodes:
-        parts[node.cluster].append(f"{node.id} [{_SHAPES[node.kind]} label={quoted(node.label)}]")
-    for joint in graph.joints:
-        # A mimic leads from joint to joint, and neither DOT nor Mermaid has edges between edges. So
-        # joints are nodes, as `urdf_to_graphviz` draws them.
-        parts[joint.cluster].append(f'{joint.id} [shape=ellipse color="#1f5fa8" label={_joint_label(joint)}]')
     lines = [f"digraph {quoted(graph.title)} {{", '  node [fontname="Helvetica"]', '  edge [fontname="Helvetica"]']
-    lines += _clusters(inside, parts)
-    lines += (f"  {line}" for line in _edges(graph))
+    lines += clustered(graph, _node, _joint, _begin, "}")
+    lines += indented(_edges(graph))
     return "\n".join((*lines, "}")) + "\n"
+
+
+def _node(node: GraphNode) -> str:
+    return f"{node.id} [{_SHAPES[node.kind]} label={quoted(node.label)}]"
+
+
+def _joint(joint: GraphJoint) -> str:
+    # A mimic leads from joint to joint, and neither DOT nor Mermaid has edges between edges. So
+    # joints are nodes, as `urdf_to_graphviz` draws them.
+    return f'{joint.id} [shape=ellipse color="#1f5fa8" label={_joint_label(joint)}]'
+
+
+def _begin(cluster: Cluster) -> tuple[str, str]:
+    return f"subgraph cluster_{cluster.id} {{", f"label={quoted(cluster.name)}"
 
 
 def quoted(text: str) -> str:
@@ -44,27 +48,6 @@ def _escaped(text: str) -> str:
 
 def _joint_label(joint: GraphJoint) -> str:
     return '"' + "\\n".join(_escaped(each) for each in (joint.label, joint.type, *joint.details)) + '"'
-
-
-def _clusters(inside: Mapping[str | None, list[Cluster]], parts: Mapping[str | None, list[str]]) -> Iterator[str]:
-    """The parts of each cluster in a subgraph; a single model needs none."""
-    top = inside.get(None, [])
-    bare = top[0].id if len(top) == 1 and top[0].kind == "model" else None
-    yield from (f"  {part}" for part in parts.get(None, []))
-    stack: list[tuple[Cluster | None, int]] = [(cluster, 1) for cluster in reversed(top)]
-    while stack:
-        one, depth = stack.pop()
-        indent = "  " * depth
-        if one is None:
-            yield f"{indent}}}"
-            continue
-        if one.id != bare:
-            yield f"{indent}subgraph cluster_{one.id} {{"
-            yield f"{indent}  label={quoted(one.name)}"
-            stack.append((None, depth))
-            depth += 1
-        yield from (f"{'  ' * depth}{part}" for part in parts.get(one.id, []))
-        stack += [(each, depth) for each in reversed(inside.get(one.id, []))]
 
 
 def _edges(graph: Graph) -> Iterator[str]:

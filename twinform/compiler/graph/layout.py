@@ -99,7 +99,7 @@ def layout(graph: Graph) -> Layout:
     nodes = {node.id: node for node in graph.nodes}
     for below in children.values():
         below.sort(key=lambda each: _place_of(nodes[each].cluster))
-    order = _depth_first([node.id for node in graph.nodes if node.id not in holds], children)
+    order = depth_first([node.id for node in graph.nodes if node.id not in holds], children)
     made = Layout(holds=[holds[each] for each, _ in order if each in holds], across=across)
     _place(made, order, nodes, holds, children, _depths(graph))
     made.clusters = _frames(graph, made.boxes)
@@ -132,7 +132,7 @@ def _hangs_from(node: str, top: str, tops: Mapping[str, str]) -> bool:
     return node == top
 
 
-def _depth_first(roots: Iterable[str], children: Mapping[str, Sequence[str]]) -> list[tuple[str, int]]:
+def depth_first(roots: Iterable[str], children: Mapping[str, Sequence[str]]) -> list[tuple[str, int]]:
     """All nodes with their levels, each before what hangs from it."""
     order: list[tuple[str, int]] = []
     stack = [(root, 0) for root in reversed([*roots])]

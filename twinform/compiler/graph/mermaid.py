@@ -4,9 +4,9 @@ Names stand in quoted labels, where every character that could mean something is
 """
 
 import re
-from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
+from twinform.compiler.graph.clusters import clustered, indented
 from twinform.compiler.graph.graph import Cluster, Graph, GraphJoint, GraphNode
 from twinform.compiler.graph.labels import shortened
 
@@ -27,15 +27,7 @@ _PLAIN = re.compile(r"[^\w .,/()-]")
 
 def mermaid(graph: Graph) -> str:
     """A flowchart from the roots down: links are boxes, joints rounded, frames hexagons."""
-    inside: dict[str | None, list[Cluster]] = defaultdict(list)
-    for cluster in graph.clusters:
-        inside[cluster.inside].append(cluster)
-    parts: dict[str | None, list[str]] = defaultdict(list)
-    for node in graph.nodes:
-        parts[node.cluster].append(_node(node))
-    for joint in graph.joints:
-        parts[joint.cluster].append(f'{joint.id}(["{_joint_label(joint)}"])')
-    lines = ["flowchart TD", *_indented(_clusters(inside, parts)), *_indented(_edges(graph))]
+    lines = ["flowchart TD", *clustered(graph, _node, _joint, _begin, "end"), *indented(_edges(graph))]
     lines.append("  classDef missing stroke:#c62828,stroke-dasharray:5 4")
     return "\n".join(lines) + "\n"
 
@@ -52,30 +44,17 @@ def escaped(text: str) -> str:
     return _PLAIN.sub(lambda found: f"#{ord(found[0])};", plain)
 
 
-def _clusters(inside: Mapping[str | None, list[Cluster]], parts: Mapping[str | None, list[str]]) -> Iterator[str]:
-    """The parts of each cluster in a subgraph; a single model needs none."""
-    top = inside.get(None, [])
-    bare = top[0].id if len(top) == 1 and top[0].kind == "model" else None
-    yield from parts.get(None, [])
-    stack: list[Cluster | str] = list(reversed(top))
-    while stack:
-        one = stack.pop()
-        if isinstance(one, str):
-            yield one
-            continue
-        if one.id != bare:
-            yield f'subgraph {one.id}["{escaped(one.name) or " "}"]'
-            stack.append("end")
-        yield from parts.get(one.id, [])
-        stack += reversed(inside.get(one.id, []))
+def _begin(cluster: Cluster) -> tuple[str]:
+    return (f'subgraph {cluster.id}["{escaped(cluster.name) or " "}"]',)
 
 
 def _node(node: GraphNode) -> str:
     return node.id + _SHAPES[node.kind].format(escaped(node.label) or " ")
 
 
-def _joint_label(joint: GraphJoint) -> str:
-    return "<br>".join(escaped(each) for each in (joint.label, joint.type, *joint.details))
+def _joint(joint: GraphJoint) -> str:
+    label = "<br>".join(escaped(each) for each in (joint.label, joint.type, *joint.details))
+    return f'{joint.id}(["{label}"])'
 
 
 def _edges(graph: Graph) -> Iterator[str]:
@@ -86,11 +65,3 @@ def _edges(graph: Graph) -> Iterator[str]:
     for each in graph.followers:
         label = ", ".join(filter(None, ("mimics", escaped(each.detail))))
         yield f'{each.joint} -. "{label}" .-> {each.leader}'
-
-
-def _indented(lines: Iterable[str]) -> Iterator[str]:
-    depth = 1
-    for line in lines:
-        depth -= line == "end"
-        yield f"{'  ' * depth}{line}"
-        depth += line.startswith("subgraph ")

@@ -1,8 +1,9 @@
 """Facts about the links, joints and materials of a robot as a whole: names, references, and the shape of the tree."""
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 
+from twinform.ir.groups import Groups
 from twinform.profiles.reading import bodies, clashes, colors, drives, extensions, lumping, stage
 from twinform.profiles.reading.forms import FORMS
 from twinform.profiles.reading.nodes import Node
@@ -32,15 +33,17 @@ def _ends(joint: Node) -> tuple[str, str]:
 
 
 def _repeated(tag: str) -> Callable[[Node], Fact]:
-    def fact(root: Node) -> Fact:
-        met = set[str]()
-        for node in root.all(tag):
-            name = node.attributes.get("name", "")
-            if name in met:
-                yield node, f"two of the <{tag}> elements are called {name!r}"
-            met.add(name)
+    return lambda root: _of_one_name(root.all(tag), f"<{tag}> elements")
 
-    return fact
+
+def _of_one_name(nodes: Iterable[Node], what: str) -> Fact:
+    """Those of the elements that have the name of one before them."""
+    met = set[str]()
+    for node in nodes:
+        name = node.attributes.get("name", "")
+        if name in met:
+            yield node, f"two of the {what} are called {name!r}"
+        met.add(name)
 
 
 def _repeated_links_but_world(root: Node) -> Fact:
@@ -99,22 +102,13 @@ def _foreign_custom_ends(root: Node) -> Fact:
 
 def _loops(root: Node) -> Fact:
     """Joints between links that are joined already, whichever of them is above."""
-    above: dict[str, str] = {}
-
-    def top(name: str) -> str:
-        while name in above:
-            # Path halving keeps the union-find nearly linear for a chain of 10,000 links.
-            above[name] = name = above.get(above[name], above[name])
-        return name
-
+    groups = Groups()
     for joint in (*root.all("joint"), *root.all("drake:joint")):
         parent, child = _ends(joint)
         if joint.attributes.get("type") == "floating" or not joint.attributes.get("name") or not parent or not child:
             continue
-        if top(parent) == top(child) and parent != child:
+        if parent != child and not groups.join(parent, child):
             yield joint, f"joint {joint.attributes['name']!r} joins {parent!r} and {child!r}, which are joined already"
-        elif parent != child:
-            above[top(parent)] = top(child)
 
 
 def _self_joints(root: Node) -> Fact:
@@ -125,33 +119,21 @@ def _self_joints(root: Node) -> Fact:
 
 
 def _repeated_moving_joints(root: Node) -> Fact:
-    met = set[str]()
-    for joint in root.all("joint"):
-        name = joint.attributes.get("name", "")
-        if joint.attributes.get("type") != "fixed":
-            if name in met:
-                yield joint, f"two of the joints that move are called {name!r}"
-            met.add(name)
+    moving = (joint for joint in root.all("joint") if joint.attributes.get("type") != "fixed")
+    return _of_one_name(moving, "joints that move")
 
 
 def _repeated_shapes(root: Node) -> Fact:
     for link in root.all("link"):
         for tag in ("visual", "collision"):
-            met = set[str]()
-            for shape in link.all(tag):
-                name = shape.attributes.get("name")
-                if name is not None and name in met:
-                    yield shape, f"two of the <{tag}> elements of a link are called {name!r}"
-                met.add(name or "")
+            # a shape without a name takes the empty one, and is no mistake itself
+            found = _of_one_name(link.all(tag), f"<{tag}> elements of a link")
+            yield from (each for each in found if "name" in each[0].attributes)
 
 
 def _repeated_collisions(root: Node) -> Fact:
-    met = set[str]()
-    for shape in (shape for link in root.all("link") for shape in link.all("collision")):
-        name = shape.attributes.get("name", "")
-        if name and name in met:
-            yield shape, f"two of the <collision> elements are called {name!r}"
-        met.add(name)
+    shapes = (shape for link in root.all("link") for shape in link.all("collision"))
+    return _of_one_name((shape for shape in shapes if shape.attributes.get("name")), "<collision> elements")
 
 
 def _held_by_roots(root: Node, joints: list[Node]) -> set[str]:

@@ -5,6 +5,7 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 
 from twinform.compiler.graph import Graph, GraphJoint, GraphNode
+from twinform.compiler.graph.layout import depth_first
 from twinform.compiler.graph.svg import svg
 from twinform.diagnostics import Diagnostic
 from twinform.ir.motion import spanning_tree
@@ -44,22 +45,23 @@ def _rows(subject: Subject, graph: Graph) -> Iterator[Markup]:
     """An item for each root, made from the leaves up so that nothing recurses."""
     held = spanning_tree(joint for joint in graph.joints if joint.type != "gearbox")
     across: dict[str, list[GraphJoint]] = defaultdict(list)
-    children: dict[str, list[GraphNode]] = defaultdict(list)
+    children: dict[str, list[str]] = defaultdict(list)
     for joint in graph.joints:
         if held.get(joint.child) is not joint:
             across[joint.parent].append(joint)
     for node in graph.nodes:
         if node.id in held:
-            children[held[node.id].parent].append(node)
-    names = {node.id: node.name for node in graph.nodes}
+            children[held[node.id].parent].append(node.id)
+    nodes = {node.id: node for node in graph.nodes}
     about, places, masses = _findings(subject, graph), anchors(subject), _masses(subject)
-    order = _order([node for node in graph.nodes if node.id not in held], children)
+    order = depth_first([node.id for node in graph.nodes if node.id not in held], children)
     is_open = len(graph.nodes) <= _OPEN
     made: dict[str, list[Markup]] = {}
-    for node, level in reversed(order):
-        loops = (f"{each.name} ({each.type}) closes a loop to {names[each.child]}" for each in across[node.id])
+    for name, level in reversed(order):
+        node = nodes[name]
+        loops = (f"{each.name} ({each.type}) closes a loop to {nodes[each.child].name}" for each in across[name])
         words = _words(node, held.get(node.id), masses.get(node.name), _badge(about[node.id], places), loops)
-        below = [item for child in children[node.id] for item in made.pop(child.id)]
+        below = [item for child in children[node.id] for item in made.pop(child)]
         if not below or level >= _DEEPEST:
             own = element(
                 "li", *words, element("span", f" level {level}", class_="quiet") if level > _DEEPEST else None
@@ -67,19 +69,9 @@ def _rows(subject: Subject, graph: Graph) -> Iterator[Markup]:
             made[node.id] = [own, *below]
         else:
             made[node.id] = [element("li", folded(join(words), element("ul", *below), open_=is_open))]
-    for node, level in order:
+    for name, level in order:
         if level == 0:
-            yield from made[node.id]
-
-
-def _order(roots: list[GraphNode], children: Mapping[str, list[GraphNode]]) -> list[tuple[GraphNode, int]]:
-    order: list[tuple[GraphNode, int]] = []
-    stack = [(node, 0) for node in reversed(roots)]
-    while stack:
-        node, level = stack.pop()
-        order.append((node, level))
-        stack += [(child, level + 1) for child in reversed(children.get(node.id, []))]
-    return order
+            yield from made[name]
 
 
 def _words(
