@@ -254,6 +254,7 @@ def _sensor(type_: str, row: dict[str, Any]) -> SensorKind:
         releases=frozenset(everything[everything.index(row.get("since", everything[0])) :]),
         publishes=tuple(_published(*each, everything=everything) for each in row["publishes"]),
         custom=row.get("custom"),
+        triggered=frozenset(row.get("triggered", ())),
     )
 
 

@@ -178,7 +178,7 @@ class SensorKind:
     `aliases` are older names for `type` that are still read, `classic` the names in Gazebo Classic for what becomes
     this. `element` has its parameters. `systems` are what the world needs to have, `world_elements` what else.
     `suffix` ends the topic where none is written. `custom` is the `gz:type` of those whose type is `custom`, or what it
-    begins with where that ends in a slash.
+    begins with where that ends in a slash. `triggered` are the releases in which it can wait for a message.
     """
 
     type: str
@@ -192,3 +192,4 @@ class SensorKind:
     releases: frozenset[str]
     publishes: tuple[Published, ...]
     custom: str | None = None
+    triggered: frozenset[str] = frozenset()

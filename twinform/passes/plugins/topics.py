@@ -40,6 +40,9 @@ _BOX_TYPES = frozenset({"2d", "visible_2d", "visible_box_2d", "full_2d", "full_b
 _WITHOUT_RATE = frozenset({"contact", "environmental_sensor"})
 # The topic of a contact sensor stands in <contact> and is not made valid (contact/Contact.cc,
 # Load).
+_TRIGGER = "gz.msgs.Boolean"
+# Its cameras refuse to be loaded without a topic for what triggers them (CameraSensor.cc, Load).
+_NEEDS_TRIGGER = "fortress"
 _CONTACT = "contact"
 # `__default__` stands for no topic, but in <contact> (sdf/contact.sdf).
 _UNNAMED = {_CONTACT: "__default_topic__"}
@@ -182,7 +185,11 @@ def _of_sensor(sensor: Sensor, kind: SensorKind, place: _Place, lumped: "_Lumped
     name = topic_of_pattern("{topic}", {"topic": text}, raw=kind.type == _CONTACT)
     rows = [row for row in kind.publishes if place.release in row.releases]
     made = [_sensor_topic(row, name, sensor, kind) for row in rows]
+    waits = place.release in kind.triggered and (_text_at(sensor, "camera", "triggered") or "").lower() in TRUE
+    trigger = _text_at(sensor, "camera", "trigger_topic")
     missing = _refused_type(sensor, kind)
+    if waits and not trigger and place.release == _NEEDS_TRIGGER:
+        missing = "it needs a <trigger_topic> for its <triggered>"
     if not missing and not all((*made, _rate_service(service or name, kind))):
         missing = _refused(text)  # with one of its topics, or the service, Gazebo refuses the sensor
     if site.scope == "joint" and holder in lumped.joints:
@@ -192,6 +199,14 @@ def _of_sensor(sensor: Sensor, kind: SensorKind, place: _Place, lumped: "_Lumped
         short = _named_for_cloud(shown, qualified(name or ""), kind) if own else _inside(shown, f"/{above}")
         message, needs_world = _message(row, sensor), own is None and place.world is None
         yield Topic(shown, short, message, "<", place.outer, sensor, needs_world, missing)
+    if waits and trigger:
+        valid = is_valid_topic(trigger)
+        shown, missing = qualified(trigger), missing or ("" if valid else _refused(trigger))
+        yield Topic(shown, shown.lstrip("/"), _TRIGGER, ">", place.outer, sensor, missing=missing)
+    elif waits:
+        shown = qualified(topic_of_pattern("{topic}/trigger", {"topic": name or text}) or text)
+        short = shown.lstrip("/") if own else _inside(shown, f"/{above}")
+        yield Topic(shown, short, _TRIGGER, ">", place.outer, sensor, own is None and place.world is None, missing)
 
 
 def _refused(text: str) -> str:

@@ -511,6 +511,24 @@ def _segmentation(s: SensorSdf) -> Iterator[Row]:
     yield "<", "CameraInfo", after(topic, "/camera_info")
 
 
+def _with_trigger(
+    rows: Callable[[SensorSdf], Iterator[Row]], suffix: str, *without: str
+) -> Callable[..., Iterator[Row]]:
+    """The same with what the sensor waits for in all releases but those `without` (Load)."""
+
+    def both(s: SensorSdf) -> Iterator[Row]:
+        waits, own = s.release not in without and s.true("triggered"), s.get("trigger_topic")
+        if waits and s.release == "fortress" and not own:
+            return
+        made = list(rows(s))
+        yield from made
+        if waits and made and all(topic for _, _, topic in made):
+            yield ">", "Boolean", raw(own) if own else valid(f"{s.topic(suffix)}/trigger")
+
+    return both
+
+
+_OLD = ("fortress", "garden")
 _FLAT = ("2d", "visible_2d", "visible_box_2d", "full_2d", "full_box_2d")
 
 
@@ -554,13 +572,15 @@ def _environment(s: SensorSdf) -> Iterator[Row]:
 
 
 SENSORS: dict[str, SensorEntry] = {
-    "camera": SensorEntry("CameraSensor.cc", _camera),
-    "depth_camera": SensorEntry("DepthCameraSensor.cc", _depth_camera),
-    "rgbd_camera": SensorEntry("RgbdCameraSensor.cc", _rgbd_camera),
-    "thermal_camera": SensorEntry("ThermalCameraSensor.cc", _image),
-    "segmentation_camera": SensorEntry("SegmentationCameraSensor.cc", _segmentation),
-    "boundingbox_camera": SensorEntry("BoundingBoxCameraSensor.cc", _boxes),
-    "wideanglecamera": SensorEntry("WideAngleCameraSensor.cc", _image, "garden"),
+    "camera": SensorEntry("CameraSensor.cc", _with_trigger(_camera, "/image")),
+    "depth_camera": SensorEntry("DepthCameraSensor.cc", _with_trigger(_depth_camera, "/depth_image", "garden")),
+    "rgbd_camera": SensorEntry("RgbdCameraSensor.cc", _with_trigger(_rgbd_camera, "", *_OLD)),
+    "thermal_camera": SensorEntry("ThermalCameraSensor.cc", _with_trigger(_image, "/image", *_OLD)),
+    "segmentation_camera": SensorEntry(
+        "SegmentationCameraSensor.cc", _with_trigger(_segmentation, "/segmentation", *_OLD)
+    ),
+    "boundingbox_camera": SensorEntry("BoundingBoxCameraSensor.cc", _with_trigger(_boxes, "/boundingbox", "fortress")),
+    "wideanglecamera": SensorEntry("WideAngleCameraSensor.cc", _with_trigger(_image, "/image", *_OLD), "garden"),
     "gpu_lidar": SensorEntry("Lidar.cc, GpuLidarSensor.cc", _lidar),
     "imu": SensorEntry("ImuSensor.cc", _one("IMU", "/imu")),
     "navsat": SensorEntry("NavSatSensor.cc", _one("NavSat", "/navsat")),

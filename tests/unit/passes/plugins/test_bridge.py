@@ -311,6 +311,18 @@ def test_a_word_for_the_default_topic_is_one_where_it_is_read_as_one() -> None:
     assert list(topics(alone(contact.format(inner)), "harmonic", "w")) == [f"{above}/contact"]
 
 
+def test_a_camera_that_is_triggered_reads_what_triggers_it() -> None:
+    camera = '<sensor name="s" type="camera"><topic>i</topic><camera><triggered>true</triggered>{}</camera></sensor>'
+    assert rows(alone(camera.format("")))[-1] == ("i/trigger", "/i/trigger", "gz.msgs.Boolean", "ROS_TO_GZ")
+    named = alone(camera.format("<trigger_topic>shoot</trigger_topic>"))
+    assert rows(named, "fortress")[-1] == ("shoot", "/shoot", "ignition.msgs.Boolean", "ROS_TO_GZ")
+    sink = DiagnosticSink()
+    assert len(bridges(alone(camera.format("")), "fortress", sink)) == 1
+    assert {each.message.partition("here: ")[2] for each in sink.diagnostics} == {
+        "it needs a <trigger_topic> for its <triggered>"
+    }
+
+
 def test_boxes_have_another_message_in_space() -> None:
     sensor = (
         '<sensor name="s" type="boundingbox_camera"><topic>b</topic><camera><box_type>{}</box_type></camera></sensor>'
