@@ -74,8 +74,11 @@ _TAGS: tuple[Sequence[str], ...] = (
     ("<dampingFactor>0.1</dampingFactor>",),
     ("<kinematic>true</kinematic>",),
     tuple(f"<collision>{each}</collision>" for each in _SURFACES),
+    tuple(f"<collision>{each}</collision>" for each in _SURFACES),
+    ("<collision><laser_retro>8</laser_retro></collision>", "<collision><max_contacts>5</max_contacts></collision>"),
     tuple(f"<visual>{each}</visual>" for each in (*_MATERIALS, "<transparency>0.5</transparency>")),
-    *((sensor,) for sensor in _SENSORS),
+    tuple(f"<visual>{each}</visual>" for each in ("<transparency>0.7</transparency>", "<pose>1 0 0 0 0 0</pose>")),
+    _MATERIALS,
 )
 
 
@@ -95,7 +98,7 @@ def equipped_models(draw: st.DrawFn) -> str:
 
 @st.composite
 def equipped_robots(draw: st.DrawFn) -> str:
-    """Text of URDF robots with `<gazebo>` elements about the robot and its links, and shapes with names or without."""
+    """Text of URDF robots with shapes that have names or none, and `<gazebo>` elements, also several about one link."""
     robots = strategies.robots(max_links=4, joint_types=("fixed", "revolute", "continuous", "prismatic"))
     root = _tree(draw(robots.filter(lambda robot: robot.models[0].links[0].inertial is not None)))
     names = [str(link.get("name")) for link in root.iter("link")]
@@ -105,8 +108,10 @@ def equipped_robots(draw: st.DrawFn) -> str:
                 st.sampled_from(["", "", "shape", str(link.get("name")), f"{link.get('name')}_{shape.tag}"])
             ):
                 shape.set("name", name)
-    for name in draw(st.lists(st.sampled_from(names), max_size=3, unique=True)):
+    for name in draw(st.lists(st.sampled_from(names), max_size=5)):
         _fill(etree.SubElement(root, "gazebo", {"reference": name}), draw(_some(_TAGS)))
+    for name in draw(st.lists(st.sampled_from(names), max_size=3, unique=True)):
+        _fill(etree.SubElement(root, "gazebo", {"reference": name}), draw(_some([(each,) for each in _SENSORS])))
     _fill(etree.SubElement(root, "gazebo"), draw(_some(_CHOICES["model"])))
     if all(link.find("inertial") is not None for link in root.iter("link")) and draw(st.booleans()):
         _fill(etree.SubElement(root, "gazebo"), ["<static>true</static>"])

@@ -21,8 +21,8 @@ LOOK = "look"
 
 
 def with_look(link: Link, fields: Iterable[str]) -> Link:
-    """The link with an annotation on the material fields that one extension sets in all visuals."""
-    names = dict.fromkeys((*look_of(link), *(field for field in fields if field not in NOT_CONTENT)))
+    """The link with an annotation on the material fields that the last extension with any sets in all visuals."""
+    names = [field for field in fields if field not in NOT_CONTENT]
     return with_annotation(without_annotation(link, LOOK), LOOK, " ".join(names))
 
 

@@ -23,7 +23,7 @@ from twinform.passes.legalise.to_sdf.gazebo_fields import (
     set_model_fields,
     set_visual,
 )
-from twinform.passes.legalise.to_sdf.gazebo_merging import merge, written
+from twinform.passes.legalise.to_sdf.gazebo_merging import REPLACING, merge, written
 from twinform.passes.legalise.to_sdf.gazebo_sorting import (
     Blob,
     Sorter,
@@ -31,6 +31,7 @@ from twinform.passes.legalise.to_sdf.gazebo_sorting import (
     is_part_of_axis,
     lacks_shapes,
     place_of,
+    places_of,
 )
 from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_FIELDS, LINK_TAGS, MODEL_TAGS
 
@@ -42,9 +43,9 @@ class FoldGazebo(ModelPass):
 
     Changes: 1. tags with a meaning of their own (`mu1`, `material`, `turnGravityOff`, ...) set the field that they
     mean, in every visual or collision of the link where they are about shapes; 2. `<visual>` and `<collision>` put
-    their children into every visual or collision of the link, and so does a `<material>` with elements in it; a tag
-    counts beside them, and a later `<gazebo>` overrules an earlier one, of which a `<surface>` leaves nothing; 3. all
-    else is read as SDF at the place of the reference: sensors, plugins, lights, joints, poses; an `<axis>` or
+    their children into every visual or collision of the link, and so does a `<material>` with elements in it; a later
+    tag, `<surface>` or `<material>` takes the place of what earlier ones set, and of all else the first counts; 3. what
+    is left is read as SDF at the place of the reference: sensors, plugins, lights, joints, poses; an `<axis>` or
     `<physics>` adds to what is there; 4. what means nothing where it stands is carried, or dropped with `carriers`
     false.
     Never touches: what the link, joint or model has already; the other one stays, with `gazebo-conflict`.
@@ -117,15 +118,16 @@ class _Fold:
             # A reference to a name that a link and a joint share means the link; only tags that joints
             # alone have go to the joint.
             sorter.forget(JOINT_TAGS)
-        link = set_link_fields(link, sorter.values)
-        before: list[Blob] = []
+        own = link = set_link_fields(link, sorter.values)
+        before: list[Blob | TagValue] = []
         # In the order of libsdformat: in each <gazebo> what goes into shapes comes first and the
         # tags count beside it, and a later <gazebo> overrules an earlier one.
         for blobs, tags in sorter.in_order():
             for blob in blobs:
-                link = self._into_shapes(link, blob)
-            before += blobs
+                link = self._into_shapes(link, blob, own, before)
+                before.append(blob)
             link = self._with_tags(link, tags, before)
+            before += tags
         return self._merge(link, "link", sorter.rest)
 
     def _joint(self, joint: Joint, extensions: list[GazeboExtension]) -> Joint:
@@ -240,31 +242,39 @@ class _Fold:
                 self.sink.account(fate, rule, message, place_of(part, extension), part.weight)
         self.kept += pack([Opaque.unchecked(element=element)], "urdf", about)
 
-    def _with_tags(self, link: Link, tags: list[TagValue], before: list[Blob]) -> Link:
+    def _with_tags(self, link: Link, tags: list[TagValue], before: list[Blob | TagValue]) -> Link:
         """The link whose shapes have the values of tags, whatever they have of the elements before these."""
         for each in tags:
             if any(old not in {None, each.value} for old in old_values(each.tag, link)):
-                message = self._conflict(link, each.tag.field, f"<{each.element.name}>", each.where, accounted=False)
-                where = next(filter(None, (blob.place_of(each.tag.field) for blob in reversed(before))), each.where)
-                self.sink.account(Fate.DROPPED, rules.GAZEBO_CONFLICT, message, where)
+                field = each.tag.field
+                self._conflict(link, field, f"<{each.element.name}>", each.where, [*places_of(field, before)][:1])
         values = [(each.tag, each.value) for each in tags]
         visuals = tuple(set_visual(visual, values) for visual in link.visuals)
         collisions = tuple(set_collision(collision, values) for collision in link.collisions)
         return link.copy(visuals=visuals, collisions=collisions)
 
-    def _into_shapes(self, link: Link, blob: Blob) -> Link:
-        """Each child of the blob goes into every shape of its kind, in place of what is there."""
+    def _into_shapes(self, link: Link, blob: Blob, own: Link, before: list[Blob | TagValue]) -> Link:
+        """Each child of the blob goes into every shape of its kind; `own` is the link as it was before any did."""
         field = "visuals" if blob.kind == "visual" else "collisions"
-        inside = blob.extension.copy(content=blob.content)
+        last = {each.name: each for each in blob.content if each.name in REPLACING}
+        content = tuple(each for each in blob.content if last.get(each.name, each) is each)
+        inside = blob.extension.copy(content=content)
         extra = read_content(blob.kind, link.name, self.robot.name, [inside], self.sink)
-        replaced: list[str] = []
-        shapes = getattr(link, field)
-        if self.annotations and blob.kind == "visual" and extra.get("material"):
+        for name in last.keys() & extra.keys():
+            earlier = *places_of(name, before), *(blob.places_of(name)[:-1])
+            if earlier:
+                self._conflict(link, name, "the last one", place_of(last[name], blob.extension), earlier)
+            bare = zip(getattr(link, field), getattr(own, field), strict=True)
+            link = link.copy(**{field: tuple(shape.copy(**{name: getattr(mine, name)}) for shape, mine in bare)})
+        if self.annotations and "material" in last and extra.get("material"):
             link = with_look(link, written(extra["material"]))
-        changed = tuple(merge(shape, extra, replaced, replace=True) for shape in shapes)
-        for name in dict.fromkeys(replaced):
-            self._conflict(link, name, "the one in <gazebo>", blob.where)
-        return link.copy(**{field: changed})
+        # each shape has a pose before that of the blob, be it 0 (parser_urdf.cc, CreateVisual)
+        repeated = ["pose"] if extra.pop("pose", None) else []
+        shapes = tuple(merge(shape, extra, repeated) for shape in getattr(link, field))
+        for name in dict.fromkeys(repeated):
+            where = next(iter(blob.places_of(name)), blob.where)
+            self._conflict(link, name, "the first one", where, [where])
+        return link.copy(**{field: shapes})
 
     def _merge(self, node: AnyNode, kind: str, extensions: list[GazeboExtension]) -> AnyNode:
         """The node with the SDF in the extensions read into it."""
@@ -292,18 +302,20 @@ class _Fold:
             again = again[1:]
         if not again:
             # it is deeper inside, beside what was merged
-            self._conflict(node, field, "the first one", extensions[0].location)
+            where = extensions[0].location
+            self._conflict(node, field, "the first one", where, [where])
             return
-        message = self._conflict(node, field, "the first one", again[0][1].location, accounted=False)
+        message = self._conflict(node, field, "the first one", again[0][1].location, [])
         about = () if is_set and field not in LINK_FIELDS else SECOND
         for extension, element in again:
             self._keep(extension, [element], rules.GAZEBO_CONFLICT, message, about)
 
-    def _conflict(self, node: Node, field: str, winner: str, where: Location, *, accounted: bool = True) -> str:
+    def _conflict(self, node: Node, field: str, winner: str, where: Location, dropped: Iterable[Location]) -> str:
+        """Report that something is set again, and that what stands at some places is dropped; the message."""
         message = f"<gazebo> sets {field!r} of {getattr(node, 'name', None)!r} again; {winner} is used"
         self.sink.report(rules.GAZEBO_CONFLICT, message, where, found=field)
-        if accounted:
-            self.sink.account(Fate.DROPPED, rules.GAZEBO_CONFLICT, message, where)
+        for place in dropped:
+            self.sink.account(Fate.DROPPED, rules.GAZEBO_CONFLICT, message, place)
         return message
 
 

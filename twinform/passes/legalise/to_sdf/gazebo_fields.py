@@ -47,11 +47,14 @@ def set_link_fields(link: Link, values: Values) -> Link:
 
 
 def old_values(tag: Tag, link: Link) -> Iterator[object]:
-    """What the collisions of a link have where a tag sets something; nothing for a tag about something else."""
+    """What the shapes of a link have where a tag sets something; nothing for a tag about something else."""
     if tag.target == "surface":
         yield from (getattr(collision.surface, tag.field) for collision in link.collisions if collision.surface)
     elif tag.target == "collision":
         yield from (getattr(collision, tag.field) for collision in link.collisions)
+    elif tag.target == "visual":
+        scripts = (visual.material.script for visual in link.visuals if visual.material)
+        yield from (script.name if script and script.uris == (SCRIPT_URI,) else script for script in scripts)
 
 
 def set_visual(visual: Visual, values: Values) -> Visual:

@@ -13,12 +13,14 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 # Half of one inertia and half of another would be a body that nobody meant.
 _WHOLE = frozenset({"inertial", "geometry", "pose", "surface"})
 """What makes sense only as it was written."""
+REPLACING = frozenset({"material", "surface"})
+"""Of these in `<visual>` and `<collision>` of `<gazebo>` libsdformat keeps the last (InsertSDFExtensionVisual)."""
 _ONCE = frozenset({"physics"})
 """Elements without a typed form that may stand once."""
 
 
-def merge(mine: AnyNode, fields: Mapping[str, Any], conflicts: list[str], *, replace: bool = False) -> AnyNode:
-    """The node with more fields. Of a field in both the first stays, unless `replace`; `conflicts` gets its name."""
+def merge(mine: AnyNode, fields: Mapping[str, Any], conflicts: list[str]) -> AnyNode:
+    """The node with more fields. Of a field in both the first stays; `conflicts` gets its name."""
     update: dict[str, Any] = {}
     lists = node_fields(type(mine))
     for field, value in fields.items():
@@ -32,10 +34,9 @@ def merge(mine: AnyNode, fields: Mapping[str, Any], conflicts: list[str], *, rep
         elif old is None:
             update[field] = value
         elif isinstance(old, Node) and type(old) is type(value) and field not in _WHOLE:
-            update[field] = merge(old, written(value), conflicts, replace=replace)
+            update[field] = merge(old, written(value), conflicts)
         elif old != value:
             conflicts.append(field)
-            update[field] = value if replace else old
     more: Mapping[str, str] = fields.get("spelling") or {}
     spelling = {**more, **(mine.spelling or {})}
     return mine.copy(**{**update, "spelling": spelling or None})

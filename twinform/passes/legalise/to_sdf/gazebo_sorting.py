@@ -1,7 +1,7 @@
 """Sorting the content of `<gazebo>` elements by how it is converted."""
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity, Source, rules
@@ -9,6 +9,8 @@ from twinform.ir import Element, GazeboExtension, Link
 from twinform.passes.transforms.gazebo_tags import FALSE, LINK_TAGS, TRUE, TRUTHS, Tag, value_text
 
 _TOUCHED = frozenset({"surface", "collision"})
+_HOLDING = {"surface": "surface", "visual": "material"}
+"""The fields of shapes in which tags set something, by the target of these."""
 _OF_AXES = frozenset({"axis", "axis2", "springReference", "springStiffness"})
 
 
@@ -26,10 +28,10 @@ class Blob(NamedTuple):
     where: Location
     number: int
 
-    def place_of(self, name: str) -> Location | None:
-        """Where the last element of this name stands in it; None where there is none."""
-        found = [each for part in self.content for each in part.walk() if each.name == name]
-        return place_of(found[-1], self.extension) if found else None
+    def places_of(self, name: str) -> tuple[Location, ...]:
+        """Where elements of this name stand in it."""
+        found = (each for part in self.content for each in part.walk() if each.name == name)
+        return tuple(place_of(each, self.extension) for each in found)
 
 
 class TagValue(NamedTuple):
@@ -45,6 +47,19 @@ class TagValue(NamedTuple):
     def where(self) -> Location:
         """Where the tag stands."""
         return place_of(self.element, self.extension)
+
+    def places_of(self, name: str) -> tuple[Location, ...]:
+        """Where it stands, if it sets the field of this name or something in it."""
+        return (self.where,) if name in {self.tag.field, _HOLDING.get(self.tag.target)} else ()
+
+
+def places_of(name: str, before: Sequence[Blob | TagValue]) -> Iterator[Location]:
+    """Where a field of shapes is set, from the last one on: by tags, and by the last element in a blob."""
+    for each in reversed(before):
+        if places := each.places_of(name):
+            yield places[-1]
+            if isinstance(each, Blob):
+                return
 
 
 class OverriddenTag(NamedTuple):

@@ -1,6 +1,7 @@
 """Where Gazebo does something else with the `<gazebo>` tags of a URDF than with the SDF made of it."""
 
 from collections import defaultdict
+from collections.abc import Iterable
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Severity, rules
@@ -9,8 +10,9 @@ from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
 from twinform.passes.legalise.to_sdf.gazebo_sorting import place_of
-from twinform.passes.structure.gazebo_blocks import FLAGS, of_body, of_shapes
+from twinform.passes.structure.gazebo_blocks import FLAGS, blocks, content, of_body, of_shapes
 from twinform.passes.structure.tagged_shapes import KINDS, hosts_of, seen_shapes, tagging
+from twinform.passes.structure.unread_tags import unread_tags
 from twinform.passes.transforms.gazebo_tags import FALSE
 
 _USUAL = FALSE | {"0.0"}
@@ -22,7 +24,8 @@ class NoteLumping(ModelPass):
 
     1. It makes one body of links that are fixed to each other, and a flag of one of them, such as `turnGravityOff`,
     is one of the body; in SDF it is one of the link. Links that become frames do not count. 2. It applies tags about
-    shapes to those alone whose names begin with that of their link; in SDF all shapes have them.
+    shapes to those alone whose names begin with that of their link, and to none if it reads them wrong; in SDF all
+    shapes have them.
     Changes: nothing.
     Diagnostics: `lumped-flag`, for information where the other link is a root without mass; `unreached-shape`.
     """
@@ -91,23 +94,27 @@ def _text(value: object) -> str:
 
 def _report_shapes(model: Model, field: str, sink: DiagnosticSink) -> None:
     """Report shapes to which Gazebo applies other tags than those of their link."""
-    tags = defaultdict[str, dict[str, None]](dict)
-    for extension in model.extensions:
-        if extension.reference and (about := of_shapes(extension.content, field)):
-            tags[extension.reference].update(dict.fromkeys(f"<{element.name}>" for element in about))
+    there = {name: extensions for name, extensions in blocks(model.extensions).items() if name}
+    tags = {name: words for name in there if (words := _words(of_shapes(content(there, name), field)))}
     if not tags:
         return
     hosts = hosts_of(model)
     for seen in seen_shapes(model, field):
         seen_by = tagging(seen, KINDS[field], hosts) & tags.keys()
         own = {seen.link} & tags.keys()
-        if seen_by == own:
+        unread = _words(unread_tags(there[seen.link], field)) if own and seen_by == own else ""
+        if seen_by == own and not unread:
             continue
         shape = f"the {KINDS[field]} {seen.shape.name!r}" if seen.shape.name else f"a {KINDS[field]} without a name"
         if own:
-            words = ", ".join(tags[seen.link])
+            words = unread or tags[seen.link]
             message = f"Gazebo does not apply {words} to {shape} of link {seen.link!r}; in SDF it has them"
         else:
-            words = f"{', '.join(tags[min(seen_by)])} of link {min(seen_by)!r}"
+            words = f"{tags[min(seen_by)]} of link {min(seen_by)!r}"
             message = f"Gazebo applies {words} to {shape} of link {seen.link!r}; in SDF it has none"
         sink.report(rules.UNREACHED_SHAPE, message, seen.shape.location, found=seen.shape.name)
+
+
+def _words(elements: Iterable[Element]) -> str:
+    """What elements are called, each once."""
+    return ", ".join(dict.fromkeys(f"<{element.name}>" for element in elements))
