@@ -72,24 +72,29 @@ def _values(
 
 def _of_links(before: RobotRow, after: RobotRow) -> Iterator[Difference]:
     """Values of links; those of a link that was lumped are the ones of the link that it is part of now."""
-    links = {row["name"]: row for row in after["links"]}
+    links = {_flat(row["name"]): row for row in after["links"]}
     hosts = _hosts(before, after)
     for row in before["links"]:
-        if (host := hosts[row["name"]]) in links:
+        if (host := _flat(hosts[row["name"]])) in links:
             yield from _values("link", (row["name"],), row["values"], links[host]["values"])
 
 
 def _hosts(before: RobotRow, after: RobotRow) -> dict[str, str]:
     """The link that each one is a part of afterwards."""
-    links = {row["name"] for row in after["links"]}
+    links = {_flat(row["name"]) for row in after["links"]}
     above = {row["child"]: row["parent"] for row in before["joints"] if row["kind"] == _FIXED}
     hosts = dict[str, str]()
     for row in before["links"]:
         host = row["name"]
-        while host not in links and above.get(host, WORLD) != WORLD:
+        while _flat(host) not in links and above.get(host, WORLD) != WORLD:
             host = above[host]
         hosts[row["name"]] = host
     return hosts
+
+
+def _flat(name: str) -> str:
+    """What a part of a nested model is called in URDF."""
+    return name.replace("::", "__")
 
 
 def _unpaired(shapes: Iterable[_Placed], paired: Iterable[_Placed], there: str, here: str) -> Iterator[Difference]:
@@ -147,10 +152,10 @@ def _of_sensors(before: RobotRow, after: RobotRow, names: Mapping[str, str]) -> 
         if not named:
             yield Difference("sensor", (row["inside"], row["name"]), "", "there", "missing")
             continue
-        content, places = _content(row["text"], {}), {row["inside"], hosts.get(row["inside"])}
-        found = min(named, key=lambda pair: (pair[1] != content, pair[0]["inside"] not in places))
+        content, places = _content(row["text"], {}), {*map(_flat, (row["inside"], hosts.get(row["inside"], "")))}
+        found = min(named, key=lambda pair: (pair[1] != content, _flat(pair[0]["inside"]) not in places))
         yield from _of_sensor(row, content, found[1])
-        if found[0]["inside"] not in places:
+        if _flat(found[0]["inside"]) not in places:
             yield Difference("sensor", (row["inside"], row["name"]), "parent", row["inside"], found[0]["inside"])
         poses = [frame @ pose_matrix(each["pose"]) for frame, each in zip(frames, (row, found[0]), strict=True)]
         if (far := float(np.abs(poses[0] - poses[1]).max())) > CUT_OFF:

@@ -17,6 +17,7 @@ _IN_URDF = frozenset(
     {
         "sdf", "offset", "pose", "frame", "axis", "axis2", "ends", "colors", "scripts", "mimic", "continuous", "geared",
         "chain", "part", "computed-mass", "nested", "mixed", "scoped-name", "reversed",
+        "own-settings",
     }
 )  # fmt: skip
 """What a URDF holds for the reverse conversion; none of it means anything in SDF."""

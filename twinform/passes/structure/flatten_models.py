@@ -7,7 +7,7 @@ from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.diagnostics.rules import INCLUDE_NOT_EXPANDED
-from twinform.ir import Document, Format, Frame, Link, Model, World
+from twinform.ir import Document, Format, Frame, Model, World
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.ir.scopes import SCOPE, nested_models, nested_names, scoped_models
 from twinform.passes.carriers.annotations import without_synthesized
@@ -16,11 +16,11 @@ from twinform.passes.structure.renaming import renamed_in_world, renamed_model, 
 from twinform.passes.structure.scopes import Part, Scope, report_clashes, scope_of
 from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.joint_ends import report_self_joint, resolve_ends
+from twinform.passes.transforms.nested_settings import differing_rests, settle_links
 from twinform.passes.transforms.static_models import with_static_models_fixed
 
 _LAST_WITH_COLONS = "1.7"
 """The last version of SDF in which names may have `::` in them."""
-_OF_LINKS = ("self_collide", "enable_wind")
 
 
 class FlattenModels(ModelEdit):
@@ -59,7 +59,7 @@ class FlattenModels(ModelEdit):
         if place.format is Format.URDF or not model.models or _has_includes(model, place.sink):
             return model
         _report_settings(model, place)
-        flat = without_synthesized(flatten(with_static_models_fixed(_prepared(model)), _plain))
+        flat = without_synthesized(flatten(with_static_models_fixed(settle_links(model)), _plain))
         flat = _with_rest(flat, model, place)
         if _has_self_joint(flat, place.sink):
             return model
@@ -115,29 +115,9 @@ def _has_self_joint(model: Model, sink: DiagnosticSink) -> bool:
 
 
 def _report_settings(model: Model, place: EditContext) -> None:
-    rests = model.allow_auto_disable is not False
-    for nested in model.models:
-        if nested.allow_auto_disable is not None and nested.allow_auto_disable != rests:
-            value, where = str(nested.allow_auto_disable).lower(), nested.location.at("allow_auto_disable")
-            message = f"nested model {nested.name!r} sets allow_auto_disable to {value}, and {model.name!r} does not"
-            place.sink.report(rules.NESTED_SETTING, message, where, found=value)
-        _report_settings(nested.copy(allow_auto_disable=model.allow_auto_disable), place)
-
-
-def _prepared(model: Model) -> Model:
-    """The model, in the models of which links have the settings that their model had for them."""
-    return model.copy(models=tuple(map(_inner, model.models)))
-
-
-def _inner(model: Model) -> Model:
-    settings = {field: value for field in _OF_LINKS if (value := getattr(model, field)) is not None}
-    links = tuple(_with_settings(link, settings) for link in model.links)
-    return model.copy(links=links, models=tuple(map(_inner, model.models)))
-
-
-def _with_settings(link: Link, settings: dict[str, bool]) -> Link:
-    update = {field: value for field, value in settings.items() if getattr(link, field) is None}
-    return link.copy(**update) if update else link
+    for nested, message in differing_rests(model):
+        where, value = nested.location.at("allow_auto_disable"), str(nested.allow_auto_disable).lower()
+        place.sink.report(rules.NESTED_SETTING, message, where, found=value)
 
 
 def _with_rest(flat: Model, model: Model, place: EditContext) -> Model:

@@ -16,6 +16,7 @@ from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.names import renamed
 from twinform.passes.sdf_versions.nest_models import nest
+from twinform.passes.transforms.nested_settings import unsettle_links
 from twinform.passes.transforms.notation import NESTED
 from twinform.schemas import parse_version, versions_of
 
@@ -136,7 +137,7 @@ def _with_rest(model: Model, path: str, annotated: dict[str, Element], sink: Dia
     )
     try:
         whole = absorb(model.copy(canonical_link=None), pieces, VersionCondition(), _NEWEST)
-        return _placed(_with_known_links(whole))
+        return _placed(_with_known_links(unsettle_links(whole, sink)))
     except CarrierError as error:
         message = f"the carried content of nested model {path!r} does not fit it any more: {error}"
         sink.report(STALE_CARRIER, message, model.location, found=path)

@@ -3,7 +3,7 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.diagnostics import rules
+from twinform.diagnostics import Fate, rules
 from twinform.ir import Format, Frame, Model, Opaque, count_parts
 from twinform.ir.scopes import SCOPE, nested_models
 from twinform.passes.carriers.annotations import with_annotation
@@ -11,6 +11,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, to_element
 from twinform.passes.legalise.names import Names, renamed, with_old_names
 from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
 from twinform.passes.transforms.flattening import flatten
+from twinform.passes.transforms.nested_settings import differing_rests, settle_links
 from twinform.passes.transforms.nodes import unique_name
 from twinform.passes.transforms.notation import NESTED, POSE, pose_attributes
 from twinform.passes.transforms.static_models import with_static_models_fixed
@@ -22,8 +23,10 @@ class FlattenForUrdf(ToUrdfPass):
     Changes: 1. they are called `inner__name`, and what names them does so too, also where a file before 1.8 calls its
     parts `inner::name` without a model of that name; 2. a frame called `inner` stands for the
     nested model's own frame, and poses that were relative to it name it; 3. the roots in a static one are fixed to the
-    world; 4. all else that the nested model has is carried on that frame.
-    Diagnostics: `include-not-expanded` for includes in any of the models; in the ledger `nested-model`.
+    world; 4. its `self_collide` and `enable_wind` are also those of its links, which Gazebo reads; 5. all else that the
+    nested model has is carried on that frame.
+    Diagnostics: `include-not-expanded` for includes in any of the models; in the ledger `nested-model`, and
+    `nested-setting` where a nested model may rest and the outer one may not, or the other way round.
     """
 
     name: ClassVar[str] = "flatten-for-urdf"
@@ -33,12 +36,20 @@ class FlattenForUrdf(ToUrdfPass):
         _refuse_includes(model, keeper)
         if keeper.sink.has_errors:
             return model
-        flat = flatten(with_static_models_fixed(model), partial(_keep, keeper)) if model.models else model
+        flat = _flat(model, keeper) if model.models else model
         names = _legal_names(flat)
         if not names:
             return flat
         flat = renamed(flat, names, Format.SDF)
         return with_old_names(flat, names) if keeper.carriers else flat
+
+
+def _flat(model: Model, keeper: Keeper) -> Model:
+    for nested, message in differing_rests(model):
+        where = nested.location.at("allow_auto_disable")
+        keeper.sink.account(Fate.APPROXIMATED, rules.NESTED_SETTING, f"{message}: Gazebo reads the outer one", where, 0)
+    settled = settle_links(model, annotated=keeper.carriers)
+    return flatten(with_static_models_fixed(settled), partial(_keep, keeper))
 
 
 def _keep(keeper: Keeper, frame: Frame, shell: Model) -> Frame:

@@ -71,6 +71,12 @@ std::string spelt(const sdf::ParamPtr &value, const std::string &text) {
   return value->GetTypeName() == "color" && count == 3 ? out + " 1" : out;
 }
 
+// whether the library reads a child of an element: of those with one name the first, of the workflows of <pbr> the last
+bool counts(const sdf::ElementPtr &element, const sdf::ElementPtr &child) {
+  if (element->GetName() == "pbr") return child->GetNextElement(child->GetName()) == nullptr;
+  return element->FindElement(child->GetName()) == child;
+}
+
 // the values below an element that are not the library's default, each by its path
 void collect(const sdf::ElementPtr &element, const std::string &path, std::vector<std::string> &found) {
   const auto add = [&found](const std::string &at, const sdf::ParamPtr &value) {
@@ -79,7 +85,7 @@ void collect(const sdf::ElementPtr &element, const std::string &path, std::vecto
     if (text != spelt(value, value->GetDefaultAsString())) found.push_back(json::member(at, json::quoted(text)));
   };
   for (sdf::ElementPtr child = element->GetFirstElement(); child; child = child->GetNextElement()) {
-    if (is_apart(child->GetName())) continue;
+    if (is_apart(child->GetName()) || !counts(element, child)) continue;
     const std::string at = path.empty() ? child->GetName() : path + "/" + child->GetName();
     add(at, child->GetValue());
     for (const sdf::ParamPtr &attribute : child->GetAttributes()) add(at + "/@" + attribute->GetKey(), attribute);
@@ -91,6 +97,16 @@ std::string values(const sdf::ElementPtr &element) {
   std::vector<std::string> found;
   collect(element, "", found);
   return json::object(found);
+}
+
+// what a link has, and what the model that it is in sets for its links where that is not the outermost one
+std::string values(const sdf::Link &link, const sdf::Model &model, const std::string &scope) {
+  const sdf::ElementPtr element = link.Element()->Clone();
+  for (const char *name : {"self_collide", "enable_wind"}) {
+    if (scope.empty() || element->HasElement(name) || !model.Element()->HasElement(name)) continue;
+    element->GetElement(name)->Set(model.Element()->Get<bool>(name));
+  }
+  return values(element);
 }
 
 template <typename Shape>
@@ -109,15 +125,15 @@ void describe_shapes(const sdf::Link &link) {
   for (uint64_t i = 0; i < link.CollisionCount(); ++i) describe_shape("collision", *link.CollisionByIndex(i), separator);
 }
 
-void describe_link(const sdf::Link &link, const std::string &scope, const Pose3d &model) {
+void describe_link(const sdf::Link &link, const sdf::Model &model, const std::string &scope, const Pose3d &pose) {
   const auto &inertial = link.Inertial();
   const auto &mass = inertial.MassMatrix();
   std::cout << "{\"name\": " << json::quoted(scope + link.Name())
-            << ", \"pose\": " << written(model * resolved(link.SemanticPose(), "__model__"))
+            << ", \"pose\": " << written(pose * resolved(link.SemanticPose(), "__model__"))
             << ", \"mass\": " << json::number(mass.Mass()) << ", \"center\": " << written(inertial.Pose())
             << ", \"moments\": "
             << numbers(mass.Ixx(), mass.Iyy(), mass.Izz(), mass.Ixy(), mass.Ixz(), mass.Iyz())
-            << ", \"values\": " << values(link.Element()) << ", \"shapes\": [";
+            << ", \"values\": " << values(link, model, scope) << ", \"shapes\": [";
   describe_shapes(link);
   std::cout << "]}";
 }
@@ -148,7 +164,7 @@ void describe_joint(const sdf::Joint &joint, const std::string &scope, const Pos
 void describe_links(const sdf::Model &model, const std::string &scope, const Pose3d &pose, const char *&separator) {
   for (uint64_t i = 0; i < model.LinkCount(); ++i, separator = ", ") {
     std::cout << separator;
-    describe_link(*model.LinkByIndex(i), scope, pose);
+    describe_link(*model.LinkByIndex(i), model, scope, pose);
   }
   for (uint64_t i = 0; i < model.ModelCount(); ++i) {
     const sdf::Model &inner = *model.ModelByIndex(i);
