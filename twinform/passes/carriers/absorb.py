@@ -7,7 +7,7 @@ from lxml import etree
 from pydantic import ValidationError
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Model, Node, Opaque
+from twinform.ir import Geometry, Model, Node, Opaque
 from twinform.ir.record import field_value, fields_of
 from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.definitions import definition_of, is_repeated
@@ -85,10 +85,11 @@ def _beside(node: AnyNode, path: list[str], piece: Opaque) -> AnyNode:
     if not path:
         return node.copy(opaque=(*node.opaque, piece.copy(at="")))
     first, *rest = path
-    inner = field_value(node, first)
+    field = "shape" if isinstance(node, Geometry) else first
+    inner = field_value(node, field)
     if not isinstance(inner, Node):
         raise CarrierError(f"there is no <{first}>")
-    return node.copy(**{first: _beside(inner, rest, piece)})
+    return node.copy(**{field: _beside(inner, rest, piece)})
 
 
 def _read(piece: Opaque, definition: str, version: Version) -> dict[str, Any]:

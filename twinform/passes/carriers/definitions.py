@@ -1,6 +1,6 @@
 """The definition in the SDF facts table that applies to the children of a node's element."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cache
 
 from twinform.ir import (
@@ -26,7 +26,7 @@ from twinform.ir import (
     World,
 )
 from twinform.ir.record import field_value
-from twinform.schemas import table
+from twinform.schemas import Fact, table
 
 _DEFINITIONS: dict[type[Node], str] = {
     Document: "sdf",
@@ -60,21 +60,33 @@ def inside(node: Node, at: str) -> Node | None:
     """The single node at a path of elements below another one, such as the limit of a joint at `axis/limit`."""
     holder: object = node
     for step in filter(None, at.split("/")):
-        holder = field_value(holder, step) if isinstance(holder, Node) else None
+        if isinstance(holder, Geometry):
+            holder = holder.shape if holder.shape and holder.shape.kind == step else None
+        else:
+            holder = field_value(holder, step) if isinstance(holder, Node) else None
     return holder if isinstance(holder, Node) else None
 
 
 def has_first(node: Node, name: str) -> bool:
     """Whether a node has the element that another one of this name repeats."""
     definition = definition_of(node)
-    place = _single(definition).get(name) if definition else name
-    if place:
-        return field_value(node, place) is not None
-    return any(part.element.name == name for part in node.opaque if part.element)
+    places = _single(definition).get(name, ()) if definition else (name,)
+    if any(field_value(node, place) is not None for place in places):
+        return True
+    return any(name == (part.at.partition("/")[0] or part.element.name) for part in node.opaque if part.element)
 
 
 @cache
-def _single(definition: str | None) -> Mapping[str, str]:
+def _single(definition: str | None) -> Mapping[str, tuple[str, ...]]:
     """The children of a definition that may stand once and have a typed form, with the fields that hold them."""
     rows = table("sdf").definitions[definition].children if definition else ()
-    return {row.name: row.place.partition(".")[0] for row in rows if row.place and not row.repeats}
+    return {row.name: tuple(_fields_of(row)) for row in rows if row.place and not row.repeats}
+
+
+def _fields_of(row: Fact) -> Iterator[str]:
+    """The field that holds an element, or the fields that hold what is in it."""
+    if row.place == ".":
+        for each in row.rows:
+            yield from _fields_of(each)
+    elif row.place:
+        yield row.place.partition(".")[0]

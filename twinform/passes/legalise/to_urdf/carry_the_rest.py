@@ -129,7 +129,7 @@ class _RemainderCarrier:
             unshared = tag == "collision" and what.partition("/")[0].strip("<>") in OF_ALL_COLLISIONS
             why = "is not that of all collisions of its link: Gazebo reads none of it" if unshared else _NO_EQUIVALENT
             message = f"{what} of {of} {why}"
-            about = SECOND if _is_second(piece, kept) else ()
+            about = SECOND if _is_second(piece, node, kept) else ()
             kept = self.keeper.keep(kept, [piece], rules.SDF_ONLY, message, piece.location_in(node), about=about)
         for path, text in endless:
             message = f"{path} of {of} is {text}, and numbers in URDF are finite"
@@ -137,7 +137,17 @@ class _RemainderCarrier:
         return kept
 
 
-def _is_second(piece: Opaque, node: Node) -> bool:
-    """Whether it repeats an element deeper in a node, such as a second limit of an axis."""
-    holder = inside(node, piece.at) if piece.at else None
-    return holder is not None and piece.element is not None and has_first(holder, piece.element.name)
+def _is_second(piece: Opaque, node: Node, kept: Node) -> bool:
+    """Whether it repeats an element deeper in a node, such as a second limit of an axis.
+
+    URDF has the first one in what is `kept`, or says it in other words, such as the color of a material.
+    """
+    if piece.element is None or not piece.at:
+        return False
+    name = piece.element.name
+    holder, left = inside(node, piece.at), inside(kept, piece.at)
+    if left is not None and has_first(left, name):
+        return True
+    if holder is None or has_first(holder.copy(opaque=()), name):
+        return False
+    return any(part.element == piece.element and is_repeated(part, holder) for part in holder.opaque)
