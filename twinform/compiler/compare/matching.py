@@ -118,8 +118,10 @@ def match(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[
         left_a, left_b = _rest(left_a, (one for one, _ in alike)), _rest(left_b, (one for _, one in alike))
         return [*pairs, *alike], left_a, left_b
     named, left_a, left_b = _paired_by(left_a, left_b, attrgetter("name"), attrgetter("name"))
+    of_a, of_b = partial(_placed_shape, base=base.a), partial(_placed_shape, base=base.b)
+    placed, left_a, left_b = _paired_by(left_a, left_b, of_a, of_b)
     alike, left_a, left_b = _paired_by(left_a, left_b, _shape, _shape)
-    return [*pairs, *named, *alike], left_a, left_b
+    return [*pairs, *named, *placed, *alike], left_a, left_b
 
 
 def _named(a: list[Part], b: list[Part], base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
@@ -213,6 +215,14 @@ def _distance(a: Part, b: Part, terms: Terms, base: Base) -> int:
     # A name means little for a shape (Gazebo and conversions rename both), so a shape that moved
     # and kept its name may still be another one.
     return len(found.items) + (0 if _has_name(a, b) else 2)
+
+
+def _placed_shape(part: Part, base: Transform) -> Hashable:
+    """What a shape is and where, to a micrometer, as one with another material is too."""
+    leaf = part.leaves.get("pose")
+    place = leaf.value.seen_from(base) if leaf else None
+    where = (round(each, 6) + 0.0 for each in place.pose.translation) if isinstance(place, PoseValue) else ()
+    return _shape(part), tuple(where)
 
 
 def _shape(part: Part) -> object:

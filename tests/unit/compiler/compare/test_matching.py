@@ -39,3 +39,16 @@ def test_of_many_shapes_the_one_that_differs_is_named(count: int) -> None:
     boxes = [(f"v{n}", n + 1.0) for n in range(count)]
     other = [*boxes[:3], ("v3", 500.0), *boxes[4:]]
     assert [message.split(" of ")[0] for message in _messages(boxes, other[::-1])] == ["visual 'v3'/geometry/box/size"]
+
+
+@pytest.mark.parametrize("count", [_FEW, _MANY])
+def test_shapes_of_another_color_are_found_by_their_places(count: int) -> None:
+    visual = (
+        "<visual name='{0}{1}'><pose>{1} 0 0 0 0 0</pose><geometry><sphere><radius>1</radius></sphere></geometry>"
+        "<material><diffuse>{2} 0 0 1</diffuse></material></visual>"
+    )
+    a = "".join(visual.format("v", n, 0.5) for n in range(count))
+    b = "".join(visual.format("w", n, 0.6) for n in reversed(range(count)))
+    model = "<sdf version='1.9'><model name='m'><link name='l'>{}</link></model></sdf>"
+    found = diff(model.format(a).encode(), model.format(b).encode())
+    assert {each.aspect.partition("/")[2] for each in found.differences} == {"material/diffuse"}
