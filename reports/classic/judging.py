@@ -44,7 +44,10 @@ def _written(files: Iterable[CorpusFile], folder: Path) -> Iterator[tuple[str, t
             continue
         paths = (folder / f"{number}_source.sdf", folder / f"{number}_migrated.sdf")
         for path, passes in zip(paths, ("", MIGRATED), strict=True):
-            path.write_text(twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION, passes=passes).text, "utf-8")
+            path.write_text(
+                twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION, passes=passes, paths=file.paths).text,
+                "utf-8",
+            )
         yield file.name, (paths[0].resolve(), paths[1].resolve())
 
 

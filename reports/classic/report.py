@@ -113,7 +113,7 @@ def judge(file: CorpusFile) -> Outcome | None:
         return None
     if file.path.suffix == ".xacro" or file.kind is Kind.XACRO:
         return _one_by_one(file, found, "a part of xacro")
-    checked = twinform.check(file.path)
+    checked = twinform.check(file.path, paths=file.paths)
     if checked.document is None or not checked.accepted:
         return _one_by_one(file, found, ", ".join(rules_of(checked.diagnostics)))
     return _whole(file, found, str(checked.document.format))
@@ -121,7 +121,9 @@ def judge(file: CorpusFile) -> Outcome | None:
 
 def _whole(file: CorpusFile, found: list[Block], language: str) -> Outcome:
     outcome = Outcome(file.name, whole=True)
-    conversion = twinform.convert(file.path, to="urdf" if language == "urdf" else "sdf", passes=PIPELINE)
+    conversion = twinform.convert(
+        file.path, to="urdf" if language == "urdf" else "sdf", passes=PIPELINE, paths=file.paths
+    )
     _count_outcomes(outcome, found, conversion)
     # what a newer version of SDF expresses in another way is not for this page
     plain = (

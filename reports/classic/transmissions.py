@@ -56,10 +56,10 @@ def _all_transmissions(sample: Sample) -> Iterator[Transmissions]:
 
 
 def _transmissions_of(file: CorpusFile) -> Transmissions | None:
-    checked = twinform.check(file.path)
+    checked = twinform.check(file.path, paths=file.paths)
     if checked.document is None or not checked.accepted:
         return None
-    there = twinform.convert(file.path, to="urdf", passes=THERE)
+    there = twinform.convert(file.path, to="urdf", passes=THERE, paths=file.paths)
     again = twinform.convert(there.text.encode(), to="urdf", passes=f"{BACK},{THERE}")
     missing = audit(there.source, there.text, there.ledger).unaccounted if there.source is not None else ()
     foreign = (rules.FOREIGN_TRANSMISSION, rules.FOREIGN_HARDWARE_INTERFACE)

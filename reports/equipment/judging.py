@@ -45,7 +45,7 @@ class Outcome:
 
 def judge(file: CorpusFile) -> tuple[Outcome, ...]:
     """What became of every robot of a file, or of the first few; none where libsdformat reads none."""
-    checked = twinform.check(file.path)
+    checked = twinform.check(file.path, paths=file.paths)
     if checked.document is None or not checked.accepted:
         return ()
     if file.kind is Kind.URDF:
@@ -77,7 +77,7 @@ def judged_urdf(file: CorpusFile, read: Callable[[Path], RobotRow] = describe) -
     """What became of a URDF, which is the robot afterwards here, as libsdformat lumps links there."""
     before = read(file.path)
     try:
-        conversion = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION)
+        conversion = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION, paths=file.paths)
         after = _result(conversion, "robot.sdf", read)
     except twinform.CompileError as error:
         return Outcome(file.name, Verdict.REFUSED, _parts(before), ", ".join(rules_of(error.diagnostics)))

@@ -22,9 +22,9 @@ def converted(file: CorpusFile, output: Path) -> Path | None:
     to_sdf = file.kind is Kind.URDF
     try:
         if to_sdf:
-            text = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION).text
+            text = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION, paths=file.paths).text
         else:
-            text = twinform.convert(file.path, to="urdf").text
+            text = twinform.convert(file.path, to="urdf", paths=file.paths).text
     except twinform.CompileError:
         return None
     return kept(output.with_name(f"{output.name}.{'sdf' if to_sdf else 'urdf'}"), text)

@@ -100,7 +100,7 @@ def _output(file: CorpusFile) -> Path:
 def _mend(file: CorpusFile) -> tuple[Counter[str], tuple[str, ...]]:
     """Mend a file; what was done by rule, and the rules that stand against it."""
     try:
-        conversion = twinform.convert(file.path, to="urdf", passes=PIPELINE)
+        conversion = twinform.convert(file.path, to="urdf", passes=PIPELINE, paths=file.paths)
     except twinform.CompileError as error:
         return Counter(), rules_of(error.diagnostics)
     kept(_output(file), conversion.text)

@@ -81,8 +81,10 @@ def _move(job: tuple[Mode, CorpusFile]) -> Moved:
     mode, file = job
     nothing = Moved(mode.name, file.name)
     try:
-        plain = twinform.load(file.path)
-        if not _is_interesting(plain) or _UNFIT & {each.rule.name for each in twinform.check(file.path).diagnostics}:
+        plain = twinform.load(file.path, paths=file.paths)
+        if not _is_interesting(plain) or _UNFIT & {
+            each.rule.name for each in twinform.check(file.path, paths=file.paths).diagnostics
+        }:
             return nothing
         conversion = twinform.convert(file.path, to=mode.target, passes=mode.passes, paths=file.paths)
         source = _source(mode, file)

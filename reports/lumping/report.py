@@ -71,7 +71,7 @@ def _judge(file: CorpusFile) -> Outcome:
         return Outcome(file.name, theirs=_code(str(error)))
     try:
         conversion = twinform.convert(file.path, to="sdf", sdf_version=SDF_VERSION, passes=PASSES, paths=file.paths)
-        plain = twinform.load(file.path)
+        plain = twinform.load(file.path, paths=file.paths)
     except twinform.CompileError as error:
         return Outcome(file.name, ours=", ".join(rules_of(error.diagnostics)))
     try:

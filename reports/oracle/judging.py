@@ -72,7 +72,7 @@ def judge(file: CorpusFile) -> tuple[Outcome, ...]:
 def rewrite(file: CorpusFile) -> Path | None:
     """Write an SDF file in its own version; None where that is refused."""
     try:
-        text = twinform.convert(file.path, to="sdf").text
+        text = twinform.convert(file.path, to="sdf", paths=file.paths).text
     except twinform.CompileError:
         return None
     return kept(OUT / f"{file.name}.again.sdf", text)
@@ -107,10 +107,13 @@ def _judged(file: CorpusFile, direction: Direction, source: Robot | str) -> Outc
 
 def _convert(file: CorpusFile, direction: Direction) -> Path:
     if direction is Direction.TO_URDF:
-        text, suffix = twinform.convert(file.path, to="urdf").text, ".urdf"
+        text, suffix = twinform.convert(file.path, to="urdf", paths=file.paths).text, ".urdf"
     else:
         version = direction.rpartition(" ")[2]
-        text, suffix = twinform.convert(file.path, to="sdf", sdf_version=version).text, f".{version}.sdf"
+        text, suffix = (
+            twinform.convert(file.path, to="sdf", sdf_version=version, paths=file.paths).text,
+            f".{version}.sdf",
+        )
     return kept(OUT / f"{file.name}{suffix}", text)
 
 

@@ -55,6 +55,6 @@ def _cause(message: str) -> str:
 
 def _written(file: CorpusFile, version: str) -> Path:
     """The file in the newest version and from there in this one, which goes over every step that there is."""
-    newest = twinform.convert(file.path, to="sdf", sdf_version=NEWEST).text
+    newest = twinform.convert(file.path, to="sdf", sdf_version=NEWEST, paths=file.paths).text
     text = twinform.convert(newest.encode(), to="sdf", sdf_version=version, name=file.name).text
     return kept(OUT / "versions" / f"{file.name}.{version}.sdf", text)

@@ -70,13 +70,14 @@ def judge(name: str, path: Path, folders: tuple[Path, ...], out: Path, to: Langu
 
     No exception comes out of it.
     """
-    checked = twinform.check(path)
+    around = _around(path, folders)
+    checked = twinform.check(path, paths=around)
     if checked.document is None or not checked.accepted or not _has_models(checked.document):
         return None
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
     try:
-        return _judged(name, path, _around(path, folders), out, to)
+        return _judged(name, path, around, out, to)
     except Exception as error:  # noqa: BLE001 - every exception is a fault to report
         return Outcome(name, Together.CRASH, cause=f"{type(error).__name__}: {error}")
 
