@@ -424,7 +424,7 @@ WITHOUT: dict[str, str] = {
         "no topic of its own",
     ),
     "camera-video-recorder": "its statistics have a message for the simulator alone",
-    "comms-endpoint": "its messages are between robots, and ROS has none of their kind",
+    "comms-endpoint": "its messages are those of robots to each other, which a broker passes on",
     "environment-preload": "its topics are for the GUI",
     "led-plugin": "no release has it",
     "log-record": "its topics are for the log",
