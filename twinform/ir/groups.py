@@ -1,4 +1,6 @@
-"""`Groups`: disjoint sets of names, such as the links that joints connect."""
+"""Groups of names, such as the links that joints connect, and the name that each hangs from."""
+
+from collections.abc import Iterable, Mapping
 
 
 class Groups:
@@ -20,3 +22,18 @@ class Groups:
         if one != other:
             self._up[other] = one
         return one != other
+
+
+def tops(names: Iterable[str], above: Mapping[str, str]) -> dict[str, str]:
+    """The last name on the way up from each name; where the way is a circle, the first one that is met again.
+
+    A way that is known is not walked again, so that a long chain takes linear time.
+    """
+    found: dict[str, str] = {}
+    for name in names:
+        way, top = dict[str, None](), name
+        while top in above and top not in found and top not in way:
+            way[top] = None
+            top = above[top]
+        found.update(dict.fromkeys((*way, top), found.get(top, top)))
+    return found

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from twinform.ir.annotations import Constraint, Unseen
 from twinform.ir.element import Opaque
-from twinform.ir.record import record
+from twinform.ir.record import fields_of, record
 from twinform.ir.sourced import Sourced
 
 Vector3 = tuple[float, float, float]
@@ -30,3 +30,7 @@ class Node(Sourced):
     spelling: Annotated[Mapping[str, str] | None, Unseen()] = field(
         default=None, repr=False, compare=False, metadata={"exclude": True}
     )
+
+
+NOT_CONTENT = frozenset(name for name, each in fields_of(Node).items() if not each.compare)
+"""Fields that say how the file was written, and nothing of the robot: those that are declared with `compare=False`."""

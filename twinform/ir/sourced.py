@@ -7,9 +7,6 @@ from twinform.diagnostics import NOWHERE, Location, Source
 from twinform.ir.annotations import Unseen
 from twinform.ir.record import Record, record
 
-NOT_CONTENT = frozenset({"source", "spelling"})
-"""Fields of parts that say how the file was written, and nothing of the robot: they take no part in comparisons."""
-
 
 @record
 class Sourced(Record):

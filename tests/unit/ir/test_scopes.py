@@ -1,7 +1,7 @@
 """Nested models and the scopes of the names in them."""
 
 from twinform.ir import Document, Format, Include, Link, Model, World
-from twinform.ir.groups import Groups
+from twinform.ir.groups import Groups, tops
 from twinform.ir.scopes import nested_includes, nested_models, nested_names, outer_models, scoped_links, scoped_models
 
 _GRIPPER = Model(name="gripper", links=(Link(name="palm"),), includes=(Include(uri="model://finger"),))
@@ -34,3 +34,8 @@ def test_joined_names_are_one_group() -> None:
     assert not groups.join("c", "a")
     assert groups.find("c") == "a"
     assert groups.find("d") == "d"
+
+
+def test_a_chain_has_one_top_and_a_circle_the_name_that_is_met_again() -> None:
+    assert tops(["c", "a", "d"], {"c": "b", "b": "a"}) == {"a": "a", "b": "a", "c": "a", "d": "d"}
+    assert tops(["x", "y"], {"x": "y", "y": "x"}) == {"x": "x", "y": "x"}

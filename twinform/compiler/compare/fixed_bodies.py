@@ -7,6 +7,7 @@ from collections import defaultdict
 from functools import cached_property
 
 from twinform.compiler.compare.robot import Robot
+from twinform.ir.groups import tops
 from twinform.ir.motion import spanning_tree
 from twinform.ir.solids import Solid, combined
 from twinform.passes.legalise.shared_inertias import is_refused
@@ -21,14 +22,8 @@ class FixedBodies:
     @cached_property
     def _hosts(self) -> dict[str, str]:
         """The uppermost link of the body that each link is a part of."""
-        hung, found = spanning_tree(self.robot.joints.values()), dict[str, str]()
-        for name in self.robot.bodies:
-            path = [name]
-            while path[-1] in hung and path[-1] not in found and hung[path[-1]].type == "fixed":
-                path.append(hung[path[-1]].parent)
-            host = found.get(path[-1], path[-1])
-            found |= dict.fromkeys(path, host)
-        return found
+        hung = spanning_tree(self.robot.joints.values())
+        return tops(self.robot.bodies, {name: joint.parent for name, joint in hung.items() if joint.type == "fixed"})
 
     @cached_property
     def _members(self) -> dict[str, list[Solid]]:

@@ -17,18 +17,13 @@ def compare_frames(findings: Findings, a: Robot, b: Robot, bases: Mapping[str, B
     for name, one in a.frames.items():
         if name in b.frames:
             _compare(findings, one, b.frames[name], bases, nested=name in nested)
-    unmatched_a, unmatched_b = (
-        _without_like(findings, a, b, bases, in_a=True),
-        _without_like(findings, b, a, bases, in_a=False),
-    )
-    twins_a, twins_b = _twins(findings, unmatched_a, a, b), _twins(findings, unmatched_b, b, a)
-    renamed = set(twins_a.values()) & set(twins_b.values())
-    _report(
-        findings, unmatched_a, (a, b), {name: twin for name, twin in twins_a.items() if twin not in renamed}, in_a=True
-    )
-    _report(
-        findings, unmatched_b, (b, a), {name: twin for name, twin in twins_b.items() if twin not in renamed}, in_a=False
-    )
+    sides = ((a, b, True), (b, a, False))
+    unmatched = [_without_like(findings, mine, other, bases, in_a=in_a) for mine, other, in_a in sides]
+    twins = [_twins(findings, *each) for each in ((unmatched[0], a, b), (unmatched[1], b, a))]
+    renamed = set(twins[0].values()) & set(twins[1].values())
+    for only, twin_of, (mine, other, in_a) in zip(unmatched, twins, sides, strict=True):
+        kept = {name: twin for name, twin in twin_of.items() if twin not in renamed}
+        _report(findings, only, (mine, other), kept, in_a=in_a)
 
 
 def _compare(

@@ -11,6 +11,7 @@ from twinform.compiler.compare.robot import JointView, Robot
 from twinform.compiler.compare.values import Delta, PoseValue, gaps
 from twinform.compiler.kinematics import Degree, Kinematics, Positions
 from twinform.ir import Vector3
+from twinform.ir.groups import tops
 from twinform.ir.transform import Transform
 
 KINEMATICS = "kinematics"
@@ -45,23 +46,12 @@ class Moving:
 
     def __init__(self, robot: Robot, frames: Mapping[str, Transform]) -> None:
         self.kinematics = Kinematics(frames, [_comparable(joint, frames) for joint in robot.joints.values()])
-        self.roots: dict[str, str] = {}
+        self.roots = tops(frames, {name: joint.parent for name, joint in self.kinematics.hung.items()})
 
     def poses(self, positions: Positions) -> dict[str, Transform]:
         """The frame of each link at these joint positions, in that of the root that it hangs from."""
         frames, poses = self.kinematics.at_zero, self.kinematics.poses(positions)
-        return {name: frames.get(self._root(name), _STILL).inverse().compose(pose) for name, pose in poses.items()}
-
-    def _root(self, name: str) -> str:
-        """The link that a link hangs from, noted for each one between them: a chain is gone through once."""
-        path: list[str] = []
-        hung = self.kinematics.hung
-        while name in hung and name not in self.roots:
-            path.append(name)
-            name = hung[name].parent
-        root = self.roots.get(name, name)
-        self.roots.update(dict.fromkeys(path, root))
-        return root
+        return {name: frames.get(self.roots[name], _STILL).inverse().compose(pose) for name, pose in poses.items()}
 
 
 def _comparable(joint: JointView, frames: Mapping[str, Transform]) -> JointView:

@@ -8,8 +8,8 @@ from pydantic import ValidationError
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Geometry, Model, Node, Opaque
+from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_value, fields_of
-from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.definitions import definition_of, is_repeated
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.schemas import Context, Version, XmlElement, element_xml, reader

@@ -10,7 +10,7 @@
 from collections.abc import Iterable
 
 from twinform.ir import Link, Visual
-from twinform.ir.sourced import NOT_CONTENT
+from twinform.ir.node import NOT_CONTENT
 from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
 
 COLORS = "colors"

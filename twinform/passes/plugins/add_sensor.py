@@ -9,7 +9,7 @@ from pydantic import Field, model_validator
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor, replace_node
 from twinform.ir.frames import WORLD
-from twinform.ir.sourced import NOT_CONTENT
+from twinform.ir.node import NOT_CONTENT
 from twinform.passes.plugins.catalog import releases, sensor
 from twinform.passes.plugins.editing import add_sensor
 from twinform.passes.plugins.parts import SensorKind

@@ -6,8 +6,8 @@ from typing import cast
 
 from twinform.diagnostics import NOWHERE, Location
 from twinform.ir import Element, Node, Opaque, count_parts
+from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import fields_of
-from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.definitions import definition_of
 from twinform.passes.carriers.sdf_versions import VersionCondition

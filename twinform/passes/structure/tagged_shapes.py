@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from twinform.ir import Collision, Model, Visual
 from twinform.ir.frames import WORLD
+from twinform.ir.groups import tops
 from twinform.passes.carriers.lumped_names import LUMP
 from twinform.passes.structure.gazebo_blocks import blocks, content, is_preserved, of_shapes
 
@@ -35,15 +36,7 @@ def shape_name(link: str, name: str | None, kind: str, number: int) -> str:
 
 def hosts_of(model: Model) -> dict[str, str]:
     """The link that each link is a part of once libsdformat has lumped those that are fixed to each other."""
-    above = _above(model)
-    hosts: dict[str, str] = {}
-    for link in model.links:
-        way, name = dict[str, None](), link.name
-        while name in above and name not in hosts and name not in way:
-            way[name] = None
-            name = above[name]
-        hosts.update(dict.fromkeys((*way, name), hosts.get(name, name)))
-    return hosts
+    return tops((link.name for link in model.links), _above(model))
 
 
 def _above(model: Model) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 from twinform.ir import Element, Joint, Model
 from twinform.ir.frames import WORLD
+from twinform.ir.groups import tops
 from twinform.passes.transforms.gazebo_tags import TRUE, value_text
 
 _KEEPS = frozenset({"preserveFixedJoint", "disableFixedJointLumping"})
@@ -19,19 +20,8 @@ def lumped_joints(model: Model) -> dict[str, Joint]:
 
 def lumped_links(model: Model) -> dict[str, str]:
     """The link that each link goes into, itself where it stays."""
-    above = lumped_joints(model)
-    hosts: dict[str, str] = {}
-    for link in model.links:
-        way = {link.name: None}
-        last = link.name
-        # Hosts that are known are not walked again, so a chain of fixed links takes linear time.
-        while last in above and last not in hosts:
-            last = above[last].parent or ""
-            if last in way:  # a circle, which Gazebo refuses
-                break
-            way[last] = None
-        hosts |= dict.fromkeys(way, hosts.get(last, last))
-    return hosts
+    above = {name: joint.parent or "" for name, joint in lumped_joints(model).items()}
+    return tops((link.name for link in model.links), above)
 
 
 def _keeps(element: Element) -> bool:

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from typing import Any, TypeVar
 
 from twinform.ir import Element, Node, Opaque
+from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_value
-from twinform.ir.sourced import NOT_CONTENT
 from twinform.ir.tree import node_fields
 
 AnyNode = TypeVar("AnyNode", bound=Node)

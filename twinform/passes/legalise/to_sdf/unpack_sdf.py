@@ -20,8 +20,8 @@ from twinform.ir import (
     census_of,
     map_children,
 )
+from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import fields_of
-from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, is_memory, unpack

@@ -5,8 +5,8 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import rules
 from twinform.ir import Joint, Limit, Link, Model, Opaque
+from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import fields_of
-from twinform.ir.sourced import NOT_CONTENT
 from twinform.passes.carriers.annotations import SYNTHESIZED, is_synthesized, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.legalise.to_sdf.planar import planar_chain, planar_names

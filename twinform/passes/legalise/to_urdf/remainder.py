@@ -8,8 +8,8 @@ from types import MappingProxyType
 from typing import NamedTuple, TypeVar, Union
 
 from twinform.ir import Element, Node, Opaque
+from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_values, fields_of
-from twinform.ir.sourced import NOT_CONTENT
 from twinform.ir.tree import classes_in
 from twinform.passes.carriers.carriers import is_ours, to_element
 from twinform.passes.legalise.to_urdf.base import UrdfVersion
