@@ -23,7 +23,7 @@ EXAMPLES = {
 
 
 def _profiles(_ctx: click.Context, _option: click.Parameter, value: str | None) -> tuple[Profile, ...]:
-    """Those of the names, or all, those too that are not tested."""
+    """Return the profiles that an option names; without it those of all consumers, tested or not."""
     if value is None:
         return tuple(profile for name in names() if name != PORTABLE for profile in load(name))
     try:

@@ -50,7 +50,7 @@ class Options:
         )
 
     def for_file(self, own: ResolvedOptions) -> "Options":
-        """The same for a file that has its own settings."""
+        """Return the options with a file's own settings in place of the shared ones."""
         request = replace(self.request, passes=own.passes or Pipeline())
         return replace(self, load_options=own.load_options, policy=own.policy, request=request)
 

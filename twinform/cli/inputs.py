@@ -37,7 +37,7 @@ def file_options(command: Command) -> Command:
 
 
 def reading_options(command: Command) -> Command:
-    """The same, and whether the files that it includes are read too."""
+    """Add the flags of reading to a command, and those about the files that are included."""
     return config_options(_reading_flags(command))
 
 
@@ -75,7 +75,7 @@ def inputs(words: Sequence[str]) -> tuple[list[Source], dict[str, str]]:
 def model_inputs(
     words: Sequence[str], exclusion: Exclusion, kind: Kind = is_model
 ) -> tuple[list[Source], dict[str, str]]:
-    """The same, where the files may be folders and globs too: all of a kind that the exclusion leaves.
+    """Open the model files that a command line names, also by folders and globs, without what is excluded.
 
     Raises:
         click.UsageError: as above, or there is no model.

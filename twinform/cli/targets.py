@@ -55,10 +55,11 @@ def jobs_in_place(sources: Sequence[Source], out: str | None, target: Target | N
     """
     if out is not None:
         raise click.UsageError("--in-place and -o contradict each other")
-    return [_in_place(source, target) for source in sources]
+    return [_job_in_place(source, target) for source in sources]
 
 
-def _in_place(source: Source, target: Target | None) -> Job:
+def _job_in_place(source: Source, target: Target | None) -> Job:
+    """Return the job of changing a file in its place, if it is one that can be."""
     if isinstance(source.content, bytes):
         raise click.UsageError(f"{source.name} is no file that could be written in place")
     if source.name.lower().endswith(".xacro"):

@@ -83,7 +83,7 @@ def watch_models(
     watched = _Watched()
     try:
         while True:
-            sources = _found(find)
+            sources = _find_models(find)
             stale = [source for source in sources if watched.is_stale(source.name)]
             if stale:
                 _work_on(stale, new_round(), work, watched)
@@ -93,7 +93,7 @@ def watch_models(
         return _INTERRUPTED
 
 
-def _found(find: Callable[[], Sequence[Source]]) -> Sequence[Source]:
+def _find_models(find: Callable[[], Sequence[Source]]) -> Sequence[Source]:
     try:
         return find()
     except click.UsageError:

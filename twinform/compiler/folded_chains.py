@@ -45,7 +45,7 @@ class Folded:
 
     @classmethod
     def of(cls, source: XmlElement, result: XmlElement) -> Self:
-        """That of two trees; only what the result really has counts."""
+        """Find what differs between two trees because the second folds chains of the first."""
         found = [each for tag in _NAMED for each in result.iter(tag)]
         there = frozenset((str(each.tag), each.get("name", ""), each.get("type", "")) for each in found)
         named = frozenset((tag, name) for tag, name, _ in there)

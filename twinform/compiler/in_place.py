@@ -66,7 +66,7 @@ def convert_bytes_in_place(
     *,
     instrumentation: PassInstrumentation | None = None,
 ) -> Updated:
-    """The same of the bytes of a file, whose path is `name`.
+    """Do what `convert_in_place` does with the bytes of a file whose path is `name`.
 
     Raises:
         CompileError: they cannot be converted, or cannot be changed in their place.

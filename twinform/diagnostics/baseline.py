@@ -91,7 +91,7 @@ class Baseline:
         return f'{{\n  "{_MARK}": {_VERSION},\n  "{_FINDINGS}": [{listed}{chr(10) + "  " if rows else ""}]\n}}\n'
 
     def merged(self, newer: "Baseline", files: Iterable[str]) -> "Baseline":
-        """The same where what is known of these files is what a newer one knows."""
+        """Return the baseline with the findings of these files replaced by those of a newer one."""
         done = set(files)
         kept = {known: count for known, count in self.counts.items() if known.file not in done}
         return Baseline({**kept, **newer.counts})

@@ -22,7 +22,7 @@ class Location(NamedTuple):
     end_column: int = 0
 
     def at(self, step: str) -> "Location":
-        """The same line, one step further down the path."""
+        """Return the location one step further down the path, on the same line."""
         return Location(self.file, self.line, f"{self.path}/{step}")
 
 
@@ -61,7 +61,7 @@ class Source(NamedTuple):
 
     @property
     def location(self) -> Location:
-        """The same as a location."""
+        """The `Location` of this place."""
         return Location(self.file, self.line, self.path)
 
 

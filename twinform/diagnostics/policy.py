@@ -16,7 +16,10 @@ class Policy:
 
     def apply(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
         """The findings as the project wants to see them."""
-        return tuple(self._seen(each) for each in diagnostics if each.is_error or each.rule.name not in self.allow)
+        return tuple(
+            self._with_severity(each) for each in diagnostics if each.is_error or each.rule.name not in self.allow
+        )
 
-    def _seen(self, diagnostic: Diagnostic) -> Diagnostic:
+    def _with_severity(self, diagnostic: Diagnostic) -> Diagnostic:
+        """Return a finding as an error if its rule is denied."""
         return replace(diagnostic, severity=Severity.ERROR) if diagnostic.rule.name in self.deny else diagnostic

@@ -40,7 +40,7 @@ class Readable:
 
     @classmethod
     def of(cls, file: Path, named: Iterable[Path] = (), installed: Iterable[Path] = ()) -> Self:
-        """Those that belong to a file, itself, and those in the folders that were named besides.
+        """Return what may be read for a file: itself, its surroundings, and the folders that were named.
 
         Its own folder is known by the name that was given: a link in it that leads out of its root is not followed.
         """

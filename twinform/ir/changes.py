@@ -133,7 +133,7 @@ def _lists(old: Sequence[Sourced], new: Sequence[Sourced], node: str, path: str)
 def _matched(old: Sequence[Sourced], new: Sequence[Sourced]) -> dict[int, int]:
     """Which place in the old list is which in the new one."""
     pairs = dict[int, int]()
-    for key in (_name, _rest, _kind):
+    for key in (_name, _without_name, _kind):
         taken = set(pairs.values())
         pairs |= _pair(_by(key, old, set(pairs)), _by(key, new, taken))
     return pairs
@@ -161,8 +161,8 @@ def _name(part: Sourced) -> Hashable | None:
     return None if name is None else (type(part), name)
 
 
-def _rest(part: Sourced) -> Hashable:
-    """All but the name."""
+def _without_name(part: Sourced) -> Hashable:
+    """Return a part without its name, as a key that is equal for parts which were only renamed."""
     return part.copy(name=None) if isinstance(part, Node) and hasattr(part, "name") else part
 
 

@@ -7,7 +7,7 @@ Namespaces = tuple[tuple[str, str], ...]
 
 
 def joined(first: Namespaces, others: Iterable[Namespaces]) -> Namespaces:
-    """Those of the first, and of the others what has no prefix yet; a prefix stays what it was first."""
+    """Merge namespace declarations: those of the first document win; others add prefixes that are still free."""
     found, known = dict(first), {uri for _, uri in first}
     for prefix, uri in (pair for each in others for pair in each):
         if prefix and uri not in known and found.setdefault(prefix, uri) == uri:

@@ -34,7 +34,7 @@ def scoped_parts(node: Node) -> tuple[Opaque, ...]:
 
 
 def scoped_parts_below(node: Node) -> Iterator[Opaque]:
-    """Those of a node and of all nodes inside it."""
+    """Yield the scoped untyped parts of a node and of all nodes inside it."""
     stack = [node]
     while stack:
         node = stack.pop()

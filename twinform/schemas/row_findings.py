@@ -32,7 +32,7 @@ def with_row_findings(row: Fact, version: Version, read: ReadChild, *, has_text:
 
 
 def _unless_another(read: ReadChild, *, keep: bool) -> ReadChild:
-    """The same reader, but for an element that is text: of the element of another version it has only the name."""
+    """Wrap a reader: an element with text that only shares its name with another version's is unknown."""
 
     def read_or_keep(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
         if len(child) or is_blank(child.text or ""):
@@ -46,7 +46,7 @@ def _unless_another(read: ReadChild, *, keep: bool) -> ReadChild:
 
 
 def _after(say: Callable[[Context, XmlElement], None], read: ReadChild) -> ReadChild:
-    """The same reader, after a diagnostic about the child."""
+    """Wrap a reader: report something about the child before it is read."""
 
     def read_after(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
         say(context, child)
@@ -56,7 +56,7 @@ def _after(say: Callable[[Context, XmlElement], None], read: ReadChild) -> ReadC
 
 
 def _aside(read: ReadChild) -> ReadChild:
-    """The same reader for an element outside the robot's description, whose faults are no errors of the robot."""
+    """Wrap a reader for an element outside of the robot's description, whose faults are warnings."""
 
     def read_aside(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
         before, context.aside = context.aside, True

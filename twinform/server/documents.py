@@ -124,7 +124,7 @@ class Documents:
         return None if found is None or found.excess else found
 
     def state(self, uri: str) -> Document | None:
-        """The same, also of one that is not followed."""
+        """Return what is known of a document, also of one that is not followed."""
         return self._open.get(uri)
 
     def of_path(self, path: Path) -> Document | None:

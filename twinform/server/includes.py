@@ -67,10 +67,10 @@ def resolved(uri: str, document: Document, search: SearchPath) -> Path | None:
 
 
 def _includes(document: Document) -> tuple[Include, ...]:
-    return tuple(islice(_found(document), _MOST_INCLUDES))
+    return tuple(islice(_find_includes(document), _MOST_INCLUDES))
 
 
-def _found(document: Document) -> Iterator[Include]:
+def _find_includes(document: Document) -> Iterator[Include]:
     for node in document.tree.nodes:
         if node.tag in {"xacro:include", "include"} and "filename" in node.attributes:
             yield Include(node, node.attributes["filename"].value, node.values["filename"])

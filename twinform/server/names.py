@@ -57,7 +57,7 @@ def surroundings(document: Document, node: Node | None) -> Surroundings:
 
 
 def _all_surroundings(document: Document) -> dict[Node | None, Surroundings]:
-    """Those of all elements, each made from those of its parent: in deep files a climb for each takes minutes."""
+    """Return the surroundings of all elements, each made from its parent's: climbing for each takes minutes."""
     found: dict[Node | None, Surroundings] = {None: _NOWHERE}
     for node in document.tree.nodes:
         outer, parent = found[node.parent], node.parent

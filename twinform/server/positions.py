@@ -25,7 +25,7 @@ class Positions:
 
     @classmethod
     def of(cls, text: str, encoding: PositionEncodingKind = PositionEncodingKind.Utf16) -> "Positions":
-        """Those of a text, for an editor that counts in UTF-16 if it says nothing else."""
+        """Prepare the positions of a text for an editor, which counts in UTF-16 unless it says otherwise."""
         return cls(text, (0, *(found.end() for found in _LINE_END.finditer(text))), encoding)
 
     def offset(self, position: Position) -> int:

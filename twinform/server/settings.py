@@ -31,5 +31,5 @@ SettingsOf = Callable[[Path], Settings]
 
 
 def no_settings(_: Path) -> Settings:
-    """Those of a project that says nothing."""
+    """Return the settings of a project that has none."""
     return Settings()

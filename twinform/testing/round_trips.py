@@ -45,7 +45,7 @@ class RoundTrip:
     def of(
         cls, source: Path | bytes, document: Document, *, model: str | None = None, paths: Iterable[str | Path] = ()
     ) -> Self:
-        """That of a file or text with the content `document`; of several models in it, of the one of this name.
+        """Take a file or text with the content `document` for a round trip; of several models the one named.
 
         What has to come back is all of it. Where there is more than one model in it, that is the model alone, and the
         model has what it includes in it, since URDF has neither worlds nor includes.

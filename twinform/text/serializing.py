@@ -30,7 +30,7 @@ class Prefixes:
 
     @classmethod
     def at(cls, element: XmlElement) -> "Prefixes":
-        """Those that an element may use."""
+        """Return the prefixes that an element may use."""
         return cls({_XML: "xml", **{uri: prefix or "" for prefix, uri in element.nsmap.items()}})
 
     def of_tag(self, name: str) -> str | None:
@@ -42,7 +42,7 @@ class Prefixes:
         return None if prefix is None else f"{prefix}:{local}" if prefix else local
 
     def of_attribute(self, name: str) -> str | None:
-        """The same of an attribute, which is in no namespace without a prefix."""
+        """Return the name of an attribute with its prefix; without a prefix it is in no namespace."""
         shown = self.of_tag(name)
         return None if name.startswith("{") and shown is not None and ":" not in shown else shown
 
@@ -78,7 +78,7 @@ class Layout:
 
     @property
     def inner(self) -> "Layout":
-        """That of the elements in it."""
+        """The layout of the elements inside."""
         return Layout(self.indent + self.step, self.step) if self.step else self
 
 

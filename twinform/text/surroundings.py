@@ -25,7 +25,7 @@ class Surroundings:
 
     @classmethod
     def of(cls, source: SourceText, root: ElementSpan) -> "Surroundings":
-        """Those of a file."""
+        """Find out how a file is laid out: its line ends and its usual indentation."""
         return cls(source.text, source.line_end, _usual_step(source.text, root))
 
     def before_blanks(self, offset: int) -> int:

@@ -38,7 +38,7 @@ class Usage:
 
 @cache
 def usage() -> Usage:
-    """That of both formats, in all versions."""
+    """Return the usage of names in both formats and all versions."""
     elements = [element for format in _FORMATS for element in _elements(format)]
     order: dict[str, dict[str, None]] = {}
     for name, _, fact in elements:

@@ -71,14 +71,14 @@ class Dragging:
         @handle.on_drag("left", modifier=MODIFIER)
         async def _(event: Any) -> None:  # async: else updates may come before the start
             if event.phase == "start":
-                self._drag = drag_of(self.figure, link, self._here(event.start_position), self.positions)
+                self._drag = drag_of(self.figure, link, self._in_figure(event.start_position), self.positions)
             if self._drag is not None:
                 drag = self._drag
-                self.move(drag.joint, drag.joint.degrees[0], drag.position_at(self._here(event.end_position)))
+                self.move(drag.joint, drag.joint.degrees[0], drag.position_at(self._in_figure(event.end_position)))
             if event.phase == "end":
                 self._drag = None
 
-    def _here(self, point: Vector3) -> Vector3:
+    def _in_figure(self, point: Vector3) -> Vector3:
         """A point of the page in the frame of the figure, which may stand beside another one."""
         x, y, z = (float(each) for each in self.figure.base.position)
         return minus(point, (x, y, z))

@@ -84,10 +84,10 @@ class JointControls:
 
     def move(self, positions: Positions) -> None:
         """Put joints to positions, and their sliders."""
-        self._put(positions)
+        self._set_positions(positions)
         self._write()
 
-    def _put(self, positions: Positions) -> None:
+    def _set_positions(self, positions: Positions) -> None:
         self.choices.positions |= positions
         for key, slider in self._sliders.items():
             if key in positions:
@@ -171,7 +171,9 @@ class JointControls:
         def _(event: Any) -> None:
             if event.client is not None:
                 known = {each.key for each in self._movable}
-                self._put({key: value for key, value in positions_of(self._text.value).items() if key in known})
+                self._set_positions(
+                    {key: value for key, value in positions_of(self._text.value).items() if key in known}
+                )
 
     def _write(self) -> None:
         if self._text is not None:

@@ -76,7 +76,7 @@ def standalone_view(
     dark: bool = False,
     search: SearchPath | None = None,
 ) -> StandaloneView:
-    """The same page, with what is not drawn in it.
+    """Make the page of `view`, and list what could not be drawn in it.
 
     Raises:
         ViewerMissingError: the libraries are not installed.

@@ -66,16 +66,17 @@ class PerFile:
             return NO_OWN_SETTINGS
         return OwnSettings(
             arguments={name: _text(value) for _, table in fitting for name, value in table.arguments.items()},
-            strict=_last(table.strict for _, table in fitting),
-            passes=_last((table.passes, f"{key}.passes") for key, table in fitting if table.passes is not None),
-            check_passes=_last(
+            strict=_last_given(table.strict for _, table in fitting),
+            passes=_last_given((table.passes, f"{key}.passes") for key, table in fitting if table.passes is not None),
+            check_passes=_last_given(
                 (table.check_passes, f"{key}.check-passes") for key, table in fitting if table.check_passes is not None
             ),
             rules=[RuleSettings(table.allow, table.deny, key) for key, table in fitting],
         )
 
 
-def _last(values: Iterable[Value | None]) -> Value | None:
+def _last_given(values: Iterable[Value | None]) -> Value | None:
+    """Return the last value that is set; None if none is."""
     return next((each for each in reversed([*values]) if each is not None), None)
 
 

@@ -60,6 +60,6 @@ def _settings(project: ProjectSettings, own: OwnSettings) -> Settings:
 
 
 def _profiles(project: ProjectSettings) -> tuple[Profile, ...]:
-    """Those of the consumers that the project is for; a format that one does not read is not for it."""
+    """Return the profiles of a project's consumers; a consumer that does not read a format is left out for it."""
     found = profiles_of(",".join(project.profiles)) if project.profiles else ()
     return tuple(replace(each, named=False) for each in found)

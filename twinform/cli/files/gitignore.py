@@ -22,7 +22,7 @@ class GitIgnore:
 
     @classmethod
     def around(cls, folder: Path) -> Self:
-        """Those that count in a folder because of the folders above it; outside of a repository there are none."""
+        """Return the patterns that apply in a folder because of the folders above it; none outside of a repository."""
         real = folder.resolve()
         above = [real, *real.parents]
         top = next((place for place, each in enumerate(above) if _is_top(each)), None)
@@ -33,7 +33,7 @@ class GitIgnore:
         return cls() if found.ignores(str(real), is_folder=True) else found
 
     def inside(self, folder: str) -> Self:
-        """Those that count in a folder below, whose own come last; a repository in another begins anew."""
+        """Return the patterns for a folder below: these, then its own. A repository inside another starts anew."""
         here = Path(folder)
         before = () if _is_top(here) else self.patterns
         own = [_read(folder, here / ".gitignore")]

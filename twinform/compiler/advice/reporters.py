@@ -92,7 +92,7 @@ def _help(assessment: Assessment | None) -> str:
 
 def _details(advice: Advice) -> Iterator[str]:
     """The first thing that each consumer minds in the form that suits it best, and in one that it refuses."""
-    told = [line for reading in advice.consumers for line in _told(reading, advice)]
+    told = [line for reading in advice.consumers for line in _details_of(reading, advice)]
     if told:
         yield ""
     yield from told
@@ -101,7 +101,7 @@ def _details(advice: Advice) -> Iterator[str]:
         yield "* changes the physics; the ledger of the conversion says how"
 
 
-def _told(reading: Reading, advice: Advice) -> Iterator[str]:
+def _details_of(reading: Reading, advice: Advice) -> Iterator[str]:
     best = reading.best(advice.choice.format)
     for format_, assessment in reading.forms.items():
         effects = (Effect.REFUSES, Effect.DROPS, Effect.MISREADS) if assessment is best else (Effect.REFUSES,)

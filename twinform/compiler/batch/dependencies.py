@@ -152,7 +152,7 @@ def packed(dependencies: Iterable[Dependency]) -> list[list[object]]:
 
 
 def unpacked(rows: Iterable[Iterable[Any]]) -> Iterator[Dependency]:
-    """The same back.
+    """Read dependencies from lists as `packed` writes them.
 
     Raises:
         ValueError, TypeError: one is no dependency.

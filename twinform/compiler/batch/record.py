@@ -37,7 +37,7 @@ class Outcome(StrEnum):
 
     @property
     def exit_code(self) -> int:
-        """That of the command for one model in such a case."""
+        """The exit code of the command for one model with this outcome."""
         return _CODES.get(self, 1)
 
     @property

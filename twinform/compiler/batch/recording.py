@@ -45,7 +45,7 @@ class Recorder:
         if done.known and task.known:
             record = replace(task.known, dependencies=done.dependencies or (), time=done.time)
         else:
-            record = self._superseding(self._put(task, done, self._fresh(task, done)))
+            record = self._superseding(self._put_results(task, done, self._fresh(task, done)))
         if self.manifest is not None:
             self.manifest.add(record)
         return Result(record, known=done.known)
@@ -80,7 +80,7 @@ class Recorder:
         message, diagnostics, details = _renamed(texts, task.root, self._shown)
         return replace(record, message=message, diagnostics=diagnostics, details=details)
 
-    def _put(self, task: Task, done: Done, record: Record) -> Record:
+    def _put_results(self, task: Task, done: Done, record: Record) -> Record:
         places = self._places
         if places is None or done.outcome is not Outcome.CONVERTED:
             return record
@@ -89,7 +89,7 @@ class Recorder:
         if problem is None and self.manifest is not None:
             announced = tuple(Dependency(name, Kind.READ, digest=digest) for name, digest in made.items())
             self.manifest.announce(record.source, announced)
-        problem = problem or _written(places.dest, done.texts)
+        problem = problem or _write_results(places.dest, done.texts)
         if problem is not None:
             return replace(record, outcome=Outcome.UNWRITTEN, message=f"it cannot be written: {problem}")
         places.take(done.texts)
@@ -103,7 +103,7 @@ class Recorder:
         return supersede(self._places.dest, before, record)
 
 
-def _written(dest: Path, texts: Mapping[str, str | bytes]) -> str | None:
+def _write_results(dest: Path, texts: Mapping[str, str | bytes]) -> str | None:
     """Write results; gives the reason where that cannot be done.
 
     Raises:
@@ -125,5 +125,5 @@ def _digest(text: str | bytes) -> str:
 
 
 def _renamed(texts: Any, root: str, shown: str) -> Any:
-    """The same with another name for the folder of the models."""
+    """Return the data with `shown` in place of the folder of the models, in every text in it."""
     return json.loads(json.dumps(texts).replace(json.dumps(root)[1:-1], json.dumps(shown)[1:-1]))

@@ -115,7 +115,10 @@ def match(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[
     pairs, left_a, left_b = _same(a, b, terms, base)
     if _are_few(left_a, left_b):
         alike = _most_alike(left_a, left_b, terms, base)
-        left_a, left_b = _rest(left_a, (one for one, _ in alike)), _rest(left_b, (one for _, one in alike))
+        left_a, left_b = (
+            _without_taken(left_a, (one for one, _ in alike)),
+            _without_taken(left_b, (one for _, one in alike)),
+        )
         return [*pairs, *alike], left_a, left_b
     named, left_a, left_b = _paired_by(left_a, left_b, attrgetter("name"), attrgetter("name"))
     of_a, of_b = partial(_placed_shape, base=base.a), partial(_placed_shape, base=base.b)
@@ -170,7 +173,7 @@ def _paired_by(
     for other in b:
         free[key_b(other)].append(other)
     pairs = [(one, same.popleft()) for one in a if (same := free.get(key_a(one)))]
-    return pairs, _rest(a, (one for one, _ in pairs)), _rest(b, (other for _, other in pairs))
+    return pairs, _without_taken(a, (one for one, _ in pairs)), _without_taken(b, (other for _, other in pairs))
 
 
 def _paired(a: list[Part], b: list[Part], fits: Fits) -> tuple[list[Pair], list[Part], list[Part]]:
@@ -181,10 +184,10 @@ def _paired(a: list[Part], b: list[Part], fits: Fits) -> tuple[list[Pair], list[
         found = next((index for index, other in enumerate(free) if fits(one, other)), None)
         if found is not None:
             pairs.append((one, free.pop(found)))
-    return pairs, _rest(a, (one for one, _ in pairs)), free
+    return pairs, _without_taken(a, (one for one, _ in pairs)), free
 
 
-def _rest(parts: list[Part], taken: Iterable[Part]) -> list[Part]:
+def _without_taken(parts: list[Part], taken: Iterable[Part]) -> list[Part]:
     gone = {id(part) for part in taken}
     return [part for part in parts if id(part) not in gone]
 

@@ -167,7 +167,7 @@ class _Reading:
         return Part("model", name, {**leaves, **inside}, shell.source)
 
     def _carried_shells(self) -> Iterator[Part]:
-        """The same of nested models that traveled in URDF."""
+        """Yield the settings of nested models that travel in URDF, as parts of the robot."""
         for frame in self.model.frames:
             for element in _carried(frame):
                 if element.name == "model":

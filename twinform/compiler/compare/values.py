@@ -115,7 +115,7 @@ class Tensor(Value):
     moments: Symmetric
 
     def seen_from(self, base: Transform) -> "Tensor":
-        """The same in the axes of another frame."""
+        """Return the tensor in the axes of another frame."""
         return Tensor(turned(self.moments, base.inverse()))
 
 
@@ -164,7 +164,7 @@ def show(value: Value) -> str:
 
 
 def _numbers(a: Numbers, b: Numbers) -> Iterator[Delta]:
-    apart = [_apart(one, other) for one, other in zip(a.values, b.values, strict=True)]
+    apart = [_gap(one, other) for one, other in zip(a.values, b.values, strict=True)]
     finite = [abs(number) for number in (*a.values, *b.values) if math.isfinite(number)]
     if any(apart):
         unit = a.unit or b.unit
@@ -172,7 +172,8 @@ def _numbers(a: Numbers, b: Numbers) -> Iterator[Delta]:
         yield Delta(max(apart), max(a.floor, b.floor, size), show(a), show(b), unit, size=size)
 
 
-def _apart(one: float, other: float) -> float:
+def _gap(one: float, other: float) -> float:
+    """Return the distance of two numbers; two NaN have none, and one is infinitely far from any number."""
     if one == other or (math.isnan(one) and math.isnan(other)):
         return 0.0
     gap = abs(one - other)
@@ -201,7 +202,7 @@ def _angle_between(a: Vector3, b: Vector3) -> float:
 
 def _tensors(a: Tensor, b: Tensor) -> Iterator[Delta]:
     """The element that differs most, measured against the largest one."""
-    apart = [_apart(one, other) for one, other in zip(a.moments, b.moments, strict=True)]
+    apart = [_gap(one, other) for one, other in zip(a.moments, b.moments, strict=True)]
     worst = apart.index(max(apart))
     scale = max(map(abs, (*a.moments, *b.moments)))
     one, other = (f"{_number(each.moments[worst])} kg*m^2" for each in (a, b))

@@ -67,7 +67,7 @@ def mend(
 def mend_by(
     look: Look, data: bytes, *, unsafe: bool = False, wanted: Callable[[Diagnostic], bool] = lambda _: True
 ) -> Mended:
-    """The same with any way to look at the file, and for the wanted findings."""
+    """Mend the wanted findings in the bytes of a file, with any function that looks for them."""
     state = _State(data, look(data))
     mending = _Mending(look, Safety.UNSAFE if unsafe else Safety.SAFE, wanted)
     while mending.rounds < MOST_ROUNDS:
@@ -117,7 +117,7 @@ class _Mending:
     def applied_to(self, state: _State, offered: Sequence[Diagnostic]) -> _State:
         """The text with all of these fixes that do not overlap and make nothing worse."""
         good: list[Group] = []
-        pending, best = [[*_apart(offered)]], state
+        pending, best = [[*_without_overlaps(offered)]], state
         while pending:
             groups = pending.pop()
             if self.checks >= _most_checks(state.data):
@@ -155,7 +155,7 @@ def _most_checks(data: bytes) -> int:
     return max(_LEAST_CHECKS, min(_MOST_CHECKS, _MOST_BYTES // (len(data) or 1)))
 
 
-def _apart(offered: Iterable[Diagnostic]) -> Iterator[Group]:
+def _without_overlaps(offered: Iterable[Diagnostic]) -> Iterator[Group]:
     """Findings with one fix together, and of fixes that overlap only the first."""
     groups: dict[tuple[TextEdit, ...], Group] = {}
     for each in offered:

@@ -32,7 +32,7 @@ def with_fixes(loaded: LoadResult, wanted: Callable[[Diagnostic], bool] = lambda
 def _fix(finding: Diagnostic, file: FixableFile) -> Fix | None:
     if finding.rule.fix is None or finding.location.file != file.loaded.path:
         return None
-    fix = _made(finding, file)
+    fix = _make_fix(finding, file)
     if fix is None or not fix.edits:
         return None
     if len(fix.edits) > _MANY_EDITS:
@@ -45,7 +45,7 @@ def _fix(finding: Diagnostic, file: FixableFile) -> Fix | None:
     return replace(fix, edits=changes) if changes and not touches_expressions(fix, file.text) else None
 
 
-def _made(finding: Diagnostic, file: FixableFile) -> Fix | None:
+def _make_fix(finding: Diagnostic, file: FixableFile) -> Fix | None:
     by_text = text_fixer_of(finding.rule.name)
     if by_text is not None:
         return by_text(finding, file)

@@ -41,7 +41,7 @@ def fixers() -> Fixers:
 
 @cache
 def text_fixers() -> TextFixers:
-    """Those of texts."""
+    """Return the fixers that work on the text of a file, by the names of their rules."""
     found: dict[str, TextFixer] = {}
     for subject in TEXT_SUBJECTS:
         own = cast("TextFixers", import_module(f"twinform.compiler.fixing.subjects.{subject}").TEXT_FIXERS)

@@ -52,7 +52,7 @@ class Box(NamedTuple):
         return self.y + self.height
 
     def grown(self, by: float, above: float = 0) -> "Box":
-        """The same with room around it."""
+        """Return the box with a margin on all sides, and more above."""
         return Box(self.x - by, self.y - by - above, self.width + 2 * by, self.height + 2 * by + above)
 
 

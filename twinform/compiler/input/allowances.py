@@ -44,11 +44,11 @@ class Allowances:
             return False
         if diagnostic.rule.name in self.rules or self._key(diagnostic) in self.known:
             return True
-        where = self._written(diagnostic.location)
-        return self._of(where.file).covers(diagnostic.rule.name, where.line)
+        where = self._place_in_source(diagnostic.location)
+        return self._suppressions_in(where.file).covers(diagnostic.rule.name, where.line)
 
     def in_conversion(self, diagnostic: Diagnostic) -> bool:
-        """The same of what a conversion finds, whose own errors say that it cannot be done."""
+        """Whether a finding of a conversion is allowed; errors that reading did not find never are."""
         is_new = all(diagnostic.rule.name != rule for rule, _, _ in self.known)
         return not (diagnostic.is_error and is_new) and self(diagnostic)
 
@@ -86,14 +86,14 @@ class Allowances:
 
     def _key(self, diagnostic: Diagnostic) -> tuple[str, str, str]:
         where = diagnostic.location
-        return diagnostic.rule.name, self._written(where).file, where.path or str(where.line)
+        return diagnostic.rule.name, self._place_in_source(where).file, where.path or str(where.line)
 
-    def _written(self, where: Location) -> Location:
+    def _place_in_source(self, where: Location) -> Location:
         """The place in the file that somebody has written, of one in what that expands to."""
         origins = self.origins.get(where.file)
         return (origins.place(where.line) if origins else None) or where
 
-    def _of(self, file: str) -> Suppressions:
+    def _suppressions_in(self, file: str) -> Suppressions:
         file = file or self.file
         if file not in self.files:
             self.files[file] = suppressions(content_of(Path(file), self.limits))

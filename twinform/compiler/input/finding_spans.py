@@ -82,7 +82,7 @@ class FindingSpans:
 
     @classmethod
     def of(cls, data: bytes, tree: XmlElement | None = None) -> "FindingSpans | None":
-        """Those of a file, of which the `tree` may be at hand; None for one that cannot be read, or is no text."""
+        """Prepare the search in a file, whose tree may be at hand; None for a file that has no readable text."""
         try:
             root = _tree(data) if tree is None else tree
             tags = Tags(SourceText.of(data).text)

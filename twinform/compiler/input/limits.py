@@ -198,7 +198,7 @@ def excess_of_names(count: int, names: int) -> Excess | None:
 
 
 def excess_of_json(text: bytes, limits: Limits = USUAL_LIMITS) -> Excess | None:
-    """The same of a JSON document: a part of a model is an object, and a vector in it a list."""
+    """Check a JSON document against the limits: each object and each array counts as a part."""
     if len(text) > limits.size:
         return Excess(f"the file has more than {limits.size:,} bytes", help=LIFTED_BY_SIZE)
     parts = text.count(b"{") + text.count(b"[")

@@ -33,7 +33,7 @@ class SourceFiles:
 
     @classmethod
     def of(cls, loaded: LoadResult) -> "SourceFiles":
-        """Those of a file that was read; what was refused unread stays so."""
+        """Return the files of a result of reading; a xacro file that was refused is not opened for it."""
         if any(each.rule is XACRO_REFUSED for each in loaded.diagnostics):
             return cls(_read={loaded.path: None})
         was_made = any(name.startswith(f"{loaded.path} (") for name in loaded.origins)

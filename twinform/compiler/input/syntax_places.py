@@ -83,10 +83,10 @@ class SyntaxPlaces:
             start = text.find("<!--", text.rfind("-->") + 1)
             return Span(start, start + len("<!--")) if start >= 0 else None
         if error.kind == "ERR_GT_REQUIRED" and text[offset : offset + 1] == "<":
-            return _last(_OPEN_TAG, text, offset - 1)
+            return _last_before(_OPEN_TAG, text, offset - 1)
         pattern = _pattern(error)
         if pattern is not None:
-            return _last(re.compile(pattern), text, offset)
+            return _last_before(re.compile(pattern), text, offset)
         here = _HERE.match(text, offset)
         return Span(*here.span()) if here else Span(offset, offset)
 
@@ -125,7 +125,7 @@ def _pattern(error: XmlError) -> str | None:
     return pattern.replace("{word}", re.escape(found["word"])) if found else pattern
 
 
-def _last(pattern: re.Pattern[str], text: str, end: int) -> Span | None:
+def _last_before(pattern: re.Pattern[str], text: str, end: int) -> Span | None:
     """The last piece before an offset, which is near it unless something was never closed."""
     for start in (max(0, end - _NEAR), max(0, end - 10_000), 0):
         found = list(pattern.finditer(text, start, end + 1))
@@ -136,7 +136,7 @@ def _last(pattern: re.Pattern[str], text: str, end: int) -> Span | None:
 
 def _unclosed(text: str, offset: int) -> Span | None:
     """A `<` in a value; where the value goes on over lines, its quotes are not closed, and its beginning is meant."""
-    opened = _last(_OPEN_VALUE, text, offset)
+    opened = _last_before(_OPEN_VALUE, text, offset)
     if opened is not None and "\n" in text[opened.end : offset]:
         return opened
     return Span(offset, offset + 1) if text[offset : offset + 1] == "<" else None
@@ -147,5 +147,5 @@ def _nameless(text: str, offset: int) -> Span | None:
     if text[offset - 1 : offset] in {"&", "<"}:
         return Span(offset - 1, offset)
     if text[offset : offset + 1] == "<":
-        return _last(_OPEN_TAG, text, offset - 1)
+        return _last_before(_OPEN_TAG, text, offset - 1)
     return Span(offset, min(offset + 1, len(text)))

@@ -23,7 +23,7 @@ __all__ = ["inspect"]
 
 
 def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | None" = None) -> LoadResult:
-    """The same with what is found in a document that was read; `passes` are run on one that has no error.
+    """Add the findings of all inspections to a result of reading, and those of `passes` if there is no error.
 
     Raises:
         ReadOnlyPassError: a pass would change the document.

@@ -106,12 +106,12 @@ class Comparing:
             yield Discrepancy(Kind.ORDER, self._in_source(one), self._in_back(other))
 
     def _in_source(self, part: Part, step: str = _ITSELF) -> Side:
-        return self._written(self.source, part, step)
+        return self._side_of(self.source, part, step)
 
     def _in_back(self, part: Part, step: str = _ITSELF) -> Side:
-        return self._written(self.back, part, step)
+        return self._side_of(self.back, part, step)
 
-    def _written(self, file: str, part: Part, step: str) -> Side:
+    def _side_of(self, file: str, part: Part, step: str) -> Side:
         where = Location(file, part.element.sourceline or 0, path_of(part.element, self._places))
         if step.startswith("@"):
             text = part.element.get(step[1:])

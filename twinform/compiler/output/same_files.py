@@ -23,7 +23,7 @@ def identities(path: Path) -> Iterator[Hashable]:
 
 
 def folded(path: Path) -> Hashable:
-    """The same for paths that some file systems take for one, as they do with `Arm.sdf` and `arm.sdf`."""
+    """Return a key that is equal for paths which some file systems take for one, as `Arm.sdf` and `arm.sdf`."""
     return unicodedata.normalize("NFC", os.path.realpath(path)).casefold()
 
 

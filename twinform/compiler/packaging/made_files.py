@@ -19,7 +19,7 @@ class MadeFiles:
 
     @classmethod
     def of(cls, side_files: Iterable[SideFile]) -> Self:
-        """Those that passes have noted."""
+        """Collect the files that passes have put into a diagnostic sink."""
         return cls({path: data if isinstance(data, bytes) else data.encode() for path, data, *_ in side_files})
 
     def named(self, uri: str) -> str | None:

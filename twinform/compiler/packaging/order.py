@@ -47,13 +47,13 @@ class Details:
         return tuple(name for name in PLACEHOLDERS if not getattr(self, name))
 
     def or_else(self, others: Self) -> Self:
-        """The same, and what is empty as others have it; a name and an address of different people are not mixed."""
+        """Fill empty details from others; name and address are taken from one person, never mixed."""
         person = self if self.maintainer or self.email else others
         told = {each.name: getattr(self, each.name) or getattr(others, each.name) for each in fields(self)}
         return replace(self, **told | {"maintainer": person.maintainer, "email": person.email})
 
     def with_placeholders(self) -> Self:
-        """The same, where what is missing says so."""
+        """Return the details with placeholders for what is missing."""
         told = {name: PLACEHOLDERS[name] for name in self.missing}
         return replace(self, **told, version=self.version or _FIRST_VERSION)
 

@@ -62,7 +62,7 @@ def _write(moves: Transaction, package: Package, target: Path, old: set[str]) ->
     new = moves.stage(target.parent if is_new else target)
     for path, content in package.files.items():
         with named_after(target / path):
-            _put(content, new / path)
+            _write_content(content, new / path)
     rows = {path: _digest(new / path) for path in package.files}
     (new / MARK).write_bytes(_mark(rows.items()))
     sync_files((new / path, target / path) for path in (*package.files, MARK))
@@ -148,7 +148,8 @@ def _digest(path: Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def _put(content: Content, path: Path) -> None:
+def _write_content(content: Content, path: Path) -> None:
+    """Write bytes, or copy a file, to a path in the package."""
     path.parent.mkdir(parents=True, exist_ok=True)
     if isinstance(content, bytes):
         path.write_bytes(content)

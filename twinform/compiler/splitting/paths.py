@@ -71,7 +71,7 @@ def moved(document: Document, source: LocalAssets, folder: Path, sink: Diagnosti
         path = _relative(uri)
         if path is None:
             return uri
-        found = _found(path, source)
+        found = _find_file(path, source)
         # Not guessed at: Gazebo may look for it in its resource folders.
         if found is None:
             _report(path, where, sink, missing)
@@ -93,7 +93,7 @@ def _relative(uri: str) -> str | None:
     return None if not path or _ABSOLUTE.match(path) else path
 
 
-def _found(path: str, source: LocalAssets) -> Path | None:
+def _find_file(path: str, source: LocalAssets) -> Path | None:
     """The file beside the source, which is not opened here and may be anywhere, or in the folders that are searched."""
     beside = source.beside.parent / path
     if exists(beside):

@@ -174,8 +174,8 @@ class _Run(Generic[Job, Result]):
             yield from ((job, Failure("the process died")) for job in jobs)
         else:
             # a process that has died while it started breaks a pool as one does that has died of a job
-            # Every `ProcessPoolExecutor` that loses a process is broken as a whole, and so is a
-            # pool of pebble that loses an idle one. Each job that it had is therefore tried alone.
+            # A pool of `concurrent.futures` that loses a process is broken as a whole, and so is one
+            # of pebble that loses an idle one. Each job that it had is therefore tried alone.
             self.suspects.extend(jobs)
 
     def _count_break(self, error: Exception) -> None:

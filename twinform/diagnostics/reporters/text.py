@@ -29,7 +29,7 @@ def text(files: Sequence[Findings], paint: Paint = _plain, *, every: bool = Fals
         f"{line}\n"
         for file in files
         for group in grouped(file.diagnostics, every=every)
-        for line in _of(group, file, paint)
+        for line in _lines_of_group(group, file, paint)
     )
 
 
@@ -38,7 +38,7 @@ def concise(files: Sequence[Findings], paint: Paint = _plain) -> str:
     return "".join(f"{_headline(each, file.path, paint)}\n" for file in files for each in file.diagnostics)
 
 
-def _of(group: Group, file: Findings, paint: Paint) -> Iterator[str]:
+def _lines_of_group(group: Group, file: Findings, paint: Paint) -> Iterator[str]:
     diagnostic, others = group
     where, severity = diagnostic.location, diagnostic.severity
     count = f", {len(others) + 1} x" if others else ""

@@ -26,7 +26,7 @@ def verify_sensors(link: Link, model: Model, sink: DiagnosticSink) -> None:
 
 
 def verify_joint_sensors(model: Model, sink: DiagnosticSink) -> None:
-    """The same for the sensors of joints."""
+    """Report what is wrong with the content of sensors on joints."""
     for joint in model.joints:
         for sensor in joint.sensors:
             _verify_content(sensor, sink)

@@ -103,9 +103,9 @@ class _Materials:
 
     def of_visual(self, visual: Visual) -> Visual:
         """A visual with a tidy material."""
-        return visual if visual.material is None else replace_fields(visual, material=self._told(visual.material))
+        return visual if visual.material is None else replace_fields(visual, material=self._tell_apart(visual.material))
 
-    def _told(self, material: Material) -> Material | None:
+    def _tell_apart(self, material: Material) -> Material | None:
         name = material.name or ""
         if not _says_something(material):
             return self._referred(material, name)

@@ -49,10 +49,10 @@ def _tidied(link: Link, sink: DiagnosticSink) -> Link:
 
 def _parts(link: Link, parts: tuple[Part, ...], sink: DiagnosticSink) -> tuple[Part, ...]:
     names = {part.name for part in parts if part.name}
-    return tuple(made for part in parts for made in _made(link, part, names, sink))
+    return tuple(made for part in parts for made in _tidy_shape(link, part, names, sink))
 
 
-def _made(link: Link, part: Part, names: set[str], sink: DiagnosticSink) -> Iterator[Part]:
+def _tidy_shape(link: Link, part: Part, names: set[str], sink: DiagnosticSink) -> Iterator[Part]:
     kind = type(part).__name__.lower()
     geometry = part.geometry
     shape = None if geometry is None else geometry.shape

@@ -100,7 +100,7 @@ def _read(piece: Opaque, definition: str, version: Version) -> dict[str, Any]:
     holder = xml
     for step in filter(None, piece.at.split("/")):
         holder = etree.SubElement(holder, step)
-    _put(piece, holder)
+    _put_piece(piece, holder)
     sink = DiagnosticSink()
     data = reader("sdf", version).read(xml, Context(sink, "", "sdf", version), definition)
     for found in sink.diagnostics:
@@ -109,7 +109,7 @@ def _read(piece: Opaque, definition: str, version: Version) -> dict[str, Any]:
     return {name: value for name, value in data.items() if name not in _REQUIRED or xml.get(name) is not None}
 
 
-def _put(piece: Opaque, holder: XmlElement) -> None:
+def _put_piece(piece: Opaque, holder: XmlElement) -> None:
     if piece.element is not None:
         element_xml(piece.element, holder)
     elif piece.attribute is not None:
@@ -142,11 +142,11 @@ def _merged_value(node: Node, name: str, value: object, index: int | None) -> ob
     if not isinstance(value, Node):
         return value
     if isinstance(mine, Node) and type(value) is type(mine):
-        return _merged(mine, _written(value))
+        return _merged(mine, _written_fields(value))
     return value.copy(source=mine.source if isinstance(mine, Node) else node.source)
 
 
-def _written(node: Node) -> dict[str, Any]:
+def _written_fields(node: Node) -> dict[str, Any]:
     """The fields of a node, as the data of another one."""
     fields = fields_of(type(node))
     return {

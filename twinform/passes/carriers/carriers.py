@@ -55,7 +55,7 @@ def carry(node: AnyNode, pieces: Iterable[Opaque], dialect: str, about: Attribut
 
 def pack(pieces: Iterable[Opaque], dialect: str, about: Attributes = ()) -> tuple[Opaque, ...]:
     """A carrier for each of the pieces, with these attributes besides."""
-    return tuple([Opaque.unchecked(element=_carrier(piece, dialect, about)) for piece in pieces])
+    return tuple([Opaque.unchecked(element=_make_carrier(piece, dialect, about)) for piece in pieces])
 
 
 def bits_of_ours(*kinds: str) -> int:
@@ -131,7 +131,7 @@ def from_xml(xml: XmlElement) -> Element:
     )
 
 
-def _carrier(piece: Opaque, dialect: str, about: Attributes) -> Element:
+def _make_carrier(piece: Opaque, dialect: str, about: Attributes) -> Element:
     attributes = [*about, ("at", piece.at)] if piece.at else [*about]
     if piece.attribute is not None:
         name, value = piece.attribute

@@ -153,7 +153,7 @@ class PluginMigration:
         mimic = _mimic(leader, parameters)
         if mimic is None:
             return self._without(plugin, report, "its multiplier or offset is not a number")
-        written = _written(joints[follower])
+        written = _written_mimic(joints[follower])
         if written is not None and not _same_mimic(written, mimic):
             return self._without(plugin, report, f"joint {follower!r} mimics {written.joint!r} in another way already")
         lost: list[DroppedParameter] = [*moved.lost, *unused(plugin, moved.moved, RosNames(plugin))]
@@ -171,7 +171,7 @@ def _mimic(leader: str, parameters: dict[str, str]) -> Mimic | None:
     return Mimic(joint=leader, multiplier=numbers.get("multiplier"), offset=numbers.get("offset"))
 
 
-def _written(joint: Joint) -> Mimic | None:
+def _written_mimic(joint: Joint) -> Mimic | None:
     return (joint.axis or Axis()).mimic
 
 

@@ -42,13 +42,13 @@ class SensorMigration:
 
     def __call__(self, sensor: Sensor, site: Site) -> Iterable[Sensor]:
         """The sensors that take the place of one."""
-        found = [(plugin, migration) for plugin in sensor.plugins if (migration := self._of(plugin))]
+        found = [(plugin, migration) for plugin in sensor.plugins if (migration := self._migration_for(plugin))]
         if sensor.type == _MANY:
             yield from self._split(sensor, site, found)
             return
         yield self._changed(sensor, site, found)
 
-    def _of(self, plugin: Plugin) -> Migration | None:
+    def _migration_for(self, plugin: Plugin) -> Migration | None:
         migration = migration_of(plugin.filename or "", plugin.content)
         return migration if migration and migration.sensor is not None else None
 

@@ -61,7 +61,7 @@ def read_transmission(element: Element) -> Transmission:
 
 
 def new_transmission(transmission: Transmission) -> Element:
-    """It as an element of `<ros2_control>`.
+    """Write a transmission as an element of `<ros2_control>`.
 
     A simple transmission of ROS 1 has its reduction at the actuator, one of ROS 2 at the joint.
     """
@@ -79,13 +79,13 @@ def new_transmission(transmission: Transmission) -> Element:
 
 
 def old_transmission(transmission: Transmission) -> Element:
-    """It as a `<transmission>` of ROS 1."""
+    """Write a transmission as a `<transmission>` of ROS 1."""
     joints, actuators = transmission.joints, transmission.actuators
     if transmission.type == SIMPLE and len(joints) == len(actuators) == 1 and joints[0].reduction:
         actuators = (_with_reduction(actuators[0], joints[0].reduction),)
         joints = (_with_reduction(joints[0], None),)
     children = [Element(name="type", text=transmission.type)]
-    children += [_leaf(name, value) for name, value in _own(transmission)]
+    children += [_leaf(name, value) for name, value in _own_parameters(transmission)]
     alone = len(joints) == len(actuators) == 1
     children += [_old_end("joint", joint, transmission, role=not alone) for joint in joints]
     children += [_old_end("actuator", actuator, transmission, role=not alone) for actuator in actuators]
@@ -157,7 +157,7 @@ def _old_end(kind: str, end: End, transmission: Transmission, *, role: bool) -> 
     return Element(name=kind, attributes=(("name", end.name),), children=children)
 
 
-def _own(transmission: Transmission) -> Iterator[tuple[str, str]]:
+def _own_parameters(transmission: Transmission) -> Iterator[tuple[str, str]]:
     """The parameters that do not belong to an end."""
     prefixes = tuple(f"{end.name}." for end in (*transmission.joints, *transmission.actuators))
     return ((name, value) for name, value in transmission.parameters if not name.startswith(prefixes))

@@ -61,7 +61,7 @@ class TransmissionsFromRos2Control(Pass):
             ]
             made = list(_named(missing, names))
             _report(model, part, system, made, sink, stays=self.keep)
-            rest = () if self.keep else _rest(system)
+            rest = () if self.keep else _rest_of_system(system)
             new = as_parts([*map(old_transmission, made), *rest], format_)
             result = replace(result, () if self.keep else (part,), new, after=part)
         return result
@@ -95,7 +95,7 @@ def _interfaces(joint: Element) -> tuple[str, ...]:
     return tuple(CLASSES[name] for name in commands if name in CLASSES) or (STATE_CLASS,)
 
 
-def _rest(system: Element) -> tuple[Element, ...]:
+def _rest_of_system(system: Element) -> tuple[Element, ...]:
     """The system without what became transmissions; nothing where nothing is left but its hardware."""
     left = tuple(child for child in system.children if child.name not in {"joint", "transmission"})
     return (system.copy(children=left),) if any(child.name != "hardware" for child in left) else ()
@@ -128,7 +128,7 @@ def _report_unsayable(model: Model, part: Opaque, system: Element, sink: Diagnos
 
 def _unsayable(system: Element) -> Iterator[tuple[str, bool]]:
     """What ROS 1 cannot express, and whether it goes with the element."""
-    goes = not _rest(system)
+    goes = not _rest_of_system(system)
     for child in system.children:
         if child.name == "hardware":
             yield f"the hardware {_text(child)!r}", goes

@@ -17,7 +17,7 @@ class AssetPass(Pass):
     _assets: Assets = PrivateAttr(default_factory=lambda: NO_ASSETS)  # one object, so that equal passes are equal
 
     def with_assets(self, assets: Assets) -> Self:
-        """The same pass, with these files."""
+        """Return a copy of the pass that finds its files through these assets."""
         bound = self.model_copy()
         bound._assets = assets  # noqa: SLF001 - its own
         return bound

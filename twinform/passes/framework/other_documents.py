@@ -37,13 +37,13 @@ class DocumentPass(Pass):
     _refusal: Refusal | None = PrivateAttr(default=None)
 
     def with_reader(self, reader: DocumentReader) -> Self:
-        """The same pass, with somebody who reads files for it."""
+        """Return a copy of the pass that reads other documents through this reader."""
         bound = self.model_copy()
         bound._reader = reader  # noqa: SLF001 - its own
         return bound
 
     def with_refusal(self, refusal: Refusal) -> Self:
-        """The same pass, from somebody who is not trusted with every file."""
+        """Return a copy of the pass that does not read the documents which `refusal` refuses."""
         bound = self.model_copy()
         bound._refusal = refusal  # noqa: SLF001 - its own
         return bound

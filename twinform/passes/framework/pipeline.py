@@ -41,11 +41,11 @@ class Pipeline:
         return document
 
     def with_files(self, assets: Assets, reader: DocumentReader | None = None) -> "Pipeline":
-        """The same passes; those that open files know where they are, those that need other models who reads them."""
+        """Return the pipeline with each pass bound to the files and the reader that it needs."""
         return Pipeline(tuple(_lend(each, assets, reader) for each in self.passes))
 
     def with_refusal(self, refusal: Refusal) -> "Pipeline":
-        """The same passes; those that need other models do not get the ones that are refused."""
+        """Return the pipeline with passes that do not read the documents which `refusal` refuses."""
         return Pipeline(tuple(each.with_refusal(refusal) if isinstance(each, DocumentPass) else each for each in self))
 
     def __iter__(self) -> Iterator[Pass]:

@@ -38,7 +38,7 @@ class FilesPass(Pass):
         raise NotImplementedError
 
     def below(self, folder: str) -> Self:
-        """The same pass with its files in a folder of this name; itself where it has one place and no other."""
+        """Return the pass with its files in a folder of this name; a pass with a fixed place returns itself."""
         del folder
         return self
 

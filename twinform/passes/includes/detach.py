@@ -33,13 +33,13 @@ class _Detached:
     bases: Mapping[str, str]
 
     def world(self, world: World) -> World:
-        """All but the models, whose own poses are not theirs to keep."""
+        """Return the world with all references resolved that name frames inside of its models."""
         frames = tuple(self._frame(frame) for frame in world.frames)
         joints = tuple(self._joint(joint) for joint in world.joints)
         rest = world.copy(frames=frames, joints=joints, models=())
         # Only where the model itself stands: poses in it name its own frames, which go with it into
         # its file.
-        models = tuple(model.copy(pose=self._own(model.pose)) for model in world.models)
+        models = tuple(model.copy(pose=self._own_pose(model.pose)) for model in world.models)
         return rewrite(rest, Pose, self._pose).copy(models=models)
 
     def _base_for(self, name: str | None) -> str | None:
@@ -52,7 +52,7 @@ class _Detached:
         kind = "link" if _INSIDE in base else "model"
         return self.graph.resolve(pose, holder, base, base=kind).to_pose(base)
 
-    def _own(self, pose: Pose | None) -> Pose | None:
+    def _own_pose(self, pose: Pose | None) -> Pose | None:
         return self._pose(pose) if pose is not None else None
 
     def _pose(self, pose: Pose) -> Pose:

@@ -85,7 +85,7 @@ def _addresses(document: Document) -> Iterator[tuple[int, _LinkAddress]]:
 
 
 def _scaled(inertial: Inertial, matrix: Symmetric, factor: float) -> Inertial:
-    """The same distribution of a part of the mass."""
+    """Return the inertial with mass and inertia scaled by a factor, so that their distribution stays."""
     xx, yy, zz, xy, xz, yz = (factor * each for each in matrix)
     inertia = with_tensor(inertial.inertia, (xx, yy, zz, xy, xz, yz))
     return inertial.copy(mass=(inertial.mass or 0.0) * factor, inertia=inertia)

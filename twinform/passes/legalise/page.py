@@ -47,7 +47,7 @@ class Direction(NamedTuple):
 
 
 def directions() -> Iterator[Direction]:
-    """Those of the page; between them they have every pass."""
+    """Yield the directions of conversion on the page; together they have every pass."""
     versions = versions_of("sdf")
     oldest, newest = versions[0], versions[-1]
     older = "An older version takes some of the passes of the last chapter, before the last one of these."

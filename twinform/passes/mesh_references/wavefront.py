@@ -47,12 +47,12 @@ def _libraries(data: bytes) -> Iterator[Span]:
             at = line.start(1)
             yield from (Span(text(word[0]), at + word.start(), at + word.end()) for word in words)
         else:
-            yield from _rest(line, 0)
+            yield from _rest_of_line(line, 0)
 
 
 def _textures(data: bytes) -> Iterator[Span]:
     for line in _TEXTURE.finditer(data):
-        yield from _rest(line, _after_options(line[1]))
+        yield from _rest_of_line(line, _after_options(line[1]))
 
 
 def _after_options(line: bytes) -> int:
@@ -68,7 +68,7 @@ def _after_options(line: bytes) -> int:
     return at
 
 
-def _rest(line: re.Match[bytes], start: int) -> Iterator[Span]:
+def _rest_of_line(line: re.Match[bytes], start: int) -> Iterator[Span]:
     written = line[1][start:].strip()
     if written:
         at = line.start(1) + line[1].index(written, start)

@@ -27,13 +27,13 @@ def _element(element: Element, around: GazeboExtension, change: Callable[[Sensor
     if element.name == "sensor":
         old = sensor_of(element, around.source)
         new = change(old)
-        element = element if new is old else _written(element, old, new)
+        element = element if new is old else _write_changes(element, old, new)
     children = tuple(_element(each, around, change) for each in element.children)
     same = all(new is old for new, old in zip(children, element.children, strict=True))
     return element if same else element.copy(children=children)
 
 
-def _written(element: Element, old: Sensor, new: Sensor) -> Element:
+def _write_changes(element: Element, old: Sensor, new: Sensor) -> Element:
     """The element with what differs between two sensors."""
     if new.update_rate != old.update_rate:
         element = with_child(element, with_text("update_rate", f"{new.update_rate:.10g}", element))

@@ -131,7 +131,7 @@ class MeshPass(AssetPass, FilesPass):
         return self.folder
 
     def below(self, folder: str) -> Self:
-        """The same pass with its files in a folder of this name in its own one."""
+        """Return the pass with its files in a folder of this name inside its own folder."""
         return self.model_copy(update={"folder": f"{self.folder}/{_UNUSUAL.sub('_', folder).lstrip('._') or 'model'}"})
 
     @property

@@ -45,10 +45,10 @@ class MeshSources:
             MeshError: it is not there, or is nothing that can be read.
         """
         if uri not in self._known:
-            self._known[uri] = self._made(uri) or self._on_disk(uri)
+            self._known[uri] = self._find_made(uri) or self._on_disk(uri)
         return self._known[uri]
 
-    def _made(self, uri: str) -> MeshSource | None:
+    def _find_made(self, uri: str) -> MeshSource | None:
         """A file that a pass before this one has made, and nobody has written yet."""
         made = {each.path: each.data for each in self.sink.side_files}
         path = next((path for path in made if uri == path or uri.endswith(f"/{path}")), None)

@@ -67,7 +67,7 @@ def _class_of(cls: P, options: Mapping[str, object]) -> P:
     if cls.selected or not isinstance(word, str):
         return cls
     try:
-        made = _made(cls, word)
+        made = _make_class(cls, word)
     except UnknownNameError as error:
         raise _error(cls.name, cls.selector, str(error), word) from error
     known = {field.alias or key for key, field in made.model_fields.items()}
@@ -80,7 +80,8 @@ def _class_of(cls: P, options: Mapping[str, object]) -> P:
 
 
 @cache
-def _made(cls: P, word: str) -> P:
+def _make_class(cls: P, word: str) -> P:
+    """Make the class of a pass whose options include those that a word selects."""
     fields: dict[str, Any] = {option.replace("-", "_"): field for option, field in cls.fields_for(word).items()}
     made: P = create_model(cls.__name__, __base__=cls, __doc__=cls.__doc__, **fields)
     made.selected, made.origin = True, cls

@@ -78,11 +78,11 @@ def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper, *
     # A joint is posed in its child. Another child means other numbers for the same place.
     if resolved.pose is not joint.pose:
         gone = ("pose",) if joint.pose is None else ()
-        pieces = [*pieces, *_written(joint)]
+        pieces = [*pieces, *_pose_pieces(joint)]
         weight += count_parts(joint.pose) if joint.pose else 0
     condition = VersionCondition(since=_SINCE, without=gone)
     return keeper.keep(resolved, pieces, condition, rules.OTHER_WORDS, message, joint.location, weight)
 
 
-def _written(joint: Joint) -> list[Opaque]:
+def _pose_pieces(joint: Joint) -> list[Opaque]:
     return [pose_piece(joint.pose)] if joint.pose else []

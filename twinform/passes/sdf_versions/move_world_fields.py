@@ -69,7 +69,7 @@ def _back(carriers: bool, field: bool, world: World) -> World:
     place = next((i for i, part in enumerate(rest) if part.element and part.element.name == "physics"), None)
     if place is None:
         place = len(rest)
-        rest.append(Opaque.unchecked(element=_made(carriers=carriers), source=world.source))
+        rest.append(Opaque.unchecked(element=_make_physics(carriers=carriers), source=world.source))
     physics = rest[place].element
     for element in moved:
         physics = put(physics, (), element) if physics else None
@@ -77,7 +77,7 @@ def _back(carriers: bool, field: bool, world: World) -> World:
     return world.copy(gravity=None, opaque=tuple(rest))
 
 
-def _made(*, carriers: bool) -> Element:
+def _make_physics(*, carriers: bool) -> Element:
     """A `<physics>` that is there for its gravity alone."""
     # Marked as made, so that the conversion back takes the whole <physics> out again.
     annotations = version_carriers([], VersionCondition(since=_SINCE, without=(".",))) if carriers else ()

@@ -54,7 +54,7 @@ class Span:
             return shape_of(row)
         merged = Shape(shape_of(row).fact)
         for since, until, each in self.rows:
-            for mine, theirs in _both(merged, shape_of(each)):
+            for mine, theirs in _pairs_of_spans(merged, shape_of(each)):
                 for name, span in theirs.items():
                     # The inner parts of a row exist no longer than the row itself.
                     clipped = [(max(since, first), min(until, last), inner) for first, last, inner in span.rows]
@@ -82,7 +82,7 @@ class Shape:
         return self._lacking[version]
 
 
-def _both(mine: Shape, theirs: Shape) -> list[tuple[dict[str, Span], dict[str, Span]]]:
+def _pairs_of_spans(mine: Shape, theirs: Shape) -> list[tuple[dict[str, Span], dict[str, Span]]]:
     return [(mine.names, theirs.names), (mine.fields, theirs.fields)]
 
 

@@ -82,12 +82,12 @@ class _Turner:
         gone = [f"{field}.expressed_in"] if to_model and axis.expressed_in is None else []
         gone += [f"{field}.xyz"] if axis.xyz is None and xyz is not None else []
         condition = VersionCondition(since=_NAMES, without=tuple(gone))
-        pieces = [_written(field, axis)] if written else []
+        pieces = [_axis_piece(field, axis)] if written else []
         weight = (axis.xyz is not None) + (axis.expressed_in is not None)
         return self.keeper.keep(turned, pieces, condition, rules.OTHER_WORDS, message, axis.location, weight)
 
 
-def _written(field: str, axis: Axis) -> Opaque:
+def _axis_piece(field: str, axis: Axis) -> Opaque:
     attributes = () if axis.expressed_in is None else (("expressed_in", axis.expressed_in),)
     text = format_value(axis.xyz) if axis.xyz is not None else None
     return Opaque.unchecked(at=field, element=Element.unchecked(name="xyz", attributes=attributes, text=text))

@@ -102,10 +102,10 @@ def _has(element: Element, part: str) -> bool:
 
 def named_apart(elements: Iterable[Element], taken: set[tuple[str, str]], link: str) -> tuple[Element, ...]:
     """The elements, with the name of their link before the name of a sensor or light that is taken; takes them all."""
-    return tuple(_apart(element, taken, link) for element in elements)
+    return tuple(_with_unique_name(element, taken, link) for element in elements)
 
 
-def _apart(element: Element, taken: set[tuple[str, str]], link: str) -> Element:
+def _with_unique_name(element: Element, taken: set[tuple[str, str]], link: str) -> Element:
     key = (element.name, element.get("name") or "")
     if not key[1] or not _has(element, "@name"):
         return element

@@ -72,7 +72,7 @@ class _Obstacles:
             (
                 name
                 for name, usual in _SETTINGS.items()
-                if _written(parent, name, usual) != _written(child, name, usual)
+                if _value_or_default(parent, name, usual) != _value_or_default(child, name, usual)
             ),
             "",
         )
@@ -100,7 +100,8 @@ class _Obstacles:
         return None
 
 
-def _written(link: Link, name: str, usual: object) -> object:
+def _value_or_default(link: Link, name: str, usual: object) -> object:
+    """Return the value of a field of a link, or the usual one if it is not written."""
     value = getattr(link, name)
     return usual if value is None else value
 

@@ -82,7 +82,9 @@ class _Lumping:
         if made is self.model:
             return made
         taken = {host: posed_names(content(self.there, host)) for host in self.guests}
-        extensions = tuple(each for one in self.model.extensions if (each := self._rest(one, taken)) is not None)
+        extensions = tuple(
+            each for one in self.model.extensions if (each := self._rest_of_extension(one, taken)) is not None
+        )
         return made.copy(extensions=extensions)
 
     def _host(self, host: str, names: list[str]) -> None:
@@ -125,7 +127,9 @@ class _Lumping:
         tools = tuple(part.element for part in link.opaque if part.element and not is_ours(part))
         return (*of_shapes(content(self.there, link.name), field), *(tools if field == "collisions" else ()))
 
-    def _rest(self, extension: GazeboExtension, taken: dict[str, set[tuple[str, str]]]) -> GazeboExtension | None:
+    def _rest_of_extension(
+        self, extension: GazeboExtension, taken: dict[str, set[tuple[str, str]]]
+    ) -> GazeboExtension | None:
         """The extension of a link that gave what it had.
 
         What the new link of its shapes has in the same form goes. Sensors keep their place; where another one of the

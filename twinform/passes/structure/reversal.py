@@ -42,7 +42,7 @@ def measures_in_sensor(joint: Joint) -> bool:
 
 
 def block_measures_in_sensor(content: tuple[Element, ...]) -> bool:
-    """The same of a `<gazebo>` element of URDF."""
+    """Whether a `<gazebo>` element has a force-torque sensor that measures in its own axes."""
     torques = [part for element in content for part in element.walk()]
     return any(_frame(part) == "sensor" for part in torques)
 

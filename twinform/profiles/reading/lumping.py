@@ -87,7 +87,7 @@ def _numbers(text: str | None, count: int) -> tuple[float, ...]:
 
 
 def _finite(numbers: tuple[float, ...]) -> tuple[float, ...]:
-    """Those of a place; with an infinite one the file is refused before anything is put together."""
+    """Return the numbers of a place, or zeros if one is infinite: such a file is refused before it is lumped."""
     return numbers if all(map(math.isfinite, numbers)) else (0.0,) * len(numbers)
 
 
@@ -170,7 +170,7 @@ def _is_lumped(joint: Node, staying: frozenset[str]) -> bool:
 
 
 @lru_cache(maxsize=4)
-def _left(root: Node) -> tuple[_Body, ...]:
+def _kept_bodies(root: Node) -> tuple[_Body, ...]:
     """The bodies that it does not leave out."""
     # Links are lumped first: what is dropped for its mass is a whole body with everything that
     # fixed joints hold.
@@ -187,7 +187,7 @@ def _is_possible(inertia: Symmetric) -> bool:
 
 def _impossible_when_lumped(root: Node) -> Fact:
     """Bodies with an impossible inertia after what is fixed to them became a part of them."""
-    for body in _left(root):
+    for body in _kept_bodies(root):
         one = body.solid()
         if one.mass < 0:
             yield body.link, f"link {body.name!r} has the mass {one.mass:g} kg with what is fixed to it"
@@ -197,14 +197,14 @@ def _impossible_when_lumped(root: Node) -> Fact:
 
 def _uncertain_when_lumped(root: Node) -> Fact:
     """Bodies of which one reader finds that their inertia is possible, and another one does not."""
-    for body in _left(root):
+    for body in _kept_bodies(root):
         if _is_finite(body.solid()) and is_doubtful(body.solid().inertia):
             yield body.link, f"whether a body has the inertia of link {body.name!r} is a matter of rounding"
 
 
 def _placeless(root: Node) -> Fact:
     """Bodies of which parts without mass are put together, whose place it divides by their mass."""
-    for body in _left(root):
+    for body in _kept_bodies(root):
         if body.is_placeless():
             yield body.link, f"links without mass are fixed to each other in what is fixed to link {body.name!r}"
 
@@ -218,12 +218,12 @@ def _dropped(root: Node) -> Fact:
 def _nothing_left(root: Node) -> Fact:
     """Models without a link: all are left out, or there is only the world."""
     bodies = _bodies(root)
-    if bodies and not _left(root) and not is_static(root):
+    if bodies and not _kept_bodies(root) and not is_static(root):
         yield bodies[0].link, f"below link {bodies[0].name!r} no link is left, without the world and what has no mass"
 
 
 def _foreign_ends(root: Node) -> Fact:
-    return foreign_ends(root, frozenset(body.name for body in _left(root)))
+    return foreign_ends(root, frozenset(body.name for body in _kept_bodies(root)))
 
 
 FACTS: Mapping[str, Callable[[Node], Fact]] = {

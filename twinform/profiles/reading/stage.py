@@ -33,7 +33,7 @@ def _name(node: Node) -> str:
     return node.attributes.get("name", "")
 
 
-def _last(node: Node, tag: str) -> Node | None:
+def _last_child(node: Node, tag: str) -> Node | None:
     """Of several children with a tag it takes the last one."""
     found: Node | None = None
     for found in node.all(tag):  # noqa: B007  the last one is what is wanted
@@ -42,7 +42,7 @@ def _last(node: Node, tag: str) -> Node | None:
 
 
 def _end(joint: Node, tag: str) -> str:
-    end = _last(joint, tag)
+    end = _last_child(joint, tag)
     return "" if end is None else end.attributes.get("link", "")
 
 
@@ -64,7 +64,7 @@ class _Stage:
         """From a link to all below; a link that is below itself ends it."""
         self.times[root] = 1
         above: set[str] = {root}
-        stack = [(root, self._written(root))]
+        stack = [(root, self._joints_below(root))]
         while stack and self.loop is None:
             name, joints = stack[-1]
             joint = next(joints, None)
@@ -79,9 +79,9 @@ class _Stage:
                 self.loop = joint
             elif self.times[child] == 1:
                 above.add(child)
-                stack.append((child, self._written(child)))
+                stack.append((child, self._joints_below(child)))
 
-    def _written(self, name: str) -> Iterator[Node]:
+    def _joints_below(self, name: str) -> Iterator[Node]:
         """The joints below a link, without one whose child becomes a part of it."""
         merged = self._merged(name)
         if merged is not None:
@@ -108,11 +108,11 @@ def _has_shapes(link: Node) -> bool:
 
 def _weighs(link: Node) -> bool:
     """Whether a link has a mass, or else moments."""
-    inertial = _last(link, "inertial")
-    mass = None if inertial is None else _last(inertial, "mass")
+    inertial = _last_child(link, "inertial")
+    mass = None if inertial is None else _last_child(inertial, "mass")
     if inertial is None or mass is None:
         return False
-    inertia = _last(inertial, "inertia")
+    inertia = _last_child(inertial, "inertia")
     if (number_in(mass.attributes.get("value", "0")) or 0.0) > 0:
         return True
     return inertia is not None and any(number_in(inertia.attributes.get(each, "0")) for each in _DIAGONAL)
@@ -126,7 +126,7 @@ def _stage(root: Node) -> _Stage | None:
     for joint in joints:
         below.setdefault(_end(joint, "parent"), []).append(joint)
     children = {_end(joint, "child") for joint in joints}
-    leaders = {mimic.attributes.get("joint") for joint in joints if (mimic := _last(joint, "mimic")) is not None}
+    leaders = {mimic.attributes.get("joint") for joint in joints if (mimic := _last_child(joint, "mimic")) is not None}
     led = (_end(joint, "child") for joint in joints if _name(joint) in leaders)
     first = next((name for name in below if name not in children), None) if joints else next(iter(links), None)
     if first is None or first not in links:
@@ -190,7 +190,7 @@ def _strange_attributes(root: Node) -> Fact:
 
 
 def _is_shape(node: Node) -> bool:
-    geometry = _last(node, "geometry") if node.tag in {"visual", "collision"} else None
+    geometry = _last_child(node, "geometry") if node.tag in {"visual", "collision"} else None
     return geometry is not None and any(child.tag in _SHAPES for child in geometry.children)
 
 
@@ -211,13 +211,13 @@ def _opacities(root: Node) -> Fact:
     """Colors with a fourth number that is not from 0 to 1, of the first material of each name."""
     met = {_name(material) for material in root.all("material")}
     visuals = (visual for link in root.all("link") for visual in link.all("visual"))
-    inside = [material for visual in visuals if (material := _last(visual, "material")) is not None]
+    inside = [material for visual in visuals if (material := _last_child(visual, "material")) is not None]
     for material in (*root.all("material"), *inside):
         is_inside, name = material in inside, _name(material)
         if is_inside and name and name in met:
             continue
         met.add(name)
-        color = _last(material, "color")
+        color = _last_child(material, "color")
         numbers = [number_in(piece) for piece in (color.attributes.get("rgba", "") if color else "").split()]
         if color is not None and len(numbers) == len("rgba") and not _is_share(numbers[-1]):
             yield color, f"the opacity of a color is {numbers[-1]:g}"
@@ -229,8 +229,8 @@ def _is_share(number: float | None) -> bool:
 
 def _endless_moments(root: Node) -> Fact:
     """Moments that are no numbers, in an inertial with a place, to which it turns them."""
-    for inertial in (each for link in root.all("link") if (each := _last(link, "inertial")) is not None):
-        inertia = _last(inertial, "inertia")
+    for inertial in (each for link in root.all("link") if (each := _last_child(link, "inertial")) is not None):
+        inertia = _last_child(inertial, "inertia")
         if inertia is None or inertial.first("origin") is None:
             continue
         for name in _MOMENTS:

@@ -225,7 +225,7 @@ def _two_parents(root: Node) -> Fact:
             yield joint, f"two joints have the child {child!r}"
 
 
-def _apart(root: Node) -> Fact:
+def _circular_links(root: Node) -> Fact:
     """Links in a circle that no root leads to."""
     above = {child: parent for parent, child in map(_ends, root.all("joint"))}
     circular = dict[str, bool]()
@@ -308,7 +308,7 @@ FACTS: Mapping[str, Callable[[Node], Fact]] = {
     "several-roots": _several_roots,
     "no-root": _no_root,
     "two-parents": _two_parents,
-    "circle": _apart,
+    "circle": _circular_links,
     "weightless-link": _weightless,
     "foreign-joint": _foreign_joints,
     **clashes.FACTS,

@@ -16,10 +16,10 @@ _SHOWN = 5
 def findings(report: Report) -> Markup:
     """The findings of each file, the worst first; notes are folded."""
     several = report.second is not None
-    return join(_of(subject, number, several=several) for number, subject in enumerate(report.subjects))
+    return join(_findings_of(subject, number, several=several) for number, subject in enumerate(report.subjects))
 
 
-def _of(subject: Subject, number: int, *, several: bool) -> Markup:
+def _findings_of(subject: Subject, number: int, *, several: bool) -> Markup:
     found = subject.findings.diagnostics
     heading = element("h3", subject.name) if several else None
     if not found:

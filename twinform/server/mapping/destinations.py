@@ -16,7 +16,7 @@ class Destination(NamedTuple):
 
 
 def destination(row: Row) -> Destination:
-    """That of a row."""
+    """Look up where a row of the facts tables goes in the other format."""
     goes, fates = _table()[row.format].get(row.path, ("", ""))
     return Destination(goes, fates)
 

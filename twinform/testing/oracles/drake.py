@@ -102,7 +102,7 @@ def root(bodies: Parts, joints: Parts) -> str:
 
 
 def _named(plant: Any, found: Iterable[Any], prefix: str) -> Parts:
-    """Those of the model and the models in it, by their names inside it."""
+    """Return the parts of a model and of the models in it, by their names inside of it."""
     scoped = ((f"{plant.GetModelInstanceName(part.model_instance())}::{part.name()}", part) for part in found)
     return {name.removeprefix(prefix): part for name, part in scoped if name.startswith(prefix)}
 

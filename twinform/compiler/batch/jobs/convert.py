@@ -53,7 +53,7 @@ class Convert:
                 texts = dict(made_of_world)
             else:
                 source = task.path if task.path.suffix.lower() == XACRO or task.load_options.xacro else content
-                made = run_conversion(_apart(self.to, task.output), source, task.load_options, name=name)
+                made = run_conversion(_with_own_folder(self.to, task.output), source, task.load_options, name=name)
                 texts = {task.output: made.text, **_beside(PurePosixPath(task.output).parent, made.side_files)}
                 found, ledger = made.diagnostics, made.ledger
                 if self.model_folders:
@@ -83,8 +83,8 @@ class Convert:
         return texts, made.diagnostics, made.ledger
 
 
-def _apart(request: ConversionRequest, output: str) -> ConversionRequest:
-    """The same, with a folder of its own for what passes make of the meshes of this model: others lie beside it."""
+def _with_own_folder(request: ConversionRequest, output: str) -> ConversionRequest:
+    """Return the request with a folder of its own for the files that passes make of this model's meshes."""
     if not any(isinstance(step, FilesPass) for step in request.passes):
         return request
     own = PurePosixPath(output).name.partition(".")[0] or "model"

@@ -7,7 +7,7 @@ from twinform.diagnostics import Diagnostic, Fix, TextEdit, meant_name, rules
 def _backslashes(finding: Diagnostic, file: FixableFile) -> Fix | None:
     found = finding.found or ""
     new = found.replace("\\", "/")
-    edits = _written(file, found, new)
+    edits = _write_uri(file, found, new)
     return unsafe(f"Write {new!r}", *edits) if edits else None
 
 
@@ -15,7 +15,7 @@ def _missing_file(finding: Diagnostic, file: FixableFile) -> Fix | None:
     """Another scheme, or the part of the path that is called nearly so."""
     found, meant = finding.found or "", meant_name(finding.help)
     new = _with(found, meant) if meant else None
-    edits = _written(file, found, new) if new else ()
+    edits = _write_uri(file, found, new) if new else ()
     return unsafe(f"Write {new!r}", *edits) if edits else None
 
 
@@ -33,7 +33,7 @@ def _with(uri: str, meant: str) -> str | None:
     return f"{scheme}{separator}{'/'.join(parts)}" if separator else "/".join(parts)
 
 
-def _written(file: FixableFile, found: str, new: str) -> tuple[TextEdit, ...]:
+def _write_uri(file: FixableFile, found: str, new: str) -> tuple[TextEdit, ...]:
     """Every place where the URI stands alone: it is reported where it stands first."""
     if file.parts is None:
         return ()

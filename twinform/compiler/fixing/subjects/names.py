@@ -37,12 +37,12 @@ def _reference(site: Site) -> Fix | None:
     meant, found = meant_name(site.finding.help), site.finding.found
     if not meant or not found:
         return None
-    edits = _written(site, found, meant)
+    edits = _write_name(site, found, meant)
     # A near name is a guess, however near.
     return unsafe(f"Write {meant!r} instead of {found!r}", *edits) if edits else None
 
 
-def _written(site: Site, found: str, meant: str) -> tuple[TextEdit, ...]:
+def _write_name(site: Site, found: str, meant: str) -> tuple[TextEdit, ...]:
     """Write a name where another one stands: in the attribute of the finding, the only one with it, or the text."""
     if site.attribute and site.attribute in site.element.attrib:
         return site.set_value(meant)

@@ -67,7 +67,7 @@ def report_missed(missed: Missed, format_: str, where: Location, sink: Diagnosti
 
 
 def plain(data: Any) -> Any:
-    """The same without empty fields."""
+    """Return the data without empty objects and arrays."""
     if is_array(data):
         return [plain(each) for each in data]
     if not is_object(data):

@@ -119,7 +119,7 @@ def _location(lines: dict[JsonPath, int], path: JsonPath) -> Location:
 
 
 def _with_order(data: Any) -> Any:
-    """The same with sources in the place of `order`, by whose lines writers put parts in order."""
+    """Return the data with line numbers in place of `order`, since writers sort parts by their lines."""
     if is_array(data):
         return [_with_order(each) for each in data]
     if not is_object(data):

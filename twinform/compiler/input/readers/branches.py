@@ -49,7 +49,7 @@ def chain(branches: Iterable[Branch], known: Sequence[Version]) -> str:
 
 
 def merged(branches: Iterable[Branch]) -> list[Branch]:
-    """Those that are alike, but for their versions, in one."""
+    """Merge branches that differ in their versions only."""
     found: dict[tuple[tuple[str, ...], str], Branch] = {}
     for branch in branches:
         key = branch.conditions, branch.body

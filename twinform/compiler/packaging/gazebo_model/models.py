@@ -34,7 +34,7 @@ def build(order: Order, collection: Collection) -> Built:
 
 
 def _of_one_model(order: Order) -> Order:
-    """The same order, which refuses a file of several models where none is named."""
+    """Return the order with a pass that refuses a file of several models if none is named."""
     if order.conversion.model is not None:
         return order
     passes = Pipeline((*order.conversion.passes, SelectModel.unchecked(model=None)))

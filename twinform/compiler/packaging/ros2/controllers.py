@@ -93,7 +93,7 @@ def controllers_yaml(controllers: Sequence[Controller]) -> str:
 
 
 def controllers_in_gazebo(controllers: Iterable[Controller], document: Document, release: str) -> list[Controller]:
-    """Those that command no hardware that a release of Gazebo does not load."""
+    """Return the controllers whose hardware the release of Gazebo loads."""
     systems = systems_of(document.models[0], document.format)
     of = {runs: {part for each in systems if runs_in_gazebo(each, release) is runs for part in each.parts()}
           for runs in (True, False)}  # fmt: skip

@@ -42,11 +42,11 @@ def line_of(change: Change) -> str:
         case ChangeKind.REORDERED:
             return f"{start}: now in the order {' '.join(_items(change.new))}"
         case ChangeKind.CHANGED:
-            return f"{start}: {_written(change.old)} -> {_written(change.new)}"
+            return f"{start}: {_show_value(change.old)} -> {_show_value(change.new)}"
         case _ if change.is_node:
             return start
         case _:
-            return f"{start}: {_written(change.old if change.how is ChangeKind.REMOVED else change.new)}"
+            return f"{start}: {_show_value(change.old if change.how is ChangeKind.REMOVED else change.new)}"
 
 
 def _items(labels: object) -> Iterator[str]:
@@ -54,7 +54,7 @@ def _items(labels: object) -> Iterator[str]:
         yield from map(str, labels)  # pyright: ignore[reportUnknownArgumentType] - labels are text
 
 
-def _written(value: object) -> str:
+def _show_value(value: object) -> str:
     """A value as the JSON of a document has it."""
     if value is None:
         return "not set"

@@ -44,7 +44,7 @@ class Statistics(PassInstrumentation):
     def before(self, step: Pass, document: Document, sink: DiagnosticSink) -> None:
         """Start the clock."""
         del step, document
-        self._findings, self._entries = _found(sink), len(sink.entries)
+        self._findings, self._entries = _count_findings(sink), len(sink.entries)
         self._before = perf_counter()
 
     def after(self, step: Pass, old: Document, new: Document, sink: DiagnosticSink) -> None:
@@ -61,9 +61,9 @@ class Statistics(PassInstrumentation):
         self.records[-1].failed = True
 
     def _count(self, sink: DiagnosticSink) -> None:
-        self.records[-1].findings = _found(sink) - self._findings
+        self.records[-1].findings = _count_findings(sink) - self._findings
         self.records[-1].entries = len(sink.entries) - self._entries
 
 
-def _found(sink: DiagnosticSink) -> int:
+def _count_findings(sink: DiagnosticSink) -> int:
     return len(sink.diagnostics) + sink.left_out

@@ -155,7 +155,7 @@ class _Fold:
         )
 
     def _own_frames(self, frames: tuple[Frame, ...]) -> tuple[Frame, ...]:
-        """Those but what says to libsdformat where a floating joint leaves a link: the joint itself counts."""
+        """Drop the frames that only tell libsdformat where a floating joint leaves a link; report wrong ones."""
         placing = list(filter(self._is_placing, frames))
         if not placing:
             return frames

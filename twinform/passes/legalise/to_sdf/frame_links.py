@@ -263,7 +263,7 @@ def _placed(node: Placed, frame: str) -> Placed:
 
 
 def _placed_element(part: Opaque, frame: str) -> Opaque:
-    """The same for an element without a typed form, such as a projector."""
+    """Say in the pose of an untyped element, such as a projector, which frame it is relative to."""
     element = part.element
     if element is None:
         return part

@@ -82,13 +82,17 @@ class UrdfJoints(ModelPass):
                 joints.append(joint)
                 continue
             chain = planar_chain(joint, planar_names(joint.name, taken))
-            links[joint.child] = tuple(self._made(link) for link in chain.links)
+            links[joint.child] = tuple(self._mark_synthesized(link) for link in chain.links)
             slide, shift, turn = chain.joints
-            joints += [self._made(slide), self._made(shift), self._was_planar(turn, joint, sink)]
+            joints += [
+                self._mark_synthesized(slide),
+                self._mark_synthesized(shift),
+                self._was_planar(turn, joint, sink),
+            ]
         every = tuple(one for link in model.links for one in (*links.get(link.name, ()), link))
         return model.copy(links=every, joints=tuple(joints))
 
-    def _made(self, node: Made) -> Made:
+    def _mark_synthesized(self, node: Made) -> Made:
         return annotate_synthesized(node) if self.carriers else node
 
     def _was_planar(self, turn: Joint, joint: Joint, sink: DiagnosticSink) -> Joint:

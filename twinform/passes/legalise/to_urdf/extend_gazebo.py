@@ -63,7 +63,7 @@ class ExtendGazebo(ToUrdfPass):
             "joints": tuple(joints),
             "extensions": tuple(extensions),
             "plugins": (),
-            "opaque": _rest(model.opaque, "model"),
+            "opaque": _without_verbatim(model.opaque, "model"),
         }
         return model.copy(**{**cleared, **update})
 
@@ -91,7 +91,7 @@ def _verbatim(parts: Iterable[Opaque], definition: str) -> list[Element]:
     return [part.element for part in parts if part.element and _is_verbatim(part, definition)]
 
 
-def _rest(parts: tuple[Opaque, ...], definition: str) -> tuple[Opaque, ...]:
+def _without_verbatim(parts: tuple[Opaque, ...], definition: str) -> tuple[Opaque, ...]:
     return tuple(part for part in parts if not _is_verbatim(part, definition))
 
 
@@ -105,7 +105,7 @@ def _link_content(link: Link) -> tuple[list[Element], Link]:
     if not content:
         return content, link
     empty = {field: () if isinstance(value, tuple) else None for field, value in written.items()}
-    return content, link.copy(**{**empty, "opaque": _rest(link.opaque, "link")})
+    return content, link.copy(**{**empty, "opaque": _without_verbatim(link.opaque, "link")})
 
 
 def _joint_content(joint: Joint, links: set[str], with_mass: set[str], keeper: Keeper) -> tuple[list[Element], Joint]:
@@ -122,7 +122,7 @@ def _joint_content(joint: Joint, links: set[str], with_mass: set[str], keeper: K
     if joint.sensors:
         content += to_element(Joint(name="", type="fixed", sensors=joint.sensors), "joint", "sdf").children
     content += _verbatim(joint.opaque, "joint")
-    return content, replace_fields(joint, sensors=(), opaque=_rest(joint.opaque, "joint"))
+    return content, replace_fields(joint, sensors=(), opaque=_without_verbatim(joint.opaque, "joint"))
 
 
 def _springs(joint: Joint) -> tuple[list[Element], Joint]:

@@ -61,8 +61,8 @@ class FoldPlanarJoints(ToUrdfPass):
         joints = (folded.get(joint.name, joint) for joint in model.joints if joint.name not in gone)
         kept = (link for link in model.links if link.name not in gone)
         update = {
-            "joints": tuple(_own(joint, stale) for joint in joints),
-            "links": tuple(_own(one, stale) for one in kept),
+            "joints": tuple(_without_stale_mark(joint, stale) for joint in joints),
+            "links": tuple(_without_stale_mark(one, stale) for one in kept),
         }
         return model.copy(**update)
 
@@ -77,7 +77,7 @@ def _upwards(joint: Joint, above: dict[str | None, Joint]) -> Iterator[str]:
         joint = upper
 
 
-def _own(part: AnyPart, stale: set[str]) -> AnyPart:
+def _without_stale_mark(part: AnyPart, stale: set[str]) -> AnyPart:
     """A part of a chain that stays, which stands for itself now."""
     return without_annotation(part, SYNTHESIZED) if part.name in stale else part
 

@@ -34,7 +34,7 @@ class RestoreMaterials(ModelPass):
         shared = _shared(model, visuals)
         if sink.has_errors or not (visuals or shared):
             return model
-        defined = {**_own(visuals, shared), **{name: _look_of(material) for name, material in shared.items()}}
+        defined = {**_own_looks(visuals, shared), **{name: _look_of(material) for name, material in shared.items()}}
         links = tuple(_link(link, defined, shared, sink) for link in model.links)
         kept = tuple(
             part for part in model.opaque if not is_annotation(part, SHARED_MATERIAL) and _carried(part) is None
@@ -99,7 +99,7 @@ def _material(element: Element) -> Material | None:
     return Material.model_validate(data) if element.get("name") and not sink.has_errors else None
 
 
-def _own(visuals: list[_Annotated], shared: Mapping[str, Material]) -> dict[str, Look]:
+def _own_looks(visuals: list[_Annotated], shared: Mapping[str, Material]) -> dict[str, Look]:
     """The material of the first visual with one of its own, for those that only name it."""
     found: dict[str, Look] = {}
     for one in visuals:

@@ -55,7 +55,7 @@ def _shared(link: Link, version: UrdfVersion) -> tuple[Link, list[Element]]:
     if shared is not None:
         content += to_element(Visual(name="", material=shared), "visual", "sdf").children
         visuals = tuple(_without_look(visual, look) for visual in visuals)
-    parts = [_rest(visual, version) for visual in visuals]
+    parts = [_parts_beside_material(visual, version) for visual in visuals]
     if parts[0] and all(part == parts[0] for part in parts[1:]):
         content += parts[0]
         visuals = tuple(_without_rest(visual, version) for visual in visuals)
@@ -71,26 +71,26 @@ def _shared_look(visuals: tuple[Visual, ...], look: tuple[str, ...]) -> Material
 
 
 def _only(material: Material | None, look: tuple[str, ...]) -> Material:
-    return Material.model_validate({name: value for name, value in _written(material) if name in look})
+    return Material.model_validate({name: value for name, value in _written_fields(material) if name in look})
 
 
 def _without_look(visual: Visual, look: tuple[str, ...]) -> Visual:
     """The visual without these fields; of its two colors, one stands for both again, as in URDF."""
-    rest = {name: value for name, value in _written(visual.material) if name not in look}
+    rest = {name: value for name, value in _written_fields(visual.material) if name not in look}
     color = rest.get("diffuse") or rest.get("ambient")
     rest |= {name: color for name in _COLORS if color is not None and name in look}
     material = visual.material and Material.model_validate({**rest, "source": visual.material.source})
     return visual.copy(material=None if not rest else material)
 
 
-def _written(material: Material | None) -> Iterator[tuple[str, object]]:
+def _written_fields(material: Material | None) -> Iterator[tuple[str, object]]:
     """The fields of SDF that a material has, and their values."""
     for name, value in field_values(material).items() if material else ():
         if value not in (None, ()):
             yield name, value
 
 
-def _rest(visual: Visual, version: UrdfVersion) -> tuple[Element, ...]:
+def _parts_beside_material(visual: Visual, version: UrdfVersion) -> tuple[Element, ...]:
     """What only SDF has, besides materials."""
     if fits(visual, _fields(version)):
         return ()

@@ -77,7 +77,7 @@ def _unfold(joint: Joint, taken: set[str], keeper: Keeper) -> tuple[tuple[Link, 
         joints.append(_part(made.copy(opaque=parts_of_first), joint, keeper))
         links.append(_between(link, joint, keeper))
         parent, parts_of_first = link, ()
-    return tuple(links), [*joints, _last(kept, parent, last, opaque, keeper)]
+    return tuple(links), [*joints, _make_last_joint(kept, parent, last, opaque, keeper)]
 
 
 def _free_name(name: str, taken: set[str]) -> str:
@@ -96,7 +96,7 @@ def _between(name: str, joint: Joint, keeper: Keeper) -> Link:
     return with_annotation(link, PART, attributes={"joint": joint.name}) if keeper.carriers else link
 
 
-def _last(joint: Joint, parent: str | None, step: Step, opaque: tuple[Opaque, ...], keeper: Keeper) -> Joint:
+def _make_last_joint(joint: Joint, parent: str | None, step: Step, opaque: tuple[Opaque, ...], keeper: Keeper) -> Joint:
     """The joint that keeps the name, the child and the place."""
     update: dict[str, object] = {"type": step.type, "parent": parent, "axis": step.axis, "opaque": opaque}
     said = PITCHES if joint.type == "screw" else ("axis2",)  # the second axis of a screw is one that nobody reads

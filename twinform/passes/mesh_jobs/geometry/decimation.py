@@ -57,7 +57,7 @@ def _best(
     # The skirt keeps more of flat borders than they need, so both ways are tried.
     for careful in (False, True):
         made = _fewer(parts, share, careful=careful)
-        error = _apart(whole, nearest, made, tolerance, limit)
+        error = _distance(whole, nearest, made, tolerance, limit)
         if error <= limit:
             found.append(Decimated(made, sum(len(part.faces) for _, part in made), error))
     return min(found, key=lambda each: each.triangles, default=None)
@@ -151,7 +151,9 @@ def _with_material(part: Any, points: Any, faces: Any) -> Any:
     return made
 
 
-def _apart(whole: Surface, nearest: Nearest, made: Sequence[tuple[str, Any]], tolerance: float, limit: float) -> float:
+def _distance(
+    whole: Surface, nearest: Nearest, made: Sequence[tuple[str, Any]], tolerance: float, limit: float
+) -> float:
     surface = joined(list(made))
     there = farthest(surface, nearest, tolerance, limit=limit)
     return there if there > limit else max(there, farthest(whole, Nearest(surface), tolerance, limit=limit))

@@ -155,7 +155,7 @@ def _in_frame(kind: str, extents: Array, center: tuple[float, float, float], axe
 
 
 def _refined(primitive: Primitive, points: Array) -> Primitive:
-    """The same with other sizes and another center, so that it misses the points by less."""
+    """Optimize the sizes and the center of a primitive, so that its surface misses the points by less."""
     size = max(primitive.sizes)
     start = np.array([*primitive.sizes, *primitive.center]) / size
     count = len(primitive.sizes)
@@ -184,7 +184,7 @@ def _refined(primitive: Primitive, points: Array) -> Primitive:
 
 
 def _rounded(primitive: Primitive, size: float) -> Primitive:
-    """The same with numbers that people can read: to a millionth of the size."""
+    """Round the numbers of a primitive to a millionth of its size, so that people can read them."""
     digits = 6 - math.floor(math.log10(size))
     x, y, z = (round(each, digits) + 0.0 for each in primitive.center)
     sizes = tuple(max(round(each, digits), 10.0**-digits) for each in primitive.sizes)

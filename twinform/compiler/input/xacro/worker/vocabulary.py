@@ -37,7 +37,7 @@ def vocabulary(
 def eval_vocabulary(
     theirs: Mapping[str, Any], own: Mapping[str, Callable[..., Value]], budget: Budget
 ) -> dict[str, Value]:
-    """The same for `$(eval ...)`, whose names stand in xacro's `_eval_dict` and among its builtins."""
+    """Return the names that `$(eval ...)` may use: xacro's `_eval_dict` and its builtins."""
     offered = python_functions(budget) | math_functions(budget)
     offered |= {name: Function(name, paying(call, budget)) for name, call in own.items()}
     flat = {**theirs, **theirs["__builtins__"], **own}
