@@ -92,6 +92,7 @@ class Document:
         """The bytes of the file that it would be; what is half a character becomes a whole one."""
         declared = _DECLARED.match(self.text)
         encoding = declared[1] if declared else "utf-8"
+        # An editor that counts in UTF-16 may send half of a surrogate pair between two keys.
         text = _LONE.sub("\ufffd", self.text)
         try:
             return SourceText(text, encoding).data
@@ -164,6 +165,8 @@ class Documents:
         last = self._open.get(uri)
         if last is not None:
             self._leave(last)
+        # A text that is too large is kept as a document without content, so that its closing and
+        # shrinking are still followed.
         excess = excess_of(text)
         made = Document(uri, "" if excess else text, version, language, self.encoding, excess)
         self._open[uri] = made

@@ -31,6 +31,7 @@ def spelled_alike(value: str) -> Hashable:
     """What is equal for two spellings of one value: numbers for a text of nothing else, else the text's pieces."""
     pieces = tuple(value.split())
     try:
+        # Python reads 1_000 as a number; no reader of robots does.
         return tuple(map(float, pieces)) if "_" not in value else pieces
     except ValueError:
         return pieces
@@ -61,6 +62,7 @@ class Contents:
         return known if known is not None else self._numbered(element)
 
     def _numbered(self, element: XmlElement) -> int:
+        # From the inside out, so that each element is numbered once and no tree is too deep for it.
         for each in reversed([one for one in element.iter() if isinstance(one.tag, str)]):
             key = (
                 each.tag,
@@ -193,6 +195,8 @@ def _by_tag(
     """Elements that have changed their names, where there are as many of their tag before and after."""
     tags = [str(before[i].tag) for i in old], [str(after[j].tag) for j in new]
     counts = Counter(tags[0]), Counter(tags[1])
+    # Where the number differs, nobody knows which of them has gone: guessed wrongly, one part would
+    # get the edits of another.
     kept = [i for i, tag in zip(old, tags[0], strict=True) if counts[0][tag] == counts[1][tag]]
     waiting: dict[str, list[int]] = defaultdict(list)
     for j, tag in zip(reversed(new), reversed(tags[1]), strict=True):
@@ -207,6 +211,8 @@ def _by_tag(
 
 def _blocks(before: Sequence[Hashable], after: Sequence[Hashable]) -> Iterator[tuple[range, range, bool]]:
     """Ranges of both lists in order, and whether they are equal there."""
+    # Most lists differ in one place. What is equal at both ends costs linear time and leaves little
+    # for difflib, which takes the square.
     begin, end = _common(before, after)
     if begin:
         yield range(begin), range(begin), True

@@ -20,6 +20,9 @@ _STEP = re.compile(
 )
 _ATTRIBUTE = re.compile(r"/@[^/\]']+$")
 
+# Nodes of the IR know the line of the element that made them, and not that of the part of it that
+# is wrong. Only findings of later checks need this; the schema reader has the element that it
+# reports on.
 _KEYS = ("name", "reference")
 _SEVERAL = 2
 

@@ -124,6 +124,7 @@ class FindingSpans:
         if finding.rule in _OF_ROOT:
             return start_tag(self.text, self.tags.starts[0]).name
         element = self.parts.find(where)
+        # Beyond line 65,535 libxml2 stops counting, and the path alone decides.
         if element is None and (not where.line or where.line > LAST_LINE):
             element = self.parts.find_path(where)
         if element is not None:

@@ -105,6 +105,7 @@ def with_single_colons(text: bytes) -> tuple[bytes, list[XmlError]]:
 
 def is_full(log: Iterable[Entry]) -> bool:
     """Whether there may be more that is not XML than libxml2 lists."""
+    # A hundred harmless errors may hide the one that leaves doubt about the tree.
     return sum(entry.level == etree.ErrorLevels.FATAL for entry in log) >= _MOST_LOGGED
 
 
@@ -122,9 +123,11 @@ def first_fatal(log: Iterable[Entry], text: bytes) -> XmlError | None:
     entries = list(log)
     mended = {(entry.line, entry.column) for entry in entries if entry.type_name == "ERR_VERSION_MISSING"}
     for entry in entries:
+        # libxml2 reports one mistake several times; only the first of them says what it is.
         if entry.type_name in REPAIRS or (entry.type_name in _FOLLOWS and (entry.line, entry.column) in mended):
             continue
         line = entry.line
+        # libxml2 reports it where the file ends, and the mistake is where the comment begins.
         if entry.type_name == "ERR_COMMENT_NOT_FINISHED":
             line = text.count(b"\n", 0, text.find(b"<!--", text.rfind(b"-->") + 1)) + 1
         return XmlError(line, entry.column, entry.message.strip(), _help(entry, text), entry.type_name)

@@ -68,6 +68,8 @@ def _around(parts: tuple[str, ...], called: tuple[str, ...]) -> tuple[tuple[str,
 
 def safe_name(name: str) -> str:
     """A name of a file or folder that every system takes, and every reader of URIs finds."""
+    # Readers of URIs do not agree on percent signs, so names get letters, digits, dots, dashes and
+    # underscores only.
     plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode() if not name.isascii() else name
     return _UNSAFE.sub("_", plain).lstrip(".-") or "_"
 

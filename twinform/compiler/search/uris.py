@@ -127,6 +127,9 @@ class SearchPath:
 
     def _candidates(self, name: str, around: tuple[Path, ...]) -> Iterator[Path]:
         """Every folder that may be called so, the most likely first."""
+        # A folder called like the model comes first, as in Gazebo and ROS; folders that a
+        # package.xml or a model.config calls so come after, and the cache of Fuel last of all.
+        # Gazebo would not look there, but a file that another machine wrote can then be read.
         for root in self._roots():
             yield root / name
         for root in (*self.own, *self.workspaces):
@@ -165,6 +168,8 @@ class SearchPath:
                     denied = denied or error
                 else:
                     return path
+        # Only after all paths were tried: a link that leads out of its folder must not hide a good
+        # file in the next one.
         if denied is not None:
             raise UriError(rules.URI_LEAVES_FOLDER, f"{uri!r} {denied.reason}", denied.help) from denied
         return None

@@ -6,6 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 Value = str | bool | int | float | None | Sequence["Value"] | Mapping[str, "Value"]
 
+# PyYAML is no dependency: what is written is a mapping of known shape, and a property says that
+# PyYAML reads it back, types included, for any text. ROS reads `nan` and `inf` as numbers where
+# they stand without quotes, which PyYAML would not write in quotes.
 _PLAIN = re.compile(r"[A-Za-z_/][A-Za-z0-9_/.-]*(?: [A-Za-z0-9_/.]+)*")
 """Text that needs no quotes in any place, but for the words below."""
 # YAML 1.1 reads these as something else than text, and ROS as numbers.

@@ -118,6 +118,7 @@ class Drop(Pass):
 
     def _in_opaque(self, part: Opaque, removed: RemovedNames) -> Opaque:
         """A part that the IR keeps as it is, such as `<gui>`, without what is to go in it."""
+        # What travels in a carrier is a part of the other format, and comes back as it was.
         if part.element is None or is_ours(part):
             return part
         return replace_fields(part, element=self._inside(part.element, removed))

@@ -44,12 +44,15 @@ def root_of(model: Model) -> str | None:
 def join_urdf(model: Model, guest: Model, mount: Mount, sink: DiagnosticSink) -> Model:
     """A robot with another one attached; the same robot after an error, which has been reported."""
     guest = _without_place(without_world(guest))
+    # A link of URDF hangs from one joint, so only the root of a robot can be attached to another
+    # one.
     if any(joint.child == mount.held for joint in guest.joints):
         message = f"link {mount.held!r} of the attached robot hangs from another one; `reroot` makes it the root"
         sink.report(rules.UNKNOWN_NAME, message, guest.location, found=mount.held)
         return model
     if _clash(model, guest, mount, sink, (("link", "links"), ("joint", "joints"))):
         return model
+    # Two robots may define a material of one name with different colors; readers take the first.
     guest = _own_materials(model, guest, mount.prefix)
     joint = Joint(
         name=mount.joint,
@@ -76,6 +79,8 @@ def join_sdf(model: Model, guest: Model, mount: Mount, sink: DiagnosticSink) -> 
     guest = without_world(guest)
     if _clash(model, guest, mount, sink, (("", "links"), ("", "joints"), ("", "frames"), ("", "models"))):
         return model
+    # The merge of an include does all of it: the pose of one frame of the guest, and the names of
+    # its parts in the model.
     placed = Include(uri=guest.name, pose=mount.pose(mount.to), placement_frame=mount.held, source=guest.source)
     unnamed = guest.copy(name=mount.prefix.rstrip("_") or guest.name)
     merged = merge_into_model(model, placed, unnamed, sink, Transform())

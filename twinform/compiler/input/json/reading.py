@@ -74,6 +74,9 @@ def read_json(text: bytes, sink: DiagnosticSink) -> JsonSource | None:
     values = plain(data)
     document = Document.model_validate(_with_order({key: values[key] for key in values if key != "$schema"}))
     try:
+        # The writers write the fields that their tables name, so what no file can express would be
+        # lost silently. JSON therefore becomes text, which is read as any other, and then compared
+        # with the JSON (`comparing.py`).
         made = serialized(document_tree(document), document)
     except ValueError as error:  # a name that lxml does not take
         _report(sink, f"the document: it cannot be written: {error}")

@@ -57,6 +57,8 @@ def build(order: Order) -> Built:
 
 def _uri(file: str) -> str:
     """How the world includes a model."""
+    # As in all collections of models for Gazebo. Includes that were there stay: they are somebody
+    # else's models, with a version of their own.
     return _SCHEME + PurePosixPath(file).stem
 
 
