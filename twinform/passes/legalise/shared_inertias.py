@@ -26,7 +26,7 @@ from twinform.passes.inertia.physical_consistency import (
     nearest_possible,
 )
 from twinform.passes.structure.bodies import body_of
-from twinform.passes.structure.tagged_shapes import hosts_of
+from twinform.passes.transforms.lumped_links import lumped_links
 
 _MARGIN = 1e-6
 """The least second moment of mass along an axis, as a part of the trace: digits are cut off again."""
@@ -39,7 +39,7 @@ def shared_inertias(model: Model) -> dict[str, Solid]:
     needy = {link.name for link in model.links if is_refused(_matrix(link))}
     if not needy:
         return {}
-    graph, hosts = FrameGraph(model), hosts_of(model)
+    graph, hosts = FrameGraph(model), lumped_links(model)
     bodies = defaultdict[str, list[Link]](list)
     for link in model.links:
         if _matrix(link) and (has_mass(link.inertial) or hosts[link.name] == link.name):

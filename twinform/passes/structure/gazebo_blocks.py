@@ -8,6 +8,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.transforms.element_poses import link_elements, read_pose
 from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, TRUE, value_text
+from twinform.passes.transforms.lumped_links import LUMPS_WITHOUT, PRESERVES
 from twinform.passes.transforms.nodes import unique_name
 
 Blocks = Mapping[str, list[GazeboExtension]]
@@ -26,8 +27,6 @@ _OF_BODY = {
 """Elements that are about the body of a link, and their values something of."""
 FLAGS: Mapping[str, str] = {name: field for name, field in _OF_BODY.items() if field not in {"inertial", "pose"}}
 """The fields of a body that these elements set, each for the whole link."""
-_DISABLE = "disableFixedJointLumping"
-_PRESERVE = ("preserveFixedJoint", _DISABLE)
 _TYPED = frozenset({"sensor", "light"})
 """Elements with a pose and a name that links of SDF have beside those without a typed form."""
 
@@ -65,15 +64,10 @@ def of_body(elements: Iterable[Element]) -> dict[str, object]:
     return {about: value for about, value in settings.items() if BODY.get(about) != value}
 
 
-def is_preserved(elements: Iterable[Element]) -> bool:
-    """Whether the author asks for the fixed joint to stay, by a tag that libsdformat knows."""
-    return any(element.name in _PRESERVE and value_text(element).lower() in TRUE for element in elements)
-
-
 def turns_by_nothing(elements: Iterable[Element]) -> bool:
     """Whether libsdformat makes a joint that turns by nothing of a fixed one that is to stay."""
     settings = {element.name for element in elements if value_text(element).lower() in TRUE}
-    return _DISABLE in settings and _PRESERVE[0] not in settings
+    return LUMPS_WITHOUT in settings and PRESERVES not in settings
 
 
 def measures(elements: Iterable[Element]) -> bool:

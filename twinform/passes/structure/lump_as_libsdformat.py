@@ -32,7 +32,6 @@ from twinform.passes.structure.gazebo_blocks import (
     blocks,
     content,
     in_host,
-    is_preserved,
     is_set,
     named_apart,
     of_shapes,
@@ -44,6 +43,7 @@ from twinform.passes.structure.mentions import mentions
 from twinform.passes.structure.model_edit import EditContext
 from twinform.passes.structure.moved_plugins import moved_plugin
 from twinform.passes.structure.tagged_shapes import KINDS, shape_name
+from twinform.passes.transforms.lumped_links import is_preserved
 from twinform.passes.transforms.notation import in_radians
 
 Shape = TypeVar("Shape", Visual, Collision)

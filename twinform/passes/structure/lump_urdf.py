@@ -13,7 +13,6 @@ from twinform.passes.structure.gazebo_blocks import (
     Blocks,
     blocks,
     content,
-    is_preserved,
     measures,
     named_apart,
     of_body,
@@ -23,6 +22,7 @@ from twinform.passes.structure.gazebo_blocks import (
 from twinform.passes.structure.lumping_plan import Plan, plan
 from twinform.passes.structure.mentions import Mentions, mentions
 from twinform.passes.structure.model_edit import EditContext
+from twinform.passes.transforms.lumped_links import is_preserved
 from twinform.passes.transforms.nodes import unique_name
 from twinform.passes.transforms.notation import in_radians
 

@@ -11,12 +11,12 @@ from twinform.passes.framework.base import Pass
 from twinform.passes.structure.tagged_shapes import (
     KINDS,
     SeenShape,
-    hosts_of,
     seen_shapes,
     shape_name,
     tagged_links,
     tagging,
 )
+from twinform.passes.transforms.lumped_links import lumped_links
 from twinform.passes.transforms.nodes import unique_name
 
 AnyShape = Visual | Collision
@@ -74,7 +74,7 @@ def named_for_gazebo(model: Model, rename: Rename) -> Model:
 
 def wrongly_tagged(model: Model, field: str) -> Iterator[Wrong]:
     """The visuals or collisions that do not get the tags of their own link alone."""
-    tagged, hosts, kind = tagged_links(model, field), hosts_of(model), KINDS[field]
+    tagged, hosts, kind = tagged_links(model, field), lumped_links(model), KINDS[field]
     for seen in seen_shapes(model, field) if tagged else ():
         own, found = {seen.link} & tagged, tagging(seen, kind, hosts) & tagged
         if found != own:

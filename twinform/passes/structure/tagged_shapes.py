@@ -10,10 +10,9 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from twinform.ir import Collision, Model, Visual
-from twinform.ir.frames import WORLD
-from twinform.ir.groups import tops
 from twinform.passes.carriers.lumped_names import LUMP
-from twinform.passes.structure.gazebo_blocks import blocks, content, is_preserved, of_shapes
+from twinform.passes.structure.gazebo_blocks import of_shapes
+from twinform.passes.transforms.lumped_links import lumped_joints, lumped_links
 
 KINDS: Mapping[str, str] = {"visuals": "visual", "collisions": "collision"}
 """The fields of a link that have shapes, and what libsdformat adds to their names."""
@@ -34,29 +33,12 @@ def shape_name(link: str, name: str | None, kind: str, number: int) -> str:
     return made if made.startswith(link) else f"{link}{LUMP}{made}"
 
 
-def hosts_of(model: Model) -> dict[str, str]:
-    """The link that each link is a part of once libsdformat has lumped those that are fixed to each other."""
-    return tops((link.name for link in model.links), _above(model))
-
-
-def _above(model: Model) -> dict[str, str]:
-    """The links that lumped ones are fixed to, in the order of urdfdom, which keeps joints by their names."""
-    there = blocks(model.extensions)
-    links = {link.name for link in model.links}
-    return {
-        joint.child: joint.parent
-        for joint in sorted(model.joints, key=lambda joint: joint.name)
-        if joint.type == "fixed" and joint.child and joint.parent and joint.parent != WORLD
-        if {joint.child, joint.parent} <= links and not is_preserved(content(there, joint.name))
-    }
-
-
 def seen_shapes(model: Model, field: str) -> Iterator[SeenShape]:
     """Every shape of the visuals or collisions, numbered link by link as libsdformat does when links are lumped."""
     links = {link.name: link for link in model.links}
-    hosts, below = hosts_of(model), dict[str, list[str]]()
-    for child, parent in _above(model).items():
-        below.setdefault(parent, []).append(child)
+    hosts, below = lumped_links(model), dict[str, list[str]]()
+    for child, joint in lumped_joints(model).items():
+        below.setdefault(joint.parent or "", []).append(child)
     for host in dict.fromkeys(hosts.values()):
         number, names = 0, [host]
         while names:

@@ -4,7 +4,8 @@ import pytest
 
 import twinform
 from twinform.ir import Model
-from twinform.passes.structure.tagged_shapes import hosts_of, seen_shapes, tagged_links, tagging
+from twinform.passes.structure.tagged_shapes import seen_shapes, tagged_links, tagging
+from twinform.passes.transforms.lumped_links import lumped_links
 
 _SHAPE = "<collision{}><geometry><sphere radius='1'/></geometry></collision>"
 _LINK = "<link name='{}'>{}</link>"
@@ -25,9 +26,9 @@ def _chain(*preserved: str) -> Model:
 
 
 def test_links_are_lumped_into_the_first_of_a_chain_unless_their_joint_is_preserved() -> None:
-    assert hosts_of(_chain()) == {"a": "a", "b": "a", "c": "a"}
-    assert hosts_of(_chain("ab")) == {"a": "a", "b": "b", "c": "b"}
-    assert hosts_of(_chain("ab", "bc")) == {"a": "a", "b": "b", "c": "c"}
+    assert lumped_links(_chain()) == {"a": "a", "b": "a", "c": "a"}
+    assert lumped_links(_chain("ab")) == {"a": "a", "b": "b", "c": "b"}
+    assert lumped_links(_chain("ab", "bc")) == {"a": "a", "b": "b", "c": "c"}
 
 
 def test_links_that_are_fixed_in_a_circle_come_to_an_end() -> None:
@@ -35,7 +36,7 @@ def test_links_that_are_fixed_in_a_circle_come_to_an_end() -> None:
     model = twinform.check(
         f"<robot name='r'>{links}{_FIXED.format('j', 'a', 'b')}{_FIXED.format('k', 'b', 'a')}</robot>".encode()
     ).document
-    assert model is None or set(hosts_of(model.models[0])) == {"a", "b"}
+    assert model is None or set(lumped_links(model.models[0])) == {"a", "b"}
 
 
 def test_shapes_are_numbered_in_the_link_that_they_are_lumped_into() -> None:
@@ -51,7 +52,7 @@ def test_shapes_are_numbered_in_the_link_that_they_are_lumped_into() -> None:
 
 def test_a_named_shape_gets_the_tags_of_no_link_and_an_unnamed_one_those_of_its_own() -> None:
     model = _chain()
-    found = [tagging(seen, "collision", hosts_of(model)) for seen in seen_shapes(model, "collisions")]
+    found = [tagging(seen, "collision", lumped_links(model)) for seen in seen_shapes(model, "collisions")]
     assert found == [{"a"}, set(), {"b"}, set(), {"c"}, set()]
 
 

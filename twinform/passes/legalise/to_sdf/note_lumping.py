@@ -11,9 +11,10 @@ from twinform.passes.framework.base import ModelPass
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
 from twinform.passes.legalise.to_sdf.gazebo_sorting import place_of
 from twinform.passes.structure.gazebo_blocks import FLAGS, blocks, content, of_body, of_shapes
-from twinform.passes.structure.tagged_shapes import KINDS, hosts_of, seen_shapes, tagging
+from twinform.passes.structure.tagged_shapes import KINDS, seen_shapes, tagging
 from twinform.passes.structure.unread_tags import unread_tags
 from twinform.passes.transforms.gazebo_tags import FALSE
+from twinform.passes.transforms.lumped_links import lumped_links
 
 _USUAL = FALSE | {"0.0"}
 """What says no more than a flag that is not there."""
@@ -49,7 +50,7 @@ def _report_flags(model: Model, sink: DiagnosticSink) -> None:
     own = _settings(model)
     if not own:
         return
-    hosts = hosts_of(model)
+    hosts = lumped_links(model)
     alike = defaultdict[tuple[str, str], dict[str, list[str]]](dict)
     massless = {link.name for link in model.links if is_massless(link)}
     for link in sorted(model.links, key=lambda link: link.name in massless):
@@ -98,7 +99,7 @@ def _report_shapes(model: Model, field: str, sink: DiagnosticSink) -> None:
     tags = {name: words for name in there if (words := _words(of_shapes(content(there, name), field)))}
     if not tags:
         return
-    hosts = hosts_of(model)
+    hosts = lumped_links(model)
     for seen in seen_shapes(model, field):
         seen_by = tagging(seen, KINDS[field], hosts) & tags.keys()
         own = {seen.link} & tags.keys()
