@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from twinform.diagnostics import Span, TextEdit
 from twinform.schemas import XmlElement
+from twinform.text.alignment import BLANKS
 from twinform.text.positions import ElementSpan
 from twinform.text.serializing import Prefixes, serialized, text_of, value_of
 from twinform.text.surroundings import Surroundings
@@ -63,20 +64,24 @@ class Editor:
         """Write the text of an element without children; blanks and comments around the old one stay."""
         place = self.places[element]
         if place.content is None:
-            slash = self.text.rindex("/", place.start_tag.start, place.start_tag.end)
-            whole = Span(self.around.before_blanks(slash), place.start_tag.end)
-            return (TextEdit(whole, f">{text_of(text)}</{place.name.of(self.text)}>"),)
+            return (self.fill(place, text_of(text), place.name.of(self.text)),)
         edits: list[TextEdit] = []
         shown = text_of(text)
         for run in place.texts():
             piece = run.of(self.text)
-            if piece.strip():
-                start = run.start + len(piece) - len(piece.lstrip())
-                edits.append(TextEdit(Span(start, start + len(piece.strip())), shown))
+            if written := piece.strip(BLANKS):
+                start = run.start + len(piece) - len(piece.lstrip(BLANKS))
+                edits.append(TextEdit(Span(start, start + len(written)), shown))
                 shown = ""
         if not edits:
             edits.append(TextEdit(place.content if not place.asides else Span(*[place.content.end] * 2), shown))
         return tuple(edits)
+
+    def fill(self, place: ElementSpan, inside: str, name: str) -> TextEdit:
+        """Give `<element/>` a content, and an end tag of that name."""
+        end = place.start_tag.end
+        slash = self.text.rindex("/", place.start_tag.start, end)
+        return TextEdit(Span(self.around.before_blanks(slash), end), f">{inside}</{name}>")
 
     def insert(self, parent: XmlElement, new: XmlElement, behind: XmlElement | None = None) -> TextEdit:
         """Put a new element into another one, behind one of its children, or last; it is laid out as these are."""
@@ -84,9 +89,7 @@ class Editor:
         layout, prefixes = self.around.layout_inside(place), Prefixes.at(parent)
         shown = layout.indent + serialized(new, layout, prefixes)
         if place.content is None:
-            slash = self.text.rindex("/", place.start_tag.start, place.start_tag.end)
-            span = Span(self.around.before_blanks(slash), place.start_tag.end)
-            return TextEdit(span, f">{shown}{self.around.layout(place).indent}</{place.name.of(self.text)}>")
+            return self.fill(place, shown + self.around.layout(place).indent, place.name.of(self.text))
         children = list(place.children)
         end = self._end(place, self.places[behind] if behind is not None else children[-1] if children else None)
         closing = "" if children or "\n" in place.content.of(self.text) else self.around.layout(place).indent

@@ -9,11 +9,12 @@ from dataclasses import dataclass, field
 
 from twinform.diagnostics import Span, TextEdit
 from twinform.schemas import XmlElement
-from twinform.text.alignment import BLANKS, Contents, aligned, elements, texts
+from twinform.text.alignment import Contents, aligned, elements, texts
 from twinform.text.applying import apply
+from twinform.text.editing import Editor
 from twinform.text.positions import ElementSpan, spans
 from twinform.text.renaming import renamed, with_renamed
-from twinform.text.serializing import Prefixes, contents, serialized, text_of, value_of
+from twinform.text.serializing import Prefixes, contents, serialized, value_of
 from twinform.text.source_text import SourceText
 from twinform.text.surroundings import Surroundings
 
@@ -34,19 +35,16 @@ def edits(source: SourceText, before: XmlElement, after: XmlElement) -> list[Tex
         UnplacedError: as `patch`.
     """
     root = spans(source.text)
-    patching = _Patching(source.text, Surroundings.of(source, root))
-    patching.places.update(zip(before.iter("*"), root.walk(), strict=True))
+    places = dict(zip(before.iter("*"), root.walk(), strict=True))
+    patching = _Patching(Surroundings.of(source, root), places)
     patching.change(before, after)
     return patching.edits
 
 
-@dataclass(slots=True)
-class _Patching:
-    """One run over a text."""
+@dataclass(frozen=True, slots=True)
+class _Patching(Editor):
+    """One run over a text, which collects its edits."""
 
-    text: str
-    around: Surroundings
-    places: dict[XmlElement, ElementSpan] = field(default_factory=dict[XmlElement, ElementSpan])
     edits: list[TextEdit] = field(default_factory=list[TextEdit])
     contents: Contents = field(default_factory=Contents)
 
@@ -62,19 +60,12 @@ class _Patching:
                 self._replace(self.places[old].whole, serialized(new, layout, Prefixes.at(old)))
                 continue
             if old.tag != new.tag:
-                self._rename(old, str(new.tag))
+                self.edits.extend(self.rename(old, str(new.tag)))
             self._attributes(old, new)
             pending.extend(self._content(old, new))
 
     def _replace(self, span: Span, new: str) -> None:
         self.edits.append(TextEdit(span, new))
-
-    def _rename(self, old: XmlElement, tag: str) -> None:
-        place = self.places[old]
-        self._replace(place.name, tag)
-        if place.end_tag:
-            start = place.end_tag.start + len("</")
-            self._replace(Span(start, start + len(place.name.of(self.text))), tag)
 
     def _attributes(self, old: XmlElement, new: XmlElement) -> None:
         place, prefixes = self.places[old], Prefixes.at(old)
@@ -109,7 +100,7 @@ class _Patching:
         if place.content is None and (any(there) or elements(new)):
             self._open(old, new)
         elif not children and not elements(new):
-            self._text(place, there[0])
+            self.edits.extend(self.set_text(old, there[0]) if place.content else ())
         elif any(here) or any(there):
             yield from self._mixed(old, new)
         else:
@@ -118,25 +109,8 @@ class _Patching:
     def _open(self, old: XmlElement, new: XmlElement) -> None:
         """Give `<element/>` a content and an end tag."""
         place = self.places[old]
-        end = place.start_tag.end
-        slash = self.text.rindex("/", place.start_tag.start, end)
-        inside = contents(new, self.around.layout(self.places[old]), Prefixes.at(old))
-        name = place.name.of(self.text) if old.tag == new.tag else new.tag
-        self._replace(Span(self.around.before_blanks(slash), end), f">{inside}</{name}>")
-
-    def _text(self, place: ElementSpan, text: str) -> None:
-        """Put another text into an element without children, into the place of the first one."""
-        runs = [run for run in place.texts() if run.of(self.text).strip(BLANKS)]
-        shown = text_of(text)
-        for run in runs:
-            piece = run.of(self.text)
-            start = run.start + len(piece) - len(piece.lstrip(BLANKS))
-            end = run.end - (len(piece) - len(piece.rstrip(BLANKS)))
-            self._replace(Span(start, end), shown)
-            shown = ""
-        if not runs and place.content:
-            end = place.content.end
-            self._replace(Span(end, end) if place.asides else place.content, shown)
+        inside = contents(new, self.around.layout(place), Prefixes.at(old))
+        self.edits.append(self.fill(place, inside, place.name.of(self.text) if old.tag == new.tag else str(new.tag)))
 
     def _mixed(self, old: XmlElement, new: XmlElement) -> Iterator[tuple[XmlElement, XmlElement]]:
         """Text beside elements: it is written anew, with the comments in front, where more than a child differs."""
