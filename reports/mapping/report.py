@@ -19,7 +19,7 @@ in elements of the other format, *carried* in our namespace, *approximated*, or 
 that is carried would be); then comes what fills the same field of the IR in the other format. *Rules* are those that
 the ledger names there, and the findings of the case files: what is **refused** stops a conversion.
 
-The reasons for all this are in [decisions](decisions.md), and the rules in [rules](../reference/rules.md).
+The reasons for all this stand in the passes (`twinform/passes/legalise/`), the rules in [rules](../reference/rules.md).
 """
 _TITLES: dict[FormatName, str] = {"urdf": "From URDF to SDF", "sdf": "From SDF to URDF"}
 

@@ -73,7 +73,7 @@ class Record:
         return _maker(kind)(values)
 
     def replace(self, **changes: Any) -> Self:
-        """The same object with other values, which are validated.
+        """Return a copy of the object with other values, which are validated.
 
         Raises:
             ValidationError: there is no such field, or it does not take such a value.
@@ -81,7 +81,7 @@ class Record:
         return type(self)(**{name: getattr(self, name) for name in self.field_names} | changes)
 
     def copy(self, **changes: Any) -> Self:
-        """The same object with other values that need no validation.
+        """Return a copy of the object with other values that need no validation.
 
         Raises:
             AttributeError: there is no such field.

@@ -197,7 +197,7 @@ def _steiner(mass: float, place: Sequence[float], center: Sequence[float]) -> Sy
 
 
 def with_mass(one: Solid, mass: float) -> Solid:
-    """The same solid, filled so that it has this mass."""
+    """Return the solid, filled so that it has this mass."""
     (new, of_new), (old, of_old) = math.frexp(mass), math.frexp(one.mass)
     factor = new / old if old else 0.0
     xx, yy, zz, xy, xz, yz = (element * factor for element in times_each(one.inertia, -common_exponent(one.inertia)))

@@ -137,7 +137,7 @@ def _rounded(number: float) -> float:
 
 
 def _plus_zero(vector: Vector3) -> Vector3:
-    """The same vector with 0 for -0, which would be written as such."""
+    """Return the vector with 0 for -0, which would be written as such."""
     return (vector[0] + 0.0, vector[1] + 0.0, vector[2] + 0.0)
 
 

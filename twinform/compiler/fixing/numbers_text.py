@@ -24,5 +24,5 @@ def text_of_number(value: float) -> str:
 
 
 def text_of_numbers(values: Iterable[float]) -> str:
-    """The same of several, with blanks between them."""
+    """Write several numbers in their shortest spelling, with blanks between them."""
     return " ".join(map(text_of_number, values))

@@ -24,7 +24,7 @@ class NormalForm:
 
     @classmethod
     def of(cls, tree: XmlElement, file: str = "") -> "NormalForm":
-        """That of a tree which `check` or `convert` has read."""
+        """Make the normal form of a tree which `check` or `convert` has read."""
         # It looks at the two files as their author would, with types and defaults from the facts
         # tables, and at nothing of the compiler. A judge that compared the IR did not see what has
         # no field. About 30 us an element.

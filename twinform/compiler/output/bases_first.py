@@ -38,7 +38,7 @@ def put_bases_first(model: XmlElement) -> None:
 
 
 def parts_with_bases_first(holder: Any, parts: list[Item]) -> list[Item]:
-    """The same for the parts of a node; others than those of a model keep their order.
+    """Put the frames among the parts of a model behind what they stand on; parts of other nodes stay.
 
     Raises:
         NeedsTree: frames go round in a circle. They stand behind all else in the model, and so behind untyped elements.

@@ -199,7 +199,7 @@ def _leave_out(context: Context, kept: AbstractSet[str], sink: DiagnosticSink) -
 
 
 def _in_namespace(root: XmlElement, namespace: str) -> XmlElement:
-    """The same tree with its plain names in a default namespace."""
+    """Return a copy of the tree with its plain names in a default namespace."""
     made = etree.Element(f"{{{namespace}}}{root.tag}", dict(root.attrib), {None: namespace, **root.nsmap})
     made.text = root.text
     made.extend(list(root))

@@ -26,7 +26,7 @@ class ClassicMaterial:
 
 @cache
 def classic_materials() -> dict[str, ClassicMaterial]:
-    """Those that have colors or images, by name."""
+    """Return the materials of Gazebo Classic that have colors or images, by name."""
     text = files("twinform.passes.appearance").joinpath(_DATA).read_text(encoding="utf-8")
     rows: dict[str, dict[str, list[float] | list[str] | float]] = tomllib.loads(text)
     return {name: _material(row) for name, row in rows.items() if row}

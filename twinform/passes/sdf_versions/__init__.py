@@ -57,7 +57,7 @@ def raise_version(declared: str | None, asked: str, *, carriers: bool = True) ->
 
 @lru_cache(maxsize=64)
 def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = False) -> tuple[Pass, ...]:
-    """The same for the newest version, with the file's own names and with the parts that only older versions have.
+    """The passes that upgrade to the newest version, keeping names and what only older versions have.
 
     `mixed` means that the file has syntax of newer versions too.
     """
@@ -67,7 +67,7 @@ def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = Fa
 
 
 def raise_for_merging(declared: str, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
-    """The same in the conversion to a file of several versions: what its version lacks is left out when it is whole."""
+    """The passes that upgrade one of several files that become one; leaving parts out waits for the whole."""
     back = PutBack.unchecked(version=asked, source=declared, carriers=carriers)
     return (*forward(parse_version(declared), parse_version(asked)), back, SetVersion.unchecked(version=asked))
 

@@ -25,7 +25,7 @@ class Leftover:
     condition: VersionCondition
 
     def inside(self, field: str, tag: str) -> "Leftover":
-        """The same, seen from the node around it, whose field this is in the element of that tag."""
+        """Return the leftover as seen from the node around it, which has this node in the element `tag`."""
         if isinstance(self.value, Opaque):
             at = f"{tag}/{self.value.at}" if self.value.at else tag
             return Leftover((), self.value.copy(at=at), self.condition)

@@ -18,7 +18,7 @@ def reroot_sdf(model: Model, way: list[Joint]) -> Model:
 
 
 def _reversed(joint: Joint) -> Joint:
-    """The same joint from the other side. Its frame stays where it is, and moves with the new child."""
+    """Return the joint with parent and child exchanged. Its frame stays where it is, and moves with the new child."""
     pose = joint.pose or Pose()
     base = pose.relative_to or joint.child
     pose = pose.copy(relative_to=None if base == joint.parent else base)

@@ -97,7 +97,7 @@ def read(path: Path, view: View) -> Robot:
 
 
 def _weighed(text: bytes) -> bytes:
-    """The same robot with an inertia for every link."""
+    """Return the robot with an inertia for every link."""
     robot = etree.fromstring(text)
     for link in robot.iterfind("link"):
         if link.find("inertial") is None:

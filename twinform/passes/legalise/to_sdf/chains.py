@@ -57,7 +57,7 @@ class Neighbors(NamedTuple):
 
     @classmethod
     def of(cls, model: Model) -> "Neighbors":
-        """Those of a model, to be made once for all of its chains."""
+        """Look up the neighbors of all links of a model, once for all of its chains."""
         below: dict[str | None, list[str]] = {}
         for joint in model.joints:
             below.setdefault(joint.parent, []).append(joint.name)

@@ -40,7 +40,7 @@ class FreeStaticModels(ModelPass):
 
 
 def _free_models(model: Model, static: AbstractSet[str]) -> AbstractSet[str]:
-    """Those of the nested models with a link that is neither fixed to the world nor hangs from another one in them."""
+    """Return the static nested models that have a link which neither the world nor the model itself holds."""
     above = {joint.child: joint for joint in model.joints}
     names = {link.name: scoped_name(link) for link in model.links}
     free = set[str]()
