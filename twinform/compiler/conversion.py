@@ -16,8 +16,8 @@ from twinform.compiler.input.loading import (
     read,
     read_tree_again,
 )
-from twinform.compiler.output.comments import Comments
 from twinform.compiler.output.emitting import emit, emit_legal
+from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile
@@ -73,7 +73,8 @@ def convert_once(
         # The tree of libxml2 takes as much memory as the document, or twice that; whoever wants it
         # parses the text again (`Conversion.source`).
         load_options = replace(load_options, keep_tree=False).read_by(request.sdf_version)
-        loaded = read(source, load_options, name=name)
+        comments = request.comments and request.to != "json"  # which has no place for any
+        loaded = read(source, replace(load_options, keep_comments=comments), name=name)
         request = replace(request, assets=LocalAssets(load_options.search, Path(loaded.path)))
         # SDF to SDF keeps its includes: a world with 525 models from Fuel is read and written
         # without opening any of them. URDF has none, so there those of the chosen model are
@@ -159,7 +160,7 @@ def _run(
     text = ""
     if not sink.has_errors:
         kept_words = mixed_words(loaded) if loaded.mixed else None
-        comments = _comments(loaded, document, request)
+        comments = comments_of(loaded, document, request.to, request.model)
         document, text = written(changed, request, sink, instrumentation, kept=kept_words, comments=comments)
     if sink.has_errors:
         raise CompileError(tuple(sink.diagnostics))
@@ -193,13 +194,6 @@ def _remedied(
         # three shapes), so the two documents are compared.
         sink.entries.extend(physics_changes(before, document, step.name))
     return document
-
-
-def _comments(loaded: LoadResult, document: Document, request: ConversionRequest) -> Comments | None:
-    """The comments that go along; JSON has no place for any."""
-    if not request.comments or request.to == "json":
-        return None
-    return comments_of(loaded, document, Format(request.to), request.model)
 
 
 def _with_files(request: ConversionRequest, load_options: LoadOptions, file: str) -> Pipeline:

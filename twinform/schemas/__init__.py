@@ -15,9 +15,9 @@ from twinform.schemas.facts import (
 from twinform.schemas.messages import Context
 from twinform.schemas.packaged import json_schema_text, schema_text
 from twinform.schemas.reader import Reader, reader
-from twinform.schemas.text_output import Item, NeedsTree
-from twinform.schemas.text_writer import root_text
-from twinform.schemas.untyped_parts import element_data, keep_element, locate
+from twinform.schemas.text_output import Item, WrittenParts, end_of_element, in_attribute
+from twinform.schemas.text_writer import node_xml, parse_written, root_text
+from twinform.schemas.untyped_parts import LAST_LINE, element_data, element_xml, keep_element, locate
 from twinform.schemas.validator import (
     Engine,
     SchemaError,
@@ -29,7 +29,7 @@ from twinform.schemas.validator import (
 )
 from twinform.schemas.value_stores import Data
 from twinform.schemas.values import VALUE_TYPES, format_value, parse_value
-from twinform.schemas.writer import LAST_LINE, Writer, Written, element_xml, in_order, noted, writer
+from twinform.schemas.written_rows import in_order, repeated_fields
 from twinform.schemas.xml import (
     XmlElement,
     declared_namespaces,
@@ -51,19 +51,19 @@ __all__ = [
     "Engine",
     "Fact",
     "Item",
-    "NeedsTree",
     "Reader",
     "SchemaError",
     "Table",
     "Version",
-    "Writer",
-    "Written",
+    "WrittenParts",
     "XmlElement",
     "declared_namespaces",
     "element_data",
     "element_xml",
+    "end_of_element",
     "format_value",
     "has_prefixed_attributes",
+    "in_attribute",
     "in_order",
     "in_usual_namespaces",
     "is_valid_text",
@@ -71,13 +71,15 @@ __all__ = [
     "keep_element",
     "libxml2_errors",
     "locate",
-    "noted",
+    "node_xml",
     "parse_value",
     "parse_version",
+    "parse_written",
     "path_of",
     "print_version",
     "reader",
     "refusals",
+    "repeated_fields",
     "root_text",
     "rows_by_name",
     "schema_text",
@@ -87,6 +89,5 @@ __all__ = [
     "usual_namespace",
     "validate",
     "versions_of",
-    "writer",
     "xmlschema_errors",
 ]

@@ -16,7 +16,7 @@ from twinform.schemas.documentation import Documentation
 from twinform.schemas.facts import Fact, Table, parse_version, table
 from twinform.schemas.json_values import IDENTIFIER, SHARED, value_schema
 from twinform.schemas.meanings import Path
-from twinform.schemas.writer import writer
+from twinform.schemas.written_rows import repeated_fields
 
 Json = dict[str, Any]
 
@@ -107,7 +107,6 @@ class _Format:
     def __init__(self, facts: Table) -> None:
         self.table = facts
         self.documentation = Documentation(facts)
-        self.orders = writer(facts.format, facts.newest).repeated
         self.header: dict[str, Json] = {}
         self.wanted: list[str] = []
 
@@ -145,7 +144,7 @@ class _Format:
         """The object of an element that is a node of its own."""
         made = _Object(text=text or self.documentation.of_definition(path[0]))
         if len(path) == 1:
-            made.order = self.orders[path[0]]
+            made.order = repeated_fields(self.table.format, path[0])
         self._fill(made, fact, path)
         return made
 

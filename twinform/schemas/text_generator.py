@@ -1,4 +1,4 @@
-"""Generates the writers of text, `schemas/generated/FORMAT_text.py`: what `writer.py` does, as Python source.
+"""Generates the writers, `schemas/generated/FORMAT_text.py`: Python source that makes the text of a document.
 
 There is a function for each element that is a node, one for each container that is none and holds several values, and
 one for each leaf with attributes. They are put together from the templates below, one for each kind of row.
@@ -9,7 +9,7 @@ from string import Template
 from typing import NamedTuple
 
 from twinform.schemas.facts import Fact, Table, parse_version
-from twinform.schemas.writer import makes_many, rows_to_write
+from twinform.schemas.written_rows import makes_many, rows_to_write
 
 _MODULE = Template('''\
 """From nodes to the text of $format: generated from the facts tables by `make generate`, not to be edited."""
@@ -23,6 +23,10 @@ $functions
 
 
 write_root: Write = $root
+
+WRITERS: dict[str, Write] = {
+$writers
+}
 ''')
 _IMPORT = Template("from twinform.schemas.$module import (\n$names\n)")
 _TYPES = ("TextOutput", "Write")
@@ -43,8 +47,7 @@ def $name(node: Any, indent: str) -> str:
 ''')
 _INNER = '    inner = indent + "  "\n'
 _BEFORE_ROOT = "    attributes += out.declarations\n"
-_BEHIND_ROOT = "    attributes += out.root_attributes\n"
-_POSE = "    text = pose_numbers(node)\n"
+_POSE = "    body = pose_numbers(node)\n"
 
 _IF = Template("    if (value := node.$field) is not None:\n")
 _IF_INSIDE = Template("    if (holder := node.$holder) is not None and (value := holder.$field) is not None:\n")
@@ -57,11 +60,11 @@ _ADD_WITH_ATTRIBUTE = Template("        body += f'{inner}<$name $attribute=\"$va
 _ADD_NODE = Template("        body += $write(value, out, inner)\n")
 _ADD_NODE_BY_VERSION = Template("        body += ($write if out.version >= $since else $older)(value, out, inner)\n")
 _ADD_CONTAINER = Template("    body += $write(node, inner)\n")
-_ADD_ALL = Template("    if node.$field:\n        body += out.parts(node, inner, (node.$field, $write))\n")
-_ADD_ALL_IN_ORDER = Template("    body += out.parts(\n        node,\n        inner,\n$groups\n    )\n")
+_ADD_ALL = Template("    if node.$field:\n        body += out.children(node, inner, (node.$field, $write))\n")
+_ADD_ALL_IN_ORDER = Template("    body += out.children(\n        node,\n        inner,\n$groups\n    )\n")
 _GROUP = Template("        (node.$field, $write),")
 
-_UNTYPED = Template("    if $condition:\n        return out.with_untyped($arguments)\n")
+_UNUSUAL = Template("    if $condition:\n        return out.unusual($arguments)\n")
 _END = {
     "attributes body keep": Template("""\
     if body:
@@ -130,7 +133,14 @@ class _Generator:
         name = self._node(_Part(self.table.definitions[root], root, root, keep=True), root)
         functions = "\n\n".join(self.pieces).rstrip()
         names = {"format": self.table.format.upper(), "imports": _imports(functions), "root": name}
-        return _MODULE.substitute(names, functions=functions)
+        return _MODULE.substitute(names, functions=functions, writers=self._writers())
+
+    def _writers(self) -> str:
+        """The functions of the elements that have a definition, by its name."""
+        found = {
+            tag: name for (fact, tag, _), name in self.names.items() if id(self.table.definitions.get(tag)) == fact
+        }
+        return "\n".join([f'    "{tag}": {name},' for tag, name in found.items()])
 
     def _node(self, part: _Part, longer_path: str) -> str:
         """The name of the function that writes a node; `longer_path` names it where another one has its path."""
@@ -166,11 +176,10 @@ class _Generator:
         code += "".join([self._row(row, part.path) for row in rows if not row.kind and not makes_many(row)])
         code += self._kinds([row for row in rows if row.kind], part.path)
         code += self._all_in_order([row for row in rows if makes_many(row)], part.path)
-        code += _BEHIND_ROOT if part.path == self.table.root else ""
         if part.fact.type != "pose":
-            return code + _untyped(part, _written(code)) + _end(code, part.tag, keep=part.keep)
-        end = _END_OF_TEXT.substitute(tag=part.tag, text="text", shown="{text}")
-        return code + _POSE + _untyped(part, [*_written(code), "text"]) + end
+            return code + _unusual(part, _written(code)) + _end(code, part.tag, keep=part.keep)
+        end = _END_OF_TEXT.substitute(tag=part.tag, text="body", shown="{body}")
+        return code + _POSE + _unusual(part, [*_written(code), "body"]) + end
 
     def _code_of_container(self, row: Fact, path: str) -> str:
         code = "".join([self._row(inner, path) for inner in self._rows(row.rows)])
@@ -286,13 +295,13 @@ def _written(code: str) -> list[str]:
     return [each for each in ("attributes", "body") if f"{each} +=" in code]
 
 
-def _untyped(part: _Part, written: Iterable[str]) -> str:
-    """The code for parts of a node that have no typed field."""
+def _unusual(part: _Part, written: Iterable[str]) -> str:
+    """The code for parts of a node that have no typed field, and for nodes whose place in the text is asked for."""
     content = f"node.{part.fact.place}" if part.fact.any and part.fact.place else ""
-    condition = f"{content} or node.opaque" if content else "node.opaque"
-    arguments = ["node", f'"{part.path}"', "indent", *(f"{each}={each}" for each in written)]
+    condition = " or ".join([*[content] * bool(content), "node.opaque", "out.parts is not None"])
+    arguments = ["node", f'"{part.tag}"', "indent", *(f"{each}={each}" for each in written)]
     arguments += [f"content={content}"] * bool(content) + ["keep=True"] * part.keep
-    return _UNTYPED.substitute(condition=condition, arguments=", ".join(arguments))
+    return _UNUSUAL.substitute(condition=condition, arguments=", ".join(arguments))
 
 
 def _end(code: str, tag: str, *, keep: bool) -> str:

@@ -1,62 +1,69 @@
 """From the IR to text: what the generated writers of `schemas/generated/` share.
 
-A writer takes a node and returns its element as text, with the line break and the indent before it. It writes what is
-usual; where something in a node is odd, `writer.py` writes that node as a tree, and what is odd in the whole document
-raises `NeedsTree`.
+A writer takes a node and returns its element as text, with the line break and the indent before it. It writes what has
+a typed field; `TextOutput.unusual` adds what has none, and notes where a node stands in the text.
 """
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from collections.abc import Set as AbstractSet
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import count
 from typing import Any
 
 from lxml import etree
 
 from twinform.schemas.facts import Version
 from twinform.schemas.values import format_numbers, format_value, parse_bool
-from twinform.schemas.writer import in_order, is_empty, writer
-from twinform.schemas.xml import XmlElement
+from twinform.schemas.written_rows import in_order
 
 Write = Callable[[Any, "TextOutput", str], str]
 """Writes a node: (node, output, indent)"""
-Item = tuple[Any, Write]
+Item = tuple[Any, Any]
 """A node, and what writes it."""
-Arrange = Callable[[Any, list[Item]], list[Item]]
-"""Puts the parts of a node in the order in which they have to stand: (node, parts)"""
+Arrange = Callable[[Any, list[Item]], tuple[list[Item], list[Item]]]
+"""Puts the parts of a node in the order in which they have to stand; the second ones stand behind all others."""
+WrittenParts = list[tuple[Any, int]]
+"""Parts that know their source, each with the place in the text where the start tag of its element begins."""
 
 NEW_LINE = "\n"
 """The indent of the root."""
 _STEP = "  "
 _ZERO = (0.0, 0.0, 0.0)
 _PLAIN_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]*")
-_ODD_IN_TEXT = re.compile("[&<>\r]")
-_ODD_IN_ATTRIBUTE = re.compile('[&<>"\n\t\r]')
+_NOT_IN_XML = "\0-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff"
+# Whatever is not here stands as it is, so that each "<" in a text written here begins a tag.
+_ODD_IN_TEXT = re.compile(f"[&<>\r{_NOT_IN_XML}]")
+_ODD_IN_ATTRIBUTE = re.compile(f'[&<>"\n\t\r{_NOT_IN_XML}]')
 _REFERENCES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\n": "&#10;", "\t": "&#9;", "\r": "&#13;"}
-
-
-# Building a tree with lxml, indenting and serializing it takes more than twice as long as putting
-# the same text together. A property holds that both write the same bytes.
-class NeedsTree(Exception):  # noqa: N818 - it is no error
-    """Something that can only be written as a part of the tree of its whole document."""
-
-
-class _OddPart(Exception):  # noqa: N818 - it is no error
-    """A part without a typed field for which the node around it has to be written as a tree."""
+# XML declares this prefix itself.
+_KNOWN = {"": "", "http://www.w3.org/XML/1998/namespace": "xml:"}
+# Stands around the number of a part, behind the name of its element: no text of XML can hold it.
+_MARK = "\0"
 
 
 def in_text(value: str) -> str:
-    """A string as the text of an element."""
+    """A string as the text of an element.
+
+    Raises:
+        ValueError: XML cannot hold it.
+    """
     return value if value.isidentifier() or not _ODD_IN_TEXT.search(value) else _ODD_IN_TEXT.sub(_reference, value)
 
 
 def in_attribute(value: str) -> str:
-    """A string as the value of an attribute, between double quotes."""
+    """A string as the value of an attribute, between double quotes.
+
+    Raises:
+        ValueError: XML cannot hold it.
+    """
     if value.isidentifier() or not _ODD_IN_ATTRIBUTE.search(value):
         return value
     return _ODD_IN_ATTRIBUTE.sub(_reference, value)
 
 
 def _reference(found: re.Match[str]) -> str:
+    if found[0] not in _REFERENCES:
+        raise ValueError("All strings must be XML compatible: Unicode or ASCII, no NULL bytes or control characters")
     return _REFERENCES[found[0]]
 
 
@@ -71,6 +78,8 @@ def bool_attribute(node: Any, field: str) -> str:
 
 
 def _spelling(node: Any, field: str) -> str:
+    # `1` and `true` are the same boolean and different text, so that a file comes out as it
+    # went in. A spelling that no longer fits the value is not used: a pass has changed it.
     spelt, value = node.spelling.get(field) if node.spelling else None, getattr(node, field)
     return spelt if spelt is not None and parse_bool(spelt) == value else format_value(value)
 
@@ -92,136 +101,283 @@ def pose_numbers(pose: Any) -> str | None:
     return f"{vector3(xyz or _ZERO)} {turn}"
 
 
-def _joined(tag: str, indent: str, attributes: str, body: str, text: str | None, *, keep: bool) -> str:
-    if body and text is not None:
-        raise _OddPart
-    if body:
-        return f"{indent}<{tag}{attributes}>{body}{indent}</{tag}>"
-    if text is not None:
-        return f"{indent}<{tag}{attributes}>{text}</{tag}>"
-    return f"{indent}<{tag}{attributes}/>" if attributes or keep else ""
+def _namespace(name: str) -> str:
+    return name[1:].partition("}")[0] if name.startswith("{") else ""
 
 
 class _Names(dict[str, str]):
-    """The names of untyped parts as they are written, by their names in the IR; without those that need a tree."""
+    """Names as they are written, by their names in the IR; KeyError for one in a namespace without a prefix."""
 
-    def __init__(self, prefixes: Mapping[str, str], refused: AbstractSet[str]) -> None:
+    def __init__(self, prefixes: Mapping[str, str]) -> None:
         super().__init__()
         self.prefixes = prefixes
-        self.refused = refused
 
     def __missing__(self, name: str) -> str:
-        namespace, _, local = name[1:].partition("}") if name.startswith("{") else ("", "", name)
-        if not _PLAIN_NAME.fullmatch(local) or (namespace and namespace not in self.prefixes) or name in self.refused:
-            raise NeedsTree
-        written = self[name] = f"{self.prefixes[namespace]}:{local}" if namespace else local
+        local = name.rpartition("}")[2]
+        if not _PLAIN_NAME.fullmatch(local):
+            etree.QName(name)  # ValueError for what is no name
+        written = self[name] = self.prefixes[_namespace(name)] + local
         return written
 
 
+@dataclass(slots=True)
+class _Additions:
+    """What stands in an element beside what typed fields write; `inner` is what stands in its children, by their names.
+
+    `order` has what is written behind all else: untyped parts, and the names of children that may have to be made.
+    """
+
+    attributes: list[tuple[str, str]] = field(default_factory=list[tuple[str, str]])
+    texts: list[str] = field(default_factory=list[str])
+    order: list[Any] = field(default_factory=list[Any])
+    inner: "dict[str, _Additions]" = field(default_factory=dict[str, Any])
+
+    @classmethod
+    def of(cls, parts: Iterable[Any]) -> "_Additions":
+        """Some untyped parts of a node."""
+        made = cls()
+        for part in parts:
+            holder = made
+            for step in filter(None, part.at.split("/")):
+                if step not in holder.inner:
+                    holder.inner[step] = cls()
+                    holder.order.append(step)
+                holder = holder.inner[step]
+            if part.attribute is not None:
+                holder.attributes.append(part.attribute)
+            elif part.element is not None:
+                holder.order.append(part)
+            else:
+                holder.texts.append(part.text)
+        return made
+
+
+# Building a tree with lxml, indenting and serializing it takes more than twice as long as putting
+# the same text together. A property holds that both give the same bytes.
 class TextOutput:
     """What the writers know of a document; the arguments are those of `root_text`."""
 
     def __init__(
         self,
-        format: str,
         version: Version,
         namespaces: Mapping[str | None, str],
-        root_attributes: str,
-        arrange: Arrange | None,
-        refused: AbstractSet[str],
+        arrange: Arrange | None = None,
+        parts: list[Any] | None = None,
     ) -> None:
-        if len({*namespaces.values()}) < len(namespaces):
-            raise NeedsTree  # of two prefixes lxml takes one
-        self.format = format
         self.version = version
-        self.root_attributes = root_attributes
         self.arrange = arrange
-        self._namespaces = {**namespaces}
-        self._holder = etree.tostring(self._new_holder(), encoding="unicode").removesuffix("/>")
-        self.declarations = self._holder.removeprefix("<holder")
-        self._refused = refused
-        self._names = _Names({uri: prefix or "" for prefix, uri in namespaces.items()}, refused)
+        self.parts = parts
+        self.declarations = _declarations(namespaces) if namespaces else ""
+        self._prefixes = {*namespaces}
+        # of two prefixes of a namespace the first is used
+        self._names = _Names(_KNOWN | {uri: f"{prefix}:" for prefix, uri in reversed([*namespaces.items()])})
+        self._made_up = count()
+        self._late: dict[int, list[Item]] = {}
 
-    def parts(self, node: Any, indent: str, *groups: tuple[Iterable[Any], Write]) -> str:
+    def children(self, node: Any, indent: str, *groups: tuple[Iterable[Any], Write]) -> str:
         """The parts of a node that there may be any number of, in the order of the file."""
         items = [(child, write) for children, write in groups for child in children]
         if len(items) > 1:
             items = in_order(items)
-            items = self.arrange(node, items) if self.arrange else items
+        if self.arrange:
+            items, late = self.arrange(node, items)
+            if late and node.opaque:
+                self._late[id(node)] = late
+            else:
+                items += late
         texts: list[str] = []
         for child, write in items:  # a comprehension would make the recursion deeper
             texts.append(write(child, self, indent))
         return "".join(texts)
 
-    def with_untyped(
+    def unusual(
         self,
         node: Any,
-        path: str,
+        tag: str,
         indent: str,
         *,
         attributes: str = "",
-        body: str = "",
-        text: str | None = None,
+        body: str | None = "",
         content: Iterable[Any] = (),
         keep: bool = False,
     ) -> str:
-        """The element of a node with `content`, and with its parts that have no typed field.
+        """The element of a node with `content`, its parts that have no typed field, and its mark if it has one.
 
-        `path` leads to its facts; `attributes`, `body` and `text` are what of it is written already. An element that
-        is empty is nothing unless it is kept.
+        `attributes` and `body` are what of it is written already. If it is empty, it is nothing unless it is kept.
         """
-        parts = node.opaque
-        try:
-            attributes += self._untyped_attributes(parts, attributes)
-            elements = [*content, *(part.element for part in parts if part.element is not None)]
-            body += "".join([self._element(element, indent + _STEP) for element in elements])
-            return _joined(path.rpartition("/")[2], indent, attributes, body, text, keep=keep)
-        except _OddPart:
-            return self._as_tree(node, path, indent, keep=keep)
-
-    def _untyped_attributes(self, parts: Iterable[Any], written: str) -> str:
-        found: dict[str, str] = {}
-        for part in parts:
-            if part.at or part.text is not None:
-                raise _OddPart
-            if part.attribute is not None:
-                name, value = part.attribute
-                if f' {name}="' in written or name in found:
-                    raise _OddPart
-                found[name] = f' {self._names[name]}="{in_attribute(value)}"'
-        return "".join(found.values())
-
-    def _element(self, element: Any, indent: str) -> str:
-        """The text of an untyped element. Text behind it or before its children would change what indents there are."""
-        name, text, children = self._names[element.name], element.text, element.children
-        if element.tail is not None or (text and children):
-            raise _OddPart
-        attributes = self._attributes(element.attributes) if element.attributes else ""
-        if not children:
-            return f"{indent}<{name}{attributes}" + ("/>" if text is None else f">{in_text(text)}</{name}>")
-        inner, body = indent + _STEP, ""
-        for child in children:
-            body += self._element(child, inner)
-        return f"{indent}<{name}{attributes}>{body}{indent}</{name}>"
-
-    def _attributes(self, attributes: Iterable[tuple[str, str]]) -> str:
-        names = self._names
-        return "".join([f' {names[name]}="{in_attribute(value)}"' for name, value in dict(attributes).items()])
-
-    def _as_tree(self, node: Any, path: str, indent: str, *, keep: bool) -> str:
-        """The text of a node that `writer.py` has written."""
-        if indent == NEW_LINE:
-            raise NeedsTree
-        holder = self._new_holder()
-        made = etree.SubElement(holder, path.rpartition("/")[2])
-        writer(self.format, self.version).write(node, made, path)
-        if is_empty(made) and not keep:
+        if content or node.opaque:
+            attributes, body = self._filled(node, indent + _STEP, attributes, body or "", content)
+        if not (attributes or body or keep):
             return ""
-        etree.indent(made, _STEP, level=len(indent) // len(_STEP))
-        text = etree.tostring(holder, encoding="unicode").removesuffix("</holder>")[len(self._holder) + 1 :]
-        if " xmlns" in text or any(element.tag in self._refused for element in made.iter()):
-            raise NeedsTree
-        return indent + text
+        return _joined(tag, indent, self._mark(node) + attributes, body or "")
 
-    def _new_holder(self) -> XmlElement:
-        return etree.Element("holder", nsmap=self._namespaces)
+    def _filled(self, node: Any, indent: str, attributes: str, body: str, content: Iterable[Any]) -> tuple[str, str]:
+        """The attributes and the body of a node with `content` and its parts that have no typed field."""
+        for element in content:
+            made = self._element(element, indent, self._names)
+            body += _behind(body, made, indent)
+        for number, part in enumerate(node.opaque):
+            if part.at or part.element is None:  # few are; the others take the short way
+                attributes, body = self._added(attributes, body, indent, _Additions.of(node.opaque[number:]))
+                break
+            made = self._element(part.element, indent, self._names, self._mark(part))
+            body += _behind(body, made, indent)
+        for child, write in self._late.pop(id(node), ()) if self._late else ():
+            made = write(child, self, indent)
+            body += _behind(body, made, indent)
+        return attributes, body
+
+    def _mark(self, part: Any) -> str:
+        if self.parts is None or part.source is None:
+            return ""
+        self.parts.append(part)
+        return f"{_MARK}{len(self.parts) - 1}{_MARK}"
+
+    def _added(self, attributes: str, body: str, indent: str, additions: _Additions) -> tuple[str, str]:
+        """The attributes and the body of an element with additions."""
+        if additions.attributes:
+            names, declared = self._declared([name for name, _ in additions.attributes], self._names)
+            added = {names[name]: in_attribute(value) for name, value in additions.attributes}
+            attributes = declared + _with_attributes(attributes, added)
+        if additions.texts:
+            body = _with_text(body, in_text(" ".join(additions.texts)), indent)
+        for each in additions.order:
+            if isinstance(each, str):
+                body = self._added_inside(body, indent, each, additions.inner[each])
+            else:
+                made = self._element(each.element, indent, self._names, self._mark(each))
+                body += _behind(body, made, indent)
+        return attributes, body
+
+    def _added_inside(self, body: str, indent: str, step: str, additions: _Additions) -> str:
+        """The body of an element whose child of this name has additions; one that there is not is made."""
+        names, declared = self._declared([step], self._names)
+        name = names[step]
+        found = re.search(rf"{indent}<{re.escape(name)}(?=[ />{_MARK}])", body)
+        span = (found.start(), end_of_element(body, found.end() - len(name) - 1)) if found else (len(body),) * 2
+        head, _, rest = (body[slice(*span)] or f"{indent}<{name}{declared}/>").partition(">")
+        attributes = head.removesuffix("/")[len(indent) + 1 + len(name) :]
+        inside = "" if head[-1] == "/" else rest.rpartition("</")[0].removesuffix(indent)
+        child = _joined(name, indent, *self._added(attributes, inside, indent + _STEP, additions))
+        if found is not None:
+            return body[: span[0]] + child + body[span[1] :]
+        return body + _behind(body, child, indent)
+
+    def _element(self, element: Any, indent: str, names: _Names, mark: str = "") -> str:
+        """An untyped element, and the text behind it."""
+        try:
+            name, attributes = names[element.name], _attributes(element.attributes, names)
+        except KeyError:
+            names, declared = self._declared_in(element, names)
+            name, attributes = names[element.name], declared + _attributes(element.attributes, names)
+        if self.parts is not None:
+            attributes = mark + self._mark(element) + attributes
+        if element.children:
+            made = _joined(name, indent, attributes, self._content(element, indent + _STEP, names))
+        else:
+            end = "/>" if element.text is None else f">{in_text(element.text)}</{name}>"
+            made = f"{indent}<{name}{attributes}{end}"
+        return made if element.tail is None or element.tail.isspace() else made + in_text(element.tail)
+
+    def _content(self, element: Any, indent: str, names: _Names) -> str:
+        """The text of an untyped element and its children."""
+        children, text = element.children, element.text
+        if self.arrange:
+            first, late = self.arrange(element, [(child, None) for child in children])
+            children = [child for child, _ in (*first, *late)]
+        body = "" if text is None or text.isspace() else in_text(text)
+        for child in children:
+            made = self._element(child, indent, names)
+            body += _behind(body, made, indent)
+        return body
+
+    def _declared_in(self, element: Any, names: _Names) -> tuple[_Names, str]:
+        """Names where an untyped element declares namespaces: its own is the default, if all names in it have one."""
+        namespace = _namespace(element.name)
+        attributes = [name for name, _ in element.attributes]
+        in_use = any(name.startswith(f"{{{namespace}}}") for name in attributes)
+        if namespace in names.prefixes or in_use or not all(each.name.startswith("{") for each in element.walk()):
+            return self._declared([element.name, *attributes], names)
+        next(self._made_up)  # lxml counts these too
+        prefixes = {uri: prefix for uri, prefix in names.prefixes.items() if prefix or not uri}
+        names, declared = self._declared(attributes, _Names(prefixes | {namespace: ""}))
+        return names, f' xmlns="{in_attribute(namespace)}"{declared}'
+
+    def _declared(self, wanted: Iterable[str], names: _Names) -> tuple[_Names, str]:
+        """Names with a prefix for the namespace of each that is wanted, and the declarations of these prefixes."""
+        made = dict[str, str]()
+        for namespace in map(_namespace, wanted):
+            if namespace not in names.prefixes and namespace not in made:
+                made[namespace] = next(p for p in (f"ns{n}" for n in self._made_up) if p not in self._prefixes)
+        if not made:
+            return names, ""
+        declared = "".join([f' xmlns:{prefix}="{in_attribute(uri)}"' for uri, prefix in made.items()])
+        return _Names({**names.prefixes, **{uri: f"{prefix}:" for uri, prefix in made.items()}}), declared
+
+
+def _declarations(namespaces: Mapping[str | None, str]) -> str:
+    """The declarations of namespaces, which have to be those that lxml takes."""
+    holder = etree.tostring(etree.Element("holder", nsmap=namespaces), encoding="unicode")
+    return holder.removeprefix("<holder").removesuffix("/>")
+
+
+def _attributes(attributes: Iterable[tuple[str, str]], names: _Names) -> str:
+    return "".join([f' {names[name]}="{in_attribute(value)}"' for name, value in dict(attributes).items()])
+
+
+def _with_attributes(attributes: str, added: Mapping[str, str]) -> str:
+    """Attributes with more of them, which replace those of the same name."""
+    new: list[str] = []
+    for name, value in added.items():
+        written = f' {name}="{value}"'
+        if f' {name}="' in attributes:
+            attributes = re.sub(rf' {re.escape(name)}="[^"]*"', lambda _, written=written: written, attributes, count=1)
+        else:
+            new.append(written)
+    return attributes + "".join(new)
+
+
+def _with_text(body: str, text: str, indent: str) -> str:
+    """A body with a text behind the one that it begins with."""
+    before, bracket, rest = body.partition("<")
+    if before.isspace() and bracket:  # there is no text but the indent
+        return body if text.isspace() else text + body.removeprefix(indent)
+    return f"{before} {text}{bracket}{rest}" if before else text + body
+
+
+def _behind(body: str, element: str, indent: str) -> str:
+    """An element as it is put behind a body: behind text it stands on the same line."""
+    return element if not body or body[-1] == ">" else element.removeprefix(indent)
+
+
+def _joined(tag: str, indent: str, attributes: str, body: str) -> str:
+    """An element; a body that does not end with a tag ends with text, behind which there must be no line break."""
+    if not body:
+        return f"{indent}<{tag}{attributes}/>"
+    return f"{indent}<{tag}{attributes}>{body}{indent if body[-1] == '>' else ''}</{tag}>"
+
+
+def end_of_element(text: str, start: int) -> int:
+    """Where an element ends that starts at a place in a text that was written here."""
+    name = re.compile(rf"[^ />{_MARK}]+").match(text, start + 1)
+    depth = 0
+    for tag in re.compile(rf"<(/?){re.escape(name[0] if name else '')}(?=[ />{_MARK}])[^>]*").finditer(text, start):
+        depth += -1 if tag[1] else tag[0][-1] != "/"
+        if not depth:
+            return tag.end() + 1
+    raise ValueError("the text ends inside of an element")
+
+
+def without_marks(text: str, parts: list[Any]) -> tuple[str, WrittenParts]:
+    """A text without its marks, and the parts that had one."""
+    pieces = text.split(_MARK)
+    return "".join(pieces[::2]), list(_placed(pieces, parts))
+
+
+def _placed(pieces: list[str], parts: list[Any]) -> Iterator[tuple[Any, int]]:
+    done = start = 0
+    for piece, part in zip(pieces[::2], pieces[1::2], strict=False):
+        if piece:  # an element may have two marks
+            start = done + piece.rindex("<")
+            done += len(piece)
+        yield parts[int(part)], start

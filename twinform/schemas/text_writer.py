@@ -1,13 +1,17 @@
-"""From the IR to the text of a file, without a tree in between: the generated writers."""
+"""From the IR to text: the generated writers."""
 
 from collections.abc import Mapping
-from collections.abc import Set as AbstractSet
 from functools import cache
 from importlib import import_module
-from typing import Any, cast
+from typing import Any
 
-from twinform.schemas.facts import Version
-from twinform.schemas.text_output import NEW_LINE, Arrange, NeedsTree, TextOutput, Write
+from lxml import etree
+
+from twinform.schemas.facts import Version, table
+from twinform.schemas.text_output import NEW_LINE, Arrange, TextOutput, WrittenParts, without_marks
+from twinform.schemas.xml import XmlElement
+
+_PARSER = etree.XMLParser(resolve_entities=False, no_network=True, huge_tree=True)
 
 
 def root_text(
@@ -16,23 +20,40 @@ def root_text(
     root: Any,
     namespaces: Mapping[str | None, str],
     *,
-    root_attributes: str = "",
     arrange: Arrange | None = None,
-    refused: AbstractSet[str] = frozenset(),
-) -> str | None:
-    """The text of a file with this root; nothing where only `writer.py` can write it.
+    parts: WrittenParts | None = None,
+) -> str:
+    """The text of a file with this root.
 
-    `root_attributes` are the text of attributes behind the root's own. `arrange` puts parts of a node in another order
-    than the file's; where an untyped element has one of the names that are `refused`, nothing is written.
+    `arrange` puts parts of a node in another order than the file's; `parts`, where it is given, gets those that know
+    their source.
+
+    Raises:
+        ValueError: there is a name or a text that XML cannot hold.
     """
-    try:
-        out = TextOutput(format, version, namespaces, root_attributes, arrange, refused)
-        return f'<?xml version="1.0"?>{_write_root(format)(root, out, NEW_LINE)}\n'
-    except (NeedsTree, RecursionError):
-        return None
+    out = TextOutput(version, namespaces, arrange, None if parts is None else [])
+    text = f'<?xml version="1.0"?>{_module(format).write_root(root, out, NEW_LINE)}\n'
+    if parts is not None:
+        text, parts[:] = without_marks(text, out.parts or [])
+    return text
+
+
+def node_xml(format: str, node: Any, definition: str) -> XmlElement:
+    """The XML of a node by the definition of its element, as the newest version of a format has it.
+
+    Raises:
+        ValueError: there is a name or a text that XML cannot hold.
+    """
+    text: str = _module(format).WRITERS[definition](node, TextOutput(table(format).newest, {}), NEW_LINE)
+    return parse_written(text.lstrip() or f"<{definition}/>")
+
+
+def parse_written(text: str) -> XmlElement:
+    """The tree of a text that was written here, with its layout. Limits are for files of others."""
+    return etree.fromstring(text, _PARSER)
 
 
 @cache
-def _write_root(format: str) -> Write:
-    """The writer of the root of a format, which is not imported before something is written."""
-    return cast("Write", import_module(f"twinform.schemas.generated.{format}_text").write_root)
+def _module(format: str) -> Any:
+    """The writers of a format, which are not imported before something is written."""
+    return import_module(f"twinform.schemas.generated.{format}_text")

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from typing import Any
 
+from lxml import etree
+
 from twinform.diagnostics import Source
 from twinform.schemas.messages import Context
 from twinform.schemas.value_stores import Data
@@ -10,6 +12,24 @@ from twinform.schemas.xml import XmlElement
 
 locate: Callable[[type[Source], tuple[object, ...]], Source] = tuple.__new__  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] - typeshed leaves the items open
 """Makes a Source without the detour through its own constructor: the readers make one for every node."""
+
+LAST_LINE = 65535
+"""libxml2 keeps no number beyond it."""
+
+
+def element_xml(element: Any, parent: XmlElement | None = None) -> XmlElement:
+    """The XML of an IR `Element`, below `parent` where one is given."""
+    attributes = dict(element.attributes)
+    if parent is None:
+        made = etree.Element(element.name, attributes)
+    else:
+        made = etree.SubElement(parent, element.name, attributes)
+    made.text, made.tail = element.text, element.tail
+    if element.source is not None:
+        made.sourceline = min(element.source.line, LAST_LINE)  # pyright: ignore[reportAttributeAccessIssue] - it can be set
+    for child in element.children:
+        element_xml(child, made)
+    return made
 
 
 def element_data(element: XmlElement, context: Context, above: Source | None = None) -> Data:

@@ -16,13 +16,13 @@ from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.ir.transform import Transform
 from twinform.ir.visual import Collision, Visual
 from twinform.passes.carriers.annotations import find_annotation
-from twinform.passes.carriers.carriers import NAMESPACE, from_xml
+from twinform.passes.carriers.carriers import from_xml
 from twinform.passes.carriers.definitions import definition_of
 from twinform.passes.legalise.names import NAME
 from twinform.passes.legalise.to_sdf.joints import FLOATING
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS, WITHOUT_AXIS, joints_of
 from twinform.passes.sdf_versions.name_the_nameless import plugin_stem
-from twinform.schemas import Fact, XmlElement, table, writer
+from twinform.schemas import Fact, XmlElement, node_xml, table
 from twinform.text import same_element
 
 _PARTS: Mapping[type[Node], Mapping[str, str]] = {
@@ -282,8 +282,7 @@ def _name(xml: XmlElement) -> str:
 
 
 def _xml(node: Node, tag: str) -> XmlElement:
-    made = etree.Element(tag, nsmap={"tf": NAMESPACE})
-    writer("sdf", table("sdf").newest).write(node, made, tag)
+    made = node_xml("sdf", node, tag)
     if isinstance(node, Sensor):
         _in_new_words(made)
     return made

@@ -18,8 +18,7 @@ from twinform.compiler.input.options import LoadResult, expanded_name
 from twinform.compiler.input.parsing import UnreadableError, parse
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Span, rules
-from twinform.schemas import XmlElement
-from twinform.schemas.writer import LAST_LINE
+from twinform.schemas import LAST_LINE, XmlElement
 from twinform.text import ElementSpan, Lines, SourceText
 from twinform.text.positions import start_tag
 from twinform.text.tags import Tags

@@ -15,6 +15,7 @@ from typing import Unpack
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input import sdf, urdf
 from twinform.compiler.input.allowances import Allowances, content_of
+from twinform.compiler.input.comments import may_have_comments, take_comments
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.gazebo_extensions import check_extensions
 from twinform.compiler.input.limits import LIFTED_LIMITS, USUAL_LIMITS, Limits, excess_of_json
@@ -38,6 +39,7 @@ from twinform.compiler.input.parsing import (
 from twinform.compiler.input.unexpanded_xacro import report_unexpanded
 from twinform.compiler.input.used_up_tree import LARGE, used_up
 from twinform.compiler.options import require_options
+from twinform.compiler.output.source_comments import Comments
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format
 from twinform.ir.record import amend
@@ -118,7 +120,7 @@ def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, al
     try:
         if _JSON.match(text):
             return _check_json(text, sink, load_options, allowances)
-        document, tree, size = read_document(text, sink, load_options, allowances)
+        document, tree, size, comments = read_document(text, sink, load_options, allowances)
     except UnreadableError:
         return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True, content=text)
     if document is not None and not sink.has_errors:
@@ -143,6 +145,7 @@ def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, al
         tree_size=size,
         allowed=tuple(sink.allowed),
         allowances=allowances,
+        comments=comments,
     )
 
 
@@ -232,18 +235,22 @@ def _document(loaded: LoadResult) -> Document:
 
 def read_document(
     text: bytes, sink: DiagnosticSink, load_options: LoadOptions, allowances: Allowances
-) -> tuple[Document | None, XmlElement | None, int | None]:
-    """The document of an XML text, its tree, and the size of that if it need not be kept; a large one is not then.
+) -> tuple[Document | None, XmlElement | None, int | None, Comments | None]:
+    """The document of an XML text, its tree, the size of that if it need not be kept, and the comments.
 
-    Where the text has errors, the document is there if it can be.
+    A large tree is not kept then, and neither are comments unless they are wanted. Where the text has errors, the
+    document is there if it can be.
 
     Raises:
         UnreadableError: it is not XML.
     """
     engine = load_options.engine
-    root, namespace = read_tree(text, sink, load_options.limits)
-    if has_comment_after_text(text):
-        report_split_values(read_tree_again(text, keep_comments=True), sink)
+    may_split = has_comment_after_text(text)
+    with_comments = may_split or (load_options.keep_comments and may_have_comments(text))
+    root, namespace = read_tree(text, sink, load_options.limits, keep_comments=with_comments)
+    if may_split:
+        report_split_values(root, sink)
+    comments = take_comments(root) if with_comments else None
     if b"<xacro:" in text or b"${" in text:
         report_unexpanded(root, sink)
     format_, build = _ROOTS[str(root.tag)]
@@ -257,7 +264,8 @@ def read_document(
     context.simple = context.clean and (_is_plain(text, sink) or not has_prefixed_attributes(root))
     namespaces = _namespaces(root, namespace, inside=_declares_inside(root, text, sink))
     size = None if load_options.keep_tree else parts_of(root)
-    is_used_up = not load_options.keep_tree and context.simple and len(text) > LARGE
+    comments = comments if load_options.keep_comments else None
+    is_used_up = not (load_options.keep_tree or comments) and context.simple and len(text) > LARGE
     document = _built(build, used_up(root) if is_used_up else root, context)
     if errors:
         validate(root, context, engine, errors)
@@ -266,7 +274,7 @@ def read_document(
         allowances.settle(sink)
         if sink.has_errors:
             _verify_what_is_there(document, read_tree_again(text) if is_used_up else root, sink)
-    return document, None if is_used_up else root, size
+    return document, None if is_used_up else root, size, comments
 
 
 def _built(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, TypedDict
 from twinform.compiler.input.allowances import Allowances
 from twinform.compiler.input.limits import LARGEST, MOST_TAGS, USUAL_LIMITS, Limits, parse_size
 from twinform.compiler.options import Option, given
+from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Entry, Origins
 from twinform.ir import Document, count_parts
@@ -88,8 +89,9 @@ class LoadOptions:
 
     `search` are the folders for URIs, `arguments` those of xacro. `xacro` selects which files are expanded: by default
     those whose name ends so, all where it is true, and none where it is false. `limits` say how large files may be.
-    Without `keep_tree` the result has no tree, which needs more memory than the document. Findings of the rules in
-    `allow` are left out, as are those that comments in the files allow; errors too where the caller is `tolerant`.
+    Without `keep_tree` the result has no tree, which needs more memory than the document; with `keep_comments` it has
+    the comments. Findings of the rules in `allow` are left out, as are those that comments in the files allow; errors
+    too where the caller is `tolerant`.
     `profiles` are those of the consumers that the files are for. `variables` are environment variables that xacro files
     may read besides those of ROS and Gazebo; `*` may stand in a name. `sdf_version` is the newest that the reader
     of the files knows: of a folder that has a model in several versions, it takes the newest one up to that.
@@ -102,6 +104,7 @@ class LoadOptions:
     xacro: bool | None = None
     limits: Limits = USUAL_LIMITS
     keep_tree: bool = True
+    keep_comments: bool = False
     allow: frozenset[str] = frozenset()
     tolerant: bool = False
     profiles: "tuple[Profile, ...]" = ()
@@ -160,7 +163,7 @@ class LoadResult:
     `origins` lead from its lines to where they were written if it was expanded. Where includes were expanded,
     `included` is the size of their files, `entries` what became of parts of them, and `mixed` means that the files may
     have been of several versions. `allowed` are the findings that the caller or a comment in a file allows, and
-    `allowances` know of others whether they are.
+    `allowances` know of others whether they are. `comments` are those of the file, where they are kept.
     """
 
     path: str
@@ -176,6 +179,7 @@ class LoadResult:
     mixed: bool = False
     allowed: tuple[Diagnostic, ...] = ()
     allowances: Allowances | None = field(default=None, repr=False, compare=False)
+    comments: Comments | None = field(default=None, repr=False, compare=False)
 
     @property
     def text_name(self) -> str:

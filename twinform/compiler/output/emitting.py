@@ -8,21 +8,24 @@ from dataclasses import replace
 from lxml import etree
 
 from twinform.compiler.output import sdf, urdf
-from twinform.compiler.output.comments import Comments, place_comments
-from twinform.compiler.output.default_namespaces import has_made_up_prefixes, restore_defaults
+from twinform.compiler.output.comments import place_comments
+from twinform.compiler.output.source_comments import Comments
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Fate, Location, rules
 from twinform.diagnostics.rules import LEFT_COMMENT
-from twinform.ir import Document, Format, walk
+from twinform.ir import Document, Element, Format, walk
 from twinform.ir.verify import verify_again
 from twinform.passes import PassInstrumentation, Pipeline
 from twinform.schemas import (
+    LAST_LINE,
     Context,
     Version,
+    WrittenParts,
     XmlElement,
+    in_attribute,
     is_valid_text,
     libxml2_errors,
-    noted,
     parse_version,
+    parse_written,
     path_of,
     print_version,
     reader,
@@ -31,13 +34,11 @@ from twinform.schemas import (
 )
 
 _NAMED = re.compile(r"\[@name='([^']*)'\]")
-_BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]], XmlElement]] = {
+_START_TAG = re.compile("<[^/?]")
+_ROOT_TAG = re.compile(r'<[^\s/>?]+(?: xmlns:[^=]+="[^"]*")*')
+_BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str], WrittenParts | None], str]] = {
     Format.URDF: urdf.emit,
     Format.SDF: sdf.emit,
-}
-_TEXT_BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str]], str | None]] = {
-    Format.URDF: urdf.emit_text,
-    Format.SDF: sdf.emit_text,
 }
 
 
@@ -54,15 +55,27 @@ def emit(
     Where the document was not read in this version, `fit` leaves out what other versions have and this one has not, and
     accounts for it; but not the names that are `kept`, which the files that it was made of had so too. `comments` are
     those of the file that it was made of.
+
+    Raises:
+        ValueError: there is a name or a text that XML cannot hold.
     """
-    if comments is not None:
-        return _commented(document, sink, comments, fit=fit, kept=kept)
-    text = text_without_tree(document)
-    # The text is validated as it stands. What is refused is written again as a tree, because
-    # findings, and what `fit` leaves out, are about its elements and their lines.
-    if text is not None and is_valid_text(text, document.format, written_version(document)):
+    parts: WrittenParts | None = None if comments is None else []
+    text = _plain_text(document, parts)
+    # The text is validated as it stands. What is refused is parsed, because findings, and what `fit`
+    # leaves out, are about its elements and their lines.
+    if not is_valid_text(text, document.format, written_version(document)):
+        text = _fitting(document, text, sink, parts, kept=kept if fit else None)
+    plain, text = text, _with_default_namespace(text, document)
+    if comments is None or parts is None:
         return text
-    return serialized(valid_tree(document, sink, fit=fit, kept=kept), document)
+    if added := len(text) - len(plain):
+        root = text.index("\n<") + 1
+        parts = [(part, start + added if start > root else start) for part, start in parts]
+    text, left = place_comments(comments, text, parts, document.namespaces)
+    for comment in left:
+        message = f"the comment {' '.join(comment.text.split())!r} is about what is not converted"
+        sink.account(Fate.DROPPED, LEFT_COMMENT, message, Location(line=comment.line, path="/"), 0)
+    return text
 
 
 def emit_legal(
@@ -89,27 +102,27 @@ def emit_legal(
     return document, "" if sink.has_errors else text
 
 
-def _commented(
-    document: Document, sink: DiagnosticSink, comments: Comments, *, fit: bool, kept: AbstractSet[str]
+def _fitting(
+    document: Document, text: str, sink: DiagnosticSink, parts: WrittenParts | None, *, kept: AbstractSet[str] | None
 ) -> str:
-    with noted() as written:
-        root = valid_tree(document, sink, fit=fit, kept=kept)
-    placed = place_comments(comments, root, written)
-    for message, line in placed.left:
-        sink.account(Fate.DROPPED, LEFT_COMMENT, message, Location(line=line, path="/"), 0)
-    return placed.framed(serialized(root, document, placed.on_lines))
-
-
-def valid_tree(
-    document: Document, sink: DiagnosticSink, *, fit: bool = False, kept: AbstractSet[str] = frozenset()
-) -> XmlElement:
-    """The XML of a document, made by `emit` and validated."""
-    root = document_tree(document)
+    """The text of a document that its schema refuses, and findings; without what `_validate` leaves out."""
+    if parts is None:
+        parts = []
+        text = _plain_text(document, parts)
+    root = _parsed(text, parts)
+    elements = list(root.iter())
     found = DiagnosticSink(file=sink.file)
-    _validate(root, document.format, written_version(document), found, kept=kept if fit else None)
+    _validate(root, document.format, written_version(document), found, kept=kept)
     sink.entries.extend(found.entries)
     sink.extend([located(diagnostic, document) for diagnostic in found.diagnostics])
-    return root
+    if not found.entries:
+        return text
+    etree.indent(root, "  ")
+    made = f'<?xml version="1.0"?>\n{etree.tostring(root, encoding="unicode")}\n'
+    starts = dict(zip(root.iter(), _starts(made), strict=True))
+    of_start = dict(zip(_starts(text), elements, strict=True))
+    parts[:] = [(part, starts[of_start[start]]) for part, start in parts if of_start[start] in starts]
+    return made
 
 
 def located(diagnostic: Diagnostic, document: Document) -> Diagnostic:
@@ -122,34 +135,57 @@ def located(diagnostic: Diagnostic, document: Document) -> Diagnostic:
 
 
 def document_tree(document: Document) -> XmlElement:
-    """The XML of a document, its names without a default namespace."""
-    return _BACK_ENDS[document.format](document, written_version(document), _prefixes(document))
+    """The XML of a document, its names without a default namespace, and without layout.
+
+    Raises:
+        ValueError: there is a name or a text that XML cannot hold.
+    """
+    parts: WrittenParts = []
+    return _parsed(_plain_text(document, parts), parts)
 
 
-def text_without_tree(document: Document) -> str | None:
-    """The text of a document, the same as that of its tree; nothing where only a tree leads to it."""
-    if any(not prefix for prefix, _ in document.namespaces):
-        return None
-    return _TEXT_BACK_ENDS[document.format](document, written_version(document), _prefixes(document))
+def _parsed(text: str, parts: WrittenParts) -> XmlElement:
+    """The tree of a text: untyped elements have the line that they were read at, and others none."""
+    root = parse_written(text)
+    for element in root.iter():
+        element.sourceline = 0  # pyright: ignore[reportAttributeAccessIssue] - it can be set
+        if len(element) and (element.text or "").isspace():
+            element.text = None
+        if (element.tail or "").isspace():
+            element.tail = None
+    elements = dict(zip(_starts(text), root.iter(), strict=True))
+    for part, start in parts:
+        if isinstance(part, Element) and part.source is not None:
+            elements[start].sourceline = min(part.source.line, LAST_LINE)  # pyright: ignore[reportAttributeAccessIssue] - see above
+    return root
 
 
-def _prefixes(document: Document) -> dict[str | None, str]:
-    return {prefix or None: uri for prefix, uri in document.namespaces if prefix}
+def _starts(text: str) -> list[int]:
+    """Where the start tags in a text begin that has no comments."""
+    return [found.start() for found in _START_TAG.finditer(text)]
 
 
-def serialized(root: XmlElement, document: Document, arrange: Callable[[XmlElement], None] | None = None) -> str:
-    """The text of a document whose XML this is; `arrange` has the last word on the blanks in it."""
+def document_text(document: Document) -> str:
+    """The text of a document, whether its schema accepts it or not.
+
+    Raises:
+        ValueError: there is a name or a text that XML cannot hold.
+    """
+    return _with_default_namespace(_plain_text(document), document)
+
+
+def _plain_text(document: Document, parts: WrittenParts | None = None) -> str:
+    """The text of a document, its names without a default namespace."""
+    prefixes: dict[str | None, str] = {prefix: uri for prefix, uri in document.namespaces if prefix}
+    return _BACK_ENDS[document.format](document, written_version(document), prefixes, parts)
+
+
+def _with_default_namespace(text: str, document: Document) -> str:
+    """A text with the default namespace of its document on the root."""
     default = dict(document.namespaces).get("")
-    if default is not None:
-        root = _in_namespace(root, default)
-    etree.indent(root, "  ")
-    if arrange is not None:
-        arrange(root)
-    text = etree.tostring(root, encoding="unicode")
-    if has_made_up_prefixes(text):
-        restore_defaults(root, dict(document.namespaces))
-        text = etree.tostring(root, encoding="unicode")
-    return f'<?xml version="1.0"?>\n{text}\n'
+    if default is None:
+        return text
+    return _ROOT_TAG.sub(lambda tag: f'{tag[0]} xmlns="{in_attribute(default)}"', text, count=1)
 
 
 def written_version(document: Document) -> Version:
@@ -196,14 +232,3 @@ def _leave_out(context: Context, kept: AbstractSet[str], sink: DiagnosticSink) -
             element.attrib.pop(fact.name[1:], None)
         elif parent is not None:
             parent.remove(element)
-
-
-def _in_namespace(root: XmlElement, namespace: str) -> XmlElement:
-    """Return a copy of the tree with its plain names in a default namespace."""
-    made = etree.Element(f"{{{namespace}}}{root.tag}", dict(root.attrib), {None: namespace, **root.nsmap})
-    made.text = root.text
-    made.extend(list(root))
-    for element in made.iterdescendants("*"):
-        if str(element.tag)[0] != "{":
-            element.tag = f"{{{namespace}}}{element.tag}"
-    return made

@@ -5,7 +5,7 @@ from typing import Any
 
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format, Model, Node, node_values
-from twinform.schemas import in_order, table, writer
+from twinform.schemas import in_order, repeated_fields, table
 from twinform.schemas.json_check import json_faults
 from twinform.schemas.json_values import IDENTIFIER as JSON_IDENTIFIER
 
@@ -56,7 +56,7 @@ def _order(node: Node, format_: Format) -> list[str]:
     """The kinds of a node's parts in the order of the file; nothing where that is the usual one."""
     facts = table(format_)
     name = facts.root if isinstance(node, _ROOTS[format_]) else type(node).__name__.lower()
-    fields = writer(format_, facts.newest).repeated.get(name, ())
+    fields = repeated_fields(format_, name)
     items = [(child, field) for field in fields for child in getattr(node, field, ())]
     kinds = [field for _, field in in_order(items)]
     return kinds if kinds != [field for _, field in items] else []

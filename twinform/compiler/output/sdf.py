@@ -1,33 +1,17 @@
-"""SDF back end: from the IR to an `<sdf>`, as a tree or as text."""
+"""SDF back end: from the IR to the text of an `<sdf>`."""
 
-from lxml import etree
-
-from twinform.compiler.output.bases_first import has_untyped_names, parts_with_bases_first, put_bases_first
+from twinform.compiler.output.bases_first import with_bases_first
 from twinform.diagnostics import Source
 from twinform.ir import Document
-from twinform.schemas import Version, XmlElement, root_text, writer
-
-_MODEL = frozenset({"model"})
-"""Elements in which frames have an order. Untyped ones, such as a model in a population, are put in order as trees."""
+from twinform.schemas import Version, WrittenParts, root_text
 
 
-def emit(document: Document, version: Version, namespaces: dict[str | None, str]) -> XmlElement:
-    """The `<sdf>` of a document in terms of SDF. What was read from SDF keeps its order."""
-    root = etree.Element("sdf", nsmap=namespaces)
-    writer("sdf", version).write(document, root)
-    if _has_robots(document):
-        for model in root.iter("model"):
-            put_bases_first(model)
-    return root
-
-
-def emit_text(document: Document, version: Version, namespaces: dict[str | None, str]) -> str | None:
-    """The text of the file with what `emit` makes; nothing where that needs a tree."""
-    if not _has_robots(document):
-        return root_text("sdf", version, document, namespaces)
-    if any(map(has_untyped_names, document.models)):
-        return None
-    return root_text("sdf", version, document, namespaces, arrange=parts_with_bases_first, refused=_MODEL)
+def emit(
+    document: Document, version: Version, namespaces: dict[str | None, str], parts: WrittenParts | None = None
+) -> str:
+    """The text of a document in terms of SDF. What was read from SDF keeps its order."""
+    arrange = with_bases_first if _has_robots(document) else None
+    return root_text("sdf", version, document, namespaces, arrange=arrange, parts=parts)
 
 
 def _has_robots(document: Document) -> bool:

@@ -1,26 +1,15 @@
-"""URDF back end: from the IR to a `<robot>`, as a tree or as text."""
+"""URDF back end: from the IR to the text of a `<robot>`."""
 
-from lxml import etree
-
-from twinform.ir import Document
-from twinform.schemas import Version, XmlElement, print_version, root_text, writer
+from twinform.ir import Document, Opaque
+from twinform.schemas import Version, WrittenParts, print_version, root_text
 
 
-def emit(document: Document, version: Version, namespaces: dict[str | None, str]) -> XmlElement:
-    """The `<robot>` of a document in terms of URDF, which has one model."""
-    root = etree.Element("robot", nsmap=namespaces)
-    writer("urdf", version).write(document.models[0], root)
-    if document.version is not None:
-        root.set("version", print_version(version))
-    return root
-
-
-def emit_text(document: Document, version: Version, namespaces: dict[str | None, str]) -> str | None:
-    """The text of the file with what `emit` makes; nothing where that needs a tree."""
+def emit(
+    document: Document, version: Version, namespaces: dict[str | None, str], parts: WrittenParts | None = None
+) -> str:
+    """The text of a document in terms of URDF, which has one model."""
     model = document.models[0]
-    if document.version is None:
-        return root_text("urdf", version, model, namespaces)
-    if any(part.attribute for part in model.opaque):  # which may be a version too
-        return None
-    attributes = f' version="{print_version(version)}"'
-    return root_text("urdf", version, model, namespaces, root_attributes=attributes)
+    if document.version is not None:  # as an untyped attribute it is behind the others, and instead of another version
+        attribute = Opaque.unchecked(attribute=("version", print_version(version)))
+        model = model.copy(opaque=(*model.opaque, attribute))
+    return root_text("urdf", version, model, namespaces, parts=parts)

@@ -15,8 +15,8 @@ from twinform.compiler.includes.expanding import expand
 from twinform.compiler.includes.other_documents import OtherDocuments
 from twinform.compiler.input.comments import comments_of
 from twinform.compiler.input.loading import Input, LoadOptions, garbage_collection_paused, read
-from twinform.compiler.output.comments import Comments
 from twinform.compiler.output.emitting import emit_legal
+from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.search.uris import LocalAssets
 from twinform.compiler.splitting.gazebo_urdf import changes
@@ -86,7 +86,7 @@ def split(
     """
     with garbage_collection_paused():
         load_options = load_options.read_by(request.sdf_version)
-        checked = read(source, load_options, name=name)
+        checked = read(source, replace(load_options, keep_comments=request.comments), name=name)
         if request.expand_includes:
             checked = expand(checked, load_options, carriers=request.carriers)
         elif request.to == "urdf":
@@ -115,7 +115,7 @@ def split(
             document, there = moved(document, assets, folder, sink)
             request = replace(request, assets=there)
         kept = mixed_words(checked) if checked.mixed else None
-        comments = comments_of(checked, document, Format.SDF, None) if request.comments else None
+        comments = comments_of(checked, document, "sdf", None)
         files = _Files(request, sink, instrumentation, kept, _name_of_world(checked.path), comments, placement)
         if not sink.has_errors:
             files.add(document)

@@ -19,10 +19,8 @@ import re
 from collections.abc import Iterable
 from typing import TypeVar
 
-from lxml import etree
-
 from twinform.ir import Element, Node, Opaque, bits_named, untyped_elements
-from twinform.schemas import XmlElement, parse_version, versions_of, writer
+from twinform.schemas import XmlElement, node_xml
 
 # Elements in a namespace are what none of thirteen readers refuses and none reads otherwise
 # (docs/evidence/readers.md). urdf_parser_py, and Drake in SDF, report that they skip them.
@@ -113,11 +111,9 @@ def unpack(part: Opaque) -> tuple[Opaque, ...]:
     return tuple(Opaque.unchecked(at=at, element=_with_empty(child)) for child in element.children)
 
 
-def to_element(node: Node, tag: str, dialect: str, definition: str | None = None) -> Element:
-    """A typed node as the element that it is in a format; the definition has the tag's name where none is given."""
-    made = etree.Element(tag)
-    writer(dialect, parse_version(versions_of(dialect)[-1])).write(node, made, definition or tag)
-    return from_xml(made)
+def to_element(node: Node, tag: str, dialect: str) -> Element:
+    """A typed node as the element that it is in a format."""
+    return from_xml(node_xml(dialect, node, tag))
 
 
 def from_xml(xml: XmlElement) -> Element:

@@ -63,7 +63,7 @@ def node_pieces(node: Node, left: Leftover) -> list[Opaque]:
         return [left.value.copy(source=None)]
     bare = _with_only(node, left.fields, left.value)
     definition = definition_of(node) or ""
-    return list(_pieces(to_element(bare, definition, "sdf", definition), "", len(left.fields) - 1))
+    return list(_pieces(to_element(bare, definition, "sdf"), "", len(left.fields) - 1))
 
 
 def _with_only(node: Node, fields: tuple[str, ...], value: object) -> Node:

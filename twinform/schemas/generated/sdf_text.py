@@ -28,12 +28,12 @@ def write_pose(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' rotation_format="{in_attribute(value)}"'
     if (value := node.degrees) is not None:
         attributes += f' degrees="{bool_attribute(node, "degrees")}"'
-    text = pose_numbers(node)
-    if node.opaque:
-        return out.with_untyped(node, "pose", indent, attributes=attributes, text=text)
-    if text is None:
+    body = pose_numbers(node)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "pose", indent, attributes=attributes, body=body)
+    if body is None:
         return f"{indent}<pose{attributes}/>" if attributes else ""
-    return f"{indent}<pose{attributes}>{text}</pose>"
+    return f"{indent}<pose{attributes}>{body}</pose>"
 
 
 def write_plugin(node: Any, out: TextOutput, indent: str) -> str:
@@ -43,8 +43,8 @@ def write_plugin(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' name="{in_attribute(value)}"'
     if (value := node.filename) is not None:
         attributes += f' filename="{in_attribute(value)}"'
-    if node.content or node.opaque:
-        return out.with_untyped(node, "plugin", indent, attributes=attributes, content=node.content, keep=True)
+    if node.content or node.opaque or out.parts is not None:
+        return out.unusual(node, "plugin", indent, attributes=attributes, content=node.content, keep=True)
     return f"{indent}<plugin{attributes}/>"
 
 
@@ -65,9 +65,9 @@ def write_include(node: Any, out: TextOutput, indent: str) -> str:
     if (value := node.placement_frame) is not None:
         body += f"{inner}<placement_frame>{in_text(value)}</placement_frame>"
     if node.plugins:
-        body += out.parts(node, inner, (node.plugins, write_plugin))
-    if node.opaque:
-        return out.with_untyped(node, "include", indent, attributes=attributes, body=body, keep=True)
+        body += out.children(node, inner, (node.plugins, write_plugin))
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "include", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<include{attributes}>{body}{indent}</include>"
     return f"{indent}<include{attributes}/>"
@@ -93,8 +93,8 @@ def write_light(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<specular>{format_numbers(value)}</specular>"
     if (value := node.direction) is not None:
         body += f"{inner}<direction>{vector3(value)}</direction>"
-    if node.opaque:
-        return out.with_untyped(node, "light", indent, attributes=attributes, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "light", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<light{attributes}>{body}{indent}</light>"
     return f"{indent}<light{attributes}/>"
@@ -110,8 +110,8 @@ def write_frame(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' attached_to="{in_attribute(value)}"'
     if (value := node.pose) is not None:
         body += write_pose(value, out, inner)
-    if node.opaque:
-        return out.with_untyped(node, "frame", indent, attributes=attributes, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "frame", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<frame{attributes}>{body}{indent}</frame>"
     return f"{indent}<frame{attributes}/>"
@@ -139,8 +139,8 @@ def write_joint_axis_dynamics(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<spring_reference>{format_number(value)}</spring_reference>"
     if (value := node.spring_stiffness) is not None:
         body += f"{inner}<spring_stiffness>{format_number(value)}</spring_stiffness>"
-    if node.opaque:
-        return out.with_untyped(node, "joint/axis/dynamics", indent, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "dynamics", indent, body=body)
     return f"{indent}<dynamics>{body}{indent}</dynamics>" if body else ""
 
 
@@ -160,8 +160,8 @@ def write_joint_axis_limit(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<stiffness>{format_number(value)}</stiffness>"
     if (value := node.dissipation) is not None:
         body += f"{inner}<dissipation>{format_number(value)}</dissipation>"
-    if node.opaque:
-        return out.with_untyped(node, "joint/axis/limit", indent, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "limit", indent, body=body)
     return f"{indent}<limit>{body}{indent}</limit>" if body else ""
 
 
@@ -179,8 +179,8 @@ def write_mimic(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<offset>{format_number(value)}</offset>"
     if (value := node.reference) is not None:
         body += f"{inner}<reference>{format_number(value)}</reference>"
-    if node.opaque:
-        return out.with_untyped(node, "mimic", indent, attributes=attributes, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "mimic", indent, attributes=attributes, body=body)
     if body:
         return f"{indent}<mimic{attributes}>{body}{indent}</mimic>"
     return f"{indent}<mimic{attributes}/>" if attributes else ""
@@ -199,8 +199,8 @@ def write_joint_axis(node: Any, out: TextOutput, indent: str) -> str:
         body += write_mimic(value, out, inner)
     if (value := node.use_parent_model_frame) is not None:
         body += f"{inner}<use_parent_model_frame>{bool_text(node, 'use_parent_model_frame')}</use_parent_model_frame>"
-    if node.opaque:
-        return out.with_untyped(node, "joint/axis", indent, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "axis", indent, body=body)
     return f"{indent}<axis>{body}{indent}</axis>" if body else ""
 
 
@@ -217,8 +217,8 @@ def write_joint_axis2(node: Any, out: TextOutput, indent: str) -> str:
         body += write_mimic(value, out, inner)
     if (value := node.use_parent_model_frame) is not None:
         body += f"{inner}<use_parent_model_frame>{bool_text(node, 'use_parent_model_frame')}</use_parent_model_frame>"
-    if node.opaque:
-        return out.with_untyped(node, "joint/axis2", indent, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "axis2", indent, body=body)
     return f"{indent}<axis2>{body}{indent}</axis2>" if body else ""
 
 
@@ -245,9 +245,9 @@ def write_sensor(node: Any, out: TextOutput, indent: str) -> str:
     if (value := node.frame_id) is not None:
         body += f"{inner}<frame_id>{in_text(value)}</frame_id>"
     if node.plugins:
-        body += out.parts(node, inner, (node.plugins, write_plugin))
-    if node.opaque:
-        return out.with_untyped(node, "sensor", indent, attributes=attributes, body=body, keep=True)
+        body += out.children(node, inner, (node.plugins, write_plugin))
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "sensor", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<sensor{attributes}>{body}{indent}</sensor>"
     return f"{indent}<sensor{attributes}/>"
@@ -280,9 +280,9 @@ def write_joint(node: Any, out: TextOutput, indent: str) -> str:
     if (value := node.axis2) is not None:
         body += write_joint_axis2(value, out, inner)
     if node.sensors:
-        body += out.parts(node, inner, (node.sensors, write_sensor))
-    if node.opaque:
-        return out.with_untyped(node, "joint", indent, attributes=attributes, body=body, keep=True)
+        body += out.children(node, inner, (node.sensors, write_sensor))
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "joint", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<joint{attributes}>{body}{indent}</joint>"
     return f"{indent}<joint{attributes}/>"
@@ -295,12 +295,12 @@ def write_inertial_pose(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' rotation_format="{in_attribute(value)}"'
     if (value := node.degrees) is not None:
         attributes += f' degrees="{bool_attribute(node, "degrees")}"'
-    text = pose_numbers(node)
-    if node.opaque:
-        return out.with_untyped(node, "inertial/pose", indent, attributes=attributes, text=text)
-    if text is None:
+    body = pose_numbers(node)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "pose", indent, attributes=attributes, body=body)
+    if body is None:
         return f"{indent}<pose{attributes}/>" if attributes else ""
-    return f"{indent}<pose{attributes}>{text}</pose>"
+    return f"{indent}<pose{attributes}>{body}</pose>"
 
 
 def write_inertial_inertia(node: Any, out: TextOutput, indent: str) -> str:
@@ -319,8 +319,8 @@ def write_inertial_inertia(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<iyz>{format_number(value)}</iyz>"
     if (value := node.izz) is not None:
         body += f"{inner}<izz>{format_number(value)}</izz>"
-    if node.opaque:
-        return out.with_untyped(node, "inertial/inertia", indent, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "inertia", indent, body=body)
     return f"{indent}<inertia>{body}{indent}</inertia>" if body else ""
 
 
@@ -336,8 +336,8 @@ def write_inertial(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<mass>{format_number(value)}</mass>"
     if (value := node.inertia) is not None:
         body += write_inertial_inertia(value, out, inner)
-    if node.opaque:
-        return out.with_untyped(node, "inertial", indent, attributes=attributes, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "inertial", indent, attributes=attributes, body=body)
     if body:
         return f"{indent}<inertial{attributes}>{body}{indent}</inertial>"
     return f"{indent}<inertial{attributes}/>" if attributes else ""
@@ -345,8 +345,8 @@ def write_inertial(node: Any, out: TextOutput, indent: str) -> str:
 
 def write_geometry_empty(node: Any, out: TextOutput, indent: str) -> str:
     """`<empty>`."""
-    if node.opaque:
-        return out.with_untyped(node, "geometry/empty", indent, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "empty", indent, keep=True)
     return f"{indent}<empty/>"
 
 
@@ -356,8 +356,8 @@ def write_geometry_box(node: Any, out: TextOutput, indent: str) -> str:
     body = ""
     if (value := node.size) is not None:
         body += f"{inner}<size>{vector3(value)}</size>"
-    if node.opaque:
-        return out.with_untyped(node, "geometry/box", indent, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "box", indent, body=body, keep=True)
     return f"{indent}<box>{body}{indent}</box>" if body else f"{indent}<box/>"
 
 
@@ -369,8 +369,8 @@ def write_geometry_capsule(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<radius>{format_number(value)}</radius>"
     if (value := node.length) is not None:
         body += f"{inner}<length>{format_number(value)}</length>"
-    if node.opaque:
-        return out.with_untyped(node, "geometry/capsule", indent, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "capsule", indent, body=body, keep=True)
     return f"{indent}<capsule>{body}{indent}</capsule>" if body else f"{indent}<capsule/>"
 
 
@@ -382,8 +382,8 @@ def write_geometry_cone(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<radius>{format_number(value)}</radius>"
     if (value := node.length) is not None:
         body += f"{inner}<length>{format_number(value)}</length>"
-    if node.opaque:
-        return out.with_untyped(node, "geometry/cone", indent, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "cone", indent, body=body, keep=True)
     return f"{indent}<cone>{body}{indent}</cone>" if body else f"{indent}<cone/>"
 
 
@@ -395,8 +395,8 @@ def write_geometry_cylinder(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<radius>{format_number(value)}</radius>"
     if (value := node.length) is not None:
         body += f"{inner}<length>{format_number(value)}</length>"
-    if node.opaque:
-        return out.with_untyped(node, "geometry/cylinder", indent, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "cylinder", indent, body=body, keep=True)
     return f"{indent}<cylinder>{body}{indent}</cylinder>" if body else f"{indent}<cylinder/>"
 
 
@@ -406,8 +406,8 @@ def write_geometry_ellipsoid(node: Any, out: TextOutput, indent: str) -> str:
     body = ""
     if (value := node.radii) is not None:
         body += f"{inner}<radii>{vector3(value)}</radii>"
-    if node.opaque:
-        return out.with_untyped(node, "geometry/ellipsoid", indent, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "ellipsoid", indent, body=body, keep=True)
     return f"{indent}<ellipsoid>{body}{indent}</ellipsoid>" if body else f"{indent}<ellipsoid/>"
 
 
@@ -417,8 +417,8 @@ def write_geometry_heightmap(node: Any, out: TextOutput, indent: str) -> str:
     body = ""
     if (value := node.uri) is not None:
         body += f"{inner}<uri>{in_text(value)}</uri>"
-    if node.opaque:
-        return out.with_untyped(node, "geometry/heightmap", indent, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "heightmap", indent, body=body, keep=True)
     return f"{indent}<heightmap>{body}{indent}</heightmap>" if body else f"{indent}<heightmap/>"
 
 
@@ -428,8 +428,8 @@ def write_geometry_image(node: Any, out: TextOutput, indent: str) -> str:
     body = ""
     if (value := node.uri) is not None:
         body += f"{inner}<uri>{in_text(value)}</uri>"
-    if node.opaque:
-        return out.with_untyped(node, "geometry/image", indent, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "image", indent, body=body, keep=True)
     return f"{indent}<image>{body}{indent}</image>" if body else f"{indent}<image/>"
 
 
@@ -441,8 +441,8 @@ def write_geometry_mesh(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<uri>{in_text(value)}</uri>"
     if (value := node.scale) is not None:
         body += f"{inner}<scale>{vector3(value)}</scale>"
-    if node.opaque:
-        return out.with_untyped(node, "geometry/mesh", indent, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "mesh", indent, body=body, keep=True)
     return f"{indent}<mesh>{body}{indent}</mesh>" if body else f"{indent}<mesh/>"
 
 
@@ -454,8 +454,8 @@ def write_geometry_plane(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<normal>{vector3(value)}</normal>"
     if (value := node.size) is not None:
         body += f"{inner}<size>{format_numbers(value)}</size>"
-    if node.opaque:
-        return out.with_untyped(node, "geometry/plane", indent, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "plane", indent, body=body, keep=True)
     return f"{indent}<plane>{body}{indent}</plane>" if body else f"{indent}<plane/>"
 
 
@@ -465,8 +465,8 @@ def write_geometry_polyline(node: Any, out: TextOutput, indent: str) -> str:
     body = ""
     if (value := node.height) is not None:
         body += f"{inner}<height>{format_number(value)}</height>"
-    if node.opaque:
-        return out.with_untyped(node, "geometry/polyline", indent, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "polyline", indent, body=body, keep=True)
     return f"{indent}<polyline>{body}{indent}</polyline>" if body else f"{indent}<polyline/>"
 
 
@@ -476,8 +476,8 @@ def write_geometry_sphere(node: Any, out: TextOutput, indent: str) -> str:
     body = ""
     if (value := node.radius) is not None:
         body += f"{inner}<radius>{format_number(value)}</radius>"
-    if node.opaque:
-        return out.with_untyped(node, "geometry/sphere", indent, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "sphere", indent, body=body, keep=True)
     return f"{indent}<sphere>{body}{indent}</sphere>" if body else f"{indent}<sphere/>"
 
 
@@ -503,8 +503,8 @@ def write_geometry(node: Any, out: TextOutput, indent: str) -> str:
     body = ""
     if (value := node.shape) is not None and (write := GEOMETRY_SHAPES.get(value.kind)) is not None:
         body += write(value, out, inner)
-    if node.opaque:
-        return out.with_untyped(node, "geometry", indent, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "geometry", indent, body=body)
     return f"{indent}<geometry>{body}{indent}</geometry>" if body else ""
 
 
@@ -574,8 +574,8 @@ def write_surface(node: Any, out: TextOutput, indent: str) -> str:
     body += write_surface_bounce(node, inner)
     body += write_surface_friction(node, inner)
     body += write_surface_contact(node, inner)
-    if node.opaque:
-        return out.with_untyped(node, "surface", indent, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "surface", indent, body=body)
     return f"{indent}<surface>{body}{indent}</surface>" if body else ""
 
 
@@ -595,8 +595,8 @@ def write_collision(node: Any, out: TextOutput, indent: str) -> str:
         body += write_geometry(value, out, inner)
     if (value := node.surface) is not None:
         body += write_surface(value, out, inner)
-    if node.opaque:
-        return out.with_untyped(node, "collision", indent, attributes=attributes, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "collision", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<collision{attributes}>{body}{indent}</collision>"
     return f"{indent}<collision{attributes}/>"
@@ -610,8 +610,8 @@ def write_material_script(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<uri>{in_text(value)}</uri>"
     if (value := node.name) is not None:
         body += f"{inner}<name>{in_text(value)}</name>"
-    if node.opaque:
-        return out.with_untyped(node, "material/script", indent, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "script", indent, body=body)
     return f"{indent}<script>{body}{indent}</script>" if body else ""
 
 
@@ -647,8 +647,8 @@ def write_material(node: Any, out: TextOutput, indent: str) -> str:
     if (value := node.emissive) is not None:
         body += f"{inner}<emissive>{format_numbers(value)}</emissive>"
     body += write_material_pbr(node, inner)
-    if node.opaque:
-        return out.with_untyped(node, "material", indent, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "material", indent, body=body)
     return f"{indent}<material>{body}{indent}</material>" if body else ""
 
 
@@ -665,9 +665,9 @@ def write_visual(node: Any, out: TextOutput, indent: str) -> str:
     if (value := node.material) is not None:
         body += write_material(value, out, inner)
     if node.plugins:
-        body += out.parts(node, inner, (node.plugins, write_plugin))
-    if node.opaque:
-        return out.with_untyped(node, "visual", indent, attributes=attributes, body=body, keep=True)
+        body += out.children(node, inner, (node.plugins, write_plugin))
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "visual", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<visual{attributes}>{body}{indent}</visual>"
     return f"{indent}<visual{attributes}/>"
@@ -691,7 +691,7 @@ def write_link(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<kinematic>{bool_text(node, 'kinematic')}</kinematic>"
     if (value := node.inertial) is not None:
         body += write_inertial(value, out, inner)
-    body += out.parts(
+    body += out.children(
         node,
         inner,
         (node.collisions, write_collision),
@@ -699,8 +699,8 @@ def write_link(node: Any, out: TextOutput, indent: str) -> str:
         (node.sensors, write_sensor),
         (node.lights, write_light),
     )
-    if node.opaque:
-        return out.with_untyped(node, "link", indent, attributes=attributes, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "link", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<link{attributes}>{body}{indent}</link>"
     return f"{indent}<link{attributes}/>"
@@ -726,7 +726,7 @@ def write_model(node: Any, out: TextOutput, indent: str) -> str:
         body += f"{inner}<allow_auto_disable>{bool_text(node, 'allow_auto_disable')}</allow_auto_disable>"
     if (value := node.enable_wind) is not None:
         body += f"{inner}<enable_wind>{bool_text(node, 'enable_wind')}</enable_wind>"
-    body += out.parts(
+    body += out.children(
         node,
         inner,
         (node.frames, write_frame),
@@ -736,8 +736,8 @@ def write_model(node: Any, out: TextOutput, indent: str) -> str:
         (node.includes, write_include),
         (node.models, write_model),
     )
-    if node.opaque:
-        return out.with_untyped(node, "model", indent, attributes=attributes, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "model", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<model{attributes}>{body}{indent}</model>"
     return f"{indent}<model{attributes}/>"
@@ -751,7 +751,7 @@ def write_world(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' name="{in_attribute(value)}"'
     if (value := node.gravity) is not None:
         body += f"{inner}<gravity>{vector3(value)}</gravity>"
-    body += out.parts(
+    body += out.children(
         node,
         inner,
         (node.includes, write_include),
@@ -761,8 +761,8 @@ def write_world(node: Any, out: TextOutput, indent: str) -> str:
         (node.models, write_model),
         (node.plugins, write_plugin),
     )
-    if node.opaque:
-        return out.with_untyped(node, "world", indent, attributes=attributes, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "world", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<world{attributes}>{body}{indent}</world>"
     return f"{indent}<world{attributes}/>"
@@ -775,7 +775,7 @@ def write_sdf(node: Any, out: TextOutput, indent: str) -> str:
     attributes += out.declarations
     if (value := node.version) is not None:
         attributes += f' version="{in_attribute(value)}"'
-    body += out.parts(
+    body += out.children(
         node,
         inner,
         (node.worlds, write_world),
@@ -783,12 +783,32 @@ def write_sdf(node: Any, out: TextOutput, indent: str) -> str:
         (node.lights, write_light),
         (node.includes, write_include),
     )
-    attributes += out.root_attributes
-    if node.opaque:
-        return out.with_untyped(node, "sdf", indent, attributes=attributes, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "sdf", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<sdf{attributes}>{body}{indent}</sdf>"
     return f"{indent}<sdf{attributes}/>"
 
 
 write_root: Write = write_sdf
+
+WRITERS: dict[str, Write] = {
+    "sdf": write_sdf,
+    "world": write_world,
+    "include": write_include,
+    "pose": write_pose,
+    "plugin": write_plugin,
+    "light": write_light,
+    "frame": write_frame,
+    "joint": write_joint,
+    "mimic": write_mimic,
+    "sensor": write_sensor,
+    "model": write_model,
+    "link": write_link,
+    "inertial": write_inertial,
+    "collision": write_collision,
+    "geometry": write_geometry,
+    "surface": write_surface,
+    "visual": write_visual,
+    "material": write_material,
+}

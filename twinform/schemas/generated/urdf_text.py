@@ -23,8 +23,8 @@ def write_origin(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' rpy="{vector3(value)}"'
     if (value := node.quat_xyzw) is not None:
         attributes += f' quat_xyzw="{format_numbers(value)}"'
-    if node.opaque:
-        return out.with_untyped(node, "origin", indent, attributes=attributes)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "origin", indent, attributes=attributes)
     return f"{indent}<origin{attributes}/>" if attributes else ""
 
 
@@ -43,8 +43,8 @@ def write_link_inertial_inertia(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' iyz="{format_number(value)}"'
     if (value := node.izz) is not None:
         attributes += f' izz="{format_number(value)}"'
-    if node.opaque:
-        return out.with_untyped(node, "link/inertial/inertia", indent, attributes=attributes)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "inertia", indent, attributes=attributes)
     return f"{indent}<inertia{attributes}/>" if attributes else ""
 
 
@@ -58,8 +58,8 @@ def write_link_inertial(node: Any, out: TextOutput, indent: str) -> str:
         body += f'{inner}<mass value="{format_number(value)}"/>'
     if (value := node.inertia) is not None:
         body += write_link_inertial_inertia(value, out, inner)
-    if node.opaque:
-        return out.with_untyped(node, "link/inertial", indent, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "inertial", indent, body=body)
     return f"{indent}<inertial>{body}{indent}</inertial>" if body else ""
 
 
@@ -68,8 +68,8 @@ def write_geometry_box(node: Any, out: TextOutput, indent: str) -> str:
     attributes = ""
     if (value := node.size) is not None:
         attributes += f' size="{vector3(value)}"'
-    if node.opaque:
-        return out.with_untyped(node, "geometry/box", indent, attributes=attributes, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "box", indent, attributes=attributes, keep=True)
     return f"{indent}<box{attributes}/>"
 
 
@@ -80,8 +80,8 @@ def write_geometry_cylinder(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' radius="{format_number(value)}"'
     if (value := node.length) is not None:
         attributes += f' length="{format_number(value)}"'
-    if node.opaque:
-        return out.with_untyped(node, "geometry/cylinder", indent, attributes=attributes, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "cylinder", indent, attributes=attributes, keep=True)
     return f"{indent}<cylinder{attributes}/>"
 
 
@@ -90,8 +90,8 @@ def write_geometry_sphere(node: Any, out: TextOutput, indent: str) -> str:
     attributes = ""
     if (value := node.radius) is not None:
         attributes += f' radius="{format_number(value)}"'
-    if node.opaque:
-        return out.with_untyped(node, "geometry/sphere", indent, attributes=attributes, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "sphere", indent, attributes=attributes, keep=True)
     return f"{indent}<sphere{attributes}/>"
 
 
@@ -102,8 +102,8 @@ def write_geometry_capsule(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' radius="{format_number(value)}"'
     if (value := node.length) is not None:
         attributes += f' length="{format_number(value)}"'
-    if node.opaque:
-        return out.with_untyped(node, "geometry/capsule", indent, attributes=attributes, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "capsule", indent, attributes=attributes, keep=True)
     return f"{indent}<capsule{attributes}/>"
 
 
@@ -114,8 +114,8 @@ def write_geometry_mesh(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' filename="{in_attribute(value)}"'
     if (value := node.scale) is not None:
         attributes += f' scale="{vector3(value)}"'
-    if node.opaque:
-        return out.with_untyped(node, "geometry/mesh", indent, attributes=attributes, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "mesh", indent, attributes=attributes, keep=True)
     return f"{indent}<mesh{attributes}/>"
 
 
@@ -134,8 +134,8 @@ def write_geometry(node: Any, out: TextOutput, indent: str) -> str:
     body = ""
     if (value := node.shape) is not None and (write := GEOMETRY_SHAPES.get(value.kind)) is not None:
         body += write(value, out, inner)
-    if node.opaque:
-        return out.with_untyped(node, "geometry", indent, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "geometry", indent, body=body)
     return f"{indent}<geometry>{body}{indent}</geometry>" if body else ""
 
 
@@ -149,8 +149,8 @@ def write_material(node: Any, out: TextOutput, indent: str) -> str:
         body += f'{inner}<color rgba="{format_numbers(value)}"/>'
     if (value := node.texture) is not None:
         body += f'{inner}<texture filename="{in_attribute(value)}"/>'
-    if node.opaque:
-        return out.with_untyped(node, "material", indent, attributes=attributes, body=body)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "material", indent, attributes=attributes, body=body)
     if body:
         return f"{indent}<material{attributes}>{body}{indent}</material>"
     return f"{indent}<material{attributes}/>" if attributes else ""
@@ -168,8 +168,8 @@ def write_link_visual(node: Any, out: TextOutput, indent: str) -> str:
         body += write_geometry(value, out, inner)
     if (value := node.material) is not None:
         body += write_material(value, out, inner)
-    if node.opaque:
-        return out.with_untyped(node, "link/visual", indent, attributes=attributes, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "visual", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<visual{attributes}>{body}{indent}</visual>"
     return f"{indent}<visual{attributes}/>"
@@ -185,8 +185,8 @@ def write_link_collision(node: Any, out: TextOutput, indent: str) -> str:
         body += write_origin(value, out, inner)
     if (value := node.geometry) is not None:
         body += write_geometry(value, out, inner)
-    if node.opaque:
-        return out.with_untyped(node, "link/collision", indent, attributes=attributes, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "collision", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<collision{attributes}>{body}{indent}</collision>"
     return f"{indent}<collision{attributes}/>"
@@ -200,14 +200,14 @@ def write_link(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' name="{in_attribute(value)}"'
     if (value := node.inertial) is not None:
         body += write_link_inertial(value, out, inner)
-    body += out.parts(
+    body += out.children(
         node,
         inner,
         (node.visuals, write_link_visual),
         (node.collisions, write_link_collision),
     )
-    if node.opaque:
-        return out.with_untyped(node, "link", indent, attributes=attributes, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "link", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<link{attributes}>{body}{indent}</link>"
     return f"{indent}<link{attributes}/>"
@@ -230,8 +230,8 @@ def write_joint_limit(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' deceleration="{format_number(value)}"'
     if (value := node.jerk) is not None:
         attributes += f' jerk="{format_number(value)}"'
-    if node.opaque:
-        return out.with_untyped(node, "joint/limit", indent, attributes=attributes)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "limit", indent, attributes=attributes)
     return f"{indent}<limit{attributes}/>" if attributes else ""
 
 
@@ -242,8 +242,8 @@ def write_joint_dynamics(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' damping="{format_number(value)}"'
     if (value := node.friction) is not None:
         attributes += f' friction="{format_number(value)}"'
-    if node.opaque:
-        return out.with_untyped(node, "joint/dynamics", indent, attributes=attributes)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "dynamics", indent, attributes=attributes)
     return f"{indent}<dynamics{attributes}/>" if attributes else ""
 
 
@@ -256,8 +256,8 @@ def write_joint_mimic(node: Any, out: TextOutput, indent: str) -> str:
         attributes += f' multiplier="{format_number(value)}"'
     if (value := node.offset) is not None:
         attributes += f' offset="{format_number(value)}"'
-    if node.opaque:
-        return out.with_untyped(node, "joint/mimic", indent, attributes=attributes)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "mimic", indent, attributes=attributes)
     return f"{indent}<mimic{attributes}/>" if attributes else ""
 
 
@@ -283,8 +283,8 @@ def write_joint(node: Any, out: TextOutput, indent: str) -> str:
         body += write_joint_dynamics(value, out, inner)
     if (holder := node.axis) is not None and (value := holder.mimic) is not None:
         body += write_joint_mimic(value, out, inner)
-    if node.opaque:
-        return out.with_untyped(node, "joint", indent, attributes=attributes, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "joint", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<joint{attributes}>{body}{indent}</joint>"
     return f"{indent}<joint{attributes}/>"
@@ -300,8 +300,8 @@ def write_robot_material(node: Any, out: TextOutput, indent: str) -> str:
         body += f'{inner}<color rgba="{format_numbers(value)}"/>'
     if (value := node.texture) is not None:
         body += f'{inner}<texture filename="{in_attribute(value)}"/>'
-    if node.opaque:
-        return out.with_untyped(node, "material", indent, attributes=attributes, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "material", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<material{attributes}>{body}{indent}</material>"
     return f"{indent}<material{attributes}/>"
@@ -312,8 +312,8 @@ def write_gazebo(node: Any, out: TextOutput, indent: str) -> str:
     attributes = ""
     if (value := node.reference) is not None:
         attributes += f' reference="{in_attribute(value)}"'
-    if node.content or node.opaque:
-        return out.with_untyped(node, "gazebo", indent, attributes=attributes, content=node.content, keep=True)
+    if node.content or node.opaque or out.parts is not None:
+        return out.unusual(node, "gazebo", indent, attributes=attributes, content=node.content, keep=True)
     return f"{indent}<gazebo{attributes}/>"
 
 
@@ -324,7 +324,7 @@ def write_robot(node: Any, out: TextOutput, indent: str) -> str:
     attributes += out.declarations
     if (value := node.name) is not None:
         attributes += f' name="{in_attribute(value)}"'
-    body += out.parts(
+    body += out.children(
         node,
         inner,
         (node.links, write_link),
@@ -332,12 +332,21 @@ def write_robot(node: Any, out: TextOutput, indent: str) -> str:
         (node.materials, write_robot_material),
         (node.extensions, write_gazebo),
     )
-    attributes += out.root_attributes
-    if node.opaque:
-        return out.with_untyped(node, "robot", indent, attributes=attributes, body=body, keep=True)
+    if node.opaque or out.parts is not None:
+        return out.unusual(node, "robot", indent, attributes=attributes, body=body, keep=True)
     if body:
         return f"{indent}<robot{attributes}>{body}{indent}</robot>"
     return f"{indent}<robot{attributes}/>"
 
 
 write_root: Write = write_robot
+
+WRITERS: dict[str, Write] = {
+    "robot": write_robot,
+    "link": write_link,
+    "origin": write_origin,
+    "geometry": write_geometry,
+    "material": write_robot_material,
+    "joint": write_joint,
+    "gazebo": write_gazebo,
+}

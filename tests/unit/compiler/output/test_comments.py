@@ -5,6 +5,10 @@ import re
 import pytest
 
 import twinform
+from twinform.compiler.input.comments import comments_of
+from twinform.compiler.input.loading import LoadOptions, read
+from twinform.compiler.output.emitting import emit
+from twinform.diagnostics import DiagnosticSink
 
 pytestmark = pytest.mark.slow
 
@@ -139,6 +143,27 @@ def test_lines_of_a_comment_are_indented_like_the_first() -> None:
     assert "    <!-- one\n         two\n   three -->\n" in made
 
 
+def test_a_comment_between_text_and_an_element_stays_on_their_line() -> None:
+    text = b'<sdf version="1.9"><model name="m">x<!-- a --><static>1</static><link name="l"/></model></sdf>'
+    assert '<model name="m">x<!-- a --><static>1</static>\n' in twinform.convert(text, to="sdf").text
+
+
+def test_comments_at_what_is_left_out_of_a_text_stay_near_it() -> None:
+    visual = "<geometry/>\n<!-- new -->\n<visibility_flags>3</visibility_flags> <!-- flags -->\n"
+    link = f'<link name="l"><visual name="v">{visual}</visual>\n<!-- light --><light name="i" type="point"/></link>'
+    text = f'<sdf version="1.11"><model name="m">{link}</model></sdf>'
+    loaded = read(text.encode(), LoadOptions(keep_comments=True))
+    assert loaded.document is not None
+    older, sink = loaded.document.copy(version="1.3"), DiagnosticSink()
+    made = emit(older, sink, fit=True, comments=comments_of(loaded, older, "sdf", None))
+    assert [entry.rule.name for entry in sink.entries] == ["older-version"] * 2
+    assert "<visibility_flags>" not in made
+    assert "<light" not in made
+    assert comments(made) == comments(text)
+    lines = lines_of(made)
+    assert lines[lines.index("<!-- new -->") :][:3] == ["<!-- new -->", "<!-- flags -->", "</visual>"]
+
+
 def test_hyphens_that_other_parsers_let_pass_are_mended() -> None:
     text = b'<robot name="r"><!-- a -- b --><link name="a"/></robot>'
     assert "<!-- a - - b -->" in twinform.convert(text, to="sdf").text
@@ -193,8 +218,8 @@ def test_comments_in_other_encodings(encoding: str) -> None:
 
 
 def test_a_default_namespace() -> None:
-    text = b'<robot xmlns="urn:x" name="r"><!-- a --><link name="a"/></robot>'
-    assert "<!-- a -->" in twinform.convert(text, to="urdf").text
+    text = b'<robot xmlns="urn:x" name="r"><!-- a -->\n<!-- b -->\n<link name="a"/></robot>'
+    assert '"r"> <!-- a -->\n  <!-- b -->\n  <link' in twinform.convert(text, to="urdf").text
 
 
 @pytest.mark.parametrize("unit", ["<!---->", "<!---->\n", "<x/><!---->\n", "<link name='{}'/><!---->\n"])

@@ -1,14 +1,15 @@
-"""The text of documents: without a tree where that is possible, and with the findings of the tree where it is not."""
+"""The text of documents, and the findings of its tree where the schema refuses it."""
 
 from typing import Any
 
 import pytest
+from lxml import etree
 
 import twinform
 from twinform.compiler.output import emitting
-from twinform.compiler.output.emitting import document_tree, emit, serialized, text_without_tree
+from twinform.compiler.output.emitting import document_text, document_tree, emit
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Element, Format, Link, Model, Opaque
+from twinform.ir import Document, Element, Format, Frame, Link, Model, Opaque
 from twinform.schemas import is_valid_text
 
 ROBOT = b"""<robot name="r">
@@ -26,9 +27,8 @@ def _sdf(*models: Model, **fields: Any) -> Document:
 def test_a_valid_document_needs_no_tree(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     document = twinform.loads(ROBOT)
     document = document.copy(models=(document.models[0].copy(name=name),))
-    text = serialized(document_tree(document), document)
-    monkeypatch.setattr(emitting, "document_tree", None)
-    assert emit(document, DiagnosticSink()) == text
+    monkeypatch.setattr(emitting, "_parsed", None)
+    assert etree.fromstring(emit(document, DiagnosticSink())).get("name") == name
 
 
 def test_a_document_that_the_schema_refuses_has_the_findings_of_its_tree() -> None:
@@ -43,33 +43,41 @@ def test_what_xml_cannot_hold_is_refused_as_ever(name: str) -> None:
         emit(_sdf(Model(name=name)), DiagnosticSink())
 
 
-def test_a_version_stands_behind_the_attributes_of_a_robot() -> None:
+@pytest.mark.parametrize("untyped", [(), (Opaque(attribute=("version", "7")),)])
+def test_a_version_stands_behind_the_attributes_of_a_robot(untyped: tuple[Opaque, ...]) -> None:
     document = twinform.loads(ROBOT).copy(version="1.1")
-    text = text_without_tree(document)
-    assert text == serialized(document_tree(document), document)
-    assert text is not None
-    assert '<robot name="r" version="1.1">' in text
+    document = document.copy(models=(document.models[0].copy(opaque=untyped),))
+    assert '<robot name="r" version="1.1">' in document_text(document)
 
 
-def test_a_robot_with_a_version_and_untyped_attributes_needs_a_tree() -> None:
-    document = twinform.loads(ROBOT)
-    model = document.models[0].copy(opaque=(Opaque(attribute=("version", "7")),))
-    changed = document.copy(version="1.1", models=(model,))
-    assert text_without_tree(changed) is None
-    assert text_without_tree(changed.copy(version=None)) is not None
+def test_a_default_namespace_stands_behind_the_others() -> None:
+    namespaces = (("", "urn:a&b"), ("k", "urn:k"))
+    text = document_text(_sdf(Model(name="m", links=(Link(name="a"),)), namespaces=namespaces))
+    assert '<sdf xmlns:k="urn:k" xmlns="urn:a&amp;b" version="1.11">' in text
+    assert "<model" in text
 
 
-def test_a_default_namespace_needs_a_tree() -> None:
-    assert text_without_tree(_sdf(Model(name="m", links=(Link(name="a"),)), namespaces=(("", "urn:a"),))) is None
-
-
-def test_untyped_models_in_what_comes_from_urdf_need_a_tree() -> None:
+def test_frames_of_robots_stand_behind_untyped_links_too() -> None:
     document = twinform.convert(ROBOT, to="sdf").document
-    assert text_without_tree(document) is not None
-    population = Opaque(element=Element(name="population", children=(Element(name="model"),)))
-    assert text_without_tree(document.copy(opaque=(population,))) is None
-    model = document.models[0].copy(opaque=(Opaque(element=Element(name="link")),))
-    assert text_without_tree(document.copy(models=(model,))) is None
+    link = Opaque(element=Element(name="link", attributes=(("name", "x"),)))
+    frames = (Frame(name="g", attached_to="f"), Frame(name="f", attached_to="x"))
+    changed = document.copy(models=(document.models[0].copy(frames=frames, opaque=(link,)),))
+    assert [each.get("name") for each in document_tree(changed)[0]][-3:] == ["x", "f", "g"]
+
+
+def test_frames_of_untyped_models_in_what_comes_from_urdf_are_put_in_order() -> None:
+    document = twinform.convert(ROBOT, to="sdf").document
+    frame = Element(name="frame", attributes=(("name", "f"), ("attached_to", "a")))
+    model = Element(name="model", children=(frame, Element(name="link", attributes=(("name", "a"),))))
+    changed = document.copy(opaque=(Opaque(element=Element(name="population", children=(model,))),))
+    assert [each.tag for each in document_tree(changed).iterfind("population/model/*")] == ["link", "frame"]
+
+
+def test_a_tree_has_the_lines_of_untyped_elements_alone_and_no_layout() -> None:
+    document = twinform.loads(ROBOT.replace(b"</robot>", b"<gazebo>\n<x>\n<y/>\n</x>\n</gazebo>\n</robot>"))
+    tree = document_tree(document)
+    assert [(each.tag, each.sourceline) for each in tree.iter() if each.sourceline] == [("x", 6), ("y", 7)]
+    assert {each.text for each in tree.iter()} == {each.tail for each in tree.iter()} == {None}
 
 
 VALID = '<?xml version="1.0"?>\n<sdf version="1.11"><model name="m"><link name="a"/></model></sdf>\n'

@@ -14,7 +14,7 @@ from typing import Any
 from twinform.compiler.input.json.comparing import MOST, differences, plain, report_missed
 from twinform.compiler.input.limits import excess_of_names
 from twinform.compiler.input.parsing import refuse_excess
-from twinform.compiler.output.emitting import document_tree, serialized
+from twinform.compiler.output.emitting import document_text
 from twinform.compiler.output.json import Data, json_data
 from twinform.diagnostics import DiagnosticSink, Location, Origins, Source, rules
 from twinform.ir import Document, Node, node_values
@@ -77,7 +77,7 @@ def read_json(text: bytes, sink: DiagnosticSink) -> JsonSource | None:
         # The writers write the fields that their tables name, so what no file can express would be
         # lost silently. JSON therefore becomes text, which is read as any other, and then compared
         # with the JSON (`comparing.py`).
-        made = serialized(document_tree(document), document)
+        made = document_text(document)
     except ValueError as error:  # a name that lxml does not take
         _report(sink, f"the document: it cannot be written: {error}")
         return None

@@ -2,12 +2,13 @@
 
 from lxml import etree
 
+from twinform.compiler.output.emitting import document_tree
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes import Pipeline
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.legalise.to_urdf import to_urdf
-from twinform.schemas import Context, XmlElement, libxml2_errors, parse_version, reader, writer
+from twinform.schemas import Context, XmlElement, libxml2_errors, parse_version, reader
 
 LINK = "<link name='a'/>"
 TF = {"tf": NAMESPACE}
@@ -28,8 +29,7 @@ def lower(document: Document, *, model: str | None = None, carriers: bool = True
         return etree.Element("none"), sink
     assert made.format == "urdf"
     version = parse_version(made.version or "1.0")
-    root = etree.Element("robot", nsmap=dict(made.namespaces))
-    writer("urdf", version).write(made.models[0], root)
+    root = document_tree(made)
     assert libxml2_errors(root, "urdf", version) == []
     return root, sink
 

@@ -1,0 +1,19 @@
+"""What has to hold for the text of any document: it is laid out and escaped as lxml would do it."""
+
+from lxml import etree
+
+from twinform.compiler.output.emitting import document_text, document_tree
+from twinform.ir import Document
+
+
+def assert_laid_out(document: Document) -> str:
+    """The text of a document, which is that of its tree but for a default namespace."""
+    text = document_text(document)
+    root = document_tree(document)
+    etree.indent(root, "  ")
+    root_tag = text.partition("\n")[2].partition(">")[0]
+    assert (
+        text.partition("\n")[2].partition(">")[2] == f"{etree.tostring(root, encoding='unicode').partition('>')[2]}\n"
+    )
+    assert dict(etree.fromstring(f"{root_tag.removesuffix('/')}/>").attrib) == dict(root.attrib)
+    return text
