@@ -74,7 +74,7 @@ def write_back(rewrites: Sequence[Rewrite]) -> None:
                 raise Unusable(f"{path} is read-only; nothing is written")
 
     try:
-        write_all_atomically({**_beside(rewrites), **texts}, require_unchanged)
+        write_all_atomically({**_files_beside(rewrites), **texts}, require_unchanged)
     except OSError as error:
         raise Unusable(f"cannot write {error.filename}: {error.strerror}") from error
     for each in rewrites:
@@ -82,7 +82,7 @@ def write_back(rewrites: Sequence[Rewrite]) -> None:
             print_document(each.after)
 
 
-def _beside(rewrites: Sequence[Rewrite]) -> dict[Path, str | bytes]:
+def _files_beside(rewrites: Sequence[Rewrite]) -> dict[Path, str | bytes]:
     """The files that passes have made, by their places."""
     outputs = Outputs([Path(each.source.name) for each in rewrites if not each.is_stream])
     for each in rewrites:

@@ -82,7 +82,7 @@ def convert_once(
         if loaded.accepted and (request.expand_includes or request.to == "urdf" or request.model is not None):
             from twinform.compiler.includes.expanding import expand  # noqa: PLC0415 - most conversions need no includes
 
-            wanted = None if request.expand_includes else _wanted(loaded.document, request)
+            wanted = None if request.expand_includes else _includes_to_expand(loaded.document, request)
             before = loaded.document
             loaded = expand(loaded, load_options, wanted=wanted, carriers=request.carriers)
             request = replace(request, model=name_once_expanded(before, loaded.document, request.model))
@@ -101,7 +101,7 @@ def convert_once(
             raise CompileError((*loaded.diagnostics, *stays)) from error
 
 
-def _wanted(document: Document | None, request: ConversionRequest) -> Callable[[Include], bool]:
+def _includes_to_expand(document: Document | None, request: ConversionRequest) -> Callable[[Include], bool]:
     """The includes that have to be put in their place; of a model that stays SDF, the one that stands for it."""
     wanted = wanted_includes(document, request.model)
     if request.to == "urdf" or document is None:

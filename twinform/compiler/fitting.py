@@ -92,10 +92,10 @@ def assessed(made: Conversion, load_options: LoadOptions, name: str) -> tuple[As
     loaded = inspect(read(made.text.encode(), plain, name=name), plain)
     found = assess(subject_of(loaded, plain), load_options.profiles)
     placed: dict[int, Diagnostic] = {}
-    return tuple(_placed(each, made.document, placed) for each in found)
+    return tuple(_at_source_lines(each, made.document, placed) for each in found)
 
 
-def _placed(assessment: Assessment, document: Document, placed: dict[int, Diagnostic]) -> Assessment:
+def _at_source_lines(assessment: Assessment, document: Document, placed: dict[int, Diagnostic]) -> Assessment:
     """The same at the lines of the source; what several consumers mind stays one finding."""
     judgments: list[Judgment] = []
     for judgment in assessment.judgments:

@@ -38,14 +38,14 @@ class PassCase(Case):
     @property
     def found(self) -> Counter[Finding]:
         """What the compiler and the passes report."""
-        return findings(self._made.diagnostics, self.path.name)
+        return findings(self._outcome.diagnostics, self.path.name)
 
     @property
     def rules(self) -> frozenset[str]:
         """Every rule that was reported, be it by a finding or an entry of the ledger."""
-        findings: tuple[Diagnostic | Entry, ...] = self._made.diagnostics
-        if isinstance(self._made, Conversion):
-            findings = (*findings, *self._made.ledger.entries)
+        findings: tuple[Diagnostic | Entry, ...] = self._outcome.diagnostics
+        if isinstance(self._outcome, Conversion):
+            findings = (*findings, *self._outcome.ledger.entries)
         return frozenset(each.rule.name for each in findings)
 
     @property
@@ -56,7 +56,7 @@ class PassCase(Case):
     @property
     def changed(self) -> str | None:
         """The file after the passes; None where they leave it as it is, or refuse it."""
-        made = self._made
+        made = self._outcome
         if isinstance(made, CompileError):
             return None
         unchanged = self._run(self._file, "")
@@ -65,17 +65,17 @@ class PassCase(Case):
     @property
     def settles(self) -> bool:
         """Whether the passes leave alone what they made."""
-        if isinstance(self._made, CompileError):
+        if isinstance(self._outcome, CompileError):
             return True
-        again = self._run(self._made.text.encode(), self.pipeline)
-        return isinstance(again, Conversion) and again.text == self._made.text
+        again = self._run(self._outcome.text.encode(), self.pipeline)
+        return isinstance(again, Conversion) and again.text == self._outcome.text
 
     @property
     def _file(self) -> Path:
         return Path(self.path.name)
 
     @cached_property
-    def _made(self) -> Conversion | CompileError:
+    def _outcome(self) -> Conversion | CompileError:
         return self._run(self._file, self.pipeline)
 
     def _run(self, source: Path | bytes, pipeline: str) -> Conversion | CompileError:

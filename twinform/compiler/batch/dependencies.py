@@ -78,12 +78,12 @@ def dependencies_of(seen: Observation, root: str, *, outside: str | None) -> tup
         for path, before in table.items():
             if _is_below(path, outside):
                 continue
-            dependency = _noted(path, kind, before)
+            dependency = _record_content(path, kind, before)
             if dependency is None or seen.young.get(path, dependency.digest) != dependency.digest:
                 return None
-            found.append(_placed(dependency, root))
+            found.append(_below_root(dependency, root))
     looks = ((path, before) for path, before in seen.looked_at.items() if path not in seen.read)
-    found += [_placed(_look(path, before), root) for path, before in looks if not _is_below(path, outside)]
+    found += [_below_root(_look(path, before), root) for path, before in looks if not _is_below(path, outside)]
     return tuple(found)
 
 
@@ -167,13 +167,13 @@ def unpacked(rows: Iterable[Iterable[Any]]) -> Iterator[Dependency]:
         yield Dependency(path, Kind(kind), size, time, made, changed, inode)
 
 
-def _noted(path: str, kind: Kind, before: os.stat_result | None) -> Dependency | None:
+def _record_content(path: str, kind: Kind, before: os.stat_result | None) -> Dependency | None:
     """What is read or listed, as it is now; None where it is not as it was before."""
     now = status(path)
     if before is None or now is None:
         return Dependency(path, Kind.ABSENT) if before is now else None
     # The file has changed between being read and now: what was read may be any mixture of both.
-    if _marks(before) != _marks(now):
+    if _status_marks(before) != _status_marks(now):
         return None
     usual = stat.S_ISREG if kind is Kind.READ else stat.S_ISDIR
     if not usual(now.st_mode):
@@ -187,7 +187,7 @@ def _stamped(dependency: Dependency, now: os.stat_result) -> Dependency:
     return replace(dependency, size=size, time=now.st_mtime_ns, changed=now.st_ctime_ns, inode=now.st_ino)
 
 
-def _marks(status: os.stat_result) -> tuple[int, ...]:
+def _status_marks(status: os.stat_result) -> tuple[int, ...]:
     return status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino
 
 
@@ -211,7 +211,7 @@ def _look(path: str, now: os.stat_result | None) -> Dependency:
     return Dependency(path, Kind.FOLDER if stat.S_ISDIR(now.st_mode) else Kind.OTHER)
 
 
-def _placed(dependency: Dependency, root: str) -> Dependency:
+def _below_root(dependency: Dependency, root: str) -> Dependency:
     if dependency.path != root and not _is_below(dependency.path, root):
         return dependency
     return replace(dependency, path=dependency.path[len(root) :].lstrip(os.sep))

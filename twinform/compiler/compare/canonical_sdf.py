@@ -65,12 +65,12 @@ def read_robots(
     memos = defaultdict[str | None, Memo](Memo)
     for reader, seen in as_read_by(document, readers).items():
         if id(seen) not in known:
-            known[id(seen)] = _seen(loaded, seen, model, memos, sink, assets)
+            known[id(seen)] = _robots_seen(loaded, seen, model, memos, sink, assets)
         found[reader] = known[id(seen)]
     return found
 
 
-def _seen(
+def _robots_seen(
     loaded: LoadResult,
     document: Document,
     model: str | None,

@@ -111,8 +111,8 @@ def _by_kind(parts: Iterable[Part]) -> dict[str, list[Part]]:
 def match(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
     """Pairs of parts of one kind, and those of each robot that are left over."""
     if not any(part.kind in _BY_CONTENT for part in (*a, *b)):
-        return _named(a, b, base)
-    pairs, left_a, left_b = _same(a, b, terms, base)
+        return _pair_by_name(a, b, base)
+    pairs, left_a, left_b = _pair_equal(a, b, terms, base)
     if _are_few(left_a, left_b):
         alike = _most_alike(left_a, left_b, terms, base)
         left_a, left_b = (
@@ -127,7 +127,7 @@ def match(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[
     return [*pairs, *named, *placed, *alike], left_a, left_b
 
 
-def _named(a: list[Part], b: list[Part], base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
+def _pair_by_name(a: list[Part], b: list[Part], base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
     """Pairs of parts that have one name; where several have it, in whatever order, those that are equal come first."""
     equal: list[Pair] = []
     if len({part.name for part in a}) < len(a):
@@ -137,7 +137,7 @@ def _named(a: list[Part], b: list[Part], base: Base) -> tuple[list[Pair], list[P
     return [*equal, *named], a, b
 
 
-def _same(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
+def _pair_equal(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
     """Pairs of shapes that are equal, those of one name first, and the shapes that are left over.
 
     Of many shapes, those of one content are paired at once, and the rest is looked through where that leaves few.
@@ -245,6 +245,8 @@ def unmatched(a: Iterable[Part], b: Iterable[Part], terms: Terms, base: Base) ->
     groups_b = _by_kind(b)
     for kind, parts in _by_kind(a).items():
         others = groups_b.get(kind, [])
-        pairs, only, _ = _same(parts, others, terms, base) if kind in _BY_CONTENT else match(parts, others, terms, base)
+        pairs, only, _ = (
+            _pair_equal(parts, others, terms, base) if kind in _BY_CONTENT else match(parts, others, terms, base)
+        )
         yield from only
         yield from (one for one, other in pairs if not is_same(one, other, terms, base))

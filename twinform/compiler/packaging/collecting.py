@@ -119,7 +119,7 @@ class Collection:
             raise UncollectedError(f"{str(folder)!r} is a folder without images and scripts")
         kinds = {kind_of(each) for each in inside}
         kind: FileKind = "script" if "script" in kinds else "image"
-        wanted = (folder_of(path) for path in self._wanted(inside[0], kind, origins))
+        wanted = (folder_of(path) for path in self._wanted_places(inside[0], kind, origins))
         place = self._places.take_folder(wanted, [each.name for each in inside])
         for each in inside:
             own = f"{place}/{each.name}"
@@ -132,11 +132,11 @@ class Collection:
         content = self._checked(found, origins)
         format_ = FORMATS.get(suffix_of(found))
         if format_ is None or content.stat().st_size > _LARGEST_READ:
-            return self._placed(found, kind, content, (_digest(content),), origins)
+            return self._place_of(found, kind, content, (_digest(content),), origins)
         data = origins.assets.readable.read(found)
-        named = self._named(found, kind, data, format_, origins)
+        named = self._places_of_references(found, kind, data, format_, origins)
         key = (hashlib.sha256(data).hexdigest(), *sorted(named.items()))
-        place = self._placed(found, kind, content, key, origins)
+        place = self._place_of(found, kind, content, key, origins)
         names = {name: _as_seen(target, place, format_) for name, target in named.items()}
         # Only the names are replaced, in the bytes of the file: a mesh that went through a library
         # comes back with other numbers.
@@ -144,18 +144,18 @@ class Collection:
             self.files[place] = format_.rewritten(data, names)
         return place
 
-    def _placed(self, found: Path, kind: FileKind, content: Path, key: tuple[object, ...], origins: Origins) -> str:
+    def _place_of(self, found: Path, kind: FileKind, content: Path, key: tuple[object, ...], origins: Origins) -> str:
         """The place of a file: that of one of the same content, or a new one."""
         # Files of one content and one ending are one file. The ending counts, since readers tell
         # the format of a mesh by it.
         key = (suffix_of(found), *key)
         if key not in self._by_content:
-            place = self._places.take(self._wanted(found, kind, origins))
+            place = self._places.take(self._wanted_places(found, kind, origins))
             self._by_content[key] = place
             self.files[place] = self.sources[place] = content
         return self._by_content[key]
 
-    def _wanted(self, found: Path, kind: FileKind, origins: Origins) -> Iterator[str]:
+    def _wanted_places(self, found: Path, kind: FileKind, origins: Origins) -> Iterator[str]:
         """Where a file would go: as it lies in its package, or else below the name of that."""
         holder, parts = origins.place(found)
         return self.layout.places(parts, kind, holder)
@@ -181,7 +181,7 @@ class Collection:
             raise UncollectedError(f"{str(path)!r} leads to {str(real)!r}, which is another kind of file")
         return real
 
-    def _named(
+    def _places_of_references(
         self, found: Path, kind: FileKind, data: bytes, format_: ReferenceFormat, origins: Origins
     ) -> dict[str, str]:
         """The places of the files that a file names."""

@@ -76,14 +76,14 @@ class SearchPath:
     def _find(self, uri: str, beside: Path) -> Path:
         scheme, separator, rest = uri.partition("://")
         if not separator:
-            return self._plain(uri, beside)
+            return self._find_path(uri, beside)
         match scheme:
             case "model" | "package":
-                return self._named(uri, rest, beside)
+                return self._find_named(uri, rest, beside)
             case "file":
-                return self._plain(unquote(rest), beside, uri)
+                return self._find_path(unquote(rest), beside, uri)
             case "http" | "https":
-                return self._cached(uri)
+                return self._find_cached(uri)
             case _:
                 raise UriError(rules.UNRESOLVED_URI, f"{uri!r} has a scheme that is not known: {scheme!r}")
 
@@ -109,9 +109,9 @@ class SearchPath:
         Raises:
             UriError: it is not there, or is no name.
         """
-        return self._named(f"package://{name}", name, beside)
+        return self._find_named(f"package://{name}", name, beside)
 
-    def _named(self, uri: str, rest: str, beside: Path) -> Path:
+    def _find_named(self, uri: str, rest: str, beside: Path) -> Path:
         path = unquote(rest)
         name, _, inner = normpath(path).partition("/")
         if name in {"", "."} or "\0" in path:
@@ -174,7 +174,7 @@ class SearchPath:
             raise UriError(rules.URI_LEAVES_FOLDER, f"{uri!r} {denied.reason}", denied.help) from denied
         return None
 
-    def _plain(self, path: str, beside: Path, uri: str | None = None) -> Path:
+    def _find_path(self, path: str, beside: Path, uri: str | None = None) -> Path:
         """A path: absolute, beside the file, or in one of the folders."""
         around = self._surroundings(beside).folders
         roots = (beside.parent, *self._roots(), *around, *(folder / "models" for folder in around))
@@ -183,7 +183,7 @@ class SearchPath:
             raise self._missing(uri or path, (beside.parent, *self._roots(), *around))
         return found
 
-    def _cached(self, uri: str) -> Path:
+    def _find_cached(self, uri: str) -> Path:
         found = fuel.cached(uri, self.fuel)
         if found is None:
             host = _host(uri)

@@ -227,7 +227,7 @@ class _Files:
             pose = pose or (Pose() if model.placement_frame else None)  # its frame is in the file, and its pose is here
             return Include(uri=self.placement.uri(file), name=model.name, pose=pose, source=model.source)
         self.texts[file] = made.text
-        placed = _placed(model, pose, made.root, self.sink)
+        placed = _pose_of_root(model, pose, made.root, self.sink)
         uri = self.placement.uri(file)
         return Include(uri=uri, name=model.name, pose=placed, static=model.static, source=model.source)
 
@@ -274,7 +274,7 @@ def _root(robot: Model) -> str:
     return next(link.name for link in robot.links if link.name not in children)
 
 
-def _placed(model: Model, pose: Pose | None, root: Transform, sink: DiagnosticSink) -> Pose | None:
+def _pose_of_root(model: Model, pose: Pose | None, root: Transform, sink: DiagnosticSink) -> Pose | None:
     """Where the root of a model is, which is the frame of its URDF, in terms that do not need the frames inside it."""
     place = Transform.from_pose(pose)
     if model.placement_frame:

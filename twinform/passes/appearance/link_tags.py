@@ -11,7 +11,7 @@ def with_tags(model: Model, links: Iterable[str], tags: Mapping[str, str]) -> Mo
     """The model with flat tags for some links; those that are there say the new value, wherever they stand."""
 
     def change(content: Content) -> Content:
-        return tuple(_changed(element, tags) for element in content)
+        return tuple(_with_new_text(element, tags) for element in content)
 
     def missing(content: Content) -> Content:
         names = {element.name for element in content}
@@ -60,7 +60,7 @@ def _with_content(
     return model.copy(extensions=tuple(extensions))
 
 
-def _changed(element: Element, tags: Mapping[str, str]) -> Element:
+def _with_new_text(element: Element, tags: Mapping[str, str]) -> Element:
     if element.name not in tags:
         return element
     # libsdformat reads a tag's `value` attribute before its text, so an old attribute would

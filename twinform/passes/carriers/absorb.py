@@ -70,7 +70,7 @@ def _without_scope(model: Model, prefix: str) -> dict[str, object]:
 def _absorb(node: AnyNode, piece: Opaque, condition: VersionCondition, version: Version) -> AnyNode:
     data = _read(piece, definition_of(node) or "", version)
     if condition.index and piece.at:
-        return _beside(node, piece.at.split("/"), piece)
+        return _repeat_inside(node, piece.at.split("/"), piece)
     # A repeated element stays repeated: of two <material> readers take the first, and the second,
     # put in its place, would be a look that nobody saw in the file.
     if condition.index and is_repeated(piece, node):
@@ -80,7 +80,7 @@ def _absorb(node: AnyNode, piece: Opaque, condition: VersionCondition, version: 
     return _merged(node, data, condition.index)
 
 
-def _beside(node: AnyNode, path: list[str], piece: Opaque) -> AnyNode:
+def _repeat_inside(node: AnyNode, path: list[str], piece: Opaque) -> AnyNode:
     """The node with an element deeper in it that repeats another one."""
     if not path:
         return node.copy(opaque=(*node.opaque, piece.copy(at="")))
@@ -89,7 +89,7 @@ def _beside(node: AnyNode, path: list[str], piece: Opaque) -> AnyNode:
     inner = field_value(node, field)
     if not isinstance(inner, Node):
         raise CarrierError(f"there is no <{first}>")
-    return node.copy(**{field: _beside(inner, rest, piece)})
+    return node.copy(**{field: _repeat_inside(inner, rest, piece)})
 
 
 def _read(piece: Opaque, definition: str, version: Version) -> dict[str, Any]:

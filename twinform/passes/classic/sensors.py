@@ -46,13 +46,13 @@ class SensorMigration:
         if sensor.type == _MANY:
             yield from self._split(sensor, site, found)
             return
-        yield self._changed(sensor, site, found)
+        yield self._migrate_one(sensor, site, found)
 
     def _migration_for(self, plugin: Plugin) -> Migration | None:
         migration = migration_of(plugin.filename or "", plugin.content)
         return migration if migration and migration.sensor is not None else None
 
-    def _changed(self, sensor: Sensor, site: Site, found: list[tuple[Plugin, Migration]]) -> Sensor:
+    def _migrate_one(self, sensor: Sensor, site: Site, found: list[tuple[Plugin, Migration]]) -> Sensor:
         type_ = self._type(sensor, found)
         element = with_frame(_bare(sensor, type_), self.release)
         trial = SensorMigration(self.release, scratch(self.sink))
@@ -84,7 +84,7 @@ class SensorMigration:
         moved = Moved(element, is_valid=_is_sensor)
         moved.apply(read.content, {**migration.shared, **row.moves})
         moved.frame = moved.frame or _usual_frame(plugin, site)
-        element = _with_sets(_placed(moved, self.release), migration, row, moved.moved)
+        element = _with_sets(_with_frame_and_pose(moved, self.release), migration, row, moved.moved)
         for path, pattern in _topics(row, element):
             topic = names.topic(pattern)
             if text_at(element, path) is None and migration.nothing is None:
@@ -227,7 +227,7 @@ def _is_newer(old: str, wanted: str) -> bool:
     return _FRAMES.index(old) > _FRAMES.index(wanted)
 
 
-def _placed(moved: Moved, release: Release) -> Element:
+def _with_frame_and_pose(moved: Moved, release: Release) -> Element:
     """The sensor with the frame and the offset that its plugin names."""
     element = moved.element
     if moved.frame and not any(child.name in _FRAMES for child in element.children):

@@ -97,8 +97,8 @@ class _Expansion:
             if include.merge:
                 self._refuse_merge(include, "the root of a file is no model")
                 continue
-            document = self._beside(document, include, source)
-        return document.copy(includes=self._kept(document.includes))
+            document = self._add_included(document, include, source)
+        return document.copy(includes=self._unread_includes(document.includes))
 
     def world(self, world: World) -> World:
         world = world.copy(models=tuple(map(self.model, world.models)))
@@ -107,8 +107,8 @@ class _Expansion:
                 model = self._model(include, source)
                 world = merge_into_world(world, include, model, self.sink, source.frame) if model else world
                 continue
-            world = self._beside(world, include, source)
-        return world.copy(includes=self._kept(world.includes))
+            world = self._add_included(world, include, source)
+        return world.copy(includes=self._unread_includes(world.includes))
 
     def model(self, model: Model) -> Model:
         model = replace_fields(model, models=tuple(map(self.model, model.models)))
@@ -121,7 +121,7 @@ class _Expansion:
             elif included is not None:
                 nested = placed_model(include, included, self.sink, source.frame)
                 model = model.copy(models=(*model.models, nested))
-        return model.copy(includes=self._kept(model.includes))
+        return model.copy(includes=self._unread_includes(model.includes))
 
     def _split(self, includes: Iterable[Include]) -> Iterator[tuple[Include, Included]]:
         for include in includes:
@@ -130,7 +130,7 @@ class _Expansion:
                 account_replaced(include, self.sink)
                 yield include, source
 
-    def _kept(self, includes: Iterable[Include]) -> tuple[Include, ...]:
+    def _unread_includes(self, includes: Iterable[Include]) -> tuple[Include, ...]:
         return tuple(include for include in includes if self.found.get(id(include)) is None)
 
     def _ready(self, source: Included) -> Document:
@@ -144,7 +144,7 @@ class _Expansion:
             self.ready[id(source)] = done
         return done
 
-    def _beside(self, holder: Holder, include: Include, source: Included) -> Holder:
+    def _add_included(self, holder: Holder, include: Include, source: Included) -> Holder:
         """The world or root with what is included: a model, a light or an actor."""
         document = self._ready(source)
         lights = document.lights if not document.models else ()

@@ -105,7 +105,7 @@ class AddSensor(SelectingPass):
         content = self._content(model, holder, document.format, sink)
         if sink.has_errors:
             return document
-        made, is_new = self._named(document, model, holder, content)
+        made, is_new = self._name_sensor(document, model, holder, content)
         world = world_of(document, model)
         if is_new:
             # libsdformat lumps links on fixed joints of URDF, and the joint goes with its sensor
@@ -124,7 +124,7 @@ class AddSensor(SelectingPass):
             return document
         return self._in_world(document, world.name, made, sink)
 
-    def _named(
+    def _name_sensor(
         self, document: Document, model: Model, holder: Link | Joint, content: tuple[Opaque, ...]
     ) -> tuple[Sensor, bool]:
         """The sensor under the first name that no other has, and whether it is new; one with the same content is it."""

@@ -55,10 +55,10 @@ def bridges(document: Document, release: str, sink: DiagnosticSink, world: str |
 
 def bridge_yaml(entries: Iterable[Bridge]) -> str:
     """The file of ros_gz_bridge."""
-    return _HEAD + "".join(_entry(each) for each in entries)
+    return _HEAD + "".join(_entry_yaml(each) for each in entries)
 
 
-def _entry(bridge: Bridge) -> str:
+def _entry_yaml(bridge: Bridge) -> str:
     keys = ("ros_topic_name", "gz_topic_name", "ros_type_name", "gz_type_name")
     lines = [f"{key}: {quoted(getattr(bridge, key))}" for key in keys]
     lines.append(f"direction: {bridge.direction}")

@@ -190,15 +190,15 @@ class Measured:
 
     def __call__(self, parameter: str) -> tuple[Wheel, ...]:
         """The wheels that the joints of a parameter turn."""
-        return tuple(wheel(self.model, name, self.format) for name in self._given(parameter))
+        return tuple(wheel(self.model, name, self.format) for name in self._named_parts(parameter))
 
     def middle(self, parameter: str) -> Vector3:
         """The mean of the places of the links of a parameter."""
-        places = [_place(self.model, name) for name in self._given(parameter)]
+        places = [_place(self.model, name) for name in self._named_parts(parameter)]
         x, y, z = (sum(place[at] for place in places) / len(places) for at in range(3))
         return (x, y, z)
 
-    def _given(self, parameter: str) -> tuple[str, ...]:
+    def _named_parts(self, parameter: str) -> tuple[str, ...]:
         option = parameter.replace("_", "-")
         names = self.names(option)
         if not names:

@@ -38,7 +38,7 @@ def _lines(value: Value) -> Iterator[str]:
     """The lines of a mapping or sequence that has something in it."""
     if isinstance(value, Mapping):
         for key, each in value.items():
-            yield from _entry(f"{_scalar(key)}:", each)
+            yield from _entry_lines(f"{_scalar(key)}:", each)
     elif isinstance(value, Sequence) and not isinstance(value, str):
         for each in value:
             inner = list(_lines(each)) if _is_block(each) else [_scalar(each)]
@@ -46,7 +46,7 @@ def _lines(value: Value) -> Iterator[str]:
             yield from (f"  {line}" for line in inner[1:])
 
 
-def _entry(key: str, value: Value) -> Iterator[str]:
+def _entry_lines(key: str, value: Value) -> Iterator[str]:
     if not _is_block(value):
         yield f"{key} {_scalar(value)}"
         return

@@ -30,13 +30,13 @@ class NameTheNameless(VersionPass):
         """The document with names."""
         taken: set[str] = set()
         if self.number >= _LIGHTS:
-            document = rewrite(document, Light, lambda light: _named(light, taken, keeper.sink))
+            document = rewrite(document, Light, lambda light: _name_light(light, taken, keeper.sink))
         if self.number <= _PLUGINS:
             document = rewrite(document, Plugin, lambda plugin: _named_by_file(plugin, taken, keeper.sink))
         return document
 
 
-def _named(light: Light, taken: set[str], sink: DiagnosticSink) -> Light:
+def _name_light(light: Light, taken: set[str], sink: DiagnosticSink) -> Light:
     return light if light.name else _called("light", "light", light, taken, sink)
 
 

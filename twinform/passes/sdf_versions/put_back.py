@@ -75,12 +75,12 @@ class PutBack(VersionPass):
         if self.number < parse_version(self.source):  # parts that are gone stand for nothing else
             return True
         if isinstance(node, Model):
-            return same(self._again(made, "models"), self._again(without_carriers(node), "models"))
+            return same(self._lower_again(made, "models"), self._lower_again(without_carriers(node), "models"))
         if isinstance(node, World):
-            return same(self._again(made, "worlds"), self._again(without_carriers(node), "worlds"))
+            return same(self._lower_again(made, "worlds"), self._lower_again(without_carriers(node), "worlds"))
         return True
 
-    def _again(self, node: Node, field: str) -> Document:
+    def _lower_again(self, node: Node, field: str) -> Document:
         """A node in the syntax of the file's version."""
         sink = DiagnosticSink()
         document = Document.model_validate({"format": "sdf", "version": self.version}).copy(**{field: (node,)})

@@ -108,7 +108,7 @@ class Drop(Pass):
             value = getattr(node, name)
             if not value or isinstance(value, Node):
                 continue
-            kept = tuple(child for child in value if not self._goes(child, removed))
+            kept = tuple(child for child in value if not self._is_dropped(child, removed))
             if len(kept) < len(value):
                 update[name] = kept
         if meant and node.opaque:
@@ -123,7 +123,7 @@ class Drop(Pass):
             return part
         return replace_fields(part, element=self._inside(part.element, removed))
 
-    def _goes(self, node: Node, removed: RemovedNames) -> bool:
+    def _is_dropped(self, node: Node, removed: RemovedNames) -> bool:
         option = _KINDS.get(type(node))
         if option is None:
             return False
@@ -140,16 +140,16 @@ class Drop(Pass):
         """A `<gazebo>` element of URDF without what is to go in it."""
         if not matches(extension.reference, self.links):
             return extension
-        return replace_fields(extension, content=self._kept(extension.content, removed))
+        return replace_fields(extension, content=self._kept_elements(extension.content, removed))
 
-    def _kept(self, elements: tuple[Element, ...], removed: RemovedNames) -> tuple[Element, ...]:
+    def _kept_elements(self, elements: tuple[Element, ...], removed: RemovedNames) -> tuple[Element, ...]:
         """The elements that stay, without what is to go in them; the parameters of plugins are theirs alone."""
         return tuple(self._inside(each, removed) for each in elements if not self._element_goes(each, removed))
 
     def _inside(self, element: Element, removed: RemovedNames) -> Element:
         if element.name == "plugin":
             return element
-        return replace_fields(element, children=self._kept(element.children, removed))
+        return replace_fields(element, children=self._kept_elements(element.children, removed))
 
     def _element_goes(self, element: Element, removed: RemovedNames) -> bool:
         option = _FREE_CONTENT.get(element.name)

@@ -291,10 +291,10 @@ class _Fold:
             merged = merged.copy(opaque=tuple(part for part in merged.opaque if part not in again))
             conflicts.append("pose")
         for field in dict.fromkeys(conflicts):
-            self._again(node, field, content)
+            self._report_repeated(node, field, content)
         return merged
 
-    def _again(self, node: Node, field: str, extensions: list[GazeboExtension]) -> None:
+    def _report_repeated(self, node: Node, field: str, extensions: list[GazeboExtension]) -> None:
         """Report what is repeated, and carry the elements that repeat it."""
         again = [(extension, each) for extension in extensions for each in extension.content if each.name == field]
         is_set = field_value(node, field) is not None

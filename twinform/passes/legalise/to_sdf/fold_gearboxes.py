@@ -45,7 +45,10 @@ class FoldGearboxes(ModelPass):
             except (UngearedError, FrameError):
                 continue
             coupled[found.follower] = Mimic(joint=found.leader, multiplier=found.multiplier)
-        kept = {joint.name: _kept(joint, bare[joint.name], coupled.get(joint.name), sink) for joint in annotated}
+        kept = {
+            joint.name: _with_needed_mimic(joint, bare[joint.name], coupled.get(joint.name), sink)
+            for joint in annotated
+        }
         return model.copy(joints=tuple(kept.get(joint.name, joint) for joint in model.joints))
 
 
@@ -54,7 +57,7 @@ def _without_mimic(joint: Joint) -> Joint:
     return without_annotation(joint.copy(axis=axis), GEARED)
 
 
-def _kept(joint: Joint, bare: Joint, coupled: Mimic | None, sink: DiagnosticSink) -> Joint:
+def _with_needed_mimic(joint: Joint, bare: Joint, coupled: Mimic | None, sink: DiagnosticSink) -> Joint:
     """The joint without its mimic, if a gearbox expresses the same; else with it, as if it had always been there."""
     mimic = joint.axis.mimic if joint.axis else None
     if coupled and mimic and _is_the_same(mimic, coupled):

@@ -57,7 +57,7 @@ def own_collisions(model: Model) -> dict[Source, Followed]:
     return {
         shape.source: Followed(named.name or "", link.name)
         for link in model.links
-        for shape, named in zip(link.collisions, _named(link.name, link.collisions), strict=True)
+        for shape, named in zip(link.collisions, _name_collisions(link.name, link.collisions), strict=True)
         if shape.source is not None
     }
 
@@ -72,7 +72,7 @@ def names_of_libsdformat(model: Model) -> dict[str, Followed]:
     return {name: meant for name, meant in named if meant and name not in known}
 
 
-def _named(link: str, shapes: tuple[Collision, ...]) -> tuple[Collision, ...]:
+def _name_collisions(link: str, shapes: tuple[Collision, ...]) -> tuple[Collision, ...]:
     return name_all(shapes, f"{link}_collision", DiagnosticSink(), carriers=False)
 
 

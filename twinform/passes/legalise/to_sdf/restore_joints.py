@@ -34,10 +34,10 @@ class RestoreJoints(ModelPass):
         model = without_reversals(model)
         if not came_from(model, Format.SDF):
             return model
-        return model.copy(joints=tuple(_restored(joint, sink) for joint in model.joints))
+        return model.copy(joints=tuple(_restore_joint(joint, sink) for joint in model.joints))
 
 
-def _restored(joint: Joint, sink: DiagnosticSink) -> Joint:
+def _restore_joint(joint: Joint, sink: DiagnosticSink) -> Joint:
     joint = _with_reference(without_annotation(joint, SYNTHESIZED), sink)
     axes = {name: axis for name in _AXES if (axis := getattr(joint, name)) is not None and axis.limit is not None}
     if axes:

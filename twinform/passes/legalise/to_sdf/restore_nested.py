@@ -137,7 +137,7 @@ def _with_rest(model: Model, path: str, annotated: dict[str, Element], sink: Dia
     )
     try:
         whole = absorb(model.copy(canonical_link=None), pieces, VersionCondition(), _NEWEST)
-        return _placed(_with_known_links(unsettle_links(whole, sink)))
+        return _posed_by_placement_frame(_with_known_links(unsettle_links(whole, sink)))
     except CarrierError as error:
         message = f"the carried content of nested model {path!r} does not fit it any more: {error}"
         sink.report(STALE_CARRIER, message, model.location, found=path)
@@ -158,7 +158,7 @@ def _with_known_links(model: Model) -> Model:
     return model.copy(**update) if update else model
 
 
-def _placed(model: Model) -> Model:
+def _posed_by_placement_frame(model: Model) -> Model:
     """The model posed by its placement frame, if it has one; it was posed by its own."""
     if model.placement_frame is None:
         return model

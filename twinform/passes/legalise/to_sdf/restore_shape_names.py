@@ -30,11 +30,11 @@ class RestoreShapeNames(ModelPass):
         """The model by the names of its source."""
         if not came_from(model, Format.SDF):
             return model
-        restored = replace_fields(model, links=tuple(map(_restored, model.links)))
+        restored = replace_fields(model, links=tuple(map(_restore_names, model.links)))
         return _sensing(model, restored, sink) if mentions_collisions(model) else restored
 
 
-def _restored(link: Link) -> Link:
+def _restore_names(link: Link) -> Link:
     visuals, collisions = tuple(map(_by_its_name, link.visuals)), tuple(map(_by_its_name, link.collisions))
     return replace_fields(link, visuals=visuals, collisions=collisions)
 

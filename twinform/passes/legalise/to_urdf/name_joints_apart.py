@@ -31,10 +31,10 @@ class NameJointsApart(ToUrdfPass):
         # name that Gazebo has for the joint of the source.
         new = {name: free_name(f"{name}_joint", taken) for name in clashes}
         names: Names = {("joint", old): made for old, made in new.items()}
-        joints = tuple(self._noted(joint, new, keeper) if joint.name in new else joint for joint in model.joints)
+        joints = tuple(self._rename_joint(joint, new, keeper) if joint.name in new else joint for joint in model.joints)
         return renamed(model.copy(joints=joints), names, Format.URDF)
 
-    def _noted(self, joint: Joint, new: dict[str, str], keeper: Keeper) -> Joint:
+    def _rename_joint(self, joint: Joint, new: dict[str, str], keeper: Keeper) -> Joint:
         message = f"joint {joint.name!r} is called {new[joint.name]!r} in URDF: a link has its name"
         keeper.sink.report(rules.RENAMED, message, joint.location, found=joint.name)
         keeper.account(rules.RENAMED, message, joint.location.at("@name"), 1)
