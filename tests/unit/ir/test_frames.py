@@ -23,13 +23,6 @@ def joint(name: str, parent: str, child: str, pose: Pose | None = None) -> Joint
     return Joint(name=name, type="fixed", parent=parent, child=child, pose=pose)
 
 
-def matrix(transform: Transform) -> np.ndarray:
-    made = np.eye(4)
-    made[:3, :3] = np.reshape(transform.rotation, (3, 3))
-    made[:3, 3] = transform.translation
-    return made
-
-
 def place(transform: Transform) -> tuple[float, ...]:
     return tuple(round(number, 12) + 0.0 for number in transform.translation)
 
@@ -73,11 +66,11 @@ def test_frames_are_found_in_each_other(frame: str, base: str, expected: tuple[f
 
 def test_frames_agree_with_products_of_matrices() -> None:
     graph, names = FrameGraph(ARM), ["a", "b", "c", "j1", "j2", "f", "g", "h", "__model__", "world"]
-    in_model = {name: matrix(graph.pose(name, "__model__")) for name in names}
+    in_model = {name: np.array(graph.pose(name, "__model__").matrix) for name in names}
     for one in names:
         for other in names:
             expected = np.linalg.inv(in_model[other]) @ in_model[one]
-            np.testing.assert_allclose(matrix(graph.pose(one, other)), expected, atol=1e-13)
+            np.testing.assert_allclose(graph.pose(one, other).matrix, expected, atol=1e-13)
 
 
 def test_numbers_that_are_written_are_kept() -> None:

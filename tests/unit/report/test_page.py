@@ -9,6 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 import twinform
+from tests.chains import chain
 from twinform.cli import main
 from twinform.compiler import LoadOptions, check
 from twinform.compiler.compare import Comparison
@@ -201,11 +202,7 @@ def test_the_same_file_gives_the_same_page() -> None:
 
 
 def test_a_long_chain_is_no_deep_page() -> None:
-    links = "".join(f'<link name="l{i}"/>' for i in range(1200))
-    joints = "".join(
-        f'<joint name="j{i}" type="fixed"><parent link="l{i - 1}"/><child link="l{i}"/></joint>' for i in range(1, 1200)
-    )
-    text = html(build_report(f'<robot name="r">{links}{joints}</robot>'.encode(), view=None))
+    text = html(build_report(chain(1200).encode(), view=None))
     assert text.count("<ul>") < 60
     assert "l1199" in text
 

@@ -5,6 +5,7 @@ import re
 
 import pytest
 
+from tests.chains import chain
 from twinform.compiler import LoadOptions
 from twinform.compiler.scene import Scene
 from twinform.view import read_subject
@@ -23,15 +24,6 @@ def _links(shown: str) -> list[str]:
     return [html.unescape(each) for each in re.findall(r'data-twinform-link="([^"]*)"', shown)]
 
 
-def _chain(count: int) -> Scene:
-    links = "".join(f'<link name="l{i}"/>' for i in range(count))
-    joints = "".join(
-        f'<joint name="j{i}" type="fixed"><parent link="l{i - 1}"/><child link="l{i}"/></joint>'
-        for i in range(1, count)
-    )
-    return _scene(f'<robot name="r">{links}{joints}</robot>')
-
-
 def test_a_joint_that_closes_a_loop_is_listed_where_it_closes_it():
     shown = tree(_scene(LOOP), {})
     assert sorted(_links(shown)) == ["a", "b", "c", "c"]
@@ -40,7 +32,7 @@ def test_a_joint_that_closes_a_loop_is_listed_where_it_closes_it():
 
 @pytest.mark.parametrize("count", [1, 2, 59, 60, 61, 1000])
 def test_a_chain_is_listed_whole_and_nested_no_deeper_than_browsers_can(count: int):
-    shown = tree(_chain(count), {})
+    shown = tree(_scene(chain(count)), {})
     assert _links(shown) == [f"l{i}" for i in range(count)]
     assert shown.count("<details") == shown.count("</details>") == min(count - 1, 60)
 
@@ -56,7 +48,7 @@ def test_children_are_below_their_parent_and_no_other():
 
 
 def test_large_trees_begin_folded():
-    shown = tree(_chain(400), {})
+    shown = tree(_scene(chain(400)), {})
     assert shown.count("<details open>") == 1
 
 

@@ -2,6 +2,7 @@
 
 import re
 
+from tests.chains import chain
 from twinform.compiler.graph import Graph, GraphNode
 from twinform.compiler.graph.mermaid import MOST_EDGES, escaped, fits, mermaid
 
@@ -53,11 +54,7 @@ def test_escapes_mean_the_name_again() -> None:
 
 def test_what_is_too_large_for_the_usual_settings_is_known() -> None:
     assert fits(graph_of(NESTED), mermaid(graph_of(NESTED)))
-    text = "".join(f'<link name="l{i}"/>' for i in range(MOST_EDGES))
-    text += "".join(
-        f'<joint name="j{i}" type="fixed"><parent link="l0"/><child link="l{i}"/></joint>' for i in range(1, MOST_EDGES)
-    )
-    large = graph_of(f'<robot name="r">{text}</robot>')
+    large = graph_of(chain(MOST_EDGES))
     assert not fits(large, mermaid(large))
 
 

@@ -4,6 +4,7 @@ from itertools import combinations
 
 from lxml import etree
 
+from tests.chains import chain
 from twinform.compiler.graph import Graph
 from twinform.compiler.graph.labels import shortened
 from twinform.compiler.graph.layout import Box, layout
@@ -22,15 +23,6 @@ def _texts(graph: Graph) -> list[str]:
 
 def _overlap(one: Box, other: Box) -> bool:
     return one.x < other.right and other.x < one.right and one.y < other.bottom and other.y < one.bottom
-
-
-def _chain(length: int) -> str:
-    links = "".join(f'<link name="l{i}"/>' for i in range(length))
-    joints = "".join(
-        f'<joint name="j{i}" type="fixed"><parent link="l{i - 1}"/><child link="l{i}"/></joint>'
-        for i in range(1, length)
-    )
-    return f'<robot name="chain">{links}{joints}</robot>'
 
 
 def test_it_has_a_title_and_a_description() -> None:
@@ -107,7 +99,7 @@ def test_circles_have_a_drawing() -> None:
 
 
 def test_a_long_chain_is_no_recursion() -> None:
-    assert len(_texts(graph_of(_chain(3000)))) == 2 + 3000 + 2 * 2999
+    assert len(_texts(graph_of(chain(3000)))) == 2 + 3000 + 2 * 2999
 
 
 def test_a_model_without_anything_has_a_drawing() -> None:

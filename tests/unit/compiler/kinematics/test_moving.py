@@ -39,7 +39,7 @@ def test_links_are_where_pinocchio_says(document: Document) -> None:
     for frame in model.frames:
         if frame.type == pinocchio.FrameType.BODY and frame.name in poses:
             found = data.oMf[model.getFrameId(frame.name, frame.type)].homogeneous
-            np.testing.assert_allclose(_matrix(poses[frame.name]), found, atol=1e-9 * (1 + np.abs(found).max()))
+            np.testing.assert_allclose(poses[frame.name].matrix, found, atol=1e-9 * (1 + np.abs(found).max()))
 
 
 def _positions(scene: Scene) -> Positions:
@@ -54,12 +54,6 @@ def _put(q: Any, joint: Any, value: float) -> None:
         q[joint.idx_q] = value
     elif joint.nq == 2 and joint.nv == 1:
         q[joint.idx_q : joint.idx_q + 2] = math.cos(value), math.sin(value)
-
-
-def _matrix(pose: Transform) -> Any:
-    found = np.eye(4)
-    found[:3, :3], found[:3, 3] = np.reshape(pose.rotation, (3, 3)), pose.translation
-    return found
 
 
 _SDF = """<sdf version="1.11"><model name="m">
