@@ -59,11 +59,11 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.compiler.compare.page docs/reference/not_compared.md
 	$(BIN)/python -m twinform.cli.pages docs/reference/commands.md
 	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md
-	$(BIN)/python -m reports.mapping.elements urdf docs/reference/urdf
-	$(BIN)/python -m reports.mapping.elements sdf docs/reference/sdf
-	$(BIN)/python -m reports libsdformat_codes
-	$(BIN)/python -m reports mapping
-	$(BIN)/python -m reports.mapping.destinations twinform/server/mapping/destinations.json
+	$(BIN)/python -m generators.mapping.elements urdf docs/reference/urdf
+	$(BIN)/python -m generators.mapping.elements sdf docs/reference/sdf
+	$(BIN)/python -m generators.libsdformat_codes docs/reference/libsdformat_codes.md
+	$(BIN)/python -m generators.mapping.page docs/explanation/mapping.md
+	$(BIN)/python -m generators.mapping.destinations twinform/server/mapping/destinations.json
 
 lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel that works in an empty environment
 	$(BIN)/ruff check .
@@ -82,11 +82,11 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.compiler.compare.page docs/reference/not_compared.md --check
 	$(BIN)/python -m twinform.cli.pages docs/reference/commands.md --check
 	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md --check
-	$(BIN)/python -m reports.mapping.elements urdf docs/reference/urdf --check
-	$(BIN)/python -m reports.mapping.elements sdf docs/reference/sdf --check
-	$(BIN)/python -m reports libsdformat_codes --check
-	$(BIN)/python -m reports mapping --check
-	$(BIN)/python -m reports.mapping.destinations twinform/server/mapping/destinations.json --check
+	$(BIN)/python -m generators.mapping.elements urdf docs/reference/urdf --check
+	$(BIN)/python -m generators.mapping.elements sdf docs/reference/sdf --check
+	$(BIN)/python -m generators.libsdformat_codes docs/reference/libsdformat_codes.md --check
+	$(BIN)/python -m generators.mapping.page docs/explanation/mapping.md --check
+	$(BIN)/python -m generators.mapping.destinations twinform/server/mapping/destinations.json --check
 	$(MAKE) --no-print-directory wheel
 
 site: $(SYNCED) ## build the documentation site into out/site; every warning is an error
@@ -94,7 +94,7 @@ site: $(SYNCED) ## build the documentation site into out/site; every warning is 
 	@echo "open out/site/index.html"
 
 pictures: $(SYNCED) ## take the pictures of the README and the site in a real browser
-	$(BIN)/python -m reports.pictures
+	$(BIN)/python -m generators.pictures
 
 wheel: $(SYNCED) # build the wheel, list it, install it into an empty environment and run the command
 	rm -rf dist .wheel-venv
@@ -110,7 +110,7 @@ prove: $(ORACLES) ## all tests at depth: 1,000 examples of each property, 100,00
 coverage: $(ORACLES) # how much of the package the tests run, branches and child processes too
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --cov --cov-report=term --cov-report=html:out/coverage
 
-fuzz: $(SYNCED) # atheris: SECONDS for each target of tests/fuzz/table.py, or for NAME alone
+fuzz: $(SYNCED) # atheris: SECONDS for each target of fuzz/table.py, or for NAME alone
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group fuzz
 	$(BIN)/python -m fuzz.run $(SECONDS) $(NAME)
 
@@ -130,7 +130,7 @@ demo: $(SYNCED) ## the rover to SDF and back: what is found, what became of its 
 	$(BIN)/twinform diff examples/rover.urdf $(DEMO)/rover.urdf
 	@echo; echo "The files are in $(DEMO). The command is $(BIN)/twinform; try $(BIN)/twinform --help"
 
-report: $(if $(NAME),$(ORACLES),$(SYNCED)) $(if $(filter readers loaders portable,$(NAME)),$(READERS)) $(if $(filter meshes packages ros2_packages,$(NAME)),$(ROBOTS)) ## measure, and write a page: NAME=lumping ARGS="--every 50"; which there are without NAME
+report: $(if $(NAME),$(ORACLES),$(SYNCED)) $(if $(filter loaders portable who_reads_it,$(NAME)),$(READERS)) $(if $(filter meshes fixes_and_passes packages ros2_packages worlds_and_packages,$(NAME)),$(ROBOTS)) $(if $(filter performance speed,$(NAME)),$(PEERS)) ## measure a section or a page: NAME=lumping ARGS="--every 50"; which there are without NAME
 	@$(BIN)/python -m reports $(NAME) $(ARGS)
 
 report: export TWINFORM_NODE_MODULES = $(CURDIR)/out/readers/node_modules
@@ -148,11 +148,11 @@ $(PEERS): $(SYNCED)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[bench]' || echo "not all peers are here"
 	touch $@
 
-bench: $(PEERS) ## how fast it is, beside its peers; writes docs/evidence/performance.md: BEFORE=../older ARGS="--quick"
-	$(BIN)/python -m benchmarks.bench $(if $(BEFORE),--before $(BEFORE)) $(ARGS)
+bench: $(PEERS) ## how fast it is, beside its peers; writes a section of docs/evidence/speed.md: BEFORE=../older ARGS="--every 40"
+	$(BIN)/python -m reports performance $(BEFORE) $(ARGS)
 
-latency: $(SYNCED) ## how long an editor waits for an answer; writes docs/evidence/editor.md
-	$(BIN)/python -m benchmarks.editor docs/evidence/editor.md
+latency: $(SYNCED) ## how long an editor waits for an answer; writes a section of docs/evidence/speed.md
+	$(BIN)/python -m reports editor
 
 vsix: ## the extension for Visual Studio Code, which needs npm: editors/vscode/twinform.vsix
 	cp LICENSE editors/vscode/LICENSE

@@ -22,10 +22,10 @@ from random import Random
 
 from lxml import etree
 
-from reports.edits import passes as edit_passes
-from reports.harness.files import SDF_VERSION
-from reports.harness.pages import table
-from tests.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, models
+from testbed.corpus.files import CORPUS, MISSING, ROOT, CorpusFile, Kind, models
+from testbed.edits import passes as edit_passes
+from testbed.markdown import table
+from testbed.output_files import SDF_VERSION
 
 _SHOWN = 20
 """So many files that differ are named."""

@@ -11,11 +11,11 @@ from dataclasses import astuple, dataclass, fields
 from io import BytesIO
 from pathlib import Path
 
-from reports.harness.pages import table
+from testbed.markdown import table
 
 _GENERATED = ("do not edit it", "not to be edited")
 """What the docstrings of generated modules say."""
-_AROUND = ("tests", "reports", "benchmarks")
+_AROUND = ("tests", "testbed", "reports", "benchmarks", "generators")
 """Folders that are one row each, unless they are asked for."""
 
 

@@ -14,9 +14,9 @@ from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
-from benchmarks import robots
-from reports.harness.pages import table
-from tests.corpus.files import ROOT
+from testbed import robots
+from testbed.corpus.files import ROOT
+from testbed.markdown import table
 
 LINKS, RUNS = 30, 15
 _TWINFORM = ("-c", "from twinform import cli; getattr(cli, 'program', cli.main)()")  # older ones have `main` alone

@@ -7,7 +7,7 @@ from benchmarks.engines import LIBSDFORMAT, LIBSDFORMAT_ONCE, TO_SDF
 from benchmarks.inputs import Robot
 from benchmarks.targets import Part, Target, at_least
 from benchmarks.turns import Times, cell, deciles, in_turns, milliseconds, ratio
-from reports.harness.pages import listing, section, table
+from testbed.markdown import listing, subsection, table
 
 LEAST, MIDDLE = 3, 6
 _ABOUT = """\
@@ -38,13 +38,13 @@ def measure(real: Iterable[Robot], made: Iterable[Robot], rounds: int) -> Part:
     """Let both take turns with each file."""
     title = "Beside libsdformat"
     if not LIBSDFORMAT.present():
-        return Part(section(title, "libsdformat 12 is not here.", _NEWER), list(targets([])))
+        return Part(subsection(title, "libsdformat 12 is not here.", _NEWER), list(targets([])))
     engines = [TO_SDF, LIBSDFORMAT, LIBSDFORMAT_ONCE]
     corpus, generated = ([Row(each, in_turns(engines, each.path, rounds)) for each in group] for group in (real, made))
     for engine in engines:
         engine.close()
     parts = [_ABOUT, _summary({"corpus": corpus, "generated": generated}), _verdicts(corpus), _slowest(corpus)]
-    return Part(section(title, *parts, _NEWER, _generated_table(generated)), list(targets([*corpus, *generated])))
+    return Part(subsection(title, *parts, _NEWER, _generated_table(generated)), list(targets([*corpus, *generated])))
 
 
 def compared(rows: Iterable[Row], engine: str = LIBSDFORMAT.name) -> list[tuple[float, Row]]:

@@ -11,7 +11,7 @@ from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
 
-from tests.corpus.files import ROOT
+from testbed.corpus.files import ROOT
 from twinform.testing.oracles.programs import Program
 
 LEAST = 0.05

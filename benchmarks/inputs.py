@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import twinform
-from benchmarks import robots
-from reports.harness.files import OUT, kept
-from tests.corpus.files import CORPUS, CorpusFile, Kind, models
+from testbed import robots
+from testbed.corpus.files import CORPUS, CorpusFile, Kind, models
+from testbed.output_files import OUT, kept
 
 FOLDER = OUT / "bench"
 KNOWN = {

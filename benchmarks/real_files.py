@@ -6,8 +6,8 @@ from pathlib import Path
 from benchmarks import inputs
 from benchmarks.before import Call, Figures, compare, figures_table
 from benchmarks.targets import Part, Target, at_most
-from reports.harness.pages import section
-from tests.corpus.files import CorpusFile, Kind
+from testbed.corpus.files import CorpusFile, Kind
+from testbed.markdown import subsection
 
 LOAD_LIMIT, CONVERT_LIMIT = 0.6, 0.5
 _LOADS = {Kind.URDF: "load URDF", Kind.SDF: "load SDF"}
@@ -26,9 +26,9 @@ def measure(checkout: Path | None, every: int, times: int) -> Part:
     files = inputs.corpus(every)
     if checkout is None or not files:
         why = _LEFT_OUT if checkout is None else "The corpus is not here."
-        return Part(section(title, why), list(targets({})))
+        return Part(subsection(title, why), list(targets({})))
     figures = compare([call for file in files for call in _calls(file)], checkout, times)
-    return Part(section(title, _ABOUT, figures_table(figures)), list(targets(figures)))
+    return Part(subsection(title, _ABOUT, figures_table(figures)), list(targets(figures)))
 
 
 def _calls(file: CorpusFile) -> Iterator[Call]:

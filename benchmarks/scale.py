@@ -16,10 +16,11 @@ from pathlib import Path
 from typing import Any
 
 import twinform
-from benchmarks import inputs, robots
+from benchmarks import inputs
 from benchmarks.targets import Part, Target, at_most
-from reports.harness.pages import section, table
-from tests.corpus.files import ROOT
+from testbed import robots
+from testbed.corpus.files import ROOT
+from testbed.markdown import subsection, table
 
 SIZES = (1_000, 10_000, 100_000)
 LINEAR = 1.5
@@ -53,7 +54,7 @@ def measure(sizes: Sequence[int]) -> Part:
     """Convert trees and chains of these sizes to SDF and back."""
     runs = [run for shape in ("tree", "chain") for links in sizes for run in _there_and_back(shape, links)]
     runs.sort(key=lambda run: (run.shape != "tree", run.to, run.links))
-    return Part(section("A hundred thousand links", _ABOUT, runs_table(runs)), list(targets(runs)))
+    return Part(subsection("A hundred thousand links", _ABOUT, runs_table(runs)), list(targets(runs)))
 
 
 def _there_and_back(shape: str, links: int) -> Iterator[Run]:

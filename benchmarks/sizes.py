@@ -8,7 +8,7 @@ from benchmarks.engines import FLOOR, LOAD, READERS, TO_SDF, TO_URDF, present
 from benchmarks.inputs import Robot
 from benchmarks.targets import Part, Target, at_most
 from benchmarks.turns import Times, cell, in_turns, milliseconds, ratio
-from reports.harness.pages import section, table
+from testbed.markdown import subsection, table
 
 SDF_FLOOR = replace(FLOOR, name="floor of the SDF")
 LOAD_LIMIT = 7
@@ -47,7 +47,7 @@ def measure(robots: Iterable[Robot], rounds: int) -> Part:
     for engine in (*engines, SDF_FLOOR, TO_URDF):
         engine.close()
     names = [reader.name for reader in readers]
-    return Part(section("Sizes", _ABOUT, _own_table(rows), _PEERS, _peer_table(rows, names)), list(targets(rows)))
+    return Part(subsection("Sizes", _ABOUT, _own_table(rows), _PEERS, _peer_table(rows, names)), list(targets(rows)))
 
 
 def _own_table(rows: Iterable[Row]) -> str:

@@ -13,7 +13,7 @@ from pathlib import Path
 from types import FrameType
 
 import twinform
-from reports.harness.pages import paragraphs, section, table
+from testbed.markdown import paragraphs, subsection, table
 from twinform.compiler.request_options import Language
 
 TICK = 0.001
@@ -112,7 +112,7 @@ def page(profiles: Mapping[str, Mapping[str, float]]) -> str:
         for stage in _ORDER
     ]
     rows.append(("all", *(f"{whole * 1e3:,.0f} ms" for whole in wholes)))
-    return section("Where the time goes", paragraphs(_ABOUT, table(["stage", *profiles], rows)))
+    return subsection("Where the time goes", paragraphs(_ABOUT, table(["stage", *profiles], rows)))
 
 
 def _cell(seconds: float, whole: float) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from reports.harness.pages import table
+from testbed.markdown import table
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ import sys
 from hashlib import sha256
 from pathlib import Path
 
-from tests.fuzz.table import TARGETS
+from fuzz.table import TARGETS
 
 ROOT = Path(__file__).parents[1]
 OUT = ROOT / "out" / "fuzz"

@@ -14,7 +14,7 @@ if __name__ == "__main__":
     _, name, *options = sys.argv
     # all of it inside, since much of the package is imported when it is used
     with atheris.instrument_imports(include=["twinform"], exclude=_NOT_UNDERSTOOD):
-        from tests.fuzz.table import TARGETS
+        from fuzz.table import TARGETS
 
         atheris.Setup([name, *options], partial(TARGETS[name], seconds=_SECONDS))
         atheris.Fuzz()

@@ -12,10 +12,10 @@ from typing import Literal
 import pytest
 
 import twinform
-from tests.corpus.files import ROOT
-from tests.edits import Edit
-from tests.edits.judging import Outcome, judge, judge_edits, unedited
-from tests.edits.plainly import Plainly
+from testbed.corpus.files import ROOT
+from testbed.edits import Edit
+from testbed.edits.judging import Outcome, judge, judge_edits, unedited
+from testbed.edits.plainly import Plainly
 
 pytestmark = pytest.mark.slow
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 
 import twinform
-from reports.mapping.measure import CASES, conversions, measured
-from tests.corpus.there_and_back import robots
-from tests.oracles.xml_trees import first_difference
+from generators.mapping.measure import CASES, conversions, measured
+from testbed.corpus.there_and_back import robots
+from testbed.oracles.xml_trees import first_difference
 from twinform.compiler.audit import audit
 from twinform.diagnostics import Fate, Severity
 from twinform.ir import Document, Format

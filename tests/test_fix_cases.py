@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from testbed.mended import mended_file
 from tests.expected import assert_expected
-from tests.mended import mended_file
 from twinform.compiler import LoadOptions, LoadResult, inspect, read
 from twinform.compiler.fixing import Mended, mend_by, with_fixes
 from twinform.diagnostics import Safety, catalog

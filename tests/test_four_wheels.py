@@ -15,7 +15,7 @@ from lxml import etree
 from lxml.etree import _Element as Xml  # pyright: ignore[reportPrivateUsage] - lxml has no public name for it
 
 import twinform
-from tests.oracles.xml_trees import first_difference
+from testbed.oracles.xml_trees import first_difference
 
 _EXAMPLES = Path(__file__).parents[1] / "examples"
 

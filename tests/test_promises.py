@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.fuzz.table import TARGETS
+from fuzz.table import TARGETS
 
 _ROOT = Path(__file__).parents[1]
 _TEXT = (_ROOT / "docs" / "explanation" / "hostile-input.md").read_text(encoding="utf-8")

@@ -7,9 +7,9 @@ from random import Random
 
 import pytest
 
-from tests.mended import mended_file
+from testbed.mended import mended_file
+from testbed.value_mutants import described, text_of, tree_of
 from tests.profile import DEEP
-from tests.value_mutants import described, text_of, tree_of
 from twinform.schemas import XmlElement
 
 pytestmark = pytest.mark.slow

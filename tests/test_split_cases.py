@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from reports.worlds.judging import Loaded, Together, judge
+from testbed.worlds import Loaded, Together, judge
 from tests.expected import assert_expected
 from twinform.cli import main
 

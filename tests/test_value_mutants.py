@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
+from testbed.respellings import KINDS, respellings
+from testbed.value_mutants import MISSED, mutants
 from tests.profile import DEEP
-from tests.respellings import KINDS, respellings
-from tests.value_mutants import MISSED, mutants
 from twinform.compiler.compare.not_compared import NOT_COMPARED
 
 _CASES = Path(__file__).parent / "cases"

@@ -1,5 +1,6 @@
-"""Known causes: why what a report finds is right as it is, by hand, in the file `known.toml` of the report."""
+"""Known causes: why what a section finds is right as it is, by hand, in the `.toml` file beside its module."""
 
+import re
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -31,9 +32,9 @@ class Known:
         self.used = set[int]()
 
     @classmethod
-    def beside(cls, module: str) -> "Known":
-        """Those of the report whose module this file is."""
-        return cls(Path(module).with_name("known.toml"))
+    def beside(cls, module: str, fits: Callable[[str, str], object] = fnmatchcase) -> "Known":
+        """Those of the section whose module this file is."""
+        return cls(Path(module).with_suffix(".toml"), fits)
 
     def why(self, table: str, name: str = "", **aspects: str) -> str:
         """Why it is right; empty where nobody has examined it."""
@@ -54,6 +55,11 @@ class Known:
 
     def _fits(self, value: str, pattern: str) -> bool:
         return value == pattern or bool(self.fits(value, pattern))
+
+
+def contains(text: str, pattern: str) -> object:
+    """Whether a regular expression is found in a text, for files whose patterns are such."""
+    return re.search(pattern, text)
 
 
 _Tables = dict[str, dict[str, str] | list[dict[str, str]]]

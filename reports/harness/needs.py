@@ -2,9 +2,9 @@
 
 from collections.abc import Callable
 
-from tests.corpus import files
-from tests.engines import gazebo as gz_physics
-from tests.oracles import urdfdom as check_urdf
+from testbed.corpus import files
+from testbed.engines import gazebo as gz_physics
+from testbed.oracles import urdfdom as check_urdf
 from twinform.testing import oracles
 from twinform.testing.oracles import libsdformat as sdformat12
 

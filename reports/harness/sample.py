@@ -7,7 +7,7 @@ from itertools import groupby, zip_longest
 from pathlib import Path
 from typing import Protocol, TypeVar
 
-from tests.corpus.files import CorpusFile, Kind, corpus_files, models
+from testbed.corpus.files import CorpusFile, Kind, corpus_files, models
 from twinform.compiler.workers import Failure
 from twinform.compiler.workers import run as run_in_processes
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import robots
+from testbed import robots
 
 _PROGRAM = (sys.executable, "-c", "from twinform.cli import main; main()")
 _CRATE = '<sdf version="1.11"><model name="crate"><link name="base"/></model></sdf>'

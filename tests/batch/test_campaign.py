@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from reports.batch_losses.campaign import Campaign, play
+from testbed.batches.campaign import Campaign, play
 
 
 def test_whatever_fails_no_result_is_lost_and_none_is_out_of_date(

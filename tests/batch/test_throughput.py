@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from reports.batch.runs import Folder, run
+from testbed.batches.runs import Folder, run
 from twinform.compiler.batch import of_folder
 
 

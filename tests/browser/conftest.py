@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from reports.harness.browser import chromium, missing
+from testbed.browser import chromium, missing
 
 from .watched import Watched, strict_page
 

@@ -14,7 +14,7 @@ from xml.sax.saxutils import quoteattr
 import pytest
 
 import twinform
-from reports.silhouettes.projecting import overlap, silhouette
+from tests.browser.silhouettes import overlap, silhouette
 from twinform.compiler import LoadOptions
 
 pytest.importorskip("viser", reason="viser is not installed")

@@ -13,7 +13,7 @@ from typing import Any, cast
 import yaml
 from click.testing import CliRunner, Result
 
-from tests.corpus.files import CORPUS
+from testbed.corpus.files import CORPUS
 from twinform.cli import main
 
 _HOOKS = Path(__file__).parents[2] / ".pre-commit-hooks.yaml"

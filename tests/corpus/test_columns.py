@@ -6,7 +6,8 @@ from collections.abc import Iterator
 import pytest
 from lxml import etree
 
-from tests.corpus.files import MISSING, CorpusFile, Kind, chunks
+from testbed.corpus.files import MISSING, CorpusFile, Kind
+from tests.corpus.portions import chunks
 from twinform.compiler import check
 from twinform.compiler.input.finding_spans import located
 from twinform.compiler.input.loading import read_tree_again

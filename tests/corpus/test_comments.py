@@ -4,8 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.comments import OTHER, assert_comments_kept, comments
-from tests.corpus.files import CorpusFile, Kind, chunks
+from testbed.comments import OTHER, assert_comments_kept, comments
+from testbed.corpus.files import CorpusFile, Kind
+from tests.corpus.portions import chunks
 from twinform import CompileError, convert
 
 CHUNKS = chunks()

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.corpus.examine import examined
-from tests.corpus.files import chunks
+from testbed.corpus.examine import examined
+from tests.corpus.portions import chunks
 
 CHUNKS = chunks()
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.corpus.files import CorpusFile, chunks
+from testbed.corpus.files import CorpusFile
+from tests.corpus.portions import chunks
 from twinform.compiler.input.parsing import UnreadableError, parse, strip_default_namespace
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.schemas import (

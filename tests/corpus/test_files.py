@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from tests.corpus.files import Kind, corpus_files, models
+from testbed.corpus.files import Kind, corpus_files, models
 
 
 def test_every_file_of_the_index_is_there(corpus: Path):

@@ -4,8 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.corpus.files import models, portions
-from tests.mended import mended_file
+from testbed.corpus.files import models
+from testbed.mended import mended_file
+from tests.corpus.portions import portions
 from tests.profile import DEEP
 
 PORTIONS = portions(models())

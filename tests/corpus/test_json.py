@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 import twinform
-from tests.corpus.files import CorpusFile, Kind, chunks
+from testbed.corpus.files import CorpusFile, Kind
+from tests.corpus.portions import chunks
 from tests.json_judge import complaints
 from twinform.compiler import CompileError
 

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.corpus.files import CorpusFile, Kind, corpus_files, portions
+from testbed.corpus.files import CorpusFile, Kind, corpus_files
+from tests.corpus.portions import portions
 from tests.layouts import assert_formatted
 from twinform.text import SourceText, UnplacedError
 from twinform.text.formatting import FormatOptions, format_text

@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from tests.corpus.files import CorpusFile, Kind, corpus_files, portions
+from testbed.corpus.files import CorpusFile, Kind, corpus_files
+from tests.corpus.portions import portions
 from tests.patches import assert_patched
 from tests.profile import DEEP
 from tests.tree_changes import PARSER

@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 import twinform
-from tests.corpus.files import CorpusFile, Kind, chunks, models
+from testbed.corpus.files import CorpusFile, Kind, models
+from tests.corpus.portions import chunks
 from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Link, Model, Plugin

@@ -6,9 +6,10 @@ from typing import Literal
 import pytest
 
 import twinform
-from reports.sameness.report import KNOWN
-from tests.corpus.files import CorpusFile, Kind, chunks
-from tests.corpus.there_and_back import robots
+from reports.same_robot.sameness import KNOWN
+from testbed.corpus.files import CorpusFile, Kind
+from testbed.corpus.there_and_back import robots
+from tests.corpus.portions import chunks
 
 _EVERY = 10
 """One file of so many is tried; the report tries all."""

@@ -9,7 +9,8 @@ from lxml import etree
 from xmlschema import XMLSchema11
 
 import twinform
-from tests.corpus.files import CorpusFile, chunks
+from testbed.corpus.files import CorpusFile
+from tests.corpus.portions import chunks
 from tests.profile import DEEP
 from twinform.compiler.input.loading import declared_version, read_tree
 from twinform.compiler.input.parsing import UnreadableError

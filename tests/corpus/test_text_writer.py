@@ -7,7 +7,8 @@ from typing import Literal
 import pytest
 
 import twinform
-from tests.corpus.files import CorpusFile, Kind, chunks
+from testbed.corpus.files import CorpusFile, Kind
+from tests.corpus.portions import chunks
 from tests.written_text import assert_laid_out
 from twinform.compiler.output.emitting import document_tree, written_version
 from twinform.ir import Document

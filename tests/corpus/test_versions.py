@@ -4,8 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.corpus.files import CorpusFile, Kind, chunks
-from tests.corpus.versions import Trip, there_and_back
+from testbed.corpus.files import CorpusFile, Kind
+from testbed.corpus.versions import Trip, there_and_back
+from tests.corpus.portions import chunks
 
 _EVERY = 5
 """One file of so many is tried; `make report NAME=versions` tries all."""

@@ -4,11 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from reports.xacro.report import KNOWN
-from tests.corpus.examine_xacro import examine_xacro
-from tests.corpus.expressions import evaluated, expressions
-from tests.corpus.files import portions, xacro_files
-from tests.corpus.plain_xacro import compare, users_of_xacro
+from reports.text_survives.xacro import KNOWN
+from testbed.corpus.examine_xacro import examine_xacro
+from testbed.corpus.expressions import evaluated, expressions
+from testbed.corpus.files import xacro_files
+from testbed.corpus.plain_xacro import compare, users_of_xacro
+from tests.corpus.portions import portions
 from tests.profile import DEEP
 
 PORTIONS = portions(xacro_files())

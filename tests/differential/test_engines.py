@@ -7,7 +7,7 @@ import pytest
 import xmlschema
 from lxml import etree
 
-from tests.differential.mutants import mutant
+from testbed.mutated.mutants import mutant
 from tests.profile import DEEP
 from tests.schema_documents import document
 from twinform.diagnostics import DiagnosticSink

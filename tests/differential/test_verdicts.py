@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 
 from reports.harness.needs import libsdformat, urdfdom
-from reports.verdicts.judging import QUESTIONS
-from reports.verdicts.report import judged, unexplained
-from tests.corpus.files import Kind
-from tests.differential.mutated import mutated
+from reports.mistakes_found.verdicts import judged, unexplained
+from testbed.corpus.files import Kind
+from testbed.mutated.mutated import mutated
+from testbed.mutated.verdicts import QUESTIONS
 from tests.profile import DEEP
 
 CHUNKS = 4

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterable
 
-from tests.edits.edit import Edit, apply_all
-from tests.edits.judging import judge_edits, unedited
+from testbed.edits.edit import Edit, apply_all
+from testbed.edits.judging import judge_edits, unedited
 
 
 def assert_edits_win(converted: bytes, edits: Iterable[Edit]) -> None:

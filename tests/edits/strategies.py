@@ -5,8 +5,8 @@ from typing import Literal
 
 from hypothesis import strategies as st
 
-from tests.edits import Edit, draw_edits
-from tests.edits.drawing import MOST
+from testbed.edits import Edit, draw_edits
+from testbed.edits.drawing import MOST
 from tests.mutations import MUTATIONS, OF_SDF, OF_URDF, Mutation
 from tests.schema_documents import document
 from twinform.compiler import convert

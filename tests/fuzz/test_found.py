@@ -6,8 +6,8 @@ from random import Random
 import pytest
 from lxml import etree
 
-from tests.differential.mutants import mutant
-from tests.fuzz.table import TARGETS
+from fuzz.table import TARGETS
+from testbed.mutated.mutants import mutant
 from tests.profile import DEEP
 from tests.schema_documents import document
 from twinform.schemas import table

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import robots
+from testbed import robots
 
 _WATCHED = """
 import json, os, sys

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import robots
+from testbed import robots
 
 _BATCH = (sys.executable, "-P", "-c", "from twinform.cli import main; main()", "batch", "convert")
 _LONG_AGO = 1_000_000_000

@@ -13,8 +13,8 @@ from typing import IO, Any, cast
 
 import pytest
 
+from testbed.editor.playing import INITIALIZE, notification, opened, request
 from tests.profile import DEEP
-from tests.unit.server.playing import INITIALIZE, notification, opened, request
 
 TWICE = '<robot name="r"><link name="a"/><link name="a"/></robot>'
 JUNK = (

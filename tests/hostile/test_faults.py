@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from benchmarks import robots
+from testbed import robots
 
 _COMMAND = [sys.executable, "-c", "from twinform.cli import main; main()"]
 _SIGNALLED = """

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import pytest
 
-from benchmarks import robots
+from testbed import robots
 from tests.hostile.injected import CACHE, FAULTS
 from tests.profile import DEEP
 from tests.unit.passes.framework.conftest import write_distribution

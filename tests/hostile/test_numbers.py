@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import robots
+from testbed import robots
 from tests.hostile.child import twinform
 from tests.hostile.every_command import run
 

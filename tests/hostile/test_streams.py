@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import robots
+from testbed import robots
 
 _CRATE = Path(__file__).parents[2] / "examples" / "crate"
 _PROGRAM = Path(sys.executable).with_name("twinform")

@@ -5,10 +5,11 @@ from pathlib import Path
 import pytest
 
 import twinform
-from reports.equipment.judging import Outcome, Verdict, judge
-from reports.equipment.report import reason
 from reports.harness.sample import is_good
-from tests.corpus.files import ROOT, CorpusFile, Kind, chunks
+from reports.same_robot.equipment import reason
+from testbed.corpus.files import ROOT, CorpusFile, Kind
+from testbed.equipment.judging import Outcome, Verdict, judge
+from tests.corpus.portions import chunks
 from twinform.testing.oracles import libsdformat
 
 _MODELS = chunks(Kind.SDF) | {f"{chunk}-urdf": files for chunk, files in chunks(Kind.URDF).items()}

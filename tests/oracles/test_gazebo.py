@@ -8,11 +8,11 @@ from click.testing import CliRunner
 from lxml import etree
 
 import twinform
-from tests.engines import gazebo
-from tests.engines.gazebo.comparison import differences
-from tests.engines.gazebo.differing import Tolerances, short
-from tests.engines.gazebo.joints import chains
-from tests.engines.gazebo.reading import console
+from testbed.engines import gazebo
+from testbed.engines.gazebo.comparison import differences
+from testbed.engines.gazebo.differing import Tolerances, short
+from testbed.engines.gazebo.joints import chains
+from testbed.engines.gazebo.reading import console
 from twinform.cli import main
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 
-from reports.equipment.judging import Verdict, judged_sdf, judged_urdf
-from tests.corpus.files import CorpusFile, Kind
+from testbed.corpus.files import CorpusFile, Kind
+from testbed.equipment.judging import Verdict, judged_sdf, judged_urdf
 from tests.oracles.equipped import equipped_models, equipped_robots
 from tests.profile import examples
 from twinform.testing.oracles import libsdformat

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import twinform
-from reports.inertia.loading import complaints
+from tests.oracles.inertia_complaints import complaints
 from twinform.testing import oracles
 from twinform.testing.oracles import drake
 

@@ -7,8 +7,9 @@ from typing import Literal
 import pytest
 
 import twinform
-from tests.corpus.files import CorpusFile, Kind, chunks
-from tests.corpus.there_and_back import SDF_VERSION
+from testbed.corpus.files import CorpusFile, Kind
+from testbed.corpus.there_and_back import SDF_VERSION
+from tests.corpus.portions import chunks
 from twinform.testing.oracles import libsdformat
 from twinform.testing.oracles.libsdformat.library import describe
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.engines.readers import LOADERS, Kept, Loader, Reader, Reading, Verdict
-from tests.engines.readers.meshless import without_meshes
-from tests.engines.readers.recalled import Recalled
+from testbed.engines.readers import LOADERS, Kept, Loader, Reader, Reading, Verdict
+from testbed.engines.readers.meshless import without_meshes
+from testbed.engines.readers.recalled import Recalled
 
 INERTIAL = '<inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 ROBOT = f"""<robot name="r"><link name="a">{INERTIAL}</link><link name="b">{INERTIAL}</link>

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from reports.sameness import printing as sdf_printing
+from testbed.oracles import sdf_printing
 
 ROBOT = """<robot name="r"><link name="a">
 <inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>

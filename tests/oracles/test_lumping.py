@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import twinform
-from reports.lumping.causes import cause_of
-from reports.lumping.differences import differences
-from reports.probes.report import MISSING, PROBES
-from tests.corpus.files import ROOT
+from testbed.corpus.files import ROOT
+from testbed.lumping.causes import cause_of
+from testbed.lumping.differences import differences
+from tests.oracles.probes import MISSING, PROBES
 from tests.profile import DEEP
 from twinform.testing import oracles
 from twinform.testing.oracles import libsdformat

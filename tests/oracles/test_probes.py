@@ -3,8 +3,8 @@
 import pytest
 
 from reports.harness.sample import Sample
-from reports.probes.report import MISSING, PROBES, probes, unexplained
-from reports.probes.values import lost, parsed
+from tests.oracles.probe_values import lost, parsed
+from tests.oracles.probes import MISSING, PROBES, probes, unexplained
 from tests.profile import DEEP
 
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from lxml import etree
 
 import twinform
-from tests.engines.readers import READERS, Reader
-from tests.engines.readers.judging import Effect, effect, without_carriers
+from testbed.engines.readers import READERS, Reader
+from testbed.engines.readers.judging import Effect, effect, without_carriers
 from twinform.schemas import XmlElement
 
 SDF_VERSION = "1.9"

@@ -6,8 +6,9 @@ from pathlib import Path
 import pytest
 
 import twinform
-from tests.corpus.files import CorpusFile, Kind, chunks
-from tests.oracles import urdfdom
+from testbed.corpus.files import CorpusFile, Kind
+from testbed.oracles import urdfdom
+from tests.corpus.portions import chunks
 
 CHUNKS = chunks(Kind.SDF)
 

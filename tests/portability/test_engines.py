@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from tests.engines.readers import LOADERS, Loader
+from testbed.engines.readers import LOADERS, Loader
 from tests.profile import DEEP
 from twinform.compiler.input.options import LoadOptions
 from twinform.compiler.profiling import assess_file

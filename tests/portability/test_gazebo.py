@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import twinform
-from tests.engines import gazebo
+from testbed.engines import gazebo
 from twinform.compiler.input.options import LoadOptions
 from twinform.compiler.profiling import assess_file
 from twinform.profiles import Assessment, Effect, parse

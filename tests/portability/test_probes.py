@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.engines.readers import LOADERS, Loader
+from testbed.engines.readers import LOADERS, Loader
 from tests.profile import DEEP
 from twinform.profiles.reading import read_as
 

@@ -5,8 +5,8 @@ from pathlib import Path
 import yaml
 
 import twinform
-from tests.corpus.files import Kind, corpus_files
-from tests.ros2.judges import yaml_problems
+from testbed.corpus.files import Kind, corpus_files
+from testbed.ros2.judges import yaml_problems
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.packaging.kinds import build
 from twinform.compiler.packaging.order import Details, Order

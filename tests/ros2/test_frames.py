@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.ros2 import robot_state_publisher as publisher
-from tests.ros2.frames import differences
-from tests.ros2.packages import make
+from testbed.ros2 import robot_state_publisher as publisher
+from testbed.ros2.frames import differences
+from testbed.ros2.packages import make
 
 
 @pytest.mark.skipif(not publisher.available(), reason=publisher.MISSING)

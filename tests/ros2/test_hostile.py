@@ -9,8 +9,8 @@ from hypothesis import given, reject
 from hypothesis import strategies as st
 from lxml import etree
 
+from testbed.ros2.judges import yaml_problems
 from tests.profile import examples
-from tests.ros2.judges import yaml_problems
 from twinform.compiler import CompileError
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.packaging.kinds import build

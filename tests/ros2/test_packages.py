@@ -10,9 +10,9 @@ import pytest
 import yaml
 from lxml import etree
 
-from tests.ros2.judges import manifest, yaml_problems
-from tests.ros2.launch_stubs import IncludeLaunchDescription, LaunchDescription, ParameterValue, described, texts
-from tests.ros2.packages import ROBOTS, ROOT, SAID, TUTORIAL, Made, install, make
+from testbed.ros2.judges import manifest, yaml_problems
+from testbed.ros2.launch_stubs import IncludeLaunchDescription, LaunchDescription, ParameterValue, described, texts
+from testbed.ros2.packages import ROBOTS, ROOT, SAID, TUTORIAL, Made, install, make
 from twinform.testing.oracles import libsdformat
 
 _URI = re.compile(r"(?:package|model)://[^\s\"'<>]+")

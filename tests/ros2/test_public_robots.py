@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from reports.packages.judges import Packaged
-from reports.packages.robots import Robot
-from reports.ros2_packages.judges import JUDGES
+from testbed.packages.judges import Packaged
+from testbed.packages.public_robots import Robot
+from testbed.packages.ros2_judges import JUDGES
 from twinform.cli import main
 
 _FOLDER = os.environ.get("TWINFORM_CHECKOUTS")

@@ -8,7 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import twinform
-from tests.corpus.files import CorpusFile, chunks
+from testbed.corpus.files import CorpusFile
+from tests.corpus.portions import chunks
 from tests.profile import DEEP, examples
 from twinform.compiler import CompileError
 from twinform.compiler.request_options import Language

@@ -5,7 +5,7 @@ import random
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.comments import assert_comments_travel
+from testbed.comments import assert_comments_travel
 from tests.profile import examples
 from twinform import Document, dumps
 from twinform.ir import Format

@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.edits import Edit, apply_all, draw_edits
-from tests.edits.judging import unedited
+from testbed.edits import Edit, apply_all, draw_edits
+from testbed.edits.judging import unedited
+from testbed.edits.trips import TRIPS, trips
 from tests.edits.properties import assert_edits_win
 from tests.edits.strategies import edited_files
-from tests.edits.trips import TRIPS, trips
 from tests.profile import examples
 from twinform.testing import strategies
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.mended import mended_file
+from testbed.mended import mended_file
 from tests.profile import examples
 from twinform import Document, dumps
 from twinform.compiler import LoadOptions

@@ -9,7 +9,7 @@ from typing import Literal
 import pytest
 from hypothesis import given
 
-from reports.worlds.judging import Loaded, Together, judge
+from testbed.worlds import Loaded, Together, judge
 from tests.profile import examples
 from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 import twinform
-from benchmarks import robots
-from tests.oracles import urdfdom
+from testbed import robots
+from testbed.oracles import urdfdom
 
 
 @pytest.mark.parametrize("links", [1, 2, 40])

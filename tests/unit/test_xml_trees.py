@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.oracles.xml_trees import first_difference, is_well_formed
+from testbed.oracles.xml_trees import first_difference, is_well_formed
 
 SAME = {
     "white space between elements": ("<a><b/><c/></a>", "<a>\n  <b/>\n\n  <c/>\n</a>"),

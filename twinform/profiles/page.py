@@ -14,7 +14,8 @@ _INTRODUCTION = """\
 What programs that read models refuse, drop, read otherwise or warn about: `twinform check --for NAME` reports it about
 a file, `twinform convert --for NAME` runs the passes that help, and `twinform advise` compares all programs. `portable`
 is all that are tested. [Write a model for several consumers](../../how-to/write-for-several-consumers.md) says how to
-use them, and whether they are right is [measured](../../evidence/loaders.md).
+use them, and whether they are right is
+[measured](../../evidence/who_reads_it.md#what-loaders-do-and-what-their-profiles-say).
 
 *Refuses* is an error under `--for`, *drops* and *misreads* are warnings, *warns* is a note. This file is made by
 `python -m twinform.profiles.page docs/reference/profiles`; do not edit it.

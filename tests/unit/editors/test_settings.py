@@ -5,7 +5,7 @@ import re
 import tomllib
 from typing import Any
 
-from tests.corpus.files import ROOT
+from testbed.corpus.files import ROOT
 from twinform import __version__
 from twinform.cli import COMMANDS
 from twinform.server.includes import ENDINGS

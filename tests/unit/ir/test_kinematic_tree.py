@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 
 import twinform
-from tests.corpus.files import ROOT
+from testbed.corpus.files import ROOT
 from twinform.ir import Document, Model
 from twinform.ir.frames import FrameError
 from twinform.ir.kinematic_tree import KinematicTree

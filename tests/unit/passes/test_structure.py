@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from tests.corpus.files import ROOT
+from testbed.corpus.files import ROOT
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Link, Model
 from twinform.passes import NO_ASSETS, DocumentReader, Pipeline, PipelineError, parse_pipeline

@@ -5,7 +5,7 @@ from typing import cast
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reports.physics.applying import applied
+from testbed.ledger_changes import applied
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Joint, Link, walk
 from twinform.passes import parse_pipeline

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from reports.corpus.mismatches import by_path
-from reports.corpus.report import why_not_converted
 from reports.harness.known import Known
-from tests.corpus.files import ROOT
+from reports.text_survives.corpus import why_not_converted
+from reports.text_survives.mismatches import by_path
+from testbed.corpus.files import ROOT
 from twinform.testing.round_trips import Mismatch
 
 KNOWN = """
@@ -31,7 +31,7 @@ def test_a_file_is_explained_by_itself_or_by_all_of_its_rules(tmp_path: Path):
 
 @pytest.mark.parametrize("report", ["corpus", "versions"])
 def test_the_tables_of_reasons_hold_files_that_there_are(corpus: Path, report: str):
-    tables = tomllib.loads((ROOT / "reports" / report / "known.toml").read_text())
+    tables = tomllib.loads(next((ROOT / "reports").glob(f"*/{report}.toml")).read_text())
     names = [name for title, table in tables.items() if not title.endswith("_rules") for name in table]
     assert [name for name in names if not (corpus / name).is_file()] == []
 

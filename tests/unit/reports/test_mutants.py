@@ -2,7 +2,7 @@
 
 import pytest
 
-from reports.mutation.mutants import is_assertion, is_wording
+from reports.mistakes_found.mutants import is_assertion, is_wording
 
 
 @pytest.mark.parametrize(

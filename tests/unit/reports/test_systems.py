@@ -5,11 +5,11 @@ from pathlib import Path
 import pytest
 
 from reports.harness.sample import Sample
-from reports.systems.cpp import Scope, arguments, without_comments
-from reports.systems.judging import of_system, of_systems
-from reports.systems.reading import Read, SystemSource, read_system, systems_in
-from reports.systems.report import checkout, differences, measure
-from reports.systems.sensors import read_sensor, suffixes_in
+from reports.who_reads_it.catalog_differences import of_system, of_systems
+from reports.who_reads_it.cpp_source import Scope, arguments, without_comments
+from reports.who_reads_it.sensor_sources import read_sensor, suffixes_in
+from reports.who_reads_it.system_sources import Read, SystemSource, read_system, systems_in
+from reports.who_reads_it.systems import checkout, differences, measure
 from twinform.passes.plugins.catalog import system
 
 READINGS: dict[str, tuple[str, dict[str, Read]]] = {

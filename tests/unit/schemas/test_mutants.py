@@ -7,7 +7,7 @@ from random import Random
 import pytest
 from lxml import etree
 
-from tests.differential.mutants import mutant
+from testbed.mutated.mutants import mutant
 from twinform.diagnostics import DiagnosticSink
 from twinform.schemas import (
     Context,

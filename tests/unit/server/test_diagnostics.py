@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from lsprotocol import types
 
-from tests.unit.server.client import Editor, editor
+from testbed.editor.client import Editor, editor
 
 pytestmark = pytest.mark.slow
 

@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lsprotocol import types
 
+from testbed.editor.client import Editor, editor
 from tests.profile import DEEP
-from tests.unit.server.client import Editor, editor
 from tests.unit.server.test_diagnostics import HOSTILE
 from twinform.server.actions import actions
 from twinform.server.completion import complete

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks import robots
+from testbed import robots
 from tests.profile import DEEP
 from twinform.server.checking import Job, check
 from twinform.server.settings import Settings

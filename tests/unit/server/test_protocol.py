@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.unit.server.playing import (
+from testbed.editor.playing import (
     HEALTHY,
     INITIALIZE,
     Message,

@@ -7,7 +7,7 @@ import pytest
 from lsprotocol import types
 
 import twinform
-from tests.corpus.files import ROOT
+from testbed.corpus.files import ROOT
 from twinform.diagnostics import TextEdit
 from twinform.passes.structure.scopes import RESERVED
 from twinform.server.documents import Document

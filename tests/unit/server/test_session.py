@@ -15,7 +15,7 @@ from lsprotocol import types
 from lsprotocol.converters import get_converter
 from pygls.exceptions import JsonRpcException
 
-from tests.unit.server.client import Editor, editor
+from testbed.editor.client import Editor, editor
 
 SESSION = Path(__file__).with_name("session")
 ANSWERS = SESSION / "answers.json"

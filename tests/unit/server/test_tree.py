@@ -6,7 +6,7 @@ from time import perf_counter
 import pytest
 from hypothesis import given
 
-from tests.corpus.files import ROOT
+from testbed.corpus.files import ROOT
 from twinform import convert
 from twinform.ir import Document
 from twinform.server.tree import Node, parse

@@ -23,7 +23,7 @@ from twinform.ir import Element, Node, Opaque, bits_named, untyped_elements
 from twinform.schemas import XmlElement, node_xml
 
 # Elements in a namespace are what none of thirteen readers refuses and none reads otherwise
-# (docs/evidence/readers.md). urdf_parser_py, and Drake in SDF, report that they skip them.
+# (tests/oracles/test_readers.py asks them). urdf_parser_py, and Drake in SDF, report that they skip them.
 NAMESPACE = "urn:twinform:1"
 PREFIX = "tf"
 _OURS = f"{{{NAMESPACE}}}"

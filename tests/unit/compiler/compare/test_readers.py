@@ -6,7 +6,7 @@ import pytest
 from lxml import etree
 
 import twinform
-from tests.engines.readers.judging import without_carriers
+from testbed.engines.readers.judging import without_carriers
 from twinform import Comparison
 from twinform.compiler.compare import Difference, Severity
 from twinform.compiler.compare.part_reader import PartReader

@@ -7,7 +7,7 @@ import pytest
 from lxml import etree
 
 import twinform
-from tests.oracles.xml_trees import first_difference
+from testbed.oracles.xml_trees import first_difference
 from twinform.compiler import CompileError
 from twinform.diagnostics import Fate, Ledger
 

@@ -3,7 +3,7 @@
 import pytest
 from lxml import etree
 
-from benchmarks import robots
+from testbed import robots
 from twinform.compiler import convert
 from twinform.compiler.conversion import Conversion
 from twinform.compiler.input import loading, used_up_tree

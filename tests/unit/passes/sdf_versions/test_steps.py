@@ -4,7 +4,7 @@ import pytest
 from lxml import etree
 
 import twinform
-from tests.corpus.versions import first_difference
+from testbed.corpus.versions import first_difference
 from twinform.diagnostics import Fate
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.sdf_versions.comparison import comparable

@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lxml import etree
 
-from tests.corpus.files import chunks
-from tests.differential.mutants import mutant
+from testbed.mutated.mutants import mutant
+from tests.corpus.portions import chunks
 from tests.profile import examples
 from tests.unit.compiler.input.readers.judge import differences
 from twinform.compiler.input.loading import read_tree

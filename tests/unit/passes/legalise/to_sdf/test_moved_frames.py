@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from tests.edits import Edit
+from testbed.edits import Edit
 from twinform.ir.kinematic_tree import KinematicTree
 
 _CASE = Path(__file__).parents[4] / "cases" / "edits" / "moved_tool.urdf"

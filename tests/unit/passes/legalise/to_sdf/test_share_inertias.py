@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from tests.corpus.files import ROOT
+from testbed.corpus.files import ROOT
 from twinform.ir import Document, Inertial
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import tensor

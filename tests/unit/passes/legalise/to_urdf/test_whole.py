@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from tests.oracles import urdfdom
+from testbed.oracles import urdfdom
 from twinform.passes.legalise.to_urdf import to_urdf
 
 from .models import EVERYTHING, LINK, arm, convert

@@ -1,0 +1,1 @@
+"""Makes pages, tables and pictures for the documents from what the case files show."""

@@ -1,0 +1,87 @@
+"""The pages of a format: `python -m generators.mapping.elements urdf|sdf FOLDER [--check]` writes or checks them.
+
+There is one for each type of element, with a row for each element and attribute in it: what the facts tables say of it,
+what it means, where it goes in the other format, the rules, and a case file that proves it.
+"""
+
+import sys
+from collections.abc import Iterator
+
+from generators.mapping.cells import ROOT, became, kind, name_of, rules_seen, versions, where
+from generators.mapping.measure import Seen, measured
+from generators.mapping.notes import Note, notes
+from testbed.markdown import paragraphs, rule_links
+from testbed.markdown import table as markdown_table
+from twinform.diagnostics.generated_files import main_of_folder
+from twinform.schemas import table
+from twinform.schemas.meanings import meanings
+from twinform.server.mapping.rows import FORMATS, FormatName, Row, holders, rows, sections
+
+_LIST = "README.md"
+_ABOUT = """\
+Every element and attribute of {title} as it is read and written here, a page for each type of element: type, default
+and limits, versions, what it means, what becomes of it in {other}, and a case file that proves it.
+[How to read the tables](../../explanation/mapping.md).
+
+These pages are made by `python -m generators.mapping.elements {format} docs/reference/{format}`; do not edit them.
+"""
+_HEAD = ["element", "type", "versions", "meaning", "where it goes", "in the IR", "rules", "case"]
+
+
+def pages(format: FormatName) -> dict[str, str]:
+    """The pages of a format by the names of their files, and the one that lists them."""
+    return {_LIST: _list(format), **{f"{name}.md": _page(format, name) for name in sections(format)}}
+
+
+def _list(format: FormatName) -> str:
+    other = next(each for each in FORMATS if each != format)
+    about = _ABOUT.format(title=format.upper(), other=other.upper(), format=format)
+    listed = ([f"[{name}]({name}.md)", meanings(format).get((name,), "")] for name in sections(format))
+    return paragraphs(f"# {format.upper()}", about, markdown_table(["element type", "meaning"], listed)) + "\n"
+
+
+def _page(format: FormatName, name: str) -> str:
+    below = [row for row in rows(format) if row.definition == name]
+    listed = markdown_table(_HEAD, ([*_cells(row, measured().get(row, Seen()))] for row in below)) if below else ""
+    own = (_note(note) for note in notes() if (format, name) in note.sections)
+    title = f"# {name} ({format.upper()})"
+    return paragraphs(title, meanings(format).get((name,), ""), _opening(format, name), listed, *own) + "\n"
+
+
+def _opening(format: FormatName, name: str) -> str:
+    fact = table(format).definitions[name]
+    around = ", ".join(f"`{path}`" for path in holders(format, name))
+    parts = [f"Stands in {around}." if around else "The root of the file."]
+    if fact.type:
+        parts.append(f"Its text: {kind(fact)}.")
+    if fact.any:
+        parts.append("May hold anything else as well." if fact.rows else "May hold anything.")
+    elif not fact.rows:
+        parts.append("Holds nothing.")
+    return " ".join(parts)
+
+
+def _cells(row: Row, seen: Seen) -> Iterator[str]:
+    field, goes = where(row, seen)
+    yield name_of(row)
+    yield kind(row.fact)
+    yield versions(row.fact)
+    yield meanings(row.format).get((row.definition, *row.steps.split("/")), "").replace("<", "&lt;")
+    yield ": ".join(filter(None, (became(seen), goes)))
+    yield field
+    yield "; ".join(rules_seen(seen))
+    yield f"[{seen.proof.path.rpartition('/')[2]}]({ROOT}/{seen.proof.path})" if seen.proof else ""
+
+
+def _note(note: Note) -> str:
+    about = ", ".join(f"`{path}`" for path in note.paths)
+    cases = ", ".join(f"[{path}]({ROOT}/tests/cases/{path})" for path in note.cases)
+    links_after = (
+        f" {title}: {links}." for title, links in (("Rules", rule_links(note.rules, ROOT)), ("Cases", cases)) if links
+    )
+    return f"* {about}: {note.text}{''.join(links_after)}"
+
+
+if __name__ == "__main__":
+    chosen: FormatName = "urdf" if sys.argv[1] == "urdf" else "sdf"
+    sys.exit(main_of_folder(pages(chosen), sys.argv[2:]))

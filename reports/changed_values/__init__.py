@@ -1,1 +1,0 @@
-"""Does `twinform diff` see every changed value, and no other spelling?"""

@@ -1,1 +1,0 @@
-"""What becomes of each plugin of Gazebo Classic in the corpus, by `migrate-gazebo-classic`?"""

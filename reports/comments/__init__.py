@@ -1,1 +1,0 @@
-"""Are the comments of real files still there, whatever is done with the files?"""

@@ -1,1 +1,0 @@
-"""Is what stands in a file what counts? Edits and passes on converted files."""

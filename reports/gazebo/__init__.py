@@ -1,1 +1,0 @@
-"""What do Gazebo's engines make of each element of SDF?"""

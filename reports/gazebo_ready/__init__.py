@@ -1,1 +1,0 @@
-"""Is anything left that Gazebo refuses, freezes, drops or ends with after `convert --for gazebo`?"""

@@ -1,1 +1,0 @@
-"""Is it the same robot in Gazebo's own physics, DART and Bullet?"""

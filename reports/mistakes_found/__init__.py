@@ -1,0 +1,9 @@
+"""Is every mistake found?"""
+
+SECTIONS = {
+    "mistakes": "Planted mistakes and false alarms",
+    "verdicts": "Mutated files before the parsers of record",
+    "changed_values": "What diff sees of a changed value",
+    "mutation": "Mutation",
+}
+"""The sections of the page by the names of their modules, each with its title, in the order of the page."""

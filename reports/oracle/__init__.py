@@ -1,1 +1,0 @@
-"""Is it the same robot to Drake and other engines, libsdformat and urdfdom?"""

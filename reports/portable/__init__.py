@@ -1,1 +1,0 @@
-"""Do all loaders take a file that was converted with `--for portable`? Every readable URDF, before and after."""

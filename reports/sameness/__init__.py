@@ -1,1 +1,0 @@
-"""Is every conversion the same robot, by `twinform diff`?"""

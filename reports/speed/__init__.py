@@ -1,0 +1,8 @@
+"""How fast is it?"""
+
+SECTIONS = {
+    "performance": "How fast it is",
+    "editor": "An editor at work",
+    "batch": "Many models",
+}
+"""The sections of the page by the names of their modules, each with its title, in the order of the page."""

@@ -1,1 +1,0 @@
-"""Where do libsdformat 12 and urdfdom judge mutated files otherwise, and why?"""

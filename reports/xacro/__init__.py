@@ -1,1 +1,0 @@
-"""Is every xacro file expanded to what the xacro command makes of it?"""

@@ -1,0 +1,1 @@
+"""What tests, reports and benchmarks share: real and generated robots, edits, mistakes, and programs that judge."""

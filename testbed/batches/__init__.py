@@ -1,0 +1,1 @@
+"""Runs of `twinform batch` that are timed, killed and starved."""

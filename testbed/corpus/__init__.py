@@ -1,0 +1,1 @@
+"""Real models, and what the compiler makes of each."""

@@ -1,0 +1,1 @@
+"""An editor that talks to the language server."""

@@ -1,0 +1,161 @@
+"""Judges edits: compares an edited file with what it is converted to. The edit has to win.
+
+A converted file is edited and converted on. The robot of the edited file and that of the result have to be the same
+twice: as `twinform diff` reads the edited file, and as somebody reads it who does not know our carriers, since nothing
+that travels along may overrule what a person wrote. And the result is converted back once more, which has to give the
+edited file's robot again. What already differs before the edit is not the edit's doing.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Literal
+
+from lxml import etree
+
+from testbed.edits.edit import Edit
+from testbed.edits.edited_file import EditedFile
+from testbed.edits.mistakes import KIND as MISTAKE
+from testbed.edits.plainly import Plainly, explained, plain_key
+from twinform.compiler import CompileError, convert
+from twinform.compiler.compare import Difference, diff
+from twinform.diagnostics import Diagnostic, Severity
+
+Language = Literal["urdf", "sdf"]
+Key = tuple[str | None, ...]
+"""What differs: group, name and aspect of a `Difference`; plainly, see `plain_key`."""
+
+
+class Outcome(StrEnum):
+    """What became of an edit; the last two are faults."""
+
+    SAME = "same"
+    WARNED = "same, with a warning"
+    REFUSED = "refused"
+    WRONG = "wrong"
+    SILENT = "silent"
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What became of an edited file: the differences that the edit brought, or the rules that refuse it.
+
+    `result` is what it was converted to, None where it was not; `explained` has the reasons why differences to the
+    file without carriers do not count, if there are any.
+    """
+
+    outcome: Outcome
+    differences: tuple[str, ...] = ()
+    rules: tuple[str, ...] = ()
+    result: str | None = None
+    explained: tuple[str, ...] = ()
+
+    @property
+    def is_fault(self) -> bool:
+        """Whether the edit did not win."""
+        return self.outcome in {Outcome.WRONG, Outcome.SILENT}
+
+
+@dataclass(frozen=True, slots=True)
+class Converted:
+    """A file that was converted, before any edit: what differs already when it is converted on."""
+
+    text: bytes
+    to: Language
+    result: str
+    differing: frozenset[Key] = frozenset()
+    differing_plainly: frozenset[Key] = frozenset()
+    differing_when_back: frozenset[Key] = frozenset()
+    warnings: frozenset[str] = field(default=frozenset())
+
+
+def unedited(text: bytes) -> Converted:
+    """The state before an edit.
+
+    Raises:
+        CompileError: the file cannot be converted on.
+    """
+    to: Language = "sdf" if etree.fromstring(text).tag == "robot" else "urdf"
+    made = convert(text, to=to)
+    found, plainly, back = _compared(EditedFile(text), made.text)
+    return Converted(
+        text,
+        to,
+        made.text,
+        frozenset(map(_key, found)),
+        frozenset(map(plain_key, plainly)),
+        frozenset(map(_key, back)),
+        _warnings(made.diagnostics),
+    )
+
+
+def judge(
+    before: Converted, edited: bytes, *, must_be_refused: bool = False, plainly: Plainly = Plainly.ALL
+) -> Verdict:
+    """What becomes of an edited file; no exception comes out of it."""
+    try:
+        made = convert(edited, to=before.to)
+    except CompileError as error:
+        return _refused(error)
+    except Exception as error:  # noqa: BLE001 - every exception is a fault to report
+        return Verdict(Outcome.SILENT, (f"crash: {type(error).__name__}: {error}",))
+    news = _warnings(made.diagnostics) - before.warnings
+    fault = Outcome.WRONG if news else Outcome.SILENT
+    warned = tuple(sorted(news))
+    if must_be_refused:
+        return Verdict(fault, ("it is not refused",), warned, made.text)
+    file = EditedFile(edited)
+    try:
+        compared, read, back = _compared(file, made.text)
+    except Exception as error:  # noqa: BLE001 - a result that cannot be read is no result
+        return Verdict(fault, (f"not compared: {type(error).__name__}: {error}",), warned, made.text)
+    found = [each.message for each in compared if _key(each) not in before.differing]
+    news_plainly = [each for each in read if plain_key(each) not in before.differing_plainly]
+    reasons = [explained(each, plainly, file) for each in news_plainly]
+    found += [f"when it is back: {each.message}" for each in back if _key(each) not in before.differing_when_back]
+    found += [f"plainly: {each.message}" for each, reason in zip(news_plainly, reasons, strict=True) if reason is None]
+    outcome = fault if found else Outcome.WARNED if news else Outcome.SAME
+    return Verdict(outcome, tuple(found), warned, made.text, tuple(sorted({reason for reason in reasons if reason})))
+
+
+def judge_edits(before: Converted, edits: Iterable[Edit], edited: bytes) -> Verdict:
+    """What becomes of a file after these edits, which ask for more or less by their kinds."""
+    every = tuple(edits)
+    must = any(each.kind == MISTAKE for each in every)
+    return judge(before, edited, must_be_refused=must, plainly=_plainly(every))
+
+
+def edits_carriers(edits: Iterable[Edit]) -> bool:
+    """Whether any of the edits changes what only we read."""
+    return any(edit.kind.startswith("carrier: ") for edit in edits)
+
+
+def _plainly(edits: Iterable[Edit]) -> Plainly:
+    kinds = {edit.kind for edit in edits}
+    if any(kind.startswith("carrier: ") for kind in kinds - {"carrier: delete one", "carrier: delete all"}):
+        return Plainly.NONE
+    return Plainly.ADDITIONS_TOO if any(kind.startswith("delete ") for kind in kinds) else Plainly.ALL
+
+
+def _compared(file: EditedFile, result: str) -> tuple[tuple[Difference, ...], ...]:
+    """The differences between a file and its result; those without its carriers; those to the result converted back."""
+    made, language = result.encode(), "urdf" if file.root.tag == "robot" else "sdf"
+    back = convert(made, to=language).text.encode()
+    others = ((file.text, made), (etree.tostring(file.plain), made), (file.text, back))
+    return tuple(diff(one, other, carriers=True).differences for one, other in others)
+
+
+def _refused(error: CompileError) -> Verdict:
+    errors = [each for each in error.diagnostics if each.is_error]
+    rules = tuple(dict.fromkeys(each.rule.name for each in errors))
+    if not any(each.location.line for each in errors):
+        return Verdict(Outcome.WRONG, (f"refused without a line: {', '.join(rules)}",), rules)
+    return Verdict(Outcome.REFUSED, (), rules)
+
+
+def _key(found: Difference) -> Key:
+    return found.group, found.name, found.aspect
+
+
+def _warnings(diagnostics: Iterable[Diagnostic]) -> frozenset[str]:
+    return frozenset(f"{each.rule.name}: {each.message}" for each in diagnostics if each.severity is Severity.WARNING)

@@ -1,0 +1,10 @@
+"""Other programs' readers of URDF and SDF: whether they accept a file, their messages on it, and what they keep of it.
+
+They are asked whether something changes for them, such as carriers, and whether a profile says what they do.
+"""
+
+from testbed.engines.readers.answers import Kept
+from testbed.engines.readers.library import READERS, Reader, Reading
+from testbed.engines.readers.loaders import LOADERS, Loader, Verdict
+
+__all__ = ["LOADERS", "READERS", "Kept", "Loader", "Reader", "Reading", "Verdict"]

@@ -1,0 +1,1 @@
+"""What libsdformat finds in a robot beside bodies and joints, before and after a conversion."""

@@ -1,0 +1,1 @@
+"""What libsdformat makes of fixed joints, beside what we make of them."""

@@ -1,0 +1,1 @@
+"""Robots with meshes, and the programs that judge packages of them."""

@@ -1,0 +1,1 @@
+"""Packages of ROS 2 before catkin, CMake, launch files and ROS."""

@@ -1,0 +1,57 @@
+"""The page of the mapping: it is current, and its notes are about things that there are."""
+
+import pytest
+
+from generators.mapping.measure import CASES
+from generators.mapping.notes import Note, destinations, notes
+from generators.mapping.page import page
+from testbed.corpus.files import ROOT
+from twinform.diagnostics.catalog import catalog
+from twinform.server.mapping.rows import FORMATS, FormatName, rows, sections, unreachable
+from twinform.server.mapping.targets import field_of, targets
+
+PAGE = ROOT / "docs/explanation/mapping.md"
+
+
+def _known(format: FormatName) -> set[str]:
+    return {*sections(format), *(row.path for row in rows(format))}
+
+
+@pytest.mark.slow
+def test_the_page_is_what_the_generator_writes() -> None:
+    assert PAGE.read_text(encoding="utf-8") == page()
+
+
+@pytest.mark.parametrize("note", notes(), ids=lambda note: note.about[0])
+def test_a_note_names_elements_rules_and_cases_that_there_are(note: Note) -> None:
+    known = {f"{format}:{path}" for format in FORMATS for path in _known(format)}
+    assert [each for each in note.about if each not in known] == []
+    assert [rule for rule in note.rules if rule not in catalog()] == []
+    assert [case for case in note.cases if not (CASES / case).is_file()] == []
+
+
+@pytest.mark.parametrize("format", FORMATS)
+def test_where_things_go_is_noted_for_elements_that_there_are(format: FormatName) -> None:
+    assert set(destinations(format)) <= _known(format)
+
+
+def test_links_of_the_page_lead_to_its_sections_and_to_files() -> None:
+    text = PAGE.read_text(encoding="utf-8")
+    headings = {line.lstrip("# ").lower().replace(" ", "-") for line in text.splitlines() if line.startswith("#")}
+    links = {part.partition(")")[0] for part in text.split("](")[1:]}
+    inside = {link[1:] for link in links if link.startswith("#")}
+    files = {link.partition("#")[0] for link in links if not link.startswith("#")}
+    assert inside - headings == set()
+    assert [file for file in files if not (PAGE.parent / file).exists()] == []
+
+
+def test_rows_that_fill_one_field_are_each_others_targets() -> None:
+    mass = next(row for row in rows("urdf") if row.path == "link/inertial/mass/@value")
+    assert field_of(mass) == "Inertial.mass"
+    assert targets(mass) == ["inertial/mass"]
+    axis = next(row for row in rows("sdf") if row.path == "joint/axis2/xyz")
+    assert targets(axis) == []
+
+
+def test_only_what_the_specification_gives_no_place_is_left_aside() -> None:
+    assert [unreachable(format) for format in FORMATS] == [[], ["robot", "collision_engine"]]
