@@ -160,7 +160,7 @@ class TextOutput:
     def __init__(
         self,
         version: Version,
-        namespaces: Mapping[str | None, str],
+        namespaces: dict[str | None, str],
         arrange: Arrange | None = None,
         parts: list[Any] | None = None,
     ) -> None:
@@ -168,9 +168,10 @@ class TextOutput:
         self.arrange = arrange
         self.parts = parts
         self.declarations = _declarations(namespaces) if namespaces else ""
-        self._prefixes = {*namespaces}
-        # of two prefixes of a namespace the first is used
-        self._names = _Names(_KNOWN | {uri: f"{prefix}:" for prefix, uri in reversed([*namespaces.items()])})
+        self._taken = namespaces
+        # Of two prefixes of a namespace lxml takes the first.
+        prefixes = {uri: f"{prefix}:" for prefix, uri in reversed(namespaces.items())} if namespaces else {}
+        self._names = _Names(_KNOWN | prefixes)
         self._made_up = count()
         self._late: dict[int, list[Item]] = {}
 
@@ -308,7 +309,7 @@ class TextOutput:
         made = dict[str, str]()
         for namespace in map(_namespace, wanted):
             if namespace not in names.prefixes and namespace not in made:
-                made[namespace] = next(p for p in (f"ns{n}" for n in self._made_up) if p not in self._prefixes)
+                made[namespace] = next(p for p in (f"ns{n}" for n in self._made_up) if p not in self._taken)
         if not made:
             return names, ""
         declared = "".join([f' xmlns:{prefix}="{in_attribute(uri)}"' for uri, prefix in made.items()])

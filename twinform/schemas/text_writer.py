@@ -1,6 +1,5 @@
 """From the IR to text: the generated writers."""
 
-from collections.abc import Mapping
 from functools import cache
 from importlib import import_module
 from typing import Any
@@ -11,14 +10,14 @@ from twinform.schemas.facts import Version, table
 from twinform.schemas.text_output import NEW_LINE, Arrange, TextOutput, WrittenParts, without_marks
 from twinform.schemas.xml import XmlElement
 
-_PARSER = etree.XMLParser(resolve_entities=False, no_network=True, huge_tree=True)
+_PARSER = etree.XMLParser(resolve_entities=False, no_network=True, huge_tree=True, collect_ids=False)
 
 
 def root_text(
     format: str,
     version: Version,
     root: Any,
-    namespaces: Mapping[str | None, str],
+    namespaces: dict[str | None, str],
     *,
     arrange: Arrange | None = None,
     parts: WrittenParts | None = None,
@@ -44,13 +43,18 @@ def node_xml(format: str, node: Any, definition: str) -> XmlElement:
     Raises:
         ValueError: there is a name or a text that XML cannot hold.
     """
-    text: str = _module(format).WRITERS[definition](node, TextOutput(table(format).newest, {}), NEW_LINE)
-    return parse_written(text.lstrip() or f"<{definition}/>")
+    text: str = _module(format).WRITERS[definition](node, TextOutput(_newest(format), {}), NEW_LINE)
+    return parse_written(text or f"<{definition}/>")
 
 
 def parse_written(text: str) -> XmlElement:
     """The tree of a text that was written here, with its layout. Limits are for files of others."""
     return etree.fromstring(text, _PARSER)
+
+
+@cache
+def _newest(format: str) -> Version:
+    return table(format).newest
 
 
 @cache
