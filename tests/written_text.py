@@ -1,9 +1,14 @@
 """What has to hold for the text of any document: it is laid out and escaped as lxml would do it."""
 
+import re
+
 from lxml import etree
 
 from twinform.compiler.output.emitting import document_text, document_tree
 from twinform.ir import Document
+
+# lxml has no empty text.
+_EMPTY = re.compile(r"<([^\s/>]+)([^<>]*)></\1>")
 
 
 def assert_laid_out(document: Document) -> str:
@@ -11,9 +16,7 @@ def assert_laid_out(document: Document) -> str:
     text = document_text(document)
     root = document_tree(document)
     etree.indent(root, "  ")
-    root_tag = text.partition("\n")[2].partition(">")[0]
-    assert (
-        text.partition("\n")[2].partition(">")[2] == f"{etree.tostring(root, encoding='unicode').partition('>')[2]}\n"
-    )
-    assert dict(etree.fromstring(f"{root_tag.removesuffix('/')}/>").attrib) == dict(root.attrib)
+    tag, _, rest = _EMPTY.sub(r"<\1\2/>", text).partition("\n")[2].partition(">")
+    assert rest == f"{etree.tostring(root, encoding='unicode').partition('>')[2]}\n"
+    assert dict(etree.fromstring(f"{tag.removesuffix('/')}/>").attrib) == dict(root.attrib)
     return text

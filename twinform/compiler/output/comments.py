@@ -245,7 +245,8 @@ class _Placing:
         if (around, tag) not in self.inside:
             span = around.head, self._end(around)
             named = rf"<{re.escape(tag)}(?=[\s/>])"
-            # Behind text they are on its line.
+            # Behind text a child is on its line, and so is a comment before it: without the comments the
+            # text is what it is when none are wanted.
             before = f"{around.indent}{_STEP}" if self._has_children(around) else r"(?<=[^>\s])"
             children = re.compile(f"{before}({named})").finditer(self.text, *span)
             found = [each.start(1) for each in children]
