@@ -48,7 +48,6 @@ fmt: $(SYNCED) ## format, and mend what the linter can mend
 
 generate: $(SYNCED) ## write the files that are made from tables: schemas and reference pages
 	$(BIN)/python -m twinform.schemas.generate
-	$(BIN)/python -m twinform.compiler.input.readers.generate
 	$(BIN)/python -m twinform.diagnostics.rule_table twinform/diagnostics/rules/__init__.py
 	$(BIN)/python -m twinform.passes.framework.built_in_table twinform/passes/framework/built_in.py
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md
@@ -71,7 +70,6 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/basedpyright
 	$(BIN)/lint-imports
 	$(BIN)/python -m twinform.schemas.generate --check
-	$(BIN)/python -m twinform.compiler.input.readers.generate --check
 	$(BIN)/python -m twinform.diagnostics.rule_table twinform/diagnostics/rules/__init__.py --check
 	$(BIN)/python -m twinform.passes.framework.built_in_table twinform/passes/framework/built_in.py --check
 	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md --check

@@ -28,7 +28,7 @@ _HEAD = ("room", "mutants", "drawn", "tried", "killed", "timeout", "survived", "
 _ABOUT = f"""\
 mutmut changes one operator, number, name, argument, assignment or branch at a time, and runs the tests that reach the
 changed function, the nearest first, until one fails or they have taken 15 seconds. Of each room a sample is drawn
-with the seed {_SEED}: `ir` and `passes` are the packages, the readers are parsing, loading, the schema reader and
+with the seed {_SEED}: `ir` and `passes` are the packages, the readers are parsing, loading, the reader and
 both ends of each format. The tests are the unit tests of these rooms and the case files, as `[tool.mutmut]` in
 `pyproject.toml` has them. Properties, child processes, hostile input, the corpus and the oracles are left out for
 speed; they can only raise the score.

@@ -29,7 +29,6 @@ OTHERS = {
     "compiler/in_place.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/includes/model_config.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/loading.py": "calls `read_bytes` of `compiler/input/parsing.py`",
-    "compiler/input/readers/generate.py": DATA,
     "compiler/input/xacro/expansion.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/xacro/worker/channel.py": NOWHERE,
     "compiler/observing.py": "a file that is being opened anyway",

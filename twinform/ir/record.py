@@ -87,9 +87,8 @@ class Record:
             AttributeError: there is no such field.
         """
         kind = self.__class__
-        new, fill, values = _copying(kind)
-        made = new()
-        fill(made, values(self))
+        draft, values = _copying(kind)
+        made = draft(values(self))
         for name, value in changes.items():
             setattr(made, name, value)
         made.__class__ = kind
@@ -194,13 +193,12 @@ def maker(kind: type[AnyRecord]) -> Callable[[dict[str, Any]], AnyRecord]:
 
 @cache
 def _maker(kind: type[Any]) -> Callable[[dict[str, Any]], Any]:
-    new, fill, _ = _copying(kind)
+    draft, _ = _copying(kind)
     defaults = {name: each.default for name, each in fields_of(kind).items()}
 
     def make(values: dict[str, Any]) -> Any:
-        made = new()
         try:
-            fill(made, (defaults | values).values())
+            made = draft((defaults | values).values())
         except ValueError:
             unknown = ", ".join(sorted(values.keys() - defaults.keys()))
             raise TypeError(f"{kind.__name__} has no field {unknown}") from None
@@ -210,14 +208,27 @@ def _maker(kind: type[Any]) -> Callable[[dict[str, Any]], Any]:
     return make
 
 
+@cache
+def filler(kind: type[AnyRecord]) -> Callable[[tuple[object, ...]], AnyRecord]:
+    """What makes objects of a class from values of all its fields, in their order, that need no validation."""
+    draft, _ = _copying(kind)
+
+    def make(values: tuple[object, ...]) -> AnyRecord:
+        made = draft(values)
+        made.__class__ = kind
+        return made
+
+    return make
+
+
 def _restored(kind: type[AnyRecord], *values: object) -> AnyRecord:
     """The object that was pickled."""
-    return _maker(kind)(dict(zip(kind.field_names, values, strict=True)))
+    return filler(kind)(values)
 
 
 @cache
-def _copying(kind: type[Record]) -> tuple[Callable[[], Any], Callable[[Any, Any], None], Callable[[Any], Any]]:
-    """What makes an empty draft of an object, what fills it, and what gives the values that it is filled with.
+def _copying(kind: type[Record]) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
+    """What makes a draft of an object from its values, and what gives these.
 
     A frozen object could be filled by `object.__setattr__`, field by field, which takes three times as long. A draft
     has the same slots and is not frozen; it becomes the object by `__class__`. It has its own `__delattr__`, as both
@@ -228,12 +239,12 @@ def _copying(kind: type[Record]) -> tuple[Callable[[], Any], Callable[[Any, Any]
     writable = {"__setattr__": object.__setattr__, "__delattr__": object.__delattr__}
     draft = type(kind.__name__, kind.__bases__, {"__slots__": vars(kind)["__slots__"], **writable})
     names = kind.field_names
-    scope: dict[str, Any] = {}
-    targets = ", ".join(f"made.{name}" for name in names)
+    scope: dict[str, Any] = {"new": partial(object.__new__, draft)}
+    lines = ["made = new()", ", ".join(f"made.{name}" for name in names) + ", = values", "made._census = None"]
     # One compiled function per class, made when it is first needed in 0.05 ms. The unpacking makes
     # a name too many an error that costs nothing.
-    exec(f"def fill(made, values):\n    {targets}, = values\n    made._census = None", scope)  # noqa: S102 - our field names, as in namedtuple
-    return partial(object.__new__, draft), scope["fill"], attrgetter(*names)
+    exec("\n    ".join(["def draft(values):", *lines, "return made"]), scope)  # noqa: S102 - our field names, as in namedtuple
+    return scope["draft"], attrgetter(*names)
 
 
 def amend(part: Record, name: str, value: object) -> None:

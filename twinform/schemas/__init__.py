@@ -1,6 +1,5 @@
 """Facts tables of both formats, and what is made from them: readers, writers, XSDs and validators."""
 
-from twinform.schemas.element_reader import ElementReader
 from twinform.schemas.facts import (
     DEFAULT_SDF_VERSION,
     Fact,
@@ -17,7 +16,7 @@ from twinform.schemas.packaged import json_schema_text, schema_text
 from twinform.schemas.reader import Reader, reader
 from twinform.schemas.text_output import Item, WrittenParts, end_of_element, in_attribute
 from twinform.schemas.text_writer import node_xml, parse_written, root_text
-from twinform.schemas.untyped_parts import LAST_LINE, element_data, element_xml, keep_element, locate
+from twinform.schemas.untyped_parts import LAST_LINE, element_xml
 from twinform.schemas.validator import (
     Engine,
     SchemaError,
@@ -27,7 +26,6 @@ from twinform.schemas.validator import (
     validate,
     xmlschema_errors,
 )
-from twinform.schemas.value_stores import Data
 from twinform.schemas.values import VALUE_TYPES, format_value, parse_value
 from twinform.schemas.written_rows import in_order, repeated_fields
 from twinform.schemas.xml import (
@@ -46,8 +44,6 @@ __all__ = [
     "LAST_LINE",
     "VALUE_TYPES",
     "Context",
-    "Data",
-    "ElementReader",
     "Engine",
     "Fact",
     "Item",
@@ -58,7 +54,6 @@ __all__ = [
     "WrittenParts",
     "XmlElement",
     "declared_namespaces",
-    "element_data",
     "element_xml",
     "end_of_element",
     "format_value",
@@ -68,9 +63,7 @@ __all__ = [
     "in_usual_namespaces",
     "is_valid_text",
     "json_schema_text",
-    "keep_element",
     "libxml2_errors",
-    "locate",
     "node_xml",
     "parse_value",
     "parse_version",

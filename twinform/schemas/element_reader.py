@@ -1,171 +1,165 @@
-"""Reads the inside of one element by its facts: every finding there can be, and nothing that is quick."""
+"""Reads the inside of one element by its facts, and reports every finding that there is about it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TypeVar
 
+from twinform.ir import Node
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Version, rows_by_name
-from twinform.schemas.fast_path import GIVE_UP, quick_parse
 from twinform.schemas.messages import Context
+from twinform.schemas.node_makers import Data, required_words
+from twinform.schemas.plain_values import NOT_PLAIN, plain_values, store_plain
 from twinform.schemas.row_findings import ReadChild
-from twinform.schemas.untyped_parts import keep_content, keep_element, keep_part
+from twinform.schemas.untyped_parts import keep_attribute, keep_content, keep_element, keep_text
 from twinform.schemas.value_readers import Types, attribute_reader, text_reader
-from twinform.schemas.value_stores import Data
-from twinform.schemas.xml import XmlElement, is_blank
+from twinform.schemas.xml import BLANKS, XmlElement
 
 _INSTANCE = "{http://www.w3.org/2001/XMLSchema-instance}"
 # Left in, an `xsi:type` would let a file choose the type that it is validated by.
 _OF_SCHEMAS = frozenset({_INSTANCE + "type", _INSTANCE + "nil"})
 """Foreign attributes that make an XSD engine check an element in another way."""
 
-Closure = TypeVar("Closure")
+Read = TypeVar("Read")
 
 
-class Made(dict[str, Closure]):
-    """Closures by name, each made when it is first looked up."""
+class RowReaders(dict[str, Read]):
+    """The functions that read what rows describe, each made when it is first needed; `other` reads all else."""
 
-    def __init__(self, make: Callable[[str], Closure]) -> None:
+    def __init__(self, rows: Mapping[str, Fact], make: Callable[[Fact], Read], other: Read) -> None:
         super().__init__()
-        self._make = make
+        self.rows, self._make, self._other = rows, make, other
 
-    def __missing__(self, name: str) -> Closure:
-        made = self[name] = self._make(name)
+    def __missing__(self, name: str) -> Read:
+        row = self.rows.get(name)
+        if row is None:
+            return self._other  # not remembered: hostile files have any number of names
+        made = self[name] = self._make(row)
         return made
 
 
 class ElementReader:
-    """Reads the inside of an element into the dict of its node; where `keep` is false it only checks.
+    """Reads the inside of an element into the values of a node of the class `into`; without a class it only checks.
 
-    Each step is a method, so that generated readers, which read what is usual, call it for what is not.
+    `at` is the path from the node's own element to this one; it is empty for the node's own.
     """
 
     def __init__(
-        self, fact: Fact, types: Types, version: Version, read_child: Callable[[Fact], ReadChild], *, keep: bool
+        self,
+        fact: Fact,
+        types: Types,
+        version: Version,
+        read_child: Callable[[Fact], ReadChild],
+        into: type[Node] | None,
+        at: str,
     ) -> None:
-        self.keep = keep
-        self.attribute_rows = {name[1:]: row for name, row in rows_by_name(fact.attributes, version).items()}
-        self.child_rows = rows_by_name(fact.children, version)
-        self._attributes = Made(lambda name: attribute_reader(self.attribute_rows[name], types, version, keep=keep))
-        self._children = Made(lambda name: read_child(self.child_rows[name]))
-        parses = [(row, quick_parse(row, types, version)) for row in fact.attributes if keep]
-        self._quick = {row.name[1:]: (row.place or "", parse) for row, parse in parses if parse}
-        present = [row for row in fact.rows if row.exists_in(version)]
-        asked = [row for row in present if row.is_attribute and (row.required or row.expected)]
-        self._asked = {row.name[1:]: row for row in asked}
-        self._needed_attributes = frozenset(self._asked)
-        self._needed = frozenset(row.name for row in present if not row.is_attribute and row.required)
-        self._once = frozenset(row.name for row in self.child_rows.values() if not row.repeats)
-        self._free, self._content = fact.any, fact.place if fact.any and keep else None
-        self._read_text = text_reader(fact, types, fact.place, keep=keep) if fact.type else None
+        self._at, self._keep = at, (keep := into is not None)
+        self._required = words = required_words(into) if into is not None and not at else dict[str, tuple[str, ...]]()
+        self._attributes = RowReaders(
+            {name[1:]: row for name, row in rows_by_name(fact.attributes, version).items()},
+            lambda row: attribute_reader(row, types, version, at, words.get(row.place or "", ()), keep=keep),
+            self._other_attribute,
+        )
+        self._children = RowReaders(rows_by_name(fact.children, version), read_child, self._other_child)
+        self._plain_attributes = plain_values(fact.attributes, types, version) if keep else {}
+        self._plain_children = plain_values(fact.children, types, version) if keep else {}
+        self._once = frozenset(row.name for row in self._children.rows.values() if not row.repeats)
         self._kinds = frozenset(row.name for row in fact.children if row.kind)
+        self._free, self._content = fact.any, fact.place if fact.any and keep else None
+        self._read_text = text_reader(fact, types, keep=keep) if fact.type else None
+        present = sorted((row for row in fact.rows if row.exists_in(version)), key=lambda row: row.name)
+        self._needed = [row.name for row in present if not row.is_attribute and row.required]
+        asked = [row for row in present if row.is_attribute and (row.required or row.expected)]
+        self._asked = [(row.place if keep and not at else None, row.name[1:], row) for row in asked]
+        asked_fields = {field for field, _, _ in self._asked}
+        if unasked := [field for field in words if field not in asked_fields]:
+            raise ValueError(f"{fact.name}: nothing asks for {', '.join(unasked)}, which its node needs")
 
-    def read(self, element: XmlElement, node: Data, at: str, context: Context) -> None:
-        """Read all of it; `at` is the path from the node to the element."""
-        quick = self._quick
+    def read(self, element: XmlElement, node: Data, context: Context, place: int) -> None:
+        """Read all of it, in the order of the file."""
+        attributes, plain = self._attributes, self._plain_attributes
         for name, text in element.items():
-            if name in quick:
-                field, parse = quick[name]
+            if name in plain:  # `store_plain`, without a call for each attribute
+                field, parse, is_usual = plain[name]
                 try:
-                    node[field] = parse(text)
-                    continue
-                except GIVE_UP:
+                    value = parse(text)
+                    if is_usual is None or is_usual(value):
+                        node[field] = value
+                        continue
+                except NOT_PLAIN:
                     pass
-            self.attribute(element, name, text, node, at, context)
-        if self._needed_attributes:
-            self.missing_attributes(element, context)
-        self.text(element, node, at, context)
+            attributes[name](element, name, text, node, context)
+        for field, name, row in self._asked:
+            if field not in node and element.get(name) is None:
+                messages.missing_attribute(context, element, row)
+                context.broken |= field in self._required
+        if self._read_text is not None:
+            self._read_text(element, node, context)
+        elif (self._free or not context.simple) and (stray := element.text) and stray.strip(BLANKS):
+            self._stray(element, stray, node, context)
         if len(element) or self._needed:
-            self.children(element, node, at, context)
+            self._read_children(element, node, context)
 
-    def attribute(self, element: XmlElement, name: str, text: str, node: Data, at: str, context: Context) -> None:
-        """Read an attribute."""
-        if name in self.attribute_rows:
-            self._attributes[name](element, text, node, at, context)
-            return
+    def _other_attribute(self, element: XmlElement, name: str, text: str, node: Data, context: Context) -> None:
+        """Read an attribute that the table does not have."""
         if name[0] == "{":
             messages.prefixed_attribute(context, element, name)
         if name in _OF_SCHEMAS or (name[0] != "{" and not self._free):
-            messages.unknown_attribute(context, element, name, self.attribute_rows, self.child_rows)
-        if self.keep:
-            keep_part(element, node, context, {"at": at, "attribute": (name, text)})
+            messages.unknown_attribute(context, element, name, self._attributes.rows, self._children.rows)
+        if self._keep:
+            keep_attribute(element, node, self._at, context, (name, text))
 
-    def missing_attributes(self, element: XmlElement, context: Context) -> None:
-        """Report the attributes that should be there."""
-        if not self._needed_attributes.issubset(element.keys()):
-            for name in sorted(self._needed_attributes.difference(element.keys())):
-                messages.missing_attribute(context, element, self._asked[name])
-
-    def text(self, element: XmlElement, node: Data, at: str, context: Context) -> None:
-        """Read the text before the first child."""
-        if self._read_text is not None:
-            self._read_text(element, node, at, context)
-        elif not is_blank(text := element.text or ""):
-            self.stray(element, text, node, at, context)
-
-    def stray(
-        self, element: XmlElement, text: str, node: Data, at: str, context: Context, after: XmlElement | None = None
+    def _stray(
+        self, element: XmlElement, text: str, node: Data, context: Context, after: XmlElement | None = None
     ) -> None:
         """Report and keep text between elements."""
         if not self._free:
             messages.stray_text(context, element, text, after)
-        if self.keep:
-            keep_part(element, node, context, {"at": at, "text": " ".join(text.split())})
+        if self._keep:
+            keep_text(element, node, self._at, context, text)
 
-    def children(self, element: XmlElement, node: Data, at: str, context: Context) -> None:
+    def _read_children(self, element: XmlElement, node: Data, context: Context) -> None:
         """Read all children, and report those that should be there."""
         counts: dict[str, int] = {}
+        children, once = self._children, self._once
+        # an element that may have more than text in it is read by the function of its row
+        plain = self._plain_children if context.simple else {}
+        may_have_stray_text = not context.simple and self._content is None
         for child in element:
             tag: str = child.tag  # pyright: ignore[reportAssignmentType] - the parser removes comments
             place = counts[tag] = counts.get(tag, 0) + 1
-            self.child(child, node, at, place, context)
-            if not context.clean:
-                self.tail(element, child, node, at, context)
-        self.missing_children(element, counts, context)
+            if place > 1 and tag in once:
+                self._repeated(child, node, context)
+            elif tag not in plain or not store_plain(plain[tag], child.text, node):
+                children[tag](child, node, context, place)
+            if may_have_stray_text and (stray := child.tail) and stray.strip(BLANKS):
+                self._stray(element, stray, node, context, after=child)
+        if self._needed or (self._kinds and len(counts) > 1):
+            self._check_children(element, counts, context)
 
-    def child(self, child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
-        """Read a child, which is the one at `place` among its like."""
-        tag = str(child.tag)
-        if tag not in self.child_rows:
-            self._other_child(child, node, at, context)
-        elif place > 1 and tag in self._once:
-            messages.repeated(context, child)
-            if self.keep:
-                keep_element(child, node, at, context)
-        else:
-            self._children[tag](child, node, at, place, context)
+    def _repeated(self, child: XmlElement, node: Data, context: Context) -> None:
+        messages.repeated(context, child)
+        if self._keep:
+            keep_element(child, node, self._at, context)
 
-    def other_version(self, child: XmlElement, context: Context) -> None:
-        """Report a child that only other versions have."""
-        messages.outside_version(context, child, self.child_rows[str(child.tag)])
-
-    def tail(self, element: XmlElement, child: XmlElement, node: Data, at: str, context: Context) -> None:
-        """Read the text after a child."""
-        if self._content is None and not is_blank(tail := child.tail or ""):
-            self.stray(element, tail, node, at, context, after=child)
-
-    def missing_children(self, element: XmlElement, counts: dict[str, int], context: Context) -> None:
-        """Report children of several kinds where there is one, and those that should be there."""
-        if self._kinds and len(self._kinds & counts.keys()) > 1:
-            _other_kinds(element, self._kinds, context)
-        if not self._needed.issubset(counts):
-            for name in sorted(self._needed.difference(counts)):
+    def _check_children(self, element: XmlElement, counts: Mapping[str, int], context: Context) -> None:
+        """Report children of several kinds where there may be one, and those that should be there."""
+        if self._kinds:
+            found = [child for child in element if child.tag in self._kinds]
+            for child in found:
+                if child.tag != found[0].tag:
+                    messages.repeated(context, child)
+        for name in self._needed:
+            if name not in counts:
                 messages.missing_child(context, element, name)
 
-    def _other_child(self, child: XmlElement, node: Data, at: str, context: Context) -> None:
+    def _other_child(self, child: XmlElement, node: Data, context: Context, place: int) -> None:
+        """Read a child that the table does not have."""
         if self._content is not None:
             keep_content(child, node, self._content, context)
             return
         if not self._free and (self._read_text is not None or str(child.tag)[0] != "{"):
-            messages.unknown_element(context, child, self.child_rows, self.attribute_rows)
+            messages.unknown_element(context, child, self._children.rows, self._attributes.rows)
         elif not self._free:
             messages.prefixed_element(context, child)
-        if self.keep:
-            keep_element(child, node, at, context)
-
-
-def _other_kinds(element: XmlElement, kinds: frozenset[str], context: Context) -> None:
-    """Report the children that are of another kind than the first, where an element has one of several."""
-    found = [child for child in element if child.tag in kinds]
-    for child in found:
-        if child.tag != found[0].tag:
-            messages.repeated(context, child)
+        if self._keep:
+            keep_element(child, node, self._at, context)

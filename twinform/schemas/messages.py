@@ -1,10 +1,10 @@
-"""Diagnostics of the schema reader: one function for each, apart from the hot path."""
+"""Diagnostics of the reader: one function for each, apart from the hot path."""
 
 from collections.abc import Collection
 from dataclasses import dataclass, field
-from typing import Any, Protocol, TypedDict, Unpack
+from typing import TypedDict, Unpack
 
-from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, Source, nearest_name, rules
+from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, nearest_name, rules
 from twinform.schemas.facts import Fact, Version, print_version
 from twinform.schemas.hints import dialect_of, hint_for_attribute, hint_for_element, hint_for_word, words_of
 from twinform.schemas.xml import Places, XmlElement, path_of
@@ -35,24 +35,12 @@ class Details(TypedDict, total=False):
     severity: Severity | None
 
 
-class PartMaker(Protocol):
-    """Makes nodes of what has no typed field."""
-
-    def element(self, element: XmlElement, above: Source | None, *, kept: bool) -> object:
-        """An untyped element; one that is `kept` stands alone, without the text that follows it."""
-        ...
-
-    def opaque(self, part: dict[str, Any]) -> object:
-        """A part of a node that has no field."""
-        ...
-
-
 @dataclass(slots=True)
 class Context:
-    """One run of the schema reader over one document.
+    """One run of the reader over one document.
 
-    `clean` is whether the XSD has accepted the document, and `simple` whether, besides, no attribute has a namespace:
-    then text is only where the facts have it, and an element that they give nothing but text has nothing else.
+    `simple` is whether the XSD has accepted the document and no attribute has a namespace: then text is only where the
+    facts have it, and an element that they give nothing but text has nothing else.
 
     `tolerated` holds the elements, and the attributes and texts of elements, that are reported and kept although the
     schema does not have them: the XSD validation sees the document without them. `#text` is the text in an element,
@@ -60,8 +48,8 @@ class Context:
     in, and a value for the validation in its place. `outside` lists elements and attributes of other versions. `aside`
     is true inside of what the readers of the robot itself skip: nothing there is an error. `declared` is whether the
     version is the file's own; where it is not, old syntax is nothing to warn of. `header` holds what the root
-    element has about the document rather than about its node. `parts` makes nodes of the IR of what has no field;
-    without it, that is data like all else.
+    element has about the document rather than about its node. `broken` is whether some node lacks what its class needs,
+    so that there is no document; then there is a finding as well.
     """
 
     sink: DiagnosticSink
@@ -71,13 +59,12 @@ class Context:
     tolerated: list[tuple[XmlElement, str | None]] = field(default_factory=list[tuple[XmlElement, str | None]])
     replaced: list[tuple[XmlElement, str, str]] = field(default_factory=list[tuple[XmlElement, str, str]])
     structural: int = 0
-    clean: bool = False
     simple: bool = False
     aside: bool = False
     declared: bool = True
     outside: list[tuple[XmlElement, Fact]] = field(default_factory=list[tuple[XmlElement, Fact]])
     header: dict[str, object] = field(default_factory=dict[str, object])
-    parts: "PartMaker | None" = None
+    broken: bool = False
     places: Places = field(default_factory=dict[XmlElement, int], repr=False)
 
     def report(self, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[Details]) -> None:

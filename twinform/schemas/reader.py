@@ -1,188 +1,209 @@
-"""The schema reader, from XML to dicts in the shape of the IR: closures built once for each format and version.
+"""The reader: from an XML tree to nodes of the IR by the facts tables, with every finding about what they say.
 
-It validates while it reads: structure, cardinality, versions and values are checked on the way, and what has no
-typed field is kept as opaque parts. The dicts hold IR field names and know nothing of the IR's classes.
+One walk in the order of the file reads, checks and reports: structure, cardinality, versions and values. What has no
+typed field is kept as opaque parts.
+
+An `ElementReader` reads the inside of one element: its attributes, then its text, then its children, each by the
+function of its row (`ReadAttribute`, `ReadText`, `ReadChild`), which is made from the row when a file first needs it.
+The values of a node gather in a dict, which begins with its `source`; a `NodeMaker` makes the node of it once its
+element is read. What makes no node of its own, such as a leaf, writes into the dict of the node around it.
 """
 
-from collections.abc import Callable
+from collections.abc import Iterator
 from functools import cache, partial
 
 from twinform.diagnostics import Source
-from twinform.schemas.element_reader import ElementReader, Made
-from twinform.schemas.facts import Fact, Table, Version, rows_by_name, table
-from twinform.schemas.fast_path import UsualElement
+from twinform.ir import Document, Model, Node
+from twinform.schemas.element_reader import ElementReader
+from twinform.schemas.facts import Fact, Table, Version, table
 from twinform.schemas.messages import Context
+from twinform.schemas.node_makers import Data, NodeMaker, node_class, require_place
 from twinform.schemas.row_findings import ReadChild, with_row_findings
 from twinform.schemas.untyped_parts import keep_element, locate
 from twinform.schemas.value_readers import text_reader
-from twinform.schemas.value_stores import Data
 from twinform.schemas.values import VALUE_TYPES
 from twinform.schemas.xml import XmlElement, is_blank
 
-Fill = Callable[[XmlElement, Data, str, Context], None]
-"""Reads the inside of an element into the dict of its node: (element, node, path from the node, context)"""
+_ROOTS: dict[str, type[Node]] = {"urdf": Model, "sdf": Document}
+"""The class of the node that the root element of a format makes."""
 
 
 class Reader:
     """Reads elements of one format in one version.
 
-    Definitions refer to each other, so the closures look each other up when they are called. Each is made when it is
-    first needed: a file has few of the elements that there are.
+    A file has few of the elements that there are, and definitions refer to each other, so nothing is made before it is
+    needed.
     """
 
     def __init__(self, facts: Table, version: Version) -> None:
         self.table = facts
         self.version = version
         self.types = VALUE_TYPES[facts.format]
-        self.elements = Made(self._element_at)
-        self.fills = Made(lambda name: self.fill(facts.definitions[name], keep=True))
-        self.checks = Made(lambda name: self.fill(facts.definitions[name], keep=False))
-        self.usual = Made(lambda name: self._usual(facts.definitions[name]))
+        self._definitions: dict[tuple[str, type[Node] | None, str], ElementReader] = {}
 
     def read(
-        self, element: XmlElement, context: Context, definition: str | None = None, source: Source | None = None
+        self,
+        element: XmlElement,
+        context: Context,
+        definition: str | None = None,
+        kind: type[Node] | None = None,
+        source: Source | None = None,
     ) -> Data:
-        """The data of the node that an element makes; it is the format's root where no definition is named.
+        """The values of the node that an element makes, with all nodes inside it made.
 
-        `source` is where the element was written, if not where it stands.
+        The element is of a definition, and its node of the class `kind`; without them, they are those of the format's
+        root. `source` is where the element was written, if not where it stands. If a node lacks what it needs, the
+        context is `broken` afterwards.
         """
+        fact, kind = self.table.definitions[definition or self.table.root], kind or _ROOTS[self.table.format]
         if source is None:
             source = Source(context.file, element.sourceline or 0, None, str(element.tag), element.get("name"))
-        node: Data = {"source": source}
-        self.fills[definition or self.table.root](element, node, "", context)
-        return node
+        data: Data = {"source": source}
+        # No validation by Pydantic follows. All that it could refuse is a node without a required
+        # field, or with a word that its class does not have, and for these there is a finding.
+        self._definition(fact.name, kind, "").read(element, data, context, 1)
+        self._maker(fact, kind).complete(data)
+        return data
 
-    def element_reader(self, fact: Fact, *, keep: bool) -> ElementReader:
-        """The reader of an element's inside. Where `keep` is false it only checks."""
-        read_child = partial(self._child, keep=keep)
-        return ElementReader(fact, self.types, self.version, read_child, keep=keep)
+    def _definition(self, name: str, into: type[Node] | None, at: str) -> ElementReader:
+        key = name, into, at
+        if key not in self._definitions:
+            self._definitions[key] = self._element_reader(self.table.definitions[name], into, at)
+        return self._definitions[key]
 
-    def fill(self, fact: Fact, *, keep: bool) -> Fill:
-        """The same as a function."""
-        return self.element_reader(fact, keep=keep).read
+    def _inside(self, row: Fact, into: type[Node] | None, at: str = "") -> ElementReader:
+        """What reads the inside of a row's element into the values of a node of a class; without one it only checks.
 
-    def _element_at(self, path: str) -> ElementReader:
-        """The reader of the inside of an element by its path from a definition, such as `link/inertial`."""
-        definition, *steps = path.split("/")
-        fact = self.table.definitions[definition]
-        for step in steps:
-            fact = self.table.resolve(rows_by_name(fact.children, self.version)[step])
-        return self.element_reader(fact, keep=True)
+        `at` is the path from the node's own element to this one.
+        """
+        return self._definition(row.reference, into, at) if row.reference else self._element_reader(row, into, at)
 
-    def _child(self, row: Fact, *, keep: bool) -> ReadChild:
-        if not keep:
+    def _element_reader(self, fact: Fact, into: type[Node] | None, at: str) -> ElementReader:
+        if into is not None:
+            for place in filter(None, (row.place for row in fact.rows)):
+                require_place(Document if place.startswith("/") else into, place)
+        return ElementReader(fact, self.types, self.version, partial(self._child, into=into, at=at), into, at)
+
+    def _child(self, row: Fact, into: type[Node] | None, at: str) -> ReadChild:
+        """What reads a row's element, which stands at a path from the node that is being read."""
+        if into is None:
             read = self._checked(row)
         elif row.place is None:
-            read = self._opaque(row)
+            read = self._opaque(row, at)
         elif row.type is not None:
-            read = self._leaf(row, row.place)
+            read = self._leaf(row, into, at)
         elif row.place == ".":
-            read = self._hoisted(row)
+            read = self._hoisted(row, into, at)
         else:
-            read = self._own_node(row, row.place)
+            read = self._own_node(row, row.place, into, at)
         has_text = self.table.resolve(row).type is not None
-        return with_row_findings(row, self.version, read, has_text=has_text, keep=keep)
-
-    def _inner(self, row: Fact, *, keep: bool) -> Fill:
-        if row.reference is None:
-            return self.fill(row, keep=keep)
-        fills, name = self.fills if keep else self.checks, row.reference
-
-        def fill(element: XmlElement, node: Data, at: str, context: Context) -> None:
-            fills[name](element, node, at, context)
-
-        return fill
+        return with_row_findings(row, self.version, read, at, has_text=has_text, keep=into is not None)
 
     def _checked(self, row: Fact) -> ReadChild:
-        check = self._inner(row, keep=False)
+        """The reader of an element of which nothing goes into fields."""
+        return self._inside(row, None).read if row.type is None or row.rows else self._leaf(row, None, "")
 
-        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
-            check(child, node, "", context)
+    def _opaque(self, row: Fact, at: str) -> ReadChild:
+        check = self._checked(row)
 
-        return read
-
-    def _check(self, row: Fact) -> Callable[[XmlElement, Context], None]:
-        """What reports the findings in an element of which nothing goes into fields."""
-        check, usual = self._inner(row, keep=False), self._usual_of(row)
-
-        def look(child: XmlElement, context: Context) -> None:
-            if not usual.holds(child, context):
-                check(child, {}, "", context)
-
-        return look
-
-    def _usual(self, fact: Fact) -> UsualElement:
-        return UsualElement(fact, self.types, self.version, self._usual_of)
-
-    def _usual_of(self, row: Fact) -> UsualElement:
-        return self.usual[row.reference] if row.reference else self._usual(row)
-
-    def _opaque(self, row: Fact) -> ReadChild:
-        check = self._check(row)
-
-        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
-            check(child, context)
+        def read(child: XmlElement, node: Data, context: Context, place: int) -> None:
+            check(child, node, context, place)
             keep_element(child, node, at, context)
 
         return read
 
-    def _hoisted(self, row: Fact) -> ReadChild:
-        """The reader of a container whose rows fill the node around it."""
-        fill, name = self._inner(row, keep=True), row.name
+    def _leaf(self, row: Fact, into: type[Node] | None, at: str) -> ReadChild:
+        """The reader of an element with text, and perhaps attributes, whose value is a field of the node around it."""
+        keep, has_rows = into is not None, bool(row.rows)
+        read_text = text_reader(row, self.types, keep=keep)
+        inside = cache(partial(self._element_reader, row, into, _below(at, row)))
 
-        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
-            if len(child) or child.keys() or not is_blank(child.text or ""):
-                fill(child, node, f"{at}/{name}" if at else name, context)
-            else:
-                fill(child, {}, "", context)
+        def read(child: XmlElement, node: Data, context: Context, place: int) -> None:
+            if (has_rows or not context.simple) and (child.keys() or len(child)):
+                inside().read(child, node, context, place)
+            elif not read_text(child, node, context) and keep:
                 keep_element(child, node, at, context)
 
         return read
 
-    def _own_node(self, row: Fact, field: str) -> ReadChild:
+    def _hoisted(self, row: Fact, into: type[Node], at: str) -> ReadChild:
+        """The reader of a container whose rows fill the node around it."""
+        fill = self._inside(row, into, _below(at, row)).read
+
+        def read(child: XmlElement, node: Data, context: Context, place: int) -> None:
+            if len(child) or child.keys() or not is_blank(child.text or ""):
+                fill(child, node, context, place)
+            else:
+                fill(child, {"source": node["source"]}, context, place)
+                keep_element(child, node, at, context)
+
+        return read
+
+    def _own_node(self, row: Fact, place: str, into: type[Node], at: str) -> ReadChild:
         """The reader of an element that makes a node."""
+        outer, _, field = place.rpartition(".")
+        kind = node_class(node_class(into, outer) if outer else into, field, row.kind)
+        if row.kind:
+            return self._one_of_several(row, kind, field, at)
         fact = self.table.resolve(row)
-        fill, name, kind, repeats = self._inner(row, keep=True), row.name, row.kind, row.repeats
-        check = self._check(row)
-        outer, _, inner = field.rpartition(".")
-        fills_tuple = row.fills_tuple
+        fill, maker = self._inside(row, kind).read, self._maker(fact, kind)
+        gathers, complete, make = maker.gathers, maker.complete, maker.make
+        step, repeats, fills_tuple = _below(at, row), row.repeats, row.fills_tuple
         is_named = any(inner_row.name == "@name" for inner_row in fact.rows)
 
-        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
-            if kind is not None and field in node:
-                check(child, context)
-                keep_element(child, node, at, context)
-                return
+        def read(child: XmlElement, node: Data, context: Context, place: int) -> None:
             # Sources are found by name where there is one: a finding's path stays right when a part
             # before it is removed.
             key = (child.get("name") if is_named else None) or (place if repeats else None)
-            above, line = node["source"], child.sourceline or 0
-            data: Data = {"source": locate(Source, (context.file, line, above, f"{at}/{name}" if at else name, key))}
-            if kind is not None:
-                data["kind"] = kind
-            fill(child, data, "", context)
+            data: Data = {"source": locate(Source, (context.file, child.sourceline or 0, node["source"], step, key))}
+            fill(child, data, context, place)
+            if gathers or "opaque" in data:
+                complete(data)
             holder = node if not outer else node.setdefault(outer, {"source": data["source"]})
             if fills_tuple:
-                holder.setdefault(inner, []).append(data)
+                holder.setdefault(field, []).append(make(data))
             elif len(data) > 1:
-                holder[inner] = data
+                holder[field] = make(data)
             else:  # it is empty, so the field stays unwritten
                 keep_element(child, node, at, context)
 
         return read
 
-    def _leaf(self, row: Fact, place: str) -> ReadChild:
-        """The reader of an element with text, and perhaps attributes, whose value is a field of the node around it."""
-        fill, name = self.fill(row, keep=True), row.name
-        read_text = text_reader(row, self.types, place, keep=True)
+    def _one_of_several(self, row: Fact, kind: type[Node], field: str, at: str) -> ReadChild:
+        """The reader of an element that makes a node of a kind, unless the field has one already."""
+        fill, maker = self._inside(row, kind).read, self._maker(self.table.resolve(row), kind)
+        gathers, complete, make = maker.gathers, maker.complete, maker.make
+        keep, step = self._opaque(row, at), _below(at, row)
 
-        def read(child: XmlElement, node: Data, at: str, place: int, context: Context) -> None:
-            if child.keys() or len(child):
-                fill(child, node, f"{at}/{name}" if at else name, context)
-            elif not read_text(child, node, at, context):
-                keep_element(child, node, at, context)
+        def read(child: XmlElement, node: Data, context: Context, place: int) -> None:
+            if field in node:
+                keep(child, node, context, place)
+                return
+            source = locate(Source, (context.file, child.sourceline or 0, node["source"], step, None))
+            data: Data = {"source": source, "kind": row.kind}
+            fill(child, data, context, place)
+            if gathers or "opaque" in data:
+                complete(data)
+            node[field] = make(data)
 
         return read
+
+    def _maker(self, fact: Fact, kind: type[Node]) -> NodeMaker:
+        outer = dict.fromkeys(place.partition(".")[0] for place in self._places(fact) if "." in place)
+        return NodeMaker(kind, {field: node_class(kind, field) for field in outer})
+
+    def _places(self, fact: Fact) -> Iterator[str]:
+        """The places of the rows that fill the node of a fact, also those of containers that make none."""
+        for row in fact.rows:
+            if row.place == "." and row.type is None:
+                yield from self._places(self.table.resolve(row))
+            elif row.place and not row.place.startswith("/"):
+                yield row.place
+
+
+def _below(at: str, row: Fact) -> str:
+    """The path to a row's element in the one at a path."""
+    return f"{at}/{row.name}" if at else row.name
 
 
 @cache

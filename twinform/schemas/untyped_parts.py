@@ -6,12 +6,16 @@ from typing import Any
 from lxml import etree
 
 from twinform.diagnostics import Source
+from twinform.ir import Element, Opaque
+from twinform.ir.record import filler
 from twinform.schemas.messages import Context
-from twinform.schemas.value_stores import Data
+from twinform.schemas.node_makers import Data
 from twinform.schemas.xml import XmlElement
 
 locate: Callable[[type[Source], tuple[object, ...]], Source] = tuple.__new__  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] - typeshed leaves the items open
-"""Makes a Source without the detour through its own constructor: the readers make one for every node."""
+"""Makes a Source without the detour through its own constructor: the reader makes one for every node."""
+_make_element = filler(Element)
+_make_opaque = filler(Opaque)
 
 LAST_LINE = 65535
 """libxml2 keeps no number beyond it."""
@@ -32,51 +36,42 @@ def element_xml(element: Any, parent: XmlElement | None = None) -> XmlElement:
     return made
 
 
-def element_data(element: XmlElement, context: Context, above: Source | None = None) -> Data:
-    """The subtree as data for the IR's `Element`, with sources below the one that is given."""
+def read_element(element: XmlElement, file: str, above: Source | None, *, kept: bool = False) -> Element:
+    """The subtree, with sources below the one that is given; one that is `kept` has no text behind it."""
     tag = str(element.tag)
-    data: Data = {"name": tag}
     if above is not None:
-        line, key = element.sourceline or 0, element.get("name")
-        above = data["source"] = locate(Source, (context.file, line, above, tag, key))
-    if attributes := element.items():
-        data["attributes"] = tuple(attributes)
-    text = element.text
-    if text and not text.isspace():
-        data["text"] = text.strip()
-    tail = element.tail
-    if tail and not tail.isspace():
-        data["tail"] = tail.strip()
-    if len(element):
-        data["children"] = tuple([element_data(child, context, above) for child in element])
-    return data
+        above = locate(Source, (file, element.sourceline or 0, above, tag, element.get("name")))
+    attributes = tuple(element.items())
+    text = (element.text or "").strip() or None
+    children = tuple([read_element(child, file, above) for child in element]) if len(element) else ()
+    tail = None if kept else (element.tail or "").strip() or None
+    return _make_element((above, tag, attributes, text, children, tail))
 
 
 def keep_content(child: XmlElement, node: Data, field: str, context: Context) -> None:
     """Keep a child in a field for free content, where it knows where it was written."""
-    above: Source | None = node.get("source")
-    parts = context.parts
-    element = parts.element(child, above, kept=False) if parts else element_data(child, context, above)
-    node.setdefault(field, []).append(element)
-
-
-def keep_part(element: XmlElement, node: Data, context: Context, part: Data) -> None:
-    """Keep a part that has no typed field, with where it stood."""
-    called = f"@{part['attribute'][0]}" if "attribute" in part else "text()"
-    _keep(element, node, context, part, called)
+    node.setdefault(field, []).append(read_element(child, context.file, node["source"]))
 
 
 def keep_element(child: XmlElement, node: Data, at: str, context: Context) -> None:
-    """Keep a child with all that is in it."""
-    parts = context.parts
-    element = parts.element(child, None, kept=True) if parts else element_data(child, context) | {"tail": None}
-    _keep(child, node, context, {"at": at, "element": element}, str(child.tag))
+    """Keep a child with all that is in it; `at` is the path from the node to the element around it."""
+    element = read_element(child, context.file, None, kept=True)
+    _keep(child, node, context, str(child.tag), (at, element, None, None))
 
 
-def _keep(element: XmlElement, node: Data, context: Context, part: Data, called: str) -> None:
-    at: str = part["at"]
+def keep_attribute(element: XmlElement, node: Data, at: str, context: Context, attribute: tuple[str, str]) -> None:
+    """Keep an attribute of the element at a path from the node."""
+    _keep(element, node, context, f"@{attribute[0]}", (at, None, attribute, None))
+
+
+def keep_text(element: XmlElement, node: Data, at: str, context: Context, text: str) -> None:
+    """Keep text between the children of the element at a path from the node."""
+    _keep(element, node, context, "text()", (at, None, None, " ".join(text.split())))
+
+
+def _keep(element: XmlElement, node: Data, context: Context, called: str, part: tuple[Any, ...]) -> None:
+    at = part[0]
     step = f"{at}/{called}" if at else called
-    source = locate(Source, (context.file, element.sourceline or 0, node.get("source"), step, None))
-    data = {"source": source, **part}
-    opaque: list[Any] = node.setdefault("opaque", [])
-    opaque.append(context.parts.opaque(data) if context.parts else data)
+    source = locate(Source, (context.file, element.sourceline or 0, node["source"], step, None))
+    opaque: list[Opaque] = node.setdefault("opaque", [])
+    opaque.append(_make_opaque((source, *part)))

@@ -1,6 +1,6 @@
 """XSD validation, with libxml2 or xmlschema.
 
-The schema reader has read the document before and reported whatever is wrong with it. The schema's verdict is asked
+The reader has read the document before and reported whatever is wrong with it. The schema's verdict is asked
 for as well because the two are independent readings of the same facts: where they differ, one of them is wrong.
 """
 
@@ -37,7 +37,7 @@ _FAULTS = frozenset(
         rules.DIALECT.name,
     }
 )
-"""Findings of the schema reader that leave nothing to take out of the document, and that the schema refuses as well; a
+"""Findings of the reader that leave nothing to take out of the document, and that the schema refuses as well; a
 dialect does where it is a value in a list."""
 
 
@@ -55,14 +55,14 @@ class SchemaError(NamedTuple):
 def validate(
     root: XmlElement, context: Context, engine: Engine = "libxml2", errors: list[SchemaError] | None = None
 ) -> None:
-    """Report whatever the schema refuses and the schema reader, which has filled the context, did not report.
+    """Report whatever the schema refuses and the reader, which has filled the context, did not report.
 
     `errors` are those of the engine for the tree, where it was asked already. Duplicate and dangling names, and what
     only assertions find, which the normative schema alone looks for, are left to later checks.
     """
     if errors is None:
         errors = refusals(root, context, engine)
-    # Nearly half of the URDF files of the corpus are refused for parts that the schema reader
+    # Nearly half of the URDF files of the corpus are refused for parts that the reader
     # reports and keeps, so the XSD is asked again without them. Asking only about the refused
     # elements, or explaining each error by its line, would be quicker and would no longer show
     # where the two disagree.
@@ -191,7 +191,7 @@ def refusals(root: XmlElement, context: Context, engine: Engine) -> list[SchemaE
 
 
 def _lines_with_faults(context: Context) -> set[int]:
-    """The lines of the elements that the schema reader found a fault in."""
+    """The lines of the elements that the reader found a fault in."""
     lines = {found.location.line for found in context.sink.diagnostics if found.rule.name in _FAULTS}
     # where there are faults, an error without a line may be one of them
     return lines | {0} if lines else lines

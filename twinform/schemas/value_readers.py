@@ -1,31 +1,43 @@
 """Readers of attribute values and texts: parsed, checked, and stored in the field of the IR."""
 
 from collections.abc import Callable, Mapping
+from typing import Any
 
+from twinform.diagnostics import Source
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Version
 from twinform.schemas.messages import Context
-from twinform.schemas.untyped_parts import keep_part
-from twinform.schemas.value_stores import Data, value_check, value_store
+from twinform.schemas.node_makers import Data
+from twinform.schemas.untyped_parts import keep_attribute, locate
 from twinform.schemas.values import ValueType
-from twinform.schemas.xml import XmlElement, is_blank
+from twinform.schemas.xml import BLANKS, XmlElement, is_blank
 
 Types = Mapping[str, ValueType]
 """The value types of a format by their names."""
-ReadAttribute = Callable[[XmlElement, str, Data, str, Context], None]
-"""Reads an attribute: (element, text, node, path from the node, context)"""
-ReadText = Callable[[XmlElement, Data, str, Context], bool]
-"""Reads the text of an element: (element, node, path from the node, context); it returns whether there was any"""
+ReadAttribute = Callable[[XmlElement, str, str, Data, Context], None]
+"""Reads an attribute: (element, name, text, node, context)"""
+ReadText = Callable[[XmlElement, Data, Context], bool]
+"""Reads the text of an element: (element, node, context); it returns whether there was any"""
+Check = Callable[[XmlElement, Any, Context], None]
+"""Reports what is wrong with a value beyond its type: (element, value, context)"""
+Store = Callable[[XmlElement, Data, Any, str, Context], None]
+"""Puts a value into a node: (element, node, value, text, context)"""
+
+SCALARS = frozenset({"double", "int", "uint"})
 
 
-def attribute_reader(row: Fact, types: Types, version: Version, *, keep: bool) -> ReadAttribute:
-    """The reader of an attribute: checked, and stored in its field or kept as it is where `keep` asks for it."""
+def attribute_reader(
+    row: Fact, types: Types, version: Version, at: str, words: tuple[str, ...] = (), *, keep: bool
+) -> ReadAttribute:
+    """The reader of an attribute: checked, and stored in its field or kept as it is where `keep` asks for it.
+
+    `at` is the path from the node to the element, and `words` are those without one of which there is no node.
+    """
     value_type = types[row.type or "string"]
-    parse, check = value_type.parse, value_check(row)
-    late, name, dialect = not row.exists_in(version), row.name[1:], row.dialect
+    parse, check, late, dialect = value_type.parse, value_check(row), not row.exists_in(version), row.dialect
     store = value_store(row, row.place) if keep and row.place else None
 
-    def read(element: XmlElement, text: str, node: Data, at: str, context: Context) -> None:
+    def read(element: XmlElement, name: str, text: str, node: Data, context: Context) -> None:
         if late:
             messages.outside_version(context, element, row)
         if dialect:
@@ -38,42 +50,176 @@ def attribute_reader(row: Fact, types: Types, version: Version, *, keep: bool) -
         if check is not None:
             check(element, value, context)
         if store is not None:
-            store(element, node, (value, text), context)
+            store(element, node, value, text, context)
         elif keep:
-            keep_part(element, node, context, {"at": at, "attribute": (name, text)})
+            keep_attribute(element, node, at, context, (name, text))
+        if words and value not in words:
+            context.broken = True
 
     return read
 
 
-def text_reader(row: Fact, types: Types, place: str | None, *, keep: bool) -> ReadText:
+def text_reader(row: Fact, types: Types, *, keep: bool) -> ReadText:
     """The reader of an element's text; it returns whether there was any. Blank text means the default."""
     value_type = types[row.type or "string"]
-    parse, check, is_string, needed = value_type.parse, value_check(row), row.type == "string", row.needs_text
-    store = value_store(row, place) if keep and place else None
-    is_pose, expected = row.type == "pose", needed or bool(row.default)
+    if row.type == "pose":
+        return _pose_reader(row, value_type, keep=keep)
+    parse, check = value_type.parse, value_check(row)
+    if row.type == "string":
+        parse, check = stripped, _blank_check(row, value_type, check)
+    store = value_store(row, row.place) if keep and row.place else None
 
-    def read(element: XmlElement, node: Data, at: str, context: Context) -> bool:
+    def read(element: XmlElement, node: Data, context: Context) -> bool:
         text = element.text or ""
-        if is_string:
-            text = text.strip(" \t\r\n")
-            # an empty parameter of URDF is a value like others
-            if expected and not text and context.format == "sdf":
-                messages.blank_value(context, element, value_type.expected)
-        elif is_blank(text):
-            if needed:
-                messages.missing_text(context, element, value_type.expected)
-            elif not is_pose:
-                messages.blank_value(context, element, value_type.expected)
-            return False
         try:
             value = parse(text)
         except ValueError:
-            messages.invalid_value(context, element, "", text.strip(), value_type.expected)
-            return True
+            return _report_text(row, value_type, element, context)
         if check is not None:
             check(element, value, context)
         if store is not None:
-            store(element, node, (value, text), context)
+            store(element, node, value, text, context)
         return True
 
     return read
+
+
+def _pose_reader(row: Fact, value_type: ValueType, *, keep: bool) -> ReadText:
+    parse: Callable[[str], Any] = value_type.parse
+
+    def read(element: XmlElement, node: Data, context: Context) -> bool:
+        try:
+            values = parse(element.text or "")
+        except ValueError:
+            return _report_text(row, value_type, element, context)
+        if len(values) != 6 or element.keys():
+            check_pose(element, len(values), context)
+        if keep:
+            node["xyz"] = values[:3]
+            node["rpy" if len(values) == 6 else "quat_xyzw"] = values[3:]
+        return True
+
+    return read
+
+
+def _report_text(row: Fact, value_type: ValueType, element: XmlElement, context: Context) -> bool:
+    """Report a text that is no value of its type; whether there was any."""
+    text = element.text or ""
+    if not is_blank(text):
+        messages.invalid_value(context, element, "", text.strip(), value_type.expected)
+        return True
+    if row.needs_text:
+        messages.missing_text(context, element, value_type.expected)
+    elif row.type != "pose":
+        messages.blank_value(context, element, value_type.expected)
+    return False
+
+
+def _blank_check(row: Fact, value_type: ValueType, others: Check | None) -> Check | None:
+    """What reports a blank text where there should be one, before other checks."""
+    if not row.needs_text and not row.default:
+        return others
+
+    def check(element: XmlElement, value: str, context: Context) -> None:
+        # an empty parameter of URDF is a value like others
+        if not value and context.format == "sdf":
+            messages.blank_value(context, element, value_type.expected)
+        if others is not None:
+            others(element, value, context)
+
+    return check
+
+
+def stripped(text: str) -> str:
+    """The text without the white space around it."""
+    return text.strip(BLANKS)
+
+
+def value_check(row: Fact) -> Check | None:
+    """What is asked of a value beyond its type."""
+    if row.enum:
+        return _word_check(row)
+    if row.min is None and row.max is None:
+        return None
+    low, high = bounds(row)
+
+    def check_number(element: XmlElement, value: float, context: Context) -> None:
+        if value < low or value > high:
+            messages.out_of_range(context, element, row, value)
+
+    def check_vector(element: XmlElement, value: tuple[float, ...], context: Context) -> None:
+        if min(value) < low:
+            messages.out_of_range(context, element, row, min(value))
+        elif max(value) > high:
+            messages.out_of_range(context, element, row, max(value))
+
+    return check_number if row.type in SCALARS else check_vector
+
+
+def bounds(row: Fact) -> tuple[float, float]:
+    """The least and the greatest value of a row, or component of one."""
+    return row.min if row.min is not None else float("-inf"), row.max if row.max is not None else float("inf")
+
+
+def _word_check(row: Fact) -> Check:
+    allowed, dialects = frozenset(row.enum), dict(row.also)
+
+    def check(element: XmlElement, value: str, context: Context) -> None:
+        if value in allowed:
+            return
+        if value in dialects:
+            messages.dialect_value(context, element, row.name, value, dialects[value])
+        elif value in row.elsewhere:
+            messages.value_outside_version(context, element, row, value)
+        else:
+            step = row.name if row.is_attribute else ""
+            messages.unlisted_value(context, element, step, value, row.enum)
+
+    return check
+
+
+def check_pose(element: XmlElement, count: int, context: Context) -> None:
+    """Report a pose whose numbers are not those of the notation that its attributes name."""
+    quaternion, degrees = element.get("rotation_format") == "quat_xyzw", element.get("degrees")
+    if count != (7 if quaternion else 6) or (quaternion and (degrees or "").strip().lower() in {"true", "1"}):
+        messages.mixed_rotation(context, element, count)
+
+
+def own_field(row: Fact) -> str | None:
+    """The field of the node itself that takes one value of a row, if there is one."""
+    place = row.place
+    return None if not place or place[0] == "/" or "." in place or row.fills_tuple else place
+
+
+def value_store(row: Fact, place: str) -> Store:  # noqa: C901 - five small functions, one of which is chosen
+    """Puts a value where the IR has it."""
+    outer, _, field = place.rpartition(".")
+
+    def store_repeated(element: XmlElement, node: Data, value: object, text: str, context: Context) -> None:
+        node.setdefault(field, []).append(value)
+
+    def store_inside(element: XmlElement, node: Data, value: object, text: str, context: Context) -> None:
+        holder: Data | None = node.get(outer)
+        if holder is None:
+            where = (context.file, element.sourceline or 0, node["source"], str(element.tag), None)
+            holder = node[outer] = {"source": locate(Source, where)}
+        holder[field] = value
+
+    def store_header(element: XmlElement, node: Data, value: object, text: str, context: Context) -> None:
+        context.header[place[1:]] = value
+
+    def store_bool(element: XmlElement, node: Data, value: object, text: str, context: Context) -> None:
+        node[field] = value
+        if text not in ("true", "false"):
+            node.setdefault("spelling", {})[field] = text.strip()
+
+    def store(element: XmlElement, node: Data, value: object, text: str, context: Context) -> None:
+        node[field] = value
+
+    if place.startswith("/"):
+        return store_header
+    if outer:
+        return store_inside
+    if row.fills_tuple:
+        return store_repeated
+    return store_bool if row.type == "bool" else store

@@ -3,10 +3,10 @@
 Every parser raises `ValueError` for text that the type's XSD pattern refuses, and for numbers that do not fit a double.
 """
 
-import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import isfinite
 
 Parser = Callable[[str], object]
 
@@ -51,43 +51,65 @@ def _ascii(text: str) -> str:
     return text
 
 
-def _is_plain(text: str) -> bool:
-    """Whether none of what `float` takes beyond plain numbers is there: underscores and the digits of other scripts."""
-    return text.isascii() and "_" not in text
-
-
 def _float(text: str) -> float:
     value = float(text)
-    if not math.isfinite(value) or not _is_plain(text):
-        raise ValueError
-    return value
+    # `float` also takes underscores and the digits of other scripts
+    if isfinite(value) and text.isascii() and "_" not in text:
+        return value
+    raise ValueError
 
 
 def _loose_float(text: str) -> float:
     value = float(text)
-    if math.isfinite(value):
-        return _float(text)
     # 1e400 is no number, although float() gives infinity
-    if _ascii(text).strip().lstrip("+-").lower() not in {"inf", "nan"}:
-        raise ValueError
-    return value
+    is_meant = isfinite(value) or text.strip().lstrip("+-").lower() in {"inf", "nan"}
+    if is_meant and text.isascii() and "_" not in text:
+        return value
+    raise ValueError
 
 
-def _vector(counts: tuple[int, ...]) -> Parser:
+def _vector(counts: tuple[int, ...]) -> Callable[[str], tuple[float, ...]]:
     most = max(counts)
 
     def parse(text: str) -> tuple[float, ...]:
         # what stands behind the last number remains one word, so that a million of them cost no more than one
-        words = text.split(None, most)
-        if len(words) not in counts:
-            raise ValueError
-        values = tuple(map(float, words))
+        values = tuple(map(float, text.split(None, most)))
         # a finite sum has finite terms, and is quicker to see
-        if (math.isfinite(sum(values)) or all(map(math.isfinite, values))) and _is_plain(text):
+        is_finite = isfinite(sum(values)) or all(map(isfinite, values))
+        if len(values) in counts and is_finite and text.isascii() and "_" not in text:
             return values
         raise ValueError
 
     return parse
+
+
+_any_pose = _vector((6, 7))
+
+
+def _pose(text: str) -> tuple[float, ...]:
+    words = text.split(None, 7)
+    if len(words) != 6:
+        return _any_pose(text)
+    x, y, z, roll, pitch, yaw = map(float, words)
+    if isfinite(x + y + z + roll + pitch + yaw) and text.isascii() and "_" not in text:
+        return x, y, z, roll, pitch, yaw
+    return _any_pose(text)
+
+
+_any_vector3 = _vector((3,))
+_USUAL = {text: _any_vector3(text) for text in ("0 0 0", "0.0 0.0 0.0", "0 0 1", "0 1 0", "1 0 0", "1 1 1")}
+"""Most vectors of real files are one of these."""
+
+
+def _vector3(text: str) -> tuple[float, ...]:
+    known = _USUAL.get(text)
+    if known is not None:
+        return known
+    first, second, third = text.split(None, 3)
+    x, y, z = float(first), float(second), float(third)  # quicker than `map`
+    if isfinite(x + y + z) and text.isascii() and "_" not in text:
+        return x, y, z
+    return _any_vector3(text)
 
 
 def parse_bool(text: str) -> bool:
@@ -138,7 +160,7 @@ _URDF = {
     "int": ValueType(_int, "a whole number"),
     "uint": ValueType(_uint, "a whole number that is not negative"),
     "double": ValueType(_float, "a finite number"),
-    "vector3": ValueType(_vector((3,)), "three numbers"),
+    "vector3": ValueType(_vector3, "three numbers"),
     "quaternion": ValueType(_vector((4,)), "four numbers: x y z w"),
     "color4": ValueType(_vector((4,)), "four numbers from 0 to 1: red green blue alpha"),
 }
@@ -149,9 +171,7 @@ _SDF = _URDF | {
     "vector2i": ValueType(_ints, "two whole numbers"),
     "quaternion": ValueType(_vector((3, 4)), "three or four numbers"),
     "color": ValueType(_vector((3, 4)), "three or four numbers from 0 to 1: red green blue and perhaps alpha"),
-    "pose": ValueType(
-        _vector((6, 7)), "six numbers, x y z roll pitch yaw, or seven with a quaternion: x y z qx qy qz qw"
-    ),
+    "pose": ValueType(_pose, "six numbers, x y z roll pitch yaw, or seven with a quaternion: x y z qx qy qz qw"),
     "time": ValueType(_time, "seconds, or seconds and nanoseconds"),
 }
 

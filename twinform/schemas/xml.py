@@ -8,6 +8,7 @@ from lxml import etree
 from lxml.etree import _Element as XmlElement  # pyright: ignore[reportPrivateUsage] - lxml has no public name for it
 
 __all__ = [
+    "BLANKS",
     "XmlElement",
     "children",
     "declared_namespaces",
@@ -22,6 +23,8 @@ __all__ = [
     "usual_namespace",
 ]
 
+BLANKS = " \t\r\n"
+"""What XML calls white space."""
 Places = dict[XmlElement, int]
 """The places of elements among their like."""
 _UNDECLARED = "urn:twinform:undeclared:"

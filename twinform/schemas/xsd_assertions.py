@@ -1,6 +1,6 @@
 """Assertions of the XSD 1.1 schemas: what readers refuse, or cannot simulate, and no type or count can express.
 
-The schema reader and the rules on models report the same, so validation checks them no more than keys.
+The reader and the rules on models report the same, so validation checks them no more than keys.
 """
 
 from collections.abc import Iterator

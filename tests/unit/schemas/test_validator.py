@@ -1,4 +1,4 @@
-"""XSD validation: silent about what the schema reader reported, loud about what it did not."""
+"""XSD validation: silent about what the reader reported, loud about what it did not."""
 
 import subprocess
 import sys
@@ -135,7 +135,7 @@ def test_a_fault_explains_only_its_own_element(engine: Engine):
     text = "<robot name='r'>\n<link name='a'/>\n<link/>\n<link name='b' mass='1'/></robot>"
     root = etree.fromstring(text)
     context = _read("urdf", root)
-    context.tolerated.clear()  # as if the schema reader had not seen the mass
+    context.tolerated.clear()  # as if the reader had not seen the mass
     validate(root, context, engine)
     assert _of_two_minds(context) == [4]
 

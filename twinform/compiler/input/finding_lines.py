@@ -1,7 +1,7 @@
 """Lines of findings: from the line of the node that holds a part to that of the part itself, by the path.
 
 Nodes know where they were written, and their simple parts, such as the `<child>` of a joint, only the step to them.
-Findings of the schema reader need none of this: it has the elements themselves.
+Findings of the reader need none of this: it has the elements themselves.
 """
 
 import re
@@ -21,7 +21,7 @@ _STEP = re.compile(
 _ATTRIBUTE = re.compile(r"/@[^/\]']+$")
 
 # Nodes of the IR know the line of the element that made them, and not that of the part of it that
-# is wrong. Only findings of later checks need this; the schema reader has the element that it
+# is wrong. Only findings of later checks need this; the reader has the element that it
 # reports on.
 _KEYS = ("name", "reference")
 _SEVERAL = 2

@@ -260,8 +260,7 @@ def read_document(
     # The XSD is asked before the tree is read, so that the reader need not look for stray text and
     # the like in what the XSD accepts.
     errors = refusals(root, context, engine)
-    context.clean = not errors
-    context.simple = context.clean and (_is_plain(text, sink) or not has_prefixed_attributes(root))
+    context.simple = not errors and (_is_plain(text, sink) or not has_prefixed_attributes(root))
     namespaces = _namespaces(root, namespace, inside=_declares_inside(root, text, sink))
     size = None if load_options.keep_tree else parts_of(root)
     comments = comments if load_options.keep_comments else None
@@ -322,8 +321,7 @@ def lower_tree(root: XmlElement, sink: DiagnosticSink, *, valid: bool = False) -
     format_, build = _ROOTS[str(root.tag)]
     context = Context(sink, sink.file, format_, declared_version(root, format_, sink))
     errors = [] if valid else refusals(root, context, "libxml2")
-    context.clean = not errors
-    context.simple = context.clean and not has_prefixed_attributes(root)
+    context.simple = not errors and not has_prefixed_attributes(root)
     document = _built(build, root, context)
     if errors:
         validate(root, context, "libxml2", errors)
@@ -344,7 +342,7 @@ def _verify_what_is_there(document: Document, root: XmlElement, sink: Diagnostic
 
 
 def declared_version(root: XmlElement, format_: str, sink: DiagnosticSink) -> Version:
-    """The version that the schema reader goes by: the declared one where the format has it, else the newest."""
+    """The version that the reader goes by: the declared one where the format has it, else the newest."""
     known, declared = versions_of(format_), root.get("version")
     if declared is None and format_ in _WITHOUT_VERSION:
         return _WITHOUT_VERSION[format_]

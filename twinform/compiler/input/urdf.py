@@ -5,22 +5,19 @@ A joint's origin is in the frame of its parent link, and the child link's frame 
 
 from twinform.ir import Document, Format, Model, Pose
 from twinform.ir.record import amend, maker
-from twinform.schemas import Context, XmlElement
+from twinform.schemas import Context, XmlElement, reader
 
+_make_model = maker(Model)
 _make_pose = maker(Pose)
 _make_document = maker(Document)
 
 
 def build(root: XmlElement, context: Context) -> Document | None:
     """The document that a `<robot>` makes, but for its namespaces; none where it has errors that leave gaps."""
-    from twinform.compiler.input.readers.reading import Reading  # noqa: PLC0415 - for files of this format
-    from twinform.compiler.input.readers.urdf import make_model, read_robot  # noqa: PLC0415 - for files of this format
-
-    reading = Reading(context)
-    data = read_robot(root, None, "robot", root.get("name"), reading)
-    if reading.broken:
+    data = reader("urdf", context.version).read(root, context)
+    if context.broken:
         return None
-    model = make_model(data)
+    model = _make_model(data)
     _relate_poses(model)
     values = {"format": Format.URDF, "models": (model,), "source": model.source, **context.header}
     return _make_document(values)

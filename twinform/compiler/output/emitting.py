@@ -199,7 +199,7 @@ def written_version(document: Document) -> Version:
 def _validate(
     root: XmlElement, format_: Format, version: Version, sink: DiagnosticSink, *, kept: AbstractSet[str] | None
 ) -> None:
-    """XSD validation of the output. The schema reader runs only where the XSD refuses: on what came in as unknown.
+    """XSD validation of the output. The reader runs only where the XSD refuses: on what came in as unknown.
 
     What the version does not have is left out, but for the names that are kept; all of it stays where `kept` is None.
     """
@@ -216,7 +216,7 @@ def _validate(
 
 
 def _leave_out(context: Context, kept: AbstractSet[str], sink: DiagnosticSink) -> None:
-    """Take what the version does not have out of the tree that the schema reader has read."""
+    """Take what the version does not have out of the tree that the reader has read."""
     version = f"{context.format.upper()} {print_version(context.version)}"
     for element, fact in context.outside:
         if fact.name in kept:

@@ -25,7 +25,7 @@ from twinform.ir.world import World
 _BEFORE_FRAMES = frozenset({"1.2", "1.3", "1.4", "1.5", "1.6"})
 _BEFORE_SCOPES = _BEFORE_FRAMES | {"1.7"}
 """Versions in which a name may have `::` in it."""
-# From 1.8 on a file has one of these at its top. The schema reader reports a second one and keeps
+# From 1.8 on a file has one of these at its top. The reader reports a second one and keeps
 # it.
 _ALONE = frozenset({"model", "light"})
 

@@ -68,7 +68,7 @@ def _without_scope(model: Model, prefix: str) -> dict[str, object]:
 
 
 def _absorb(node: AnyNode, piece: Opaque, condition: VersionCondition, version: Version) -> AnyNode:
-    data = _read(piece, definition_of(node) or "", version)
+    data = _read(piece, type(node), definition_of(node) or "", version)
     if condition.index and piece.at:
         return _repeat_inside(node, piece.at.split("/"), piece)
     # A repeated element stays repeated: of two <material> readers take the first, and the second,
@@ -92,7 +92,7 @@ def _repeat_inside(node: AnyNode, path: list[str], piece: Opaque) -> AnyNode:
     return node.copy(**{field: _repeat_inside(inner, rest, piece)})
 
 
-def _read(piece: Opaque, definition: str, version: Version) -> dict[str, Any]:
+def _read(piece: Opaque, kind: type[Node], definition: str, version: Version) -> dict[str, Any]:
     """The fields that a piece sets in the node of a definition."""
     if not definition:
         raise CarrierError("there is nothing of SDF around it")
@@ -102,7 +102,7 @@ def _read(piece: Opaque, definition: str, version: Version) -> dict[str, Any]:
         holder = etree.SubElement(holder, step)
     _put_piece(piece, holder)
     sink = DiagnosticSink()
-    data = reader("sdf", version).read(xml, Context(sink, "", "sdf", version), definition)
+    data = reader("sdf", version).read(xml, Context(sink, "", "sdf", version), definition, kind)
     for found in sink.diagnostics:
         if found.is_error and found.location.path != f"/sdf/{definition}":  # which lacks all that is not in the piece
             raise CarrierError(found.message)

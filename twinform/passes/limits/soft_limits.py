@@ -42,7 +42,7 @@ def _elements(joint: Joint) -> Iterator[Element]:
 
 
 def _number(text: str | None) -> float | None:
-    """The number of an attribute; readers skip what is none, and the schema reader has reported it."""
+    """The number of an attribute; readers skip what is none, and the reader has reported it."""
     try:
         value = float(text) if text is not None else None
     except ValueError:

@@ -46,8 +46,8 @@ def sensor_of(element: Element) -> Sensor | None:
     found = DiagnosticSink(file=element.source.file if element.source else "")
     context = Context(found, found.file, "sdf", table("sdf").newest, declared=False)
     xml = element_xml(element, etree.Element("link", {"name": ""}))
-    data: dict[str, Any] = reader("sdf", context.version).read(xml, context, "sensor", element.source)
-    return None if found.has_errors else Sensor.model_validate(data)
+    data: dict[str, Any] = reader("sdf", context.version).read(xml, context, "sensor", Sensor, element.source)
+    return None if found.has_errors else Sensor.unchecked(**data)
 
 
 def sensor_element(sensor: Sensor) -> Element:

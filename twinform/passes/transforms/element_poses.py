@@ -156,7 +156,7 @@ def read_pose(element: Element) -> Pose:
     """The pose that an element defines; SDF before 1.7 calls its frame `frame`."""
     # The findings are thrown away: this element was checked when the file was read.
     context = Context(DiagnosticSink(), "", "sdf", table("sdf").newest)
-    pose = Pose.model_validate(reader("sdf", context.version).read(element_xml(element), context, "pose"))
+    pose = Pose.unchecked(**reader("sdf", context.version).read(element_xml(element), context, "pose", Pose))
     return pose.copy(relative_to=_frame_of(element), opaque=())
 
 

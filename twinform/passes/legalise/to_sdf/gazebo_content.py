@@ -46,13 +46,13 @@ def read_content(
     above = listed[0].source
     found = DiagnosticSink(file=above.file if above else sink.file, strict=sink.strict)
     context = Context(found, found.file, "sdf", table("sdf").newest, declared=False)
-    data = reader("sdf", context.version).read(xml, context, kind, above)
+    data = reader("sdf", context.version).read(xml, context, kind, _NODES[kind], above)
     _report(found, f"{kind}[@name='{name}']", name if kind != "model" else "", sink)
     fields = [field for field in data if field not in _GIVEN]
     if sink.has_errors or not fields:
         return {}
     base: dict[str, Any] = {"name": name, **_REQUIRED.get(kind, {})}
-    node = _NODES[kind].model_validate({**base, **{field: data[field] for field in fields}})
+    node = _NODES[kind].unchecked(**{**base, **{field: data[field] for field in fields}})
     made = {field: getattr(node, field) for field in fields}
     if isinstance(node, Link) and node.inertial is not None:
         made["inertial"] = _as_in_sdf(node.inertial)

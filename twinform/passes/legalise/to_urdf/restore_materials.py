@@ -95,8 +95,8 @@ def _material(element: Element) -> Material | None:
     """The material that an element defines; None where it was edited into nonsense."""
     sink = DiagnosticSink()
     context = Context(sink, "", "urdf", table("urdf").newest)
-    data = reader("urdf", context.version).read(element_xml(element), context, "material")
-    return Material.model_validate(data) if element.get("name") and not sink.has_errors else None
+    data = reader("urdf", context.version).read(element_xml(element), context, "material", Material)
+    return Material.unchecked(**data) if element.get("name") and not sink.has_errors else None
 
 
 def _own_looks(visuals: list[_Annotated], shared: Mapping[str, Material]) -> dict[str, Look]:

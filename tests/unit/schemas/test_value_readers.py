@@ -7,7 +7,7 @@ from lxml import etree
 
 from twinform.diagnostics import DiagnosticSink, Source
 from twinform.schemas import Context, Fact
-from twinform.schemas.value_stores import value_check, value_store
+from twinform.schemas.value_readers import check_pose, value_check, value_store
 
 LATE = Fact("@mode", since=(1, 5), enum=("late", "slow"))
 GONE = Fact("@mode", until=(1, 0), enum=("gone", "slow"))
@@ -105,9 +105,7 @@ def test_a_pose_has_the_numbers_of_its_notation(
     attributes: str, count: int, expected: tuple[str, str, str | None] | None
 ) -> None:
     element, context = on(f"<a {attributes}>text</a>")
-    check = value_check(Fact("a", type="pose"))
-    assert check
-    check(element, (0.0,) * count, context)
+    check_pose(element, count, context)
     assert [(each.location.path, each.message, each.expected) for each in context.sink.diagnostics] == (
         [expected] if expected else []
     )
@@ -138,35 +136,21 @@ STORES: list[tuple[Fact, str, dict[str, Any], object, dict[str, Any]]] = [
         (1.0, "1"),
         {"box": {"source": ABOVE, "other": 2.0, "field": 1.0}},
     ),
-    (
-        Fact("a", type="pose"),
-        ".",
-        {},
-        ((1.0, 2.0, 3.0, 4.0, 5.0, 6.0), ""),
-        {"xyz": (1.0, 2.0, 3.0), "rpy": (4.0, 5.0, 6.0)},
-    ),
-    (
-        Fact("a", type="pose"),
-        ".",
-        {},
-        ((1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0), ""),
-        {"xyz": (1.0, 2.0, 3.0), "quat_xyzw": (0.0, 0.0, 0.0, 1.0)},
-    ),
 ]
 
 
 @pytest.mark.parametrize(("row", "place", "node", "value", "expected"), STORES)
 def test_a_value_goes_where_the_table_puts_it(
-    row: Fact, place: str, node: dict[str, Any], value: object, expected: dict[str, Any]
+    row: Fact, place: str, node: dict[str, Any], value: tuple[object, str], expected: dict[str, Any]
 ) -> None:
     element, context = on()
     data = {"source": ABOVE, **{key: each.copy() for key, each in node.items()}}
-    value_store(row, place)(element, data, value, context)
+    value_store(row, place)(element, data, *value, context)
     assert data == {"source": ABOVE, **expected}
     assert context.header == {}
 
 
 def test_what_is_about_the_document_goes_into_its_header() -> None:
     element, context = on()
-    value_store(Fact("@version", type="string"), "/version")(element, {}, ("1.1", "1.1"), context)
+    value_store(Fact("@version", type="string"), "/version")(element, {}, "1.1", "1.1", context)
     assert context.header == {"version": "1.1"}
