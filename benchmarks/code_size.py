@@ -15,7 +15,7 @@ from testbed.markdown import table
 
 _GENERATED = ("do not edit it", "not to be edited")
 """What the docstrings of generated modules say."""
-_AROUND = ("tests", "testbed", "reports", "benchmarks", "generators")
+_AROUND = ("tests", "testbed", "reports", "benchmarks", "generators", "fuzz")
 """Folders that are one row each, unless they are asked for."""
 
 

@@ -21,7 +21,7 @@ from twinform.schemas.facts import Fact
 
 SECONDS = 3
 """Of processor time, for each input."""
-_ROOT = Path(__file__).parents[2]
+_ROOT = Path(__file__).parents[1]
 _CASES = _ROOT / "tests" / "cases"
 _Mode = Literal["w", "w:gz", "w:bz2", "w:xz"]
 
@@ -181,7 +181,7 @@ def _mesh_words() -> Iterator[str]:
 
 
 def _messages() -> Iterator[bytes]:
-    folder = Path(__file__).with_name("found") / "editor_protocol"
+    folder = _ROOT / "tests" / "fuzz" / "found" / "editor_protocol"
     yield from (path.read_bytes() for path in sorted(folder.iterdir()))
 
 
