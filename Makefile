@@ -42,7 +42,7 @@ $(ORACLES): $(SYNCED)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[oracles]'
 	touch $@
 
-fmt: $(SYNCED) ## format, and mend what the linter can mend
+fmt: $(SYNCED) ## format, and fix what the linter can fix
 	$(BIN)/ruff check --quiet --fix-only .
 	$(BIN)/ruff format .
 

@@ -19,7 +19,7 @@ _HYPHENS = re.compile("-(?=-)")
 
 
 def comments(data: bytes) -> Counter[str]:
-    """The comments of a text, without their layout; two hyphens are mended, which other parsers let pass."""
+    """The comments of a text, without their layout; two hyphens are fixed, which other parsers let pass."""
     root = etree.fromstring(data, _PARSER)
     found = cast("list[XmlElement]", root.getroottree().xpath("//comment()"))
     return Counter(" ".join(_HYPHENS.sub("- ", each.text or "").split()) for each in found)

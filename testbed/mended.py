@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import twinform
 from twinform.compiler import LoadOptions, LoadResult, inspect, read
-from twinform.compiler.fixing import Mended, mend_by
-from twinform.compiler.fixing.mending import kind_of
+from twinform.compiler.fixing import FixResult, apply_fixes_by
+from twinform.compiler.fixing.fix_rounds import kind_of
 from twinform.diagnostics import Safety, Span
 from twinform.text import SourceText, UndecodableError
 
@@ -18,8 +18,8 @@ _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)
-class MendedFile:
-    """A file that was mended: how many findings of each rule, whether it is the same robot, and broken promises.
+class FixedFile:
+    """A file that was fixed: how many findings of each rule, whether it is the same robot, and broken promises.
 
     `same` is None where nothing was changed, or the robot could not be read before.
     """
@@ -33,19 +33,19 @@ class MendedFile:
     faults: tuple[str, ...] = ()
 
 
-def mended_file(name: str, data: bytes) -> MendedFile:
-    """Mend a file, safely and then in every way, and see what is true of it."""
+def fixed_file(name: str, data: bytes) -> FixedFile:
+    """Fix a file, safely and then in every way, and see what is true of it."""
 
     def look(text: bytes) -> LoadResult:
         load_options = LoadOptions()
         return inspect(read(text, load_options, name=name), load_options)
 
-    safe, unsafe = mend_by(look, data), mend_by(look, data, unsafe=True)
+    safe, unsafe = apply_fixes_by(look, data), apply_fixes_by(look, data, unsafe=True)
     same = _same(data, safe.data, name) if safe.data != data and look(data).accepted else None
     faults = [*_faults(look, data, safe, unsafe=False), *(f"unsafe: {each}" for each in _faults(look, data, unsafe))]
     if same is False:
         faults.append("another robot after safe fixes")
-    return MendedFile(
+    return FixedFile(
         name,
         safe.data != data,
         _counted(safe),
@@ -56,8 +56,8 @@ def mended_file(name: str, data: bytes) -> MendedFile:
     )
 
 
-def _counted(mended: Mended) -> tuple[tuple[str, int], ...]:
-    return tuple(Counter(each.rule.name for each in mended.applied).items())
+def _counted(fixed: FixResult) -> tuple[tuple[str, int], ...]:
+    return tuple(Counter(each.rule.name for each in fixed.applied).items())
 
 
 def _same(before: bytes, after: bytes, name: str) -> bool | None:
@@ -71,35 +71,37 @@ def _same(before: bytes, after: bytes, name: str) -> bool | None:
         return None
 
 
-def _faults(look: Callable[[bytes], LoadResult], data: bytes, mended: Mended, *, unsafe: bool = True) -> Iterator[str]:
+def _faults(
+    look: Callable[[bytes], LoadResult], data: bytes, fixed: FixResult, *, unsafe: bool = True
+) -> Iterator[str]:
     before = look(data)
-    yield from _against_rules(mended)
-    if mended.data == data:
+    yield from _against_rules(fixed)
+    if fixed.data == data:
         return
-    again = mend_by(look, mended.data, unsafe=unsafe)
-    if again.data != mended.data:
+    again = apply_fixes_by(look, fixed.data, unsafe=unsafe)
+    if again.data != fixed.data:
         yield f"a second run changes it: {again.applied[0].rule.name}"
-    errors = [sum(each.is_error for each in loaded.diagnostics) for loaded in (before, mended.left)]
-    new = Counter(map(kind_of, mended.left.diagnostics)) - Counter(map(kind_of, before.diagnostics))
+    errors = [sum(each.is_error for each in loaded.diagnostics) for loaded in (before, fixed.left)]
+    new = Counter(map(kind_of, fixed.left.diagnostics)) - Counter(map(kind_of, before.diagnostics))
     if before.accepted and new:
         yield f"new findings: {sorted(new)[:3]}"
     if errors[1] > errors[0] and not before.unreadable:
         yield "more errors than before"
-    if before.document is not None and mended.left.document is None:
+    if before.document is not None and fixed.left.document is None:
         yield "cannot be read any more"
-    yield from _against_text(data, mended)
+    yield from _against_text(data, fixed)
 
 
-def _against_rules(mended: Mended) -> Iterator[str]:
+def _against_rules(fixed: FixResult) -> Iterator[str]:
     order = (Safety.SAFE, Safety.UNSAFE, Safety.DISPLAY)
-    for each in mended.applied:
+    for each in fixed.applied:
         if each.fix is None or each.rule.fix is None or order.index(each.fix.safety) < order.index(each.rule.fix):
             yield f"a fix of {each.rule.name} is safer than its rule says"
 
 
-def _against_text(data: bytes, mended: Mended) -> Iterator[str]:
+def _against_text(data: bytes, fixed: FixResult) -> Iterator[str]:
     try:
-        old, new = SourceText.of(data), SourceText.of(mended.data)
+        old, new = SourceText.of(data), SourceText.of(fixed.data)
     except UndecodableError:
         yield "no text any more"
         return
@@ -109,7 +111,7 @@ def _against_text(data: bytes, mended: Mended) -> Iterator[str]:
     lost = Counter(map(_words, _COMMENT.findall(_CONTROL.sub("", old.text)))) - kept
     if lost:
         yield f"a comment is lost: {next(iter(lost))[:60]}"
-    if mended.rounds == 1 and not _is_kept(old.text, new.text, [*_spans(mended)]):
+    if fixed.rounds == 1 and not _is_kept(old.text, new.text, [*_spans(fixed)]):
         yield "what is outside of the fixes differs"
 
 
@@ -118,8 +120,8 @@ def _words(comment: str) -> str:
     return "".join(each for each in comment if each.isprintable() and each not in "- ")
 
 
-def _spans(mended: Mended) -> Iterator[Span]:
-    seen = {edit for each in mended.applied if each.fix for edit in each.fix.edits}
+def _spans(fixed: FixResult) -> Iterator[Span]:
+    seen = {edit for each in fixed.applied if each.fix for edit in each.fix.edits}
     yield from (edit.span for edit in seen)
 
 

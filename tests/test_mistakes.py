@@ -67,7 +67,7 @@ class Mistake:
         return line[where.column - 1 : where.end_column - 1] == self.piece if where.column else not self.piece
 
     def is_what(self, found: Diagnostic, line: int) -> bool:
-        """Whether a finding is this mistake: on its line, with all that somebody needs to know to mend it."""
+        """Whether a finding is this mistake: on its line, with all that somebody needs to know to fix it."""
         report = f"{found.message} {found.help or ''}"
         return (
             found.location.line == line

@@ -62,7 +62,7 @@ def test_its_fix_is_offered_and_applied(site: Path) -> None:
     arguments = ("check", "--fix", "--unsafe-fixes", "--passes", "check-names", "-")
     done = twinform(site, *arguments, text=robot)
     assert (done.returncode, done.stdout) == (0, robot.replace("Base Link", "base_link"))
-    assert "mended 1 x unusual-name" in done.stderr
+    assert "fixed 1 x unusual-name" in done.stderr
 
 
 def test_the_rule_has_a_page_and_names_who_brings_it(site: Path) -> None:

@@ -25,7 +25,7 @@ Each mistake of `tests/mistakes/columns.toml` is one edit in a model without mis
 some of the corpus: a slip in a name, a unit, a comma, swapped parents, a tag that is not closed. It counts as found
 where `check` reports a warning or an error whose line and columns, beginning and end, are those of the piece that is
 wrong. The pieces were marked before anything was run; 67 of these 77 were found the first time, and the others showed
-what was to be mended.
+what was to be fixed.
 
 The other half is 200 models of the corpus, drawn from those that libsdformat 12 and, for URDF, urdfdom accept. What
 `check` reports about them was judged by hand."""

@@ -1,4 +1,4 @@
-"""What engines say of inertias that passes have computed, mended and divided."""
+"""What engines say of inertias that passes have computed, fixed and divided."""
 
 import importlib
 from pathlib import Path
@@ -13,7 +13,7 @@ from twinform.testing import oracles
 from twinform.testing.oracles import drake
 
 CASES = Path(__file__).parents[1] / "cases/passes/inertia"
-MENDED = "split-massless,balance-inertia"
+FIXED = "split-massless,balance-inertia"
 HINGE = '<joint name="{0}" type="continuous"><parent link="base"/><child link="{0}"/><axis xyz="0 0 1"/></joint>'
 LINK = '<link name="{}"><inertial><mass value="1"/><inertia {}/></inertial></link>'
 BASE = LINK.format("base", 'ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"')
@@ -34,8 +34,8 @@ def need(engine: str) -> None:
 def test_engines_take_what_they_refused(engine: str) -> None:
     need(engine)
     texts = [f'<robot name="r">{BASE}{link}{HINGE.format("a")}</robot>'.encode() for link in IMPOSSIBLE.values()]
-    mended = [twinform.convert(text, to="urdf", passes=MENDED).text.encode() for text in texts]
-    before, after = complaints(engine, texts), complaints(engine, mended)
+    fixed = [twinform.convert(text, to="urdf", passes=FIXED).text.encode() for text in texts]
+    before, after = complaints(engine, texts), complaints(engine, fixed)
     assert sum(map(bool, before)) >= 2
     assert not any(after)
 

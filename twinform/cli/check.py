@@ -59,10 +59,10 @@ EXAMPLES = {
 @consumers_option
 @exclude_options
 @click.option("--watch", is_flag=True, help="Stay, and check what changes again, until Ctrl-C.")
-@click.option("--fix", is_flag=True, help="Mend what can be mended without another robot coming of it, in the files.")
-@click.option("--unsafe-fixes", is_flag=True, help="Mend what is a guess too, or may make another robot of a file.")
+@click.option("--fix", is_flag=True, help="Fix what can be fixed without another robot coming of it, in the files.")
+@click.option("--unsafe-fixes", is_flag=True, help="Fix what is a guess too, or may make another robot of a file.")
 @click.option("--diff", is_flag=True, help="Print what --fix would change, and write nothing; exit code 1 if anything.")
-@click.option("--fix-only", is_flag=True, help="Mend, and report nothing of what is left.")
+@click.option("--fix-only", is_flag=True, help="Fix, and report nothing of what is left.")
 @reading_options
 @click.pass_context
 def command(
@@ -94,7 +94,7 @@ def command(
     exclusion = exclusion_of(ctx, exclude, force=force_exclude)
     sources, arguments = model_inputs(words, exclusion)
     options = OptionsByFile(ctx, arguments, reading, rules, check_passes, "check_passes", profiles)
-    mends, expand_includes = fix or diff or fix_only, reading.get("expand_includes") or False
+    fixes, expand_includes = fix or diff or fix_only, reading.get("expand_includes") or False
 
     def new_report() -> CheckReport:
         return CheckReport(style, notes=notes, every=every, baseline=baseline_of(ctx, baseline, update=update_baseline))
@@ -113,31 +113,31 @@ def command(
         return Fixing(look, load_options, policy, unsafe=unsafe_fixes, diff=diff, notes=notes)
 
     if watch:
-        if style != "text" or update_baseline or mends or "-" in words:
+        if style != "text" or update_baseline or fixes or "-" in words:
             raise click.UsageError("--watch prints text, of files: leave --format, --update-baseline, --fix and - out")
         from twinform.cli.watching import watch_models  # noqa: PLC0415 - it seldom happens
 
         ctx.exit(watch_models(lambda: model_inputs(words, exclusion)[0], new_report, check))
     report = new_report()
-    if mends:
-        ctx.exit(_mend(sources, fixing, report, diff=diff, silent=diff or fix_only))
+    if fixes:
+        ctx.exit(_fix(sources, fixing, report, diff=diff, silent=diff or fix_only))
     for source in sources:
         check(source, report)
     ctx.exit(report.end())
 
 
-def _mend(
+def _fix(
     sources: "Sequence[Source]", fixing: "Callable[[Source], Fixing]", report: CheckReport, *, diff: bool, silent: bool
 ) -> int:
-    """Mend files, or print what would change; gives the exit code. What is left is reported, unless `silent`."""
+    """Fix files, or print what would change; gives the exit code. What is left is reported, unless `silent`."""
     from twinform.cli.fixing import run_fixes  # noqa: PLC0415 - most runs only look
 
     report.on_stderr = not diff and any(isinstance(each.content, bytes) for each in sources)
     if report.on_stderr and report.style != "text" and not silent:
-        raise click.UsageError("the mended text of standard input is printed: leave --format out, or give --diff")
-    loaded, report.mended = run_fixes(sources, fixing)
+        raise click.UsageError("the fixed text of standard input is printed: leave --format out, or give --diff")
+    loaded, report.fixed = run_fixes(sources, fixing)
     if silent:
-        return UNUSABLE if any(each.unreadable for each in loaded) else FINDINGS if diff and report.mended else 0
+        return UNUSABLE if any(each.unreadable for each in loaded) else FINDINGS if diff and report.fixed else 0
     for source, each in zip(sources, loaded, strict=True):
         report.add(each, fixing(source).policy)
     return report.end()

@@ -26,7 +26,7 @@ class CheckReport:
 
     def __init__(self, style: str, *, notes: bool, every: bool = False, baseline: BaselineFile | None = None) -> None:
         self.style, self.notes, self.every, self.baseline = style, notes, every, baseline
-        self.on_stderr, self.mended = False, 0
+        self.on_stderr, self.fixed = False, 0
         self.fixes: Counter[Safety] = Counter()
         self.kept: list[Findings] = []
         self.counts: Counter[Severity] = Counter()
@@ -80,13 +80,13 @@ class CheckReport:
             (self.unreadable, "could not be read"),
             (self.allowed, "allowed"),
             (self.known, "in the baseline"),
-            (self.mended, "mended"),
+            (self.fixed, "fixed"),
         )
         counts = "".join(f"; {count} {what}" for count, what in more if count)
-        return f"{_count(self.files, 'file')}: {found}{counts}{self._fixable() if not self.mended else ''}"
+        return f"{_count(self.files, 'file')}: {found}{counts}{self._fixable() if not self.fixed else ''}"
 
     def _fixable(self) -> str:
-        """How many findings `--fix` would mend at most."""
+        """How many findings `--fix` would fix at most."""
         safe, unsafe = self.fixes[Safety.SAFE], self.fixes[Safety.UNSAFE]
         if safe and unsafe:
             return f"; {safe} fixable with --fix, {unsafe} more with --unsafe-fixes"

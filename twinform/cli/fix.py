@@ -11,7 +11,7 @@ from twinform.cli.exclude import exclude_options, exclusion_of
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.files.model_files import is_plain
 from twinform.cli.findings import notes_option, show
-from twinform.cli.fixing import Fixing, mended_source
+from twinform.cli.fixing import Fixing, fixed_source
 from twinform.cli.inputs import file_options, load_options_of, model_inputs
 from twinform.cli.mesh_progress import mesh_progress
 from twinform.cli.pipeline_option import pipeline_option
@@ -31,7 +31,7 @@ Report = Callable[[str, tuple[Diagnostic, ...]], None]
 
 
 EXAMPLES = {
-    "Mend what can be mended": "twinform fix robot.urdf",
+    "Fix what can be fixed": "twinform fix robot.urdf",
     "Show what a guess would change too": "twinform fix robot.urdf --unsafe-fixes --diff",
     "Run a pass on a file": "twinform fix robot.urdf --passes 'fill-limits{effort=100}'",
 }
@@ -46,7 +46,7 @@ EXAMPLES = {
     shell_complete=pipelines,
     help="Passes to run then, such as 'fill-limits{effort=100}', or @NAME for one that the configuration names.",
 )
-@click.option("--unsafe-fixes", is_flag=True, help="Mend what is a guess too, or may make another robot of a file.")
+@click.option("--unsafe-fixes", is_flag=True, help="Fix what is a guess too, or may make another robot of a file.")
 @click.option("--diff", is_flag=True, help="Print what would change, and write nothing; exit code 1 if anything.")
 @notes_option
 @policy_options
@@ -66,7 +66,7 @@ def command(
     force_exclude: bool,
     reading: FileOptions,
 ) -> None:
-    """Mend robot models in their files, and run passes on them.
+    """Fix robot models in their files, and run passes on them.
 
     IN are URDF or SDF files, folders of them, or globs in quotes; - is standard input, which goes to standard output.
     Only what a fix or a pass changes is changed: comments, layout and the spelling of all else stay. All is written,
@@ -112,10 +112,10 @@ def _require_model(source: Source, passes: Pipeline | None) -> None:
 
 def _run(source: Source, passes: Pipeline | None, fixing: Fixing, report: Report) -> Rewrite | int:
     """A file as it is to be, or the exit code where it cannot be changed."""
-    mended = mended_source(source, fixing)
-    rewrite, news = mended.rewrite, mended.news
-    if rewrite is None or mended.loaded.unreadable:
-        report(source.name, mended.loaded.diagnostics)
+    fixed = fixed_source(source, fixing)
+    rewrite, news = fixed.rewrite, fixed.news
+    if rewrite is None or fixed.loaded.unreadable:
+        report(source.name, fixed.loaded.diagnostics)
         return UNUSABLE
     if passes:
         try:

@@ -1,4 +1,4 @@
-"""Mending files from the command line: the options of `check --fix`, and what is said of the fixes."""
+"""Fixing files from the command line: the options of `check --fix`, and what is said of the fixes."""
 
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -10,7 +10,7 @@ from twinform.cli.printing import print_line
 from twinform.cli.rewriting import Rewrite, show_differences, write_back
 from twinform.cli.source import Source
 from twinform.compiler import LoadOptions, LoadResult
-from twinform.compiler.fixing import Mended, mend_by
+from twinform.compiler.fixing import FixResult, apply_fixes_by
 from twinform.compiler.input.loading import XACRO
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Policy, Severity
@@ -21,7 +21,7 @@ Look = Callable[[str | bytes, str], LoadResult]
 
 @dataclass(frozen=True, slots=True)
 class Fixing:
-    """How files are mended; with `diff` nothing is written. Notes are mended where they are shown."""
+    """How files are fixed; with `diff` nothing is written. Notes are fixed where they are shown."""
 
     look: Look
     load_options: LoadOptions
@@ -38,7 +38,7 @@ class Fixing:
 
 
 class MendedSource(NamedTuple):
-    """A file that was mended: what is found now, what to write, and what to say of it."""
+    """A file that was fixed: what is found now, what to write, and what to say of it."""
 
     loaded: LoadResult
     rewrite: Rewrite | None
@@ -47,13 +47,13 @@ class MendedSource(NamedTuple):
 
 
 def run_fixes(sources: Sequence[Source], fixing: Callable[[Source], Fixing]) -> tuple[list[LoadResult], int]:
-    """Mend files, and write them or print what would change; gives what is found then, and how much was mended.
+    """Fix files, and write them or print what would change; gives what is found then, and how much was fixed.
 
     Raises:
         Unusable: a file cannot be written.
     """
     ways = [fixing(each) for each in sources]
-    done = [mended_source(each, way) for each, way in zip(sources, ways, strict=True)]
+    done = [fixed_source(each, way) for each, way in zip(sources, ways, strict=True)]
     rewrites = [each.rewrite for each in done if each.rewrite]
     if any(way.diff for way in ways):
         show_differences(rewrites)
@@ -64,8 +64,8 @@ def run_fixes(sources: Sequence[Source], fixing: Callable[[Source], Fixing]) -> 
     return [each.loaded for each in done], sum(each.number for each in done)
 
 
-def mended_source(source: Source, fixing: Fixing) -> MendedSource:
-    """A file once it is mended; nothing is written. One that cannot be is only looked at."""
+def fixed_source(source: Source, fixing: Fixing) -> MendedSource:
+    """A file once it is fixed; nothing is written. One that cannot be is only looked at."""
     sink = DiagnosticSink(source.name)
     try:
         data = _data(source, sink, fixing.load_options)
@@ -73,15 +73,15 @@ def mended_source(source: Source, fixing: Fixing) -> MendedSource:
         return MendedSource(LoadResult(source.name, None, tuple(sink.diagnostics), unreadable=True), None, [], 0)
     if data is None:
         return MendedSource(fixing.look(source.content, source.name), None, [], 0)
-    found = mend_by(lambda text: fixing.look(text, source.name), data, unsafe=fixing.unsafe, wanted=fixing.wants)
+    found = apply_fixes_by(lambda text: fixing.look(text, source.name), data, unsafe=fixing.unsafe, wanted=fixing.wants)
     rewrite = Rewrite(source, data, found.data)
     return MendedSource(
-        found.left, rewrite, _news(source.name, found, "would mend" if fixing.diff else "mended"), len(found.applied)
+        found.left, rewrite, _news(source.name, found, "would fix" if fixing.diff else "fixed"), len(found.applied)
     )
 
 
 def _data(source: Source, sink: DiagnosticSink, load_options: LoadOptions) -> bytes | None:
-    """The bytes of a file that can be mended; what xacro expands is not read from its own text.
+    """The bytes of a file that can be fixed; what xacro expands is not read from its own text.
 
     Raises:
         UnreadableError: it cannot be read.
@@ -94,8 +94,8 @@ def _data(source: Source, sink: DiagnosticSink, load_options: LoadOptions) -> by
     return read_bytes(path, sink, load_options.limits, load_options.search.readable(path))
 
 
-def _news(name: str, found: Mended, verb: str) -> list[str]:
-    """What was mended in a file, by rule, and how much was taken back."""
+def _news(name: str, found: FixResult, verb: str) -> list[str]:
+    """What was fixed in a file, by rule, and how much was taken back."""
     counts = Counter(each.rule.name for each in found.applied)
     shown = ", ".join(f"{count} x {rule}" for rule, count in counts.most_common())
     lines = [f"{name}: {verb} {shown}"] if counts else []

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _MOST = 2
 EXAMPLES = {
     "Look at a robot": "twinform view robot.urdf",
-    "Two robots over each other, with what differs in color": "twinform view robot.urdf robot.sdf",
+    "Two robots overlaid, with what differs in color": "twinform view robot.urdf robot.sdf",
     "Show it again whenever the file is saved": "twinform view robot.urdf --watch",
 }
 
@@ -51,7 +51,7 @@ def command(
     watch: bool,
     reading: FileOptions,
 ) -> None:
-    """Show a robot or world in a browser, or two over each other.
+    """Show a robot or world in a browser, or two overlaid.
 
     Shows visuals, collisions, frames, joint axes and limits, masses and sensors, with a slider for each joint, the
     tree, and what was found, on the part that it is about. Until Ctrl-C a server on this machine alone listens. A and B

@@ -87,7 +87,7 @@ def convert_once(
             loaded = expand(loaded, load_options, wanted=wanted, carriers=request.carriers)
             request = replace(request, model=name_once_expanded(before, loaded.document, request.model))
         request = replace(request, mixed=has_mixed_words(loaded))
-        if loaded.document is None or not (loaded.accepted or _may_be_mended(loaded, request)):
+        if loaded.document is None or not (loaded.accepted or _may_be_fixed(loaded, request)):
             raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
         try:
             return _run(loaded, loaded.document, request, load_options, instrumentation=instrumentation)
@@ -154,7 +154,7 @@ def _run(
     # and half in the other, so there the check comes at the end.
     changed = passes.run(document, sink, instrumentation=instrumentation, verify=verify if loaded.accepted else None)
     changed = _remedied(changed, request, sink, instrumentation, accepted=loaded.accepted)
-    # A file with an error that a pass mends: only afterwards can it be said whether it is mended.
+    # A file with an error that a pass fixes: only afterwards can it be said whether it is fixed.
     if not loaded.accepted:
         verify(changed, sink)
     text = ""
@@ -235,7 +235,7 @@ def written(
     return emit_legal(document, legal, sink, instrumentation, fit=fit, kept=kept, comments=comments)
 
 
-def _may_be_mended(loaded: LoadResult, request: ConversionRequest) -> bool:
+def _may_be_fixed(loaded: LoadResult, request: ConversionRequest) -> bool:
     """Whether nothing is wrong but what a pass can put right: limits that are missing, and what remedies are for."""
     if not (request.passes or request.remedies):
         return False
@@ -243,6 +243,6 @@ def _may_be_mended(loaded: LoadResult, request: ConversionRequest) -> bool:
     return all(
         each.rule is MISSING_LIMIT
         or (each.rule is MISSING_ATTRIBUTE and each.location.path.endswith("/limit"))
-        or each.rule.name in request.mends
+        or each.rule.name in request.remedied
         for each in errors
     )

@@ -63,12 +63,12 @@ def fitted(
     _require_readers(load_options.profiles, request, name)
     request = replace(request, sdf_version=request.sdf_version or newest_sdf(load_options.profiles))
     steps: tuple[Pass, ...] = ()
-    mends = frozenset(row.rule for each in load_options.profiles for row in each.rows if row.pipeline)
+    remedied = frozenset(row.rule for each in load_options.profiles for row in each.rows if row.pipeline)
     # The result is judged, and not the source: legalisation changes much, and encodings, odd
     # numbers and stray comments are gone once a file is written anew. It costs a conversion more,
     # and only under `--for`.
     for _ in range(_ROUNDS):
-        request = replace(request, remedies=Pipeline(in_order(steps)), mends=mends)
+        request = replace(request, remedies=Pipeline(in_order(steps)), remedied=remedied)
         found, entries = _tried(request, source, load_options, name)
         # Not which passes run, but what they changed: many that could change the physics do not.
         if request.keep_physics:
@@ -113,7 +113,7 @@ def _tried(
     try:
         made = convert_once(request, source, load_options, name=name)
     except CompileError as error:
-        # The errors of a source that a pass mends must not stop the search for that pass.
+        # The errors of a source that a pass fixes must not stop the search for that pass.
         subject = Subject(name, None, diagnostics=tuple(each for each in error.diagnostics if each.is_error))
         found = assess(subject, load_options.profiles)
         if not any(each.judgments for each in found):

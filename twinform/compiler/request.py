@@ -17,7 +17,7 @@ class ConversionRequest:
     """What a conversion is asked for; `passes` are the user's, and `assets` the files beside the source.
 
     `mixed` means that the source has elements that its version does not have; `comments` that those of the source go
-    along. `remedies` are the passes that consumers need, `mends` the
+    along. `remedies` are the passes that consumers need, `remedied` the
     rules of errors that these put right, and with `keep_physics` none of these may change the physics.
     """
 
@@ -31,7 +31,7 @@ class ConversionRequest:
     mixed: bool = False
     comments: bool = True
     remedies: Pipeline = field(default_factory=Pipeline)
-    mends: frozenset[str] = frozenset()
+    remedied: frozenset[str] = frozenset()
     keep_physics: bool = False
     assets: Assets = field(default=NO_ASSETS, compare=False, repr=False)
 

@@ -43,7 +43,7 @@ def nearest_name(name: str, known: Iterable[str | None], alike: float = _ALIKE) 
         forms.setdefault(_folded(each), each)
     if folded in forms:
         return forms[folded]
-    digits = _digits(folded)  # joint_1 is no slip of joint_2
+    digits = _digits(folded)  # joint_1 is not a typo of joint_2
     likely = (each for each in forms if not digits or _digits(each) in {"", digits})
     near = _nearest(folded, islice(likely, _MOST_COMPARED), alike)
     return forms[near] if near else None
@@ -55,7 +55,7 @@ def _nearest(name: str, others: Iterable[str], alike: float) -> str:
     Which letters there are bounds how much alike two names can be. The order of letters takes much longer to compare,
     so that is done from the highest bound on, until no other name can be nearer.
     """
-    from difflib import SequenceMatcher  # noqa: PLC0415 - most files have no slip
+    from difflib import SequenceMatcher  # noqa: PLC0415 - most files have no typo
 
     matcher = SequenceMatcher(b=name)
     letters = Counter(name)

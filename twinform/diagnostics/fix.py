@@ -1,4 +1,4 @@
-"""`Fix`: how to mend what a finding is about."""
+"""`Fix`: how to fix what a finding is about."""
 
 from dataclasses import dataclass
 from enum import StrEnum

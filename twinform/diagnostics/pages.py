@@ -21,8 +21,8 @@ This file is made by `python -m twinform.diagnostics.pages docs/reference/rules.
 """
 
 FIXES = {
-    Safety.SAFE: "`twinform check --fix` mends what has one meaning only; what is a guess needs `--unsafe-fixes` too.",
-    Safety.UNSAFE: "`twinform check --fix --unsafe-fixes` mends it where it can; another robot may come of it.",
+    Safety.SAFE: "`twinform check --fix` fixes what has one meaning only; what is a guess needs `--unsafe-fixes` too.",
+    Safety.UNSAFE: "`twinform check --fix --unsafe-fixes` fixes it where it can; another robot may come of it.",
     Safety.DISPLAY: "Editors propose one; something in it has to be filled in.",
 }
 """What the page of a rule says of its fixes, by how safe they are at best."""

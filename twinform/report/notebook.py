@@ -42,7 +42,7 @@ class Shown:
 
 
 def show(first: Document, second: Document | None = None, *, height: int = 480, dark: bool = False) -> Shown:
-    """The 3D view of a document, or of two over each other with what differs in red, for the last line of a cell.
+    """The 3D view of a document, or of two overlaid with what differs in red, for the last line of a cell.
 
     It is about 0.8 MB, which the notebook keeps: that is why no document shows it by itself.
 

@@ -1,4 +1,4 @@
-"""Hints for unknown elements and attributes: slips, names of the other format or of other tools, wrong places."""
+"""Hints for unknown elements and attributes: typos, names of the other format or of other tools, wrong places."""
 
 from collections import defaultdict
 from collections.abc import Collection, Iterator

@@ -27,7 +27,7 @@ class PassAction(NamedTuple):
 
 PASSES = (
     PassAction("fill-inertia", "Give links without inertia one, from their shapes"),
-    PassAction("balance-inertia", "Mend inertias that no body can have", needs=("<inertia",)),
+    PassAction("balance-inertia", "Fix physically impossible inertias", needs=("<inertia",)),
     PassAction(
         "fill-limits{effort=100 velocity=3.14}", "Fill in missing limits: effort 100, velocity 3.14", needs=("<joint",)
     ),

@@ -25,7 +25,7 @@ def run_passes(job: Job, pipeline: str) -> Rewritten:
     load_options = job.load_options
     document = read(str(job.path), load_options).document
     if document is None:
-        return Rewritten(problem="the document cannot be read: mend what is wrong with it first")
+        return Rewritten(problem="the document cannot be read: fix what is wrong with it first")
     to = document.format.value
     version = document.version if to == "sdf" else None
     try:

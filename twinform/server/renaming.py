@@ -82,11 +82,11 @@ def _refuse_unfit(found: Found, new: str) -> None:
     """Refuse a name that something cannot have, or that something else has."""
     document, name = found
     if name.kind in XACRO_KINDS and not _XACRO_NAME.fullmatch(new):
-        raise RefusedError(f"{new!r} is no name in xacro: write letters, digits and '_', and no digit first")
+        raise RefusedError(f"{new!r} is not a valid name in xacro: use letters, digits and '_', and no digit first")
     if name.kind == "macro" and new in ELEMENTS:
         raise RefusedError(f"<xacro:{new}> is an element of xacro")
     if not new or _UNFIT.search(new):
-        raise RefusedError(f"{new!r} is no name: write no blanks, quotes, '<', '>', '&' or '$'")
+        raise RefusedError(f"{new!r} is not a valid name: it must not have blanks, quotes, '<', '>', '&' or '$'")
     if document.schema.format == "sdf" and (new in RESERVED or "::" in new):
         raise RefusedError(f"nothing can be called {new!r} in SDF")
     taken = is_taken(document, new, name)

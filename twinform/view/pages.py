@@ -57,7 +57,7 @@ def standalone_page(
     dark: bool = False,
     search: SearchPath | None = None,
 ) -> str:
-    """The text of an HTML page that shows a document, or two over each other, with every joint at zero.
+    """The text of an HTML page that shows a document, or two overlaid, with every joint at zero.
 
     What the comparison of both found is red. Meshes are looked for beside the files that the documents were read from,
     and in the folders of `search`.

@@ -1,4 +1,4 @@
-"""The 3D view in a browser: a server on this machine alone, which shows one robot, or two over each other."""
+"""The 3D view in a browser: a server on this machine alone, which shows one robot, or two overlaid."""
 
 import contextlib
 import importlib

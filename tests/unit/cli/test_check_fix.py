@@ -21,9 +21,9 @@ ROBOT = """<robot name="r">
   </joint>
 </robot>
 """
-MENDED = ROBOT.replace("Fixed", "fixed").replace("0, 0, 1", "0 0 1")
+FIXED = ROBOT.replace("Fixed", "fixed").replace("0, 0, 1", "0 0 1")
 UNSAFE = ROBOT.replace('child link="tip"', 'child link="tpi"')
-NOTES = MENDED.replace('    <axis xyz="0 0 1"/>\n', "")
+NOTES = FIXED.replace('    <axis xyz="0 0 1"/>\n', "")
 
 
 @pytest.fixture
@@ -35,8 +35,8 @@ def robot(tmp_path: Path) -> Path:
 
 def test_safe_fixes_are_written_and_counted(run: Run, robot: Path) -> None:
     done = run("check", "--fix", robot)
-    assert (done.exit_code, done.stdout, robot.read_text()) == (0, "", MENDED)
-    assert done.stderr == f"{robot}: mended 2 x invalid-value\n1 file: 0 errors, 0 warnings, 1 note; 2 mended\n"
+    assert (done.exit_code, done.stdout, robot.read_text()) == (0, "", FIXED)
+    assert done.stderr == f"{robot}: fixed 2 x invalid-value\n1 file: 0 errors, 0 warnings, 1 note; 2 fixed\n"
 
 
 def test_notes_are_mended_where_they_are_shown(run: Run, robot: Path) -> None:
@@ -48,10 +48,10 @@ def test_guesses_are_made_only_if_asked_for(run: Run, robot: Path) -> None:
     robot.write_text(UNSAFE)
     assert "1 fixable with --fix --unsafe-fixes" in run("check", "--fix", robot).stderr + run("check", robot).stderr
     assert run("check", "--fix", "--unsafe-fixes", robot).exit_code == 0
-    assert robot.read_text() == MENDED
+    assert robot.read_text() == FIXED
 
 
-def test_a_plain_check_says_what_could_be_mended(run: Run, robot: Path) -> None:
+def test_a_plain_check_says_what_could_be_fixed(run: Run, robot: Path) -> None:
     assert run("check", robot).stderr.endswith("; 2 fixable with --fix\n")
     assert robot.read_text() == ROBOT
 
@@ -68,7 +68,7 @@ def test_the_difference_is_shown_and_nothing_written(run: Run, robot: Path) -> N
         '+    <origin xyz="0 0 1"/>',
     ]
     assert robot.read_text() == ROBOT
-    robot.write_text(MENDED)
+    robot.write_text(FIXED)
     assert (run("check", "--diff", robot).stdout, run("check", "--diff", robot).exit_code) == ("", 0)
 
 
@@ -81,17 +81,17 @@ def test_fix_only_reports_nothing_else(run: Run, robot: Path) -> None:
     robot.write_text(UNSAFE)
     done = run("check", "--fix-only", robot)
     assert (done.exit_code, done.stdout) == (0, "")
-    assert done.stderr == f"{robot}: mended 2 x invalid-value\n"
+    assert done.stderr == f"{robot}: fixed 2 x invalid-value\n"
 
 
 def test_standard_input_goes_to_standard_output() -> None:
     done = CliRunner().invoke(main, ["check", "--fix", "-"], input=ROBOT)
-    assert (done.exit_code, done.stdout) == (0, MENDED)
+    assert (done.exit_code, done.stdout) == (0, FIXED)
     assert CliRunner().invoke(main, ["check", "--fix", "--format", "json", "-"], input=ROBOT).exit_code == 2
 
 
 def test_what_the_project_allows_is_left(run: Run, robot: Path) -> None:
-    text = MENDED.replace("<axis", "text\n    <axis")
+    text = FIXED.replace("<axis", "text\n    <axis")
     robot.write_text(text)
     run("check", "--fix", "--allow", "stray-text", robot)
     assert robot.read_text() == text
@@ -103,7 +103,7 @@ def test_the_target_of_a_link_is_written_and_keeps_its_mode(run: Run, robot: Pat
     link.symlink_to(robot)
     run("check", "--fix", link)
     assert link.is_symlink()
-    assert (robot.read_text(), robot.stat().st_mode & 0o777) == (MENDED, 0o640)
+    assert (robot.read_text(), robot.stat().st_mode & 0o777) == (FIXED, 0o640)
 
 
 def test_a_read_only_file_is_refused(run: Run, robot: Path) -> None:
@@ -125,12 +125,12 @@ def test_a_file_that_changed_meanwhile_is_refused(run: Run, robot: Path, monkeyp
     assert robot.read_text() == ROBOT + "<!-- somebody else -->"
 
 
-def test_of_several_files_each_is_mended(run: Run, robot: Path, tmp_path: Path) -> None:
+def test_of_several_files_each_is_fixed(run: Run, robot: Path, tmp_path: Path) -> None:
     other = tmp_path / "other.urdf"
     other.write_text("<robot")
     done = run("check", "--fix", other, robot, tmp_path / "missing.urdf")
     assert done.exit_code == 2
-    assert (robot.read_text(), other.read_text()) == (MENDED, "<robot")
+    assert (robot.read_text(), other.read_text()) == (FIXED, "<robot")
 
 
 def test_a_xacro_file_is_looked_at_and_left(run: Run, tmp_path: Path) -> None:
@@ -141,7 +141,7 @@ def test_a_xacro_file_is_looked_at_and_left(run: Run, tmp_path: Path) -> None:
 
 
 def test_a_file_is_not_written_where_nothing_changes(run: Run, robot: Path) -> None:
-    robot.write_text(MENDED)
+    robot.write_text(FIXED)
     os.utime(robot, (1, 1))
     run("check", "--fix", robot)
     assert robot.stat().st_mtime == 1

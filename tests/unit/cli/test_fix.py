@@ -26,7 +26,7 @@ ROBOT = """<?xml version="1.0"?>
   </joint>
 </robot>
 """
-MENDED = ROBOT.replace("1,5", "1.5").replace('izz="1"', 'izz="1" ixy="0" ixz="0" iyz="0"')
+FIXED = ROBOT.replace("1,5", "1.5").replace('izz="1"', 'izz="1" ixy="0" ixz="0" iyz="0"')
 
 
 @pytest.fixture
@@ -39,13 +39,13 @@ def robot(tmp_path: Path) -> Path:
 def test_a_file_is_mended_and_then_passes_run(run: Run, robot: Path) -> None:
     done = run("fix", "--passes", "rename{names=[arm:boom]}", robot)
     assert done.exit_code == 0
-    assert robot.read_text() == MENDED.replace('"arm"', '"boom"')
-    assert done.stderr == f"{robot}: mended 3 x missing-attribute, 1 x invalid-value\n{robot}: 2 changes by passes\n"
+    assert robot.read_text() == FIXED.replace('"arm"', '"boom"')
+    assert done.stderr == f"{robot}: fixed 3 x missing-attribute, 1 x invalid-value\n{robot}: 2 changes by passes\n"
 
 
 def test_without_passes_only_fixes_are_made(run: Run, robot: Path) -> None:
     assert run("fix", robot).exit_code == 0
-    assert robot.read_text() == MENDED
+    assert robot.read_text() == FIXED
 
 
 def test_the_difference_is_shown_and_nothing_written(run: Run, robot: Path) -> None:
@@ -53,7 +53,7 @@ def test_the_difference_is_shown_and_nothing_written(run: Run, robot: Path) -> N
     assert done.exit_code == 1
     assert '+  <link name="boom">' in done.stdout
     assert robot.read_text() == ROBOT
-    robot.write_text(MENDED)
+    robot.write_text(FIXED)
     assert run("fix", "--diff", robot).exit_code == 0
 
 
@@ -69,7 +69,7 @@ def test_nothing_is_written_where_a_file_cannot_be_changed(run: Run, robot: Path
 
 def test_standard_input_goes_to_standard_output() -> None:
     done = CliRunner().invoke(main, ["fix", "--passes", "rename{names=[arm:boom]}", "-"], input=ROBOT)
-    assert (done.exit_code, done.stdout) == (0, MENDED.replace('"arm"', '"boom"'))
+    assert (done.exit_code, done.stdout) == (0, FIXED.replace('"arm"', '"boom"'))
 
 
 @pytest.mark.parametrize(

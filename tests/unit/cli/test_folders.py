@@ -43,7 +43,7 @@ def test_the_files_of_folders_are_formatted(here: Path, run: Run, words: tuple[s
     assert (done.exit_code, set(done.stdout.split())) == (1, CASES[words]), here
 
 
-def test_the_models_of_folders_are_mended(here: Path, run: Run) -> None:
+def test_the_models_of_folders_are_fixed(here: Path, run: Run) -> None:
     done = run("fix", ".", "--passes", "prefix-names{prefix=x_}")
     assert done.exit_code == 0, done.output
     changed = {path.relative_to(here).as_posix() for path in here.rglob("*.urdf") if "x_" in path.read_text()}

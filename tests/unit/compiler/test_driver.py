@@ -1,4 +1,4 @@
-"""The driver: what may be mended on the way, and what the whole reports."""
+"""The driver: what may be fixed on the way, and what the whole reports."""
 
 import pytest
 
@@ -35,7 +35,7 @@ def test_limits_that_stay_missing_are_errors(passes: str | None, rules: set[str]
     assert {each.rule.name for each in caught.value.diagnostics if each.is_error} == rules
 
 
-def test_other_errors_are_never_mended() -> None:
+def test_other_errors_are_never_fixed() -> None:
     with pytest.raises(twinform.CompileError):
         twinform.convert(_LIMITLESS.replace(b'"c"/>', b'"d"/>', 1), to="sdf", passes="fill-limits{effort=5 velocity=2}")
 

@@ -1,4 +1,4 @@
-"""Tags that Gazebo does not apply, and collisions that it calls otherwise: found as libsdformat does it, and mended."""
+"""Tags that Gazebo does not apply, and collisions that it calls otherwise: found as libsdformat does it, and fixed."""
 
 from pathlib import Path
 
@@ -68,9 +68,9 @@ def test_shapes_are_tagged_as_libsdformat_does_and_all_well_after_the_pass(
         path.write_text(text)
         wrong = sum(one != other for one, other in zip(_frictions(describe(path)), meant, strict=True))
         assert len(_found(text)) == wrong, names
-        mended = twinform.convert(text.encode(), to="urdf", profiles="gazebo", name="robot.urdf").text
-        path.write_text(mended)
-        assert (_frictions(describe(path)), _found(mended)) == (meant, []), names
+        fixed = twinform.convert(text.encode(), to="urdf", profiles="gazebo", name="robot.urdf").text
+        path.write_text(fixed)
+        assert (_frictions(describe(path)), _found(fixed)) == (meant, []), names
 
 
 def test_a_contact_sensor_names_collisions_as_gazebo_does(tmp_path: Path) -> None:
@@ -78,9 +78,9 @@ def test_a_contact_sensor_names_collisions_as_gazebo_does(tmp_path: Path) -> Non
     extension = f"<gazebo reference='base'>{sensor}</gazebo></robot>"
     text = _robot("arm", ("c", None), ()).replace("</robot>", extension)
     assert _found(text) == ["renamed-collision"]
-    mended = twinform.convert(text.encode(), to="urdf", profiles="gazebo", name="robot.urdf").text
-    assert "<collision>base_fixed_joint_lump__c_collision</collision>" in mended
-    assert _found(mended) == []
+    fixed = twinform.convert(text.encode(), to="urdf", profiles="gazebo", name="robot.urdf").text
+    assert "<collision>base_fixed_joint_lump__c_collision</collision>" in fixed
+    assert _found(fixed) == []
 
 
 def test_a_robot_of_usual_names_has_nothing_to_say() -> None:

@@ -112,11 +112,14 @@ _REASONS = (
 
 
 def _unsaid(losses: tuple[Loss, ...], format_: str) -> str:
-    """`URDF does not say 7 parts: 5 of sdf-only, 2 of cut-loop`."""
-    kinds = ", ".join(f"{each.number} of {each.rule}" for each in losses[:3])
-    more = f" and {_count(len(losses) - 3, 'other kind')}" if len(losses) > 3 else ""
+    """Such as `7 parts have no URDF equivalent (5 sdf-only, 2 cut-loop)`."""
+    if not losses:
+        return ""
     total = sum(each.number for each in losses)
-    return f"{format_} does not say {_count(total, 'part')} of it: {kinds}{more}" if losses else ""
+    alone = len(losses) == 1
+    kinds = ", ".join(each.rule if alone else f"{each.number} {each.rule}" for each in losses[:3])
+    more = f" and {_count(len(losses) - 3, 'other kind')}" if len(losses) > 3 else ""
+    return f"{_count(total, 'part')} {'has' if total == 1 else 'have'} no {format_} equivalent ({kinds}{more})"
 
 
 def _count(number: int, word: str) -> str:

@@ -1,7 +1,7 @@
-"""Fixes of findings: what a rule offers to mend a file, and what applies it until nothing changes."""
+"""Fixes of findings: what a rule offers to fix a file, and what applies it until nothing changes."""
 
-from twinform.compiler.fixing.mending import Mended, Refused, mend, mend_by
+from twinform.compiler.fixing.fix_rounds import FixResult, Refused, apply_fixes, apply_fixes_by
 from twinform.compiler.fixing.offering import with_fixes
 from twinform.compiler.fixing.site import Fixer, Site
 
-__all__ = ["Fixer", "Mended", "Refused", "Site", "mend", "mend_by", "with_fixes"]
+__all__ = ["FixResult", "Fixer", "Refused", "Site", "apply_fixes", "apply_fixes_by", "with_fixes"]

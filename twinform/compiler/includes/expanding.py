@@ -176,7 +176,7 @@ class _Reader:
         """An included file, expanded; None where it cannot be, which the diagnostics then report."""
         real = path.resolve()
         if not path.is_file():
-            message = f"{include.uri!r} is {str(path)!r}, which is no file"
+            message = f"{include.uri!r} leads to {str(path)!r}, but there is no such file"
             self.sink.report(rules.UNRESOLVED_URI, message, include.location.at("uri"), found=include.uri)
             return None
         # By real paths, since a symbolic link would hide the circle.

@@ -50,9 +50,9 @@ _QUOTED = re.compile(r"'((?:[^']|(?<=\w)'(?=\w))+)'")
 _EXPRESSION = re.compile(r"when evaluating expression '(.*)'$", re.DOTALL)
 _ARGUMENT = re.compile(r"^Undefined substitution argument (\S+)$")
 _ALIKE = 0.75
-"""How much of an attribute's name is that of the missing one where it is a slip of it."""
+"""How much of an attribute's name is that of the missing one where it is a typo of it."""
 _SHORTEST = 4
-"""Names with fewer letters are no slips of others."""
+"""Names with fewer letters are no typos of others."""
 _TOKEN = re.compile(r"[^\s,]+")
 _ASIDE = re.compile(f"{COMMENT}|{INSTRUCTION}")
 
@@ -98,7 +98,7 @@ def values(element: ElementSpan, text: str) -> list[Span]:
 
 
 def _misspelt(finding: Diagnostic, element: ElementSpan) -> Span | None:
-    """The name of the attribute that is a slip of the missing one; short names, such as ixx and ixy, are all alike."""
+    """The name of the attribute that is a typo of the missing one; short names, such as ixx and ixy, are all alike."""
     missing = _QUOTED.search(finding.message)
     near = nearest_name(missing[1], element.attributes, _ALIKE) if missing and len(missing[1]) >= _SHORTEST else None
     return element.attributes[near].name if near else None

@@ -121,10 +121,10 @@ def _blanked(content: bytes) -> bytes:
 def first_fatal(log: Iterable[Entry], text: bytes) -> XmlError | None:
     """The first entry that leaves doubt about the tree."""
     entries = list(log)
-    mended = {(entry.line, entry.column) for entry in entries if entry.type_name == "ERR_VERSION_MISSING"}
+    fixed = {(entry.line, entry.column) for entry in entries if entry.type_name == "ERR_VERSION_MISSING"}
     for entry in entries:
         # libxml2 reports one mistake several times; only the first of them says what it is.
-        if entry.type_name in REPAIRS or (entry.type_name in _FOLLOWS and (entry.line, entry.column) in mended):
+        if entry.type_name in REPAIRS or (entry.type_name in _FOLLOWS and (entry.line, entry.column) in fixed):
             continue
         line = entry.line
         # libxml2 reports it where the file ends, and the mistake is where the comment begins.

@@ -1,4 +1,4 @@
-"""Suggestions for a missing file: files of nearly the same name (capitals, slips, another folder)."""
+"""Suggestions for a missing file: files of nearly the same name (capitals, typos, another folder)."""
 
 import os
 from collections.abc import Iterator

@@ -204,7 +204,7 @@ class Collection:
         if path is None:
             raise UncollectedError(f"{str(by)!r} names {name!r}, which is not there", _advice(name))
         if kind_of(path) not in _NAMED.get(kind, ()):
-            raise UncollectedError(f"{str(by)!r} names {name!r}, which is no kind of file that it may need")
+            raise UncollectedError(f"{str(by)!r} names {name!r}, but it cannot need a file of that kind")
         try:
             origins.assets.readable.require(path)
         except OutsideError as error:

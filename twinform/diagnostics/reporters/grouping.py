@@ -1,7 +1,7 @@
 """Groups findings of one cause: the same rule, and the same message but for the names of the parts that have it.
 
 A message names the part that it is about, and the path of the part has these names. What was found is the cause
-itself, and is compared as it is: 'ruber' eight times is one slip, and two unknown names are two.
+itself, and is compared as it is: 'ruber' eight times is one mistake, and two unknown names are two.
 """
 
 import re

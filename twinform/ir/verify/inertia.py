@@ -87,7 +87,8 @@ def report_moments(
         _report(rules.INDEFINITE_INERTIA, message, where, sink, listed, "all more than 0")
     elif largest - smallest - middle > eps * trace:
         message = (
-            f"no body has the principal moments of link {link.name!r}, {listed}: the last exceeds the sum of the others"
+            f"the inertia of link {link.name!r} is physically impossible: "
+            f"the principal moments {listed} violate the triangle inequality"
         )
         expected = f"at most {moments[0] + moments[1]:.6g}"
         _report(rules.IMPOSSIBLE_INERTIA, f"{message}; Gazebo refuses it", where, sink, listed, expected)

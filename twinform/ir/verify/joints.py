@@ -141,10 +141,10 @@ def useless_leader(joint: Joint, mimic: Mimic, joints: Mapping[str, Joint]) -> s
     """Why nothing moves by what a joint mimics; empty where that is another joint with an axis."""
     leader = joints.get(mimic.joint or "")
     if leader is None:
-        return "which is no joint"
+        return "but there is no such joint"
     if leader.name == joint.name:
         return "itself"
-    return "" if leader.type in _FREEDOMS else "which has no axis"
+    return "" if leader.type in _FREEDOMS else "which never moves"
 
 
 def _report_circles(followers: list[tuple[Joint, Axis]], leaders: dict[str, str], sink: DiagnosticSink) -> None:

@@ -40,5 +40,5 @@ def _length(pose: Pose, length: float, sink: DiagnosticSink) -> None:
     if length:
         message = f"a quaternion has the length {found}; some readers normalize it, others scale by it"
     else:
-        message = "a quaternion has length zero, which is no rotation"
+        message = "a quaternion of length zero is not a rotation"
     sink.report(rules.UNNORMALISED_QUATERNION, message, pose.location, found=found, expected="1")

@@ -61,7 +61,7 @@ class References:
         for link in model.links:
             self._link(link)
         if model.canonical_link and not self.is_link(model.canonical_link):
-            message = f"the canonical link of model {model.name!r} is {model.canonical_link!r}, which is no link in it"
+            message = f"the canonical link of model {model.name!r} is {model.canonical_link!r}, but it has no such link"
             where = model.location.at("@canonical_link")
             hint = did_you_mean(model.canonical_link, self.scope.names("link"))
             self.sink.report(rules.UNKNOWN_CANONICAL_LINK, message, where, found=model.canonical_link, help=hint)
@@ -95,7 +95,7 @@ class References:
         reference = joint.gearbox_reference_body
         if reference and joint.type == "gearbox" and not self.is_link(reference):
             where = joint.location.at("gearbox_reference_body")
-            message = f"joint {joint.name!r} has the reference body {reference!r}, which is no link"
+            message = f"joint {joint.name!r} has the reference body {reference!r}, but there is no such link"
             hint = did_you_mean(reference, self.scope.names("link"))
             self.sink.report(rules.DANGLING_LINK, message, where, found=reference, severity=Severity.WARNING, help=hint)
 
@@ -104,7 +104,7 @@ class References:
             message = f"joint {joint.name!r} has itself as its {end}"
             self.sink.report(rules.SELF_JOINT, message, joint.location.at(end), found=name)
         elif name != self.own:
-            what = f"joint {joint.name!r} has the {end} {name!r}, which is no link or frame of the "
+            what = f"joint {joint.name!r} has the {end} {name!r}, but there is no such link or frame in the "
             message = what + ("model" if self.own == MODEL else "world")
             self._look_up(rules.DANGLING_LINK, message, (joint, end), name, (joint.parent, joint.child))
 
@@ -131,7 +131,7 @@ class References:
     ) -> None:
         """Report a name that means nothing, or two things.
 
-        `part` is where it stands, whose path is dear and made only then; `taken` are names that it is not a slip of.
+        `part` is where it stands, whose path is dear and made only then; `taken` are names that it is not a typo of.
         """
         found = self.scope.find(name)
         if found is not None and not (found == "twice" and self.one_scope):

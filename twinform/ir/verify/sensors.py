@@ -60,7 +60,7 @@ def verify_grippers(model: Model, is_link: Callable[[str], bool], sink: Diagnost
     for word in ("gripper_link", "palm_link"):
         for part, step, name in _texts(model.opaque, "gripper", word):
             if not is_link(name):
-                message = f"<{word}> of a gripper names {name!r}, which is no link of model {model.name!r}"
+                message = f"<{word}> of a gripper names {name!r}, but model {model.name!r} has no such link"
                 hint = did_you_mean(name, (link.name for link in model.links))
                 sink.report(rules.UNKNOWN_GRIPPER_LINK, message, part.location.at(step), found=name, help=hint)
 

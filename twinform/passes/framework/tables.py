@@ -105,7 +105,7 @@ def print_tables(pipeline: Pipeline, name: str) -> str:
         ValueError: the name is no key.
     """
     if not KEY.fullmatch(name):
-        raise ValueError(f"{name!r} is no name for a pipeline: it takes letters, digits, _ and -")
+        raise ValueError(f"{name!r} is not a valid name of a pipeline: use letters, digits, _ and -")
     if not len(pipeline):
         return f"[pipelines]\n{name} = []\n"
     return "\n".join(f"[[pipelines.{name}]]\n{''.join(_lines(row))}" for row in tables(pipeline))

@@ -67,8 +67,8 @@ class Plausible:
         factor, axis = max((found / limit if limit else 0.0, axis) for found, limit, axis in spread)
         if factor > 1:
             message = (
-                f"the inertia of link {link.name!r} spreads its {body.mass:.4g} kg along {axis} "
-                f"{factor:.3g} times as much as its shapes allow"
+                f"the inertia of link {link.name!r} is too large for its shapes along {axis}: "
+                f"{factor:.3g} times what {body.mass:.4g} kg within them can have"
             )
             found, expected = f"{factor:.3g}", "at most 1"
             self.sink.report(rules.OVERSIZED_INERTIA, message, inertial.location, found=found, expected=expected)

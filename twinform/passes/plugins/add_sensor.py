@@ -147,7 +147,7 @@ class AddSensor(SelectingPass):
             missing(model, word, name, [each.name for each in nodes], sink)
         # libsdformat takes the link `world` of a URDF for the world itself and makes no link of it.
         elif word == "link" and name == WORLD and document.format is Format.URDF:
-            message = "a sensor cannot be on the link 'world': it stands for the world of Gazebo, which is no link"
+            message = "a sensor cannot be on the link 'world': Gazebo takes it for the world itself"
             sink.report(rules.NOTHING_TO_ADD_TO, message, found.location, found=name)
             return None
         return found

@@ -96,7 +96,7 @@ def unphysical(root: Node) -> Fact:
         principal, mass = body.principal, body.mass or 0.0
         wrong = principal is None or principal[0] < -_SLACK * abs(principal[2]) or _is_unbalanced(principal)
         if wrong or mass < 0 or (mass == 0 and not body.is_empty):
-            yield body.node, f"link {_name(body.node)!r} has an inertia that no body has"
+            yield body.node, f"the inertia of link {_name(body.node)!r} is physically impossible"
 
 
 def _is_unbalanced(principal: tuple[float, ...]) -> bool:

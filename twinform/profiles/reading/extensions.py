@@ -47,7 +47,7 @@ def foreign_ends(root: Node, links: frozenset[str]) -> Fact:
         known = links | {"world"} | {each.attributes.get("name", "") for each in gazebo.children}
         for end in (end for joint in gazebo.all("joint") for tag in ("parent", "child") for end in joint.all(tag)):
             if (name := end.text.strip()) and "::" not in name and name not in known:
-                yield end, f"the <{end.tag}> of a joint in an extension is {name!r}, which is no link that is left"
+                yield end, f"the <{end.tag}> of a joint in an extension is {name!r}, but no link of that name is left"
 
 
 def _settings(root: Node, tags: frozenset[str]) -> Iterator[tuple[Node, Node]]:

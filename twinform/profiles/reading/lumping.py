@@ -192,7 +192,7 @@ def _impossible_when_lumped(root: Node) -> Fact:
         if one.mass < 0:
             yield body.link, f"link {body.name!r} has the mass {one.mass:g} kg with what is fixed to it"
         elif _is_finite(one) and not _is_possible(one.inertia):
-            yield body.link, f"no body has the inertia of link {body.name!r} with what is fixed to it"
+            yield body.link, f"the inertia of link {body.name!r} with what is fixed to it is physically impossible"
 
 
 def _uncertain_when_lumped(root: Node) -> Fact:

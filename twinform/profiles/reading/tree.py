@@ -67,7 +67,10 @@ def _of_nowhere(end: int) -> Callable[[Node], Fact]:
         for joint in root.all("joint"):
             if (name := _ends(joint)[end]) not in links:
                 kind = ("parent", "child")[end]
-                yield joint, f"joint {joint.attributes.get('name', '')!r} has the {kind} {name!r}, which is no link"
+                yield (
+                    joint,
+                    f"joint {joint.attributes.get('name', '')!r} has the {kind} {name!r}, but there is no such link",
+                )
 
     return fact
 
@@ -91,13 +94,11 @@ def _foreign_custom_ends(root: Node) -> Fact:
     for joint in root.all("drake:joint"):
         for name in filter(None, _ends(joint)):
             if name not in links:
-                yield joint, f"joint {joint.attributes.get('name', '')!r} is at {name!r}, which is no link"
+                yield joint, f"joint {joint.attributes.get('name', '')!r} is at {name!r}, but there is no such link"
     for frame in root.all("frame"):
         if frame.attributes.get("link", "world") not in links:
-            yield (
-                frame,
-                f"frame {frame.attributes.get('name', '')!r} is at {frame.attributes['link']!r}, which is no link",
-            )
+            who, link = frame.attributes.get("name", ""), frame.attributes["link"]
+            yield frame, f"frame {who!r} is at {link!r}, but there is no such link"
 
 
 def _loops(root: Node) -> Fact:

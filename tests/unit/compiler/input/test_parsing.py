@@ -225,7 +225,7 @@ def test_a_file_may_have_as_many_bytes_as_the_limit(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("flaw", ["", " z:z='1'"])
 def test_comments_and_instructions_are_left_out(flaw: str) -> None:
-    """The same where the text is mended."""
+    """The same where the text is fixed."""
     root = parse(
         f"<!-- a --><robot{flaw}>a<!-- b -->c<?p?>d<link/>e<!-- f -->g</robot><?q?>".encode(), DiagnosticSink()
     )

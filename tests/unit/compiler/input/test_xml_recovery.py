@@ -1,4 +1,4 @@
-"""What is not XML is refused at its line, with the way to mend it; what can only mean one thing is repaired."""
+"""What is not XML is refused at its line, with the way to fix it; what can only mean one thing is repaired."""
 
 from typing import NamedTuple
 
@@ -152,8 +152,8 @@ NO_BLANK = Logged("ERR_SPACE_REQUIRED", 1, 7)
 
 LOGGED: dict[str, tuple[list[Logged], bytes, XmlError | None]] = {
     "nothing": ([], b"<r/>", None),
-    "what is mended": ([LATE, NO_VERSION], b"<r/>", None),
-    "what follows from what is mended": ([NO_BLANK, NO_VERSION, NO_BLANK], b"<r/>", None),
+    "what is fixed": ([LATE, NO_VERSION], b"<r/>", None),
+    "what follows from what is fixed": ([NO_BLANK, NO_VERSION, NO_BLANK], b"<r/>", None),
     "the same elsewhere": (
         [LATE, NO_VERSION, NO_BLANK._replace(column=8)],
         b"<r/>",

@@ -164,7 +164,7 @@ def test_comments_at_what_is_left_out_of_a_text_stay_near_it() -> None:
     assert lines[lines.index("<!-- new -->") :][:3] == ["<!-- new -->", "<!-- flags -->", "</visual>"]
 
 
-def test_hyphens_that_other_parsers_let_pass_are_mended() -> None:
+def test_hyphens_that_other_parsers_let_pass_are_fixed() -> None:
     text = b'<robot name="r"><!-- a -- b --><link name="a"/></robot>'
     assert "<!-- a - - b -->" in twinform.convert(text, to="sdf").text
 

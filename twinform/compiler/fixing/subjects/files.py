@@ -1,4 +1,4 @@
-"""Fixes of the paths and URIs of files: backslashes, slips in names and schemes."""
+"""Fixes of the paths and URIs of files: backslashes, typos in names and schemes."""
 
 from twinform.compiler.fixing.site import FixableFile, TextFixers, unsafe
 from twinform.diagnostics import Diagnostic, Fix, TextEdit, meant_name, rules

@@ -114,7 +114,7 @@ def _make_continuous(site: Site) -> Fix | None:
 
 
 def _missing_limit(site: Site) -> Fix | None:
-    """A joint turns without end, unless its limit is there under another name: then that is what to mend."""
+    """A joint turns without end, unless its limit is there under another name: then that is what to fix."""
     row = site.file.row_of(site.element)
     known = {each.name for each in row.children} if row else set[str]()
     unknown = {str(each.tag) for each in site.element.iterchildren("*")} - known

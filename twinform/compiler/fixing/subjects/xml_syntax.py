@@ -19,7 +19,7 @@ _COMMENT = re.compile(rf"<!--(?P<inside>{IN_COMMENT})(?:-->)?")
 _ASIDE = re.compile(f"{COMMENT}|{SECTION}|{INSTRUCTION}")
 _DECLARATION = re.compile(r"<\?xml\s[^<>]*+(?<=\?)>", re.IGNORECASE)
 _VERSION = re.compile(r"""(?<=\s)version\s*=\s*(?:"[^"]*"|'[^']*')""")
-_VERSION_SLIP = re.compile(r"(?<=\s)ver[a-z]*(?=\s*=)")
+_VERSION_TYPO = re.compile(r"(?<=\s)ver[a-z]*(?=\s*=)")
 _ENCODING = re.compile(r"""encoding\s*=\s*["']([^"']*)["']""")
 _BREAK = re.compile(r"[\t\r\n]")
 _NUMBERS = re.compile(r"[-+.\deE\s]+")
@@ -78,9 +78,9 @@ def _version(_: Diagnostic, file: FixableFile) -> Fix | None:
     if declaration is None:
         return None
     inside = _VERSION.search(declaration[0])
-    slip = _VERSION_SLIP.search(declaration[0])
-    if inside is None and slip:
-        span = Span(declaration.start() + slip.start(), declaration.start() + slip.end())
+    typo = _VERSION_TYPO.search(declaration[0])
+    if inside is None and typo:
+        span = Span(declaration.start() + typo.start(), declaration.start() + typo.end())
         return safe("Write version", TextEdit(span, "version"))
     if inside is None:
         at = declaration.start() + len("<?xml")
@@ -234,7 +234,7 @@ def _blank_between(broken: _Broken) -> Fix | None:
 
 
 def _end_tag(broken: _Broken) -> Fix | None:
-    """An end tag with a slip in its name; one that is not there at all may belong anywhere."""
+    """An end tag with a typo in its name; one that is not there at all may belong anywhere."""
     found = _MISMATCH.search(broken.message)
     if found is None or nearest_name(found["close"], [found["open"]], _SURE) is None:
         return None

@@ -91,7 +91,7 @@ def _check_name(order: Order) -> None:
     suggested = suggested if suggested[0].isalpha() else f"robot_{suggested}"
     suggested = suggested if len(suggested) > 1 else f"{suggested}_robot"
     takes = "two or more lower case letters, digits and single underscores"
-    message = f"{name!r} is no name for a package of ROS: it takes {takes}"
+    message = f"{name!r} is not a valid package name in ROS: use {takes}"
     sink.report(rules.PACKAGE_NAME, message, found=name, help=f"call it {suggested}")
     raise CompileError(tuple(sink.diagnostics))
 

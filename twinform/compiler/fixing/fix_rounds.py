@@ -24,7 +24,7 @@ _MOST_BYTES = 4_000_000
 _PREDICATE = re.compile(r"\[(?:@name='(?:.*?'\](?=[/\[]|$)|.*)|\d+\](?=[/\[]|$))")
 
 Group = list[Diagnostic]
-"""Findings that one fix mends."""
+"""Findings that one fix fixes."""
 Look = Callable[[bytes], LoadResult]
 """Reads a file and says what is wrong with it."""
 
@@ -38,8 +38,8 @@ class Refused:
 
 
 @dataclass(frozen=True, slots=True)
-class Mended:
-    """What came of it: the bytes, the findings that were mended, in their order, and what is found now."""
+class FixResult:
+    """What came of it: the bytes, the findings that were fixed, in their order, and what is found now."""
 
     data: bytes
     applied: tuple[Diagnostic, ...]
@@ -48,38 +48,38 @@ class Mended:
     refused: tuple[Refused, ...] = ()
 
 
-def mend(
+def apply_fixes(
     data: bytes,
     load_options: LoadOptions,
     *,
     name: str = "",
     unsafe: bool = False,
     rules: Collection[str] | None = None,
-) -> Mended:
+) -> FixResult:
     """Apply the fixes of a file, of all rules or of these; `name` is its path."""
 
     def look(text: bytes) -> LoadResult:
         return inspect(read(text, load_options, name=name), load_options)
 
-    return mend_by(look, data, unsafe=unsafe, wanted=lambda each: rules is None or each.rule.name in rules)
+    return apply_fixes_by(look, data, unsafe=unsafe, wanted=lambda each: rules is None or each.rule.name in rules)
 
 
-def mend_by(
+def apply_fixes_by(
     look: Look, data: bytes, *, unsafe: bool = False, wanted: Callable[[Diagnostic], bool] = lambda _: True
-) -> Mended:
-    """Mend the wanted findings in the bytes of a file, with any function that looks for them."""
+) -> FixResult:
+    """Apply the fixes of wanted findings in rounds, until `look` finds nothing more that can be fixed."""
     state = _State(data, look(data))
-    mending = _Mending(look, Safety.UNSAFE if unsafe else Safety.SAFE, wanted)
-    while mending.rounds < MOST_ROUNDS:
-        offered = _most_severe(mending.offered(state.loaded))
+    fixing = _FixRun(look, Safety.UNSAFE if unsafe else Safety.SAFE, wanted)
+    while fixing.rounds < MOST_ROUNDS:
+        offered = _most_severe(fixing.offered(state.loaded))
         if not offered:
             break
-        mending.rounds += 1
-        after = mending.applied_to(state, offered)
+        fixing.rounds += 1
+        after = fixing.applied_to(state, offered)
         if after is state:
             continue  # what was refused is not tried again, so that there is less each time
         state = after
-    return Mended(state.data, tuple(mending.applied), state.loaded, mending.rounds, tuple(mending.refused))
+    return FixResult(state.data, tuple(fixing.applied), state.loaded, fixing.rounds, tuple(fixing.refused))
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +91,7 @@ class _State:
 
 
 @dataclass(slots=True)
-class _Mending:
+class _FixRun:
     """One run; `tried` are the fixes that were refused."""
 
     look: Look
@@ -188,7 +188,7 @@ def _most_severe(offered: Sequence[Diagnostic]) -> list[Diagnostic]:
 def _worse(before: LoadResult, after: LoadResult, groups: Sequence[Group]) -> tuple[str, ...]:
     """The rules of the findings that fixes have made; none where all is well.
 
-    Where an error is mended, more of the file is looked at, and what was hidden is found: of several fixes all errors
+    Where an error is fixed, more of the file is looked at, and what was hidden is found: of several fixes all errors
     have to be gone, and of one, there must not be more of them than before.
     """
     if before.unreadable or after.unreadable:

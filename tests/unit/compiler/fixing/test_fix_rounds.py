@@ -6,8 +6,8 @@ from dataclasses import replace
 import pytest
 
 from twinform.compiler import LoadOptions, LoadResult, inspect, read
-from twinform.compiler.fixing import mend, mend_by
-from twinform.compiler.fixing.mending import MOST_ROUNDS
+from twinform.compiler.fixing import apply_fixes, apply_fixes_by
+from twinform.compiler.fixing.fix_rounds import MOST_ROUNDS
 from twinform.diagnostics import Diagnostic, Fix, Location, Rule, Safety, Severity, Span, TextEdit
 
 LATE = """<!-- a\u00f6 -- b -->\r
@@ -20,7 +20,7 @@ LATE = """<!-- a\u00f6 -- b -->\r
 \t\t<origin xyz="0, 0, 1"/> <!-- up -->\r
 \t</joint>\r
 </robot>"""
-MENDED = """<?xml version="1.0"?>\r
+FIXED = """<?xml version="1.0"?>\r
 <!-- a\u00f6 - - b -->\r
 <robot name="r">\r
 \t<link name='base'/>\r
@@ -35,26 +35,26 @@ MENDED = """<?xml version="1.0"?>\r
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16-le", "utf-16-be"])
 def test_encoding_mark_and_line_ends_stay(encoding: str) -> None:
     mark = {"utf-16-le": codecs.BOM_UTF16_LE, "utf-16-be": codecs.BOM_UTF16_BE}.get(encoding, b"")
-    assert mend(mark + LATE.encode(encoding), LoadOptions()).data == mark + MENDED.encode(encoding)
+    assert apply_fixes(mark + LATE.encode(encoding), LoadOptions()).data == mark + FIXED.encode(encoding)
 
 
 def test_a_late_declaration_of_another_encoding_never_counts() -> None:
     text = "\n<?xml version='1.0' encoding='ISO-8859-1'?>\n<robot name='\u00f6'><link name='a'/></robot>"
-    made = mend(text.encode(), LoadOptions()).data.decode()
+    made = apply_fixes(text.encode(), LoadOptions()).data.decode()
     assert made == "\n<robot name='\u00f6'><link name='a'/></robot>"
 
 
-def test_only_these_rules_are_mended() -> None:
-    mended = mend(LATE.encode(), LoadOptions(), rules={"invalid-value"})
-    assert {each.rule.name for each in mended.applied} == {"invalid-value"}
-    assert mended.data.decode().startswith("<!-- a\u00f6 -- b -->")
+def test_only_these_rules_are_fixed() -> None:
+    fixed = apply_fixes(LATE.encode(), LoadOptions(), rules={"invalid-value"})
+    assert {each.rule.name for each in fixed.applied} == {"invalid-value"}
+    assert fixed.data.decode().startswith("<!-- a\u00f6 -- b -->")
 
 
 def test_a_guess_is_made_only_if_asked_for() -> None:
     text = b"<robot name='r'><link name='base'/><link name='tip'/><joint name='j' type='fixed'>"
     text += b"<parent link='bsae'/><child link='tip'/></joint></robot>"
-    assert mend(text, LoadOptions()).data == text
-    assert mend(text, LoadOptions(), unsafe=True).data == text.replace(b"bsae", b"base")
+    assert apply_fixes(text, LoadOptions()).data == text
+    assert apply_fixes(text, LoadOptions(), unsafe=True).data == text.replace(b"bsae", b"base")
 
 
 @pytest.mark.parametrize(
@@ -71,15 +71,15 @@ def test_a_guess_is_made_only_if_asked_for() -> None:
     ],
 )
 def test_what_cannot_be_read_stays_as_it_is(text: bytes) -> None:
-    assert mend(text, LoadOptions(), unsafe=True).data == text
+    assert apply_fixes(text, LoadOptions(), unsafe=True).data == text
 
 
 def test_a_fix_of_which_there_is_more_than_a_thousand_is_made_everywhere() -> None:
     visual = "<visual><geometry><sphere radius='1'/></geometry><material><color rgba='1 0 0 1'/></material></visual>"
     text = f"<robot name='r'><link name='a'>{visual * 1500}</link></robot>".encode()
-    mended = mend(text, LoadOptions())
-    assert mended.data.count(b'<material name="">') == 1500
-    assert mended.rounds == 2
+    fixed = apply_fixes(text, LoadOptions())
+    assert fixed.data.count(b'<material name="">') == 1500
+    assert fixed.rounds == 2
 
 
 BAD = Rule(name="bad", severity=Severity.WARNING, finds="", matters="", example="", better="")
@@ -87,7 +87,7 @@ WORSE = Rule(name="worse", severity=Severity.WARNING, finds="", matters="", exam
 
 
 def _look(data: bytes) -> LoadResult:
-    """Finds each letter b, and each c, which nobody can mend."""
+    """Finds each letter b, and each c, which nobody can fix."""
     text = data.decode()
     found = [
         Diagnostic(BAD if letter == "b" else WORSE, letter, Location("", 1, f"/{letter}{at}"), Severity.WARNING)
@@ -102,7 +102,7 @@ def _offering(edits: dict[int, tuple[TextEdit, ...]], safety: Safety = Safety.SA
 
     def offer(loaded: LoadResult, _: object) -> tuple[Diagnostic, ...]:
         return tuple(
-            replace(each, fix=Fix("mend", edits[int(each.location.path[2:])], safety))
+            replace(each, fix=Fix("fix", edits[int(each.location.path[2:])], safety))
             if each.rule is BAD and int(each.location.path[2:]) in edits
             else each
             for each in loaded.diagnostics
@@ -117,22 +117,22 @@ def _edit(at: int, new: str, end: int | None = None) -> tuple[TextEdit, ...]:
 
 def test_the_fix_that_makes_a_new_finding_is_taken_back_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     edits = {0: _edit(0, "a"), 1: _edit(1, "c"), 2: _edit(2, "a"), 3: _edit(3, "a")}
-    monkeypatch.setattr("twinform.compiler.fixing.mending.with_fixes", _offering(edits))
-    mended = mend_by(_look, b"bbbb")
-    assert mended.data == b"abaa"
-    assert [(each.finding.location.path, each.new) for each in mended.refused] == [("/b1", ("worse",))]
+    monkeypatch.setattr("twinform.compiler.fixing.fix_rounds.with_fixes", _offering(edits))
+    fixed = apply_fixes_by(_look, b"bbbb")
+    assert fixed.data == b"abaa"
+    assert [(each.finding.location.path, each.new) for each in fixed.refused] == [("/b1", ("worse",))]
 
 
 def test_of_two_that_overlap_the_second_waits(monkeypatch: pytest.MonkeyPatch) -> None:
     edits = {0: _edit(0, "ab", 2), 1: _edit(0, "xa", 2)}
-    monkeypatch.setattr("twinform.compiler.fixing.mending.with_fixes", _offering(edits))
-    mended = mend_by(_look, b"bb")
-    assert (mended.data, mended.rounds) == (b"xa", 2)
+    monkeypatch.setattr("twinform.compiler.fixing.fix_rounds.with_fixes", _offering(edits))
+    fixed = apply_fixes_by(_look, b"bb")
+    assert (fixed.data, fixed.rounds) == (b"xa", 2)
 
 
 def test_fixes_that_never_end_are_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("twinform.compiler.fixing.mending.with_fixes", _offering({0: _edit(0, "b ")}))
-    assert mend_by(_look, b"b").rounds == MOST_ROUNDS
+    monkeypatch.setattr("twinform.compiler.fixing.fix_rounds.with_fixes", _offering({0: _edit(0, "b ")}))
+    assert apply_fixes_by(_look, b"b").rounds == MOST_ROUNDS
 
 
 @pytest.mark.parametrize(("size", "most"), [(100, 200), (400_000, 10)])
@@ -142,25 +142,25 @@ def test_a_large_file_is_not_read_as_often_to_find_the_bad_fixes(
     """Each fix makes a finding; to find that out of 300 takes twice as many looks at the file."""
     text = b"b" * 300 + b" " * size
     edits = {at: _edit(at, "c") for at in range(300)}
-    monkeypatch.setattr("twinform.compiler.fixing.mending.with_fixes", _offering(edits))
+    monkeypatch.setattr("twinform.compiler.fixing.fix_rounds.with_fixes", _offering(edits))
     looks: list[bytes] = []
 
     def look(data: bytes) -> LoadResult:
         looks.append(data)
         return _look(data[:300])
 
-    mended = mend_by(look, text)
-    assert (len(looks), mended.data) == (1 + most, text)
-    assert len(mended.refused) == 300
-    assert mended.refused[-1].new == ("too-many-tries",)
+    fixed = apply_fixes_by(look, text)
+    assert (len(looks), fixed.data) == (1 + most, text)
+    assert len(fixed.refused) == 300
+    assert fixed.refused[-1].new == ("too-many-tries",)
 
 
 def test_one_for_display_is_never_made(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("twinform.compiler.fixing.mending.with_fixes", _offering({0: _edit(0, "a")}, Safety.DISPLAY))
-    assert mend_by(_look, b"b", unsafe=True).data == b"b"
+    monkeypatch.setattr("twinform.compiler.fixing.fix_rounds.with_fixes", _offering({0: _edit(0, "a")}, Safety.DISPLAY))
+    assert apply_fixes_by(_look, b"b", unsafe=True).data == b"b"
 
 
 def test_what_is_left_is_what_a_look_at_the_result_finds() -> None:
-    mended = mend(LATE.encode(), LoadOptions())
-    again = inspect(read(mended.data, LoadOptions()), LoadOptions())
-    assert mended.left.diagnostics == again.diagnostics
+    fixed = apply_fixes(LATE.encode(), LoadOptions())
+    again = inspect(read(fixed.data, LoadOptions()), LoadOptions())
+    assert fixed.left.diagnostics == again.diagnostics
