@@ -66,7 +66,7 @@ def test_the_verdict_comes_first_and_losses_are_listed() -> None:
 def test_errors_are_in_it() -> None:
     text = markdown(build_report(WRONG.encode(), view=None))
     assert "<details open><summary>Errors: 1</summary>" in text
-    assert "joint \\'j\\' has the parent \\'bse\\', which is no link" in text
+    assert "joint \\'j\\' has the parent \\'bse\\', but there is no such link" in text
 
 
 def test_hostile_names_open_nothing() -> None:

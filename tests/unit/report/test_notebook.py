@@ -31,7 +31,7 @@ def test_a_document_shows_what_it_is() -> None:
 def test_a_document_with_findings_lists_them() -> None:
     text = _shown(twinform.check(WRONG.encode()).document)
     assert "1 error, 0 warnings" in text
-    assert "&#x27;bse&#x27;, which is no link" in text
+    assert "&#x27;bse&#x27;, but there is no such link" in text
 
 
 def test_a_conversion_shows_what_became_of_the_parts() -> None:

@@ -106,10 +106,10 @@ def test_the_state_of_a_world_follows_its_models(tmp_path: Path) -> None:
 
 REFUSED = {
     "a name that is taken": ("arm.urdf", 'link name="up|per"', "base", "is called 'base' already"),
-    "no name": ("arm.urdf", 'link name="up|per"', "", "is no name"),
-    "a quote": ("arm.urdf", 'link name="up|per"', 'a"b', "is no name"),
+    "no name": ("arm.urdf", 'link name="up|per"', "", "is not a valid name"),
+    "a quote": ("arm.urdf", 'link name="up|per"', 'a"b', "is not a valid name"),
     "an expression": ("wheel.xacro", 'link name="${side}_wh|eel"', "a", "made by an expression"),
-    "a macro that is no word": ("wheel.xacro", 'macro name="wh|eel"', "a-b", "no name in xacro"),
+    "a macro that is no word": ("wheel.xacro", 'macro name="wh|eel"', "a-b", "not a valid name in xacro"),
     "an element of xacro": ("wheel.xacro", 'macro name="wh|eel"', "include", "an element of xacro"),
     "two colons in SDF": ("cart.sdf", 'link name="bo|dy"', "a::b", "nothing can be called"),
     "a word of SDF": ("cart.sdf", 'link name="bo|dy"', "world", "nothing can be called"),

@@ -144,7 +144,9 @@ def useless_leader(joint: Joint, mimic: Mimic, joints: Mapping[str, Joint]) -> s
         return "but there is no such joint"
     if leader.name == joint.name:
         return "itself"
-    return "" if leader.type in _FREEDOMS else "which never moves"
+    if leader.type in _FREEDOMS:
+        return ""
+    return "which is fixed and never moves" if leader.type == "fixed" else "which has no axis"
 
 
 def _report_circles(followers: list[tuple[Joint, Axis]], leaders: dict[str, str], sink: DiagnosticSink) -> None:

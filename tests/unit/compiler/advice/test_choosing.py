@@ -41,7 +41,7 @@ def _advice(source: bytes | Path, model: str | None = None) -> Advice:
         ),
         pytest.param(_sdf(_ARM.format("")), Format.URDF, "ROS, RViz and MoveIt read URDF alone", id="plain arm"),
         pytest.param(
-            _sdf(_ARM.format(_SECOND)), Format.SDF, "URDF does not say 1 part of it: 1 of cut-loop", id="loop"
+            _sdf(_ARM.format(_SECOND)), Format.SDF, "1 part has no URDF equivalent (cut-loop)", id="loop"
         ),
         pytest.param(
             _sdf('<model name="m"><link name="a"/></model>'), Format.SDF, "no joint of it moves", id="scenery"

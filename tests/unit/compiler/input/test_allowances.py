@@ -28,7 +28,7 @@ def test_an_allowed_error_is_none_and_the_result_says_which_it_was() -> None:
 def test_it_stops_no_conversion_and_is_an_error_for_everybody_else() -> None:
     source = DANGLING.format("", "").encode()
     assert "<child>b</child>" in twinform.convert(source, to="sdf").text
-    with pytest.raises(CompileError, match="which is no link"):
+    with pytest.raises(CompileError, match="there is no such link"):
         twinform.loads(source)
 
 

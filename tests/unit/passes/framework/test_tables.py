@@ -87,5 +87,5 @@ def test_an_error_names_the_key(rows: str, problem: str) -> None:
 
 @pytest.mark.parametrize("name", ["", "a b", "a.b", "é", "@a"])
 def test_a_name_is_a_bare_key(name: str) -> None:
-    with pytest.raises(ValueError, match="is no name for a pipeline"):
+    with pytest.raises(ValueError, match="is not a valid name of a pipeline"):
         print_tables(Pipeline(), name)
