@@ -40,9 +40,7 @@ def _advice(source: bytes | Path, model: str | None = None) -> Advice:
             id="two models",
         ),
         pytest.param(_sdf(_ARM.format("")), Format.URDF, "ROS, RViz and MoveIt read URDF alone", id="plain arm"),
-        pytest.param(
-            _sdf(_ARM.format(_SECOND)), Format.SDF, "1 part has no URDF equivalent (cut-loop)", id="loop"
-        ),
+        pytest.param(_sdf(_ARM.format(_SECOND)), Format.SDF, "1 part has no URDF equivalent (cut-loop)", id="loop"),
         pytest.param(
             _sdf('<model name="m"><link name="a"/></model>'), Format.SDF, "no joint of it moves", id="scenery"
         ),
