@@ -14,7 +14,7 @@ from click.testing import CliRunner
 
 import twinform
 from testbed.editor.playing import play
-from testbed.mended import mended_file
+from testbed.fixed_files import fixed_file
 from twinform.cli.check import command as check_command
 from twinform.cli.failure import UNUSABLE
 from twinform.cli.files.exclusion import PatternError
@@ -71,7 +71,7 @@ def editor_protocol(data: bytes) -> None:
 
 def fixers(data: bytes) -> None:
     """Fixes of any file, safe ones and all, add no finding, change nothing outside of their edits, and end."""
-    faults = mended_file("", data).faults
+    faults = fixed_file("", data).faults
     assert not faults, faults
 
 

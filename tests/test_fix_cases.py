@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from testbed.mended import mended_file
+from testbed.fixed_files import fixed_file
 from tests.expected import assert_expected
 from twinform.compiler import LoadOptions, LoadResult, inspect, read
-from twinform.compiler.fixing import Mended, mend_by, with_fixes
+from twinform.compiler.fixing import FixResult, apply_fixes_by, with_fixes
 from twinform.diagnostics import Safety, catalog
 from twinform.passes import parse_pipeline
 
@@ -29,9 +29,9 @@ def _look(path: Path, data: bytes) -> LoadResult:
     return inspect(found, load_options, parse_pipeline(passes[1]) if passes else None)
 
 
-def _mended(path: Path) -> Mended:
+def _fixed(path: Path) -> FixResult:
     data = path.read_bytes()
-    return mend_by(lambda text: _look(path, text), data, unsafe=b"fixes: unsafe" in data)
+    return apply_fixes_by(lambda text: _look(path, text), data, unsafe=b"fixes: unsafe" in data)
 
 
 def _name(path: Path) -> str:
@@ -40,22 +40,22 @@ def _name(path: Path) -> str:
 
 @pytest.mark.parametrize("path", _FIXES, ids=_name)
 def test_fixes_make_what_the_case_shows(path: Path) -> None:
-    assert_expected(_mended(path).data.decode(), path.with_suffix(f".expected{path.suffix}"))
+    assert_expected(_fixed(path).data.decode(), path.with_suffix(f".expected{path.suffix}"))
 
 
 @pytest.mark.parametrize("path", _FIXES, ids=_name)
-def test_nothing_is_left_to_mend_and_nothing_was_taken_back(path: Path) -> None:
-    mended = _mended(path)
-    assert mended.refused == ()
-    assert [each for each in with_fixes(mended.left) if each.fix and each.fix.safety is Safety.SAFE] == []
+def test_nothing_is_left_to_fix_and_nothing_was_taken_back(path: Path) -> None:
+    fixed = _fixed(path)
+    assert fixed.refused == ()
+    assert [each for each in with_fixes(fixed.left) if each.fix and each.fix.safety is Safety.SAFE] == []
 
 
 @pytest.mark.parametrize("path", [*_FIXES, *_CHECKS], ids=_name)
 def test_fixes_keep_their_promises(path: Path) -> None:
-    assert mended_file(str(path), path.read_bytes()).faults == ()
+    assert fixed_file(str(path), path.read_bytes()).faults == ()
 
 
 def test_every_rule_with_fixes_has_a_case() -> None:
-    mended = {each.rule.name for path in _FIXES for each in _mended(path).applied}
+    fixed = {each.rule.name for path in _FIXES for each in _fixed(path).applied}
     offered = {each.rule.name for path in _CHECKS for each in with_fixes(_look(path, path.read_bytes())) if each.fix}
-    assert {name for name, rule in catalog().items() if rule.fix} - mended - offered == set()
+    assert {name for name, rule in catalog().items() if rule.fix} - fixed - offered == set()

@@ -85,7 +85,7 @@ def test_the_files_have_no_mistake_before_the_edit(file: str) -> None:
 
 
 @pytest.mark.parametrize("mistake", _MISTAKES, ids=lambda each: each.what.replace(" ", "-"))
-def test_a_mistake_is_found_on_its_line_with_what_mends_it(mistake: Mistake, tmp_path: Path) -> None:
+def test_a_mistake_is_found_on_its_line_with_what_fixes_it(mistake: Mistake, tmp_path: Path) -> None:
     path, line = mistake.make(tmp_path)
     loaded = check(path, passes=mistake.passes)
     files = SourceFiles.of(loaded)

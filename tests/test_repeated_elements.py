@@ -7,7 +7,7 @@ from random import Random
 
 import pytest
 
-from testbed.mended import mended_file
+from testbed.fixed_files import fixed_file
 from testbed.value_mutants import described, text_of, tree_of
 from tests.profile import DEEP
 from twinform.schemas import XmlElement
@@ -45,4 +45,4 @@ def _doubled(path: Path) -> Iterator[tuple[XmlElement, XmlElement]]:
 @pytest.mark.parametrize("path", _FILES[::_EVERY], ids=lambda path: path.relative_to(_CASES).as_posix())
 def test_a_copy_behind_an_element_may_be_deleted(path: Path):
     for root, copy in _doubled(path):
-        assert mended_file(path.name, text_of(root)).faults == (), copy.getroottree().getpath(copy)
+        assert fixed_file(path.name, text_of(root)).faults == (), copy.getroottree().getpath(copy)

@@ -1,4 +1,4 @@
-"""Are files the same robots after `check --fix`, and how much does it mend?"""
+"""Are files the same robots after `check --fix`, and how much does it fix?"""
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -8,14 +8,14 @@ from reports.harness.known import Known
 from reports.harness.sample import Sample
 from reports.harness.section import UNEXPLAINED, Findings, Section
 from testbed.corpus.files import CorpusFile, corpus_files
+from testbed.fixed_files import FixedFile, fixed_file
 from testbed.markdown import listing, rule_links, subsection, table
-from testbed.mended import MendedFile, mended_file
 from twinform.compiler import LoadOptions, inspect, read
 from twinform.diagnostics import catalog
 
 KNOWN = Known.beside(__file__)
 _ABOUT = """\
-Every file of the corpus but those that xacro expands is mended with all safe fixes, and once more with the unsafe ones.
+Every file of the corpus but those that xacro expands is fixed with all safe fixes, and once more with the unsafe ones.
 Nothing is written. *The same robot* is the verdict of `twinform diff` where the file had no error before; what cannot
 be compared includes models that are not here. *Kept* means that of the result
 
@@ -36,18 +36,18 @@ class Outcome:
     """What became of a file, and how many findings it has of the rules with fixes, and how many with a fix."""
 
     name: str
-    mended: MendedFile
+    fixed: FixedFile
     found: Mapping[str, int] = field(default_factory=dict[str, int])
 
 
 def measure(sample: Sample) -> Findings:
-    """Mend every file."""
+    """Fix every file."""
     files = [each for each in sample.of(corpus_files()) if each.path.suffix != ".xacro"]
     outcomes = sample.outcomes(
-        _outcome, files, lambda file, why: Outcome(file.name, MendedFile(file.name, faults=(why,)))
+        _outcome, files, lambda file, why: Outcome(file.name, FixedFile(file.name, faults=(why,)))
     )
     totals = _totals(outcomes)
-    faults = [(each.name, fault) for each in outcomes for fault in each.mended.faults]
+    faults = [(each.name, fault) for each in outcomes for fault in each.fixed.faults]
     rows = [(name, fault, KNOWN.why("faults", name) or UNEXPLAINED) for name, fault in faults]
     return Findings(
         [
@@ -64,22 +64,22 @@ def _outcome(file: CorpusFile) -> Outcome:
     data, load_options = file.path.read_bytes(), LoadOptions()
     loaded = inspect(read(data, load_options, name=str(file.path)), load_options)
     found = Counter(each.rule.name for each in loaded.diagnostics if each.rule.fix)
-    return Outcome(file.name, mended_file(str(file.path), data), found)
+    return Outcome(file.name, fixed_file(str(file.path), data), found)
 
 
 def _totals(outcomes: Sequence[Outcome]) -> str:
-    changed = [each.mended for each in outcomes if each.mended.changed]
-    unsafe = [each for each in outcomes if each.mended.unsafe and not each.mended.changed]
+    changed = [each.fixed for each in outcomes if each.fixed.changed]
+    unsafe = [each for each in outcomes if each.fixed.unsafe and not each.fixed.changed]
     verdicts = Counter(each.same for each in changed)
     rows = [
         ("files", len(outcomes)),
         ("with a finding of a rule that has fixes", sum(bool(each.found) for each in outcomes)),
         ("changed by safe fixes", len(changed)),
         *((f"- {words}", verdicts[verdict]) for verdict, words in _VERDICTS.items()),
-        ("findings mended by safe fixes", sum(count for each in changed for _, count in each.safe)),
+        ("findings fixed by safe fixes", sum(count for each in changed for _, count in each.safe)),
         ("changed only with unsafe fixes", len(unsafe)),
-        ("fixes taken back", sum(len(each.mended.refused) for each in outcomes)),
-        ("broken promises", sum(len(each.mended.faults) for each in outcomes)),
+        ("fixes taken back", sum(len(each.fixed.refused) for each in outcomes)),
+        ("broken promises", sum(len(each.fixed.faults) for each in outcomes)),
     ]
     return table(("", "number"), rows)
 
@@ -94,9 +94,9 @@ def _by_rule(outcomes: Sequence[Outcome]) -> str:
         if rule.fix is None:
             continue
         found = [each.found[name] for each in outcomes if name in each.found]
-        safe = _counts_of(name, (each.mended.safe for each in outcomes))
-        unsafe = _counts_of(name, (each.mended.unsafe for each in outcomes))
-        back = sum(each.mended.refused.count(name) for each in outcomes)
+        safe = _counts_of(name, (each.fixed.safe for each in outcomes))
+        unsafe = _counts_of(name, (each.fixed.unsafe for each in outcomes))
+        back = sum(each.fixed.refused.count(name) for each in outcomes)
         if found or safe or unsafe:
             cells = (sum(found), len(found), sum(safe), len(safe), sum(unsafe), len(unsafe), back)
             rows.append((rule_links([name]), rule.fix, *cells))

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from testbed.corpus.files import models
-from testbed.mended import mended_file
+from testbed.fixed_files import fixed_file
 from tests.corpus.portions import portions
 from tests.profile import DEEP
 
@@ -16,4 +16,4 @@ PORTIONS = portions(models())
 def test_fixes_keep_their_promises(corpus: Path, portion: str) -> None:
     assert corpus.is_dir()
     for file in PORTIONS[portion][:: 1 if DEEP else 4]:
-        assert mended_file(str(file.path), file.path.read_bytes()).faults == (), file.name
+        assert fixed_file(str(file.path), file.path.read_bytes()).faults == (), file.name

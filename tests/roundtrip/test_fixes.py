@@ -1,4 +1,4 @@
-"""Mistakes that are planted into generated models are mended, and nothing else is changed."""
+"""Mistakes that are planted into generated models are fixed, and nothing else is changed."""
 
 import random
 import re
@@ -7,11 +7,11 @@ from collections.abc import Callable
 from hypothesis import given
 from hypothesis import strategies as st
 
-from testbed.mended import mended_file
+from testbed.fixed_files import fixed_file
 from tests.profile import examples
 from twinform import Document, dumps
 from twinform.compiler import LoadOptions
-from twinform.compiler.fixing import mend
+from twinform.compiler.fixing import apply_fixes
 from twinform.testing import strategies
 
 _CHANCE = st.randoms(use_true_random=False)
@@ -31,7 +31,7 @@ def _one(pattern: str, new: str) -> _Plant:
     return plant
 
 
-_MENDED_BACK: dict[str, _Plant] = {
+_FIXED_BACK: dict[str, _Plant] = {
     "hyphens": lambda text, _: text.replace("<robot", "<!-- a -- b --><robot", 1).replace(
         "<sdf", "<!-- a -- b --><sdf", 1
     ),
@@ -46,21 +46,21 @@ _MENDED_BACK: dict[str, _Plant] = {
 
 
 @examples()
-@given(strategies.robots() | strategies.sdf_models(), _CHANCE, st.sampled_from(sorted(_MENDED_BACK)))
-def test_a_mistake_with_one_meaning_is_mended(document: Document, chance: random.Random, kind: str) -> None:
+@given(strategies.robots() | strategies.sdf_models(), _CHANCE, st.sampled_from(sorted(_FIXED_BACK)))
+def test_a_mistake_with_one_meaning_is_fixed(document: Document, chance: random.Random, kind: str) -> None:
     text = dumps(document)
-    planted = _MENDED_BACK[kind](text, chance)
+    planted = _FIXED_BACK[kind](text, chance)
     rules = {"not-well-formed", "repaired-xml", "invalid-value"}
-    made = mend(planted.encode(), LoadOptions(), rules=rules).data.decode()
+    made = apply_fixes(planted.encode(), LoadOptions(), rules=rules).data.decode()
     assert made.replace("<!-- a - - b -->", "") == text
 
 
 @examples()
 @given(
-    strategies.robots() | strategies.sdf_models(), _CHANCE, st.lists(st.sampled_from(sorted(_MENDED_BACK)), max_size=4)
+    strategies.robots() | strategies.sdf_models(), _CHANCE, st.lists(st.sampled_from(sorted(_FIXED_BACK)), max_size=4)
 )
 def test_fixes_keep_their_promises(document: Document, chance: random.Random, kinds: list[str]) -> None:
     text = dumps(document)
     for kind in kinds:
-        text = _MENDED_BACK[kind](text, chance)
-    assert mended_file("generated", text.encode()).faults == ()
+        text = _FIXED_BACK[kind](text, chance)
+    assert fixed_file("generated", text.encode()).faults == ()

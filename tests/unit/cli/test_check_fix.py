@@ -39,7 +39,7 @@ def test_safe_fixes_are_written_and_counted(run: Run, robot: Path) -> None:
     assert done.stderr == f"{robot}: fixed 2 x invalid-value\n1 file: 0 errors, 0 warnings, 1 note; 2 fixed\n"
 
 
-def test_notes_are_mended_where_they_are_shown(run: Run, robot: Path) -> None:
+def test_notes_are_fixed_where_they_are_shown(run: Run, robot: Path) -> None:
     run("check", "--fix", "--notes", robot)
     assert robot.read_text() == NOTES
 

@@ -36,7 +36,7 @@ def robot(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_file_is_mended_and_then_passes_run(run: Run, robot: Path) -> None:
+def test_a_file_is_fixed_and_then_passes_run(run: Run, robot: Path) -> None:
     done = run("fix", "--passes", "rename{names=[arm:boom]}", robot)
     assert done.exit_code == 0
     assert robot.read_text() == FIXED.replace('"arm"', '"boom"')

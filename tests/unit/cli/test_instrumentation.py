@@ -121,7 +121,7 @@ def test_it_is_reported_where_the_document_alone_is_not_enough(run: Run, here: P
     assert "it needs the source, lines and all" in again.stderr
 
 
-def test_a_fault_that_is_mended_is_gone(run: Run, here: Path) -> None:
+def test_a_fault_that_is_fixed_is_gone(run: Run, here: Path) -> None:
     run("convert", "good.urdf", "--passes", "raising")
     path = Path("twinform-raising-good.json")
     path.write_text(path.read_text().replace('"pipeline": "raising"', '"pipeline": "raising{model=two}"'))

@@ -66,7 +66,7 @@ def check(case: Case) -> LoadResult:
 
 
 @pytest.mark.parametrize("case", REFUSED.values(), ids=REFUSED)
-def test_it_is_refused_with_the_way_to_mend_it(case: Case):
+def test_it_is_refused_with_the_way_to_fix_it(case: Case):
     loaded = check(case)
     assert loaded.unreadable
     (found,) = loaded.diagnostics
