@@ -1,5 +1,6 @@
 """Changes of one value in a file, each to another one that is as good: what a comparison has to notice."""
 
+import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -121,6 +122,9 @@ def others(spot: Spot, random: Random) -> Iterator[str]:
 
 
 def _other_numbers(number: float, *, share: bool) -> Iterator[str]:
+    if math.isnan(number):
+        yield "0.1"  # what is computed from it would be the same again
+        return
     if share:
         yield f"{number - 0.25 if number >= 0.5 else number + 0.25:.9g}"
     if abs(number) >= UNLIMITED:

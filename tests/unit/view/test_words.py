@@ -38,7 +38,7 @@ def test_a_part_has_its_numbers_and_its_findings():
     shown = part("base", _subject(text))
     assert "<td>2 kg</td>" in shown
     assert "0 0 0.5 m" in shown
-    assert "the last exceeds the sum of the others" in shown
+    assert "violate the triangle inequality" in shown
     assert part("none", _subject(text)) == ""
 
 

@@ -165,11 +165,15 @@ def show(value: Value) -> str:
 
 def _numbers(a: Numbers, b: Numbers) -> Iterator[Delta]:
     apart = [_gap(one, other) for one, other in zip(a.values, b.values, strict=True)]
-    finite = [abs(number) for number in (*a.values, *b.values) if math.isfinite(number)]
     if any(apart):
         unit = a.unit or b.unit
-        size = max(finite, default=0.0)
+        size = _size((*a.values, *b.values))
         yield Delta(max(apart), max(a.floor, b.floor, size), show(a), show(b), unit, size=size)
+
+
+def _size(numbers: Sequence[float]) -> float:
+    """Return the largest magnitude of the finite numbers: a NaN among them would make every gap small."""
+    return max((abs(number) for number in numbers if math.isfinite(number)), default=0.0)
 
 
 def _gap(one: float, other: float) -> float:
@@ -204,7 +208,7 @@ def _tensors(a: Tensor, b: Tensor) -> Iterator[Delta]:
     """The element that differs most, measured against the largest one."""
     apart = [_gap(one, other) for one, other in zip(a.moments, b.moments, strict=True)]
     worst = apart.index(max(apart))
-    scale = max(map(abs, (*a.moments, *b.moments)))
+    scale = _size((*a.moments, *b.moments))
     one, other = (f"{_number(each.moments[worst])} kg*m^2" for each in (a, b))
     yield Delta(apart[worst], scale, one, other, "kg*m^2", ELEMENTS[worst], scale)
 
