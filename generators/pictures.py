@@ -17,7 +17,7 @@ from testbed.browser import chromium, missing
 from testbed.corpus.files import ROOT
 from twinform import report
 from twinform.compiler import LoadOptions
-from twinform.view import Subject, new_viewer, read_subject
+from twinform.view import ViewSubject, new_viewer, read_subject
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -119,7 +119,7 @@ def _report(page: "Page") -> bytes:
         return page.screenshot()
 
 
-def _subjects(texts: Sequence[str], files: Sequence[str]) -> list[Subject]:
+def _subjects(texts: Sequence[str], files: Sequence[str]) -> list[ViewSubject]:
     options = LoadOptions()
     named = zip(texts, files, strict=True)
     found = (read_subject(text.encode(), options, name=str(ROOT / file))[0] for text, file in named)

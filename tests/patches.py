@@ -7,7 +7,7 @@ from lxml import etree
 from tests.tree_changes import PARSER, changed
 from twinform.schemas import XmlElement
 from twinform.text import SourceText, merge, patch, spans
-from twinform.text.alignment import Contents, elements
+from twinform.text.alignment import ElementContents, elements
 
 
 def assert_patched(data: bytes, chance: random.Random, times: int) -> None:
@@ -16,7 +16,7 @@ def assert_patched(data: bytes, chance: random.Random, times: int) -> None:
     after = changed(before, chance, times)
     source = SourceText.of(data)
     made = patch(source, before, after)
-    contents = Contents()
+    contents = ElementContents()
     assert contents.number(etree.fromstring(made.data, PARSER)) == contents.number(after)
     merged = merge(before, after, before)
     assert not merged.conflicts
@@ -26,7 +26,7 @@ def assert_patched(data: bytes, chance: random.Random, times: int) -> None:
     _assert_rest_is_same(source, made, _around(before, after, contents), before)
 
 
-def _around(before: XmlElement, after: XmlElement, contents: Contents) -> XmlElement:
+def _around(before: XmlElement, after: XmlElement, contents: ElementContents) -> XmlElement:
     """The innermost element with all that differs."""
     while before.tag == after.tag and dict(before.attrib) == dict(after.attrib):
         old, new = elements(before), elements(after)

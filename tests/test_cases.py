@@ -6,14 +6,14 @@ import pytest
 
 import twinform
 from tests.expected import assert_expected
-from twinform.testing import Case, CheckOptions, cases
+from twinform.testing import Case, CaseCheckOptions, cases
 
 _CASES = Path(__file__).parent / "cases"
 
 
 _OLDER = "1.4"
 """The version that the cases of versions are written in: the oldest that can be."""
-_EXPANDED = CheckOptions(expand_includes=True, paths=(_CASES / "includes/parts",))
+_EXPANDED = CaseCheckOptions(expand_includes=True, paths=(_CASES / "includes/parts",))
 
 
 def _name(case: Case) -> str:

@@ -14,7 +14,7 @@ from typing import Literal
 import pytest
 
 import twinform
-from twinform.diagnostics import Diagnostic, Entry, Location
+from twinform.diagnostics import Diagnostic, LedgerEntry, Location
 from twinform.testing import Case, cases
 
 _TESTS = Path(__file__).parent
@@ -69,7 +69,7 @@ def _converted(case: Case) -> twinform.Conversion:
     return twinform.convert(Path(case.path.name), to=_OTHER[_OTHER[own]], passes=pipeline[1])
 
 
-def _text(diagnostics: Iterable[Diagnostic], entries: Iterable[Entry]) -> str:
+def _text(diagnostics: Iterable[Diagnostic], entries: Iterable[LedgerEntry]) -> str:
     lines = [line for each in diagnostics for line in _of_finding(each)]
     lines += [line for each in entries for line in _of_entry(each)]
     return "".join(f"{line}\n" for line in lines)
@@ -84,7 +84,7 @@ def _of_finding(one: Diagnostic) -> Iterator[str]:
     yield from (f"    related: {_place(where)}" for where in one.related)
 
 
-def _of_entry(one: Entry) -> Iterator[str]:
+def _of_entry(one: LedgerEntry) -> Iterator[str]:
     yield f"{one.fate} {one.rule.name} {_place(one.location)} ({one.weight})"
     yield f"    {one.message}"
 

@@ -16,9 +16,9 @@ _ELSEWHERE = {
     "twinform.report.WRITERS": "a table of two functions that are there",
     "twinform.report.Shown": "what `show` gives notebooks",
     "twinform.view.PortTakenError": "a ViewError",
-    "twinform.view.Subject": "what `read_subject` gives to the viewer",
+    "twinform.view.ViewSubject": "what `read_subject` gives to the viewer",
     "twinform.view.ViewerMissingError": "a ViewError",
-    "twinform.testing.CheckOptions": "a part of a `Case`",
+    "twinform.testing.CaseCheckOptions": "a part of a `Case`",
     "twinform.testing.Finding": "a part of a `Case`",
 }
 

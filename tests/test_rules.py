@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import twinform
-from twinform.diagnostics import Diagnostic, Entry, catalog
+from twinform.diagnostics import Diagnostic, LedgerEntry, catalog
 from twinform.testing import Case, cases, pass_cases
 
 _TESTS = Path(__file__).parent
@@ -97,7 +97,7 @@ def _name(case: Case) -> str:
     return str(case.path.relative_to(_CASES))
 
 
-def _rules(diagnostics: tuple[Diagnostic | Entry, ...]) -> set[str]:
+def _rules(diagnostics: tuple[Diagnostic | LedgerEntry, ...]) -> set[str]:
     return {each.rule.name for each in diagnostics}
 
 

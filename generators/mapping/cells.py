@@ -7,7 +7,7 @@ from generators.mapping.notes import destinations
 from testbed.markdown import rule_links
 from twinform.diagnostics import Fate, Severity
 from twinform.schemas.facts import Fact, print_version
-from twinform.server.mapping.rows import Row
+from twinform.server.mapping.rows import MappingRow
 from twinform.server.mapping.targets import field_of, targets
 
 ROOT = "../../.."
@@ -16,7 +16,7 @@ _COUNTS = {"1": "once", "?": "", "*": "any number", "+": "at least one"}
 _LABELS: dict[Severity, str] = {Severity.ERROR: "**refused:** ", Severity.WARNING: "warning: ", Severity.INFO: "note: "}
 
 
-def name_of(row: Row) -> str:
+def name_of(row: MappingRow) -> str:
     """The steps of a row, linked to the page of its type where it has one of its own."""
     if not row.fact.reference:
         return f"`{row.steps}`"
@@ -56,7 +56,7 @@ def versions(fact: Fact) -> str:
     return f"{text}, deprecated" if fact.deprecated else text
 
 
-def where(row: Row, seen: Seen) -> tuple[str, str]:
+def where(row: MappingRow, seen: Seen) -> tuple[str, str]:
     """The field of the IR, and what expresses it in the other format."""
     field = field_of(row) or ("kept as it is" if row.fact.place is None else "(its rows)")
     other = "sdf" if row.format == "urdf" else "urdf"
@@ -67,7 +67,7 @@ def where(row: Row, seen: Seen) -> tuple[str, str]:
     return field, _by_fate(row, seen)
 
 
-def _by_fate(row: Row, seen: Seen) -> str:
+def _by_fate(row: MappingRow, seen: Seen) -> str:
     if row.fact.place == ".":
         return "by its rows"
     if not seen.fates:

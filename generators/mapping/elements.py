@@ -15,7 +15,7 @@ from testbed.markdown import table as markdown_table
 from twinform.diagnostics.generated_files import main_of_folder
 from twinform.schemas import table
 from twinform.schemas.meanings import meanings
-from twinform.server.mapping.rows import FORMATS, FormatName, Row, holders, rows, sections
+from twinform.server.mapping.rows import FORMATS, FormatName, MappingRow, holders, rows, sections
 
 _LIST = "README.md"
 _ABOUT = """\
@@ -61,7 +61,7 @@ def _opening(format: FormatName, name: str) -> str:
     return " ".join(parts)
 
 
-def _cells(row: Row, seen: Seen) -> Iterator[str]:
+def _cells(row: MappingRow, seen: Seen) -> Iterator[str]:
     field, goes = where(row, seen)
     yield name_of(row)
     yield kind(row.fact)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from testbed.markdown import rule_links
 from twinform.schemas import table
-from twinform.server.mapping.rows import FORMATS, FormatName, Row, rows, unreachable
+from twinform.server.mapping.rows import FORMATS, FormatName, MappingRow, rows, unreachable
 
 _WARNED = """\
 ## What is passed over
@@ -80,7 +80,7 @@ def _opaque(format: FormatName) -> Iterator[tuple[str, list[str]]]:
             yield name, list(dict.fromkeys(outer))
 
 
-def _has_parent(row: Row, own: list[Row]) -> bool:
+def _has_parent(row: MappingRow, own: list[MappingRow]) -> bool:
     return any(row.steps.startswith(f"{other.steps}/") for other in own)
 
 

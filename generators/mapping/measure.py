@@ -12,10 +12,10 @@ import twinform
 from testbed.corpus.files import ROOT
 from testbed.corpus.there_and_back import robots
 from twinform.compiler.audit import bare_path, fates
-from twinform.diagnostics import Diagnostic, Entry, Location, Severity
+from twinform.diagnostics import Diagnostic, LedgerEntry, Location, Severity
 from twinform.ir import Document, Format
 from twinform.schemas import XmlElement, path_of, table
-from twinform.server.mapping.rows import Part, Row, parts
+from twinform.server.mapping.rows import MappingRow, TablePart, parts
 
 CASES = ROOT / "tests" / "cases"
 EXPRESSED = "expressed"
@@ -60,15 +60,15 @@ def case_files() -> Iterator[tuple[int, Path]]:
 
 
 @cache
-def measured() -> dict[Row, Seen]:
+def measured() -> dict[MappingRow, Seen]:
     """All case files read, and converted to the other format where that is possible."""
-    seen: dict[Row, Seen] = defaultdict(Seen)
+    seen: dict[MappingRow, Seen] = defaultdict(Seen)
     for folder, path in case_files():
         _measure(folder, path, seen)
     return dict(seen)
 
 
-def _measure(folder: int, path: Path, seen: dict[Row, Seen]) -> None:
+def _measure(folder: int, path: Path, seen: dict[MappingRow, Seen]) -> None:
     checked = twinform.check(path)
     root = _tree(path)
     if root is None:
@@ -97,7 +97,7 @@ def conversions(
             yield error
 
 
-def _count(converted: twinform.Conversion, seen: dict[Row, Seen]) -> None:
+def _count(converted: twinform.Conversion, seen: dict[MappingRow, Seen]) -> None:
     assert converted.source is not None
     rows = {(part.element, part.attribute): part.row for part in parts(converted.source)}
     entries = {_key(entry.location): entry for entry in reversed(converted.ledger.entries)}
@@ -110,7 +110,7 @@ def _count(converted: twinform.Conversion, seen: dict[Row, Seen]) -> None:
             seen[row].ledger[entry.rule.name] += 1
 
 
-def _covering(element: XmlElement, attribute: str | None, entries: dict[_Key, Entry]) -> Entry | None:
+def _covering(element: XmlElement, attribute: str | None, entries: dict[_Key, LedgerEntry]) -> LedgerEntry | None:
     """The entry of the ledger that is about a part, or about the nearest element around it that has one."""
     if attribute is not None and (own := entries.get((_line(element), f"{_bare(element)}/@{attribute}"))):
         return own
@@ -122,13 +122,13 @@ def _covering(element: XmlElement, attribute: str | None, entries: dict[_Key, En
     return None
 
 
-def _note(diagnostics: Iterable[Diagnostic], here: dict[_Key, Part], seen: dict[Row, Seen]) -> None:
+def _note(diagnostics: Iterable[Diagnostic], here: dict[_Key, TablePart], seen: dict[MappingRow, Seen]) -> None:
     for each in diagnostics:
         if (part := here.get(_key(each.location))) is not None:
             seen[part.row].rules[each.rule.name] = each.severity
 
 
-def _by_location(root: XmlElement) -> dict[_Key, Part]:
+def _by_location(root: XmlElement) -> dict[_Key, TablePart]:
     return {
         (_line(part.element), _bare(part.element) + (f"/@{part.attribute}" if part.attribute else "")): part
         for part in parts(root)

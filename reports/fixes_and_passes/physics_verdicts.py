@@ -16,7 +16,7 @@ from twinform.compiler import Language, LoadOptions, expand, read
 from twinform.compiler.fitting import assessed, newest_sdf
 from twinform.diagnostics import PhysicsChange
 from twinform.ir import Format
-from twinform.profiles import Verdict as Taken
+from twinform.profiles import ConsumerVerdict as Taken
 from twinform.profiles import load, names
 from twinform.profiles.physics import of_ledger
 from twinform.profiles.remedies import remedies
@@ -131,7 +131,7 @@ class _Trial:
         first, second = kept(OUT / f"{name}.expected.{to}", expected), kept(OUT / f"{name}.{to}", text)
         try:
             found = oracles.compare(first, second, engine="drake")
-        except oracles.UnreadableError as error:
+        except oracles.EngineUnreadableError as error:
             return False, str(error.cause)[:200]
         return True, "" if found else found.cause
 

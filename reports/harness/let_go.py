@@ -44,7 +44,7 @@ def motion(done: str, name: str, count: int, source: Path, result: Path) -> Moti
     """The motions of a source and its result; `count` is of joints, or of whatever makes a robot interesting."""
     try:
         verdict = moved_alike(source, result, _SECONDS)
-    except oracles.UnreadableError as error:
+    except oracles.EngineUnreadableError as error:
         if error.path != result:
             return Motion(done, name, count, None, error.cause.partition("\n")[0])
         verdict = oracles.Verdict("drake", None, math.inf, "", f"only the source can be simulated: {error.cause}")

@@ -11,7 +11,7 @@ from testbed.corpus.files import ROOT, CorpusFile
 from testbed.markdown import frequent, listing, subsection, table
 from testbed.respellings import Respelling, respellings
 from testbed.value_mutants import MISSED, Mutant, mutants
-from twinform.compiler.compare import Severity
+from twinform.compiler.compare import DifferenceSeverity
 
 _EACH = 2
 """Values that are changed in one file; other spellings are half as many."""
@@ -19,7 +19,7 @@ _SECONDS = 120
 _LARGEST = 20_000
 """In bytes: each change of a file is a comparison of all of it."""
 _MOST_SHOWN = 40
-_SEVERITIES = tuple(map(str, Severity))
+_SEVERITIES = tuple(map(str, DifferenceSeverity))
 _ABOUT = f"""\
 In every URDF and SDF file of the corpus of at most {_LARGEST:,} bytes, and in the case files, {_EACH} values are
 changed, one at a time: a number to another one, a flag, a name, a word, the parameter of a plugin, each at another kind

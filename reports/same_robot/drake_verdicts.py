@@ -11,7 +11,7 @@ from testbed.corpus.files import CorpusFile, Kind
 from testbed.output_files import kept
 from twinform.testing import oracles
 from twinform.testing.oracles.in_process import read_robot, verdict_on
-from twinform.testing.oracles.robot import Robot
+from twinform.testing.oracles.robot import EngineRobot
 
 OUT = output_files.OUT / "oracle"
 DRAKE = "drake"
@@ -77,7 +77,7 @@ def post_mortem(file: CorpusFile) -> tuple[Outcome, ...]:
     )
 
 
-def _judged(file: CorpusFile, direction: Direction, source: Robot | str) -> Outcome:
+def _judged(file: CorpusFile, direction: Direction, source: EngineRobot | str) -> Outcome:
     try:
         output = _convert(file, direction)
     except twinform.CompileError as error:
@@ -89,7 +89,7 @@ def _judged(file: CorpusFile, direction: Direction, source: Robot | str) -> Outc
         return Outcome(file.name, direction, Verdict.SOURCE, source, output=output)
     try:
         found = verdict_on(source, (file.path, output), (DRAKE, DRAKE))
-    except oracles.UnreadableError as error:
+    except oracles.EngineUnreadableError as error:
         return Outcome(file.name, direction, Verdict.RESULT, cause(error.cause), output=output)
     return Outcome(
         file.name, direction, _VERDICTS[found.alike], found.cause, found.deviation, output, len(source.joints)
@@ -108,11 +108,11 @@ def _convert(file: CorpusFile, direction: Direction) -> Path:
     return kept(OUT / f"{file.name}{suffix}", text)
 
 
-def _load(path: Path) -> Robot | str:
+def _load(path: Path) -> EngineRobot | str:
     """What Drake sees, or why it sees nothing."""
     try:
         return read_robot(path, DRAKE)
-    except oracles.UnreadableError as error:
+    except oracles.EngineUnreadableError as error:
         return cause(error.cause)
 
 

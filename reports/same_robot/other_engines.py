@@ -82,7 +82,7 @@ def _answer(question: Question) -> Agreement:
     try:
         _write(question)
         found = compared(question.source, question.result, question.engines, lumped=False)
-    except oracles.UnreadableError as error:
+    except oracles.EngineUnreadableError as error:
         answer = Answer.SOURCE if error.path == question.source else Answer.RESULT
         return Agreement(question, answer, cause(error.cause))
     except twinform.CompileError as error:
@@ -102,7 +102,7 @@ def _source(question: Question) -> None:
     """Read the source alone: if this comes back, an engine ended its process on the result."""
     try:
         read_robot(question.source, question.engines[0])
-    except oracles.UnreadableError:
+    except oracles.EngineUnreadableError:
         return
 
 

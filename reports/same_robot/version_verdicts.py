@@ -10,7 +10,7 @@ from testbed.corpus.versions import NEWEST
 from testbed.output_files import OUT, kept
 from twinform.testing import oracles
 from twinform.testing.oracles.in_process import read_robot, verdict_on
-from twinform.testing.oracles.robot import Robot
+from twinform.testing.oracles.robot import EngineRobot
 
 VERSIONS = ("1.11", "1.6")
 """What Drake is given: the newest version that it reads, and one without named frames."""
@@ -30,12 +30,12 @@ def judge(file: CorpusFile) -> list[Comparison]:
     """The model as it is, and in other versions; no exception comes out of it."""
     try:
         source = read_robot(file.path, DRAKE)
-    except oracles.UnreadableError:
+    except oracles.EngineUnreadableError:
         return [Comparison(file.name, "the file", "not read by Drake")]
     return [_compare(file, source, version) for version in VERSIONS]
 
 
-def _compare(file: CorpusFile, source: Robot, version: str) -> Comparison:
+def _compare(file: CorpusFile, source: EngineRobot, version: str) -> Comparison:
     subject = f"the file and the same in {version}"
     try:
         path = _written(file, version)
@@ -43,7 +43,7 @@ def _compare(file: CorpusFile, source: Robot, version: str) -> Comparison:
         return Comparison(file.name, subject, "refused", error.diagnostics[0].message)
     try:
         found = verdict_on(source, (file.path, path), (DRAKE, DRAKE))
-    except oracles.UnreadableError as error:
+    except oracles.EngineUnreadableError as error:
         return Comparison(file.name, subject, "result not read by Drake", _cause(error.cause))
     return Comparison(file.name, subject, f"same ({found.alike})" if found.alike else "different", found.cause)
 

@@ -19,7 +19,7 @@ from twinform.passes.transforms.notation import OFFSET
 from twinform.testing import oracles
 from twinform.testing.oracles.comparison import chained, renamed
 from twinform.testing.oracles.in_process import read_robot, verdict_on
-from twinform.testing.oracles.robot import Robot, View
+from twinform.testing.oracles.robot import EngineRobot, View
 
 KNOWN = Known(Path(__file__).with_name("edits.toml"), contains)
 _TOLERANCE = 1e-9
@@ -75,13 +75,13 @@ def _judged(pair: tuple[Path, Path]) -> str | None:
         before = edited.with_stem("before")
         unedited = verdict_on(read_robot(before, DRAKE), (before, result.with_stem("back")), (DRAKE, DRAKE))
         source = read_robot(edited, DRAKE)
-    except oracles.UnreadableError:
+    except oracles.EngineUnreadableError:
         return None
     if not unedited:
         return None
     try:
         found = verdict_on(source, pair, (DRAKE, DRAKE))
-    except oracles.UnreadableError as error:
+    except oracles.EngineUnreadableError as error:
         return f"the result is not read: {error.cause}"
     if not found:
         return found.cause
@@ -98,7 +98,7 @@ def _root_is_elsewhere(edited: Path) -> bool:
     return any(each.find(f"{{{NAMESPACE}}}{OFFSET}") is not None for each in roots)
 
 
-def _frames(source: Robot, result: Path) -> str:
+def _frames(source: EngineRobot, result: Path) -> str:
     """Links whose frames are elsewhere, at the same joint positions."""
     seen = read_robot(result, DRAKE, View(reference=source.reference))
     view = View(renamed(source, seen), source.reference, chained(source, seen))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from reports.who_reads_it.sensor_sources import SensorSource
 from reports.who_reads_it.system_sources import Read, SystemSource
 from twinform.passes.plugins.catalog import sensors, systems
-from twinform.passes.plugins.parts import Alternative, Channel, Parameter, PluginKind, SensorKind
+from twinform.passes.plugins.parts import Alternative, PluginKind, PluginParameter, SensorKind, TopicChannel
 from twinform.passes.plugins.topic_patterns import without_parentheses
 
 # Names are compared wherever they stand in a plugin: the path of an element goes through variables in
@@ -76,14 +76,14 @@ def of_system(kind: PluginKind, source: SystemSource, release: str) -> Iterator[
     yield from _compared(kind.name, "message", _messages(kind, release), source.messages)
 
 
-def _rows(rows: Iterable[Parameter], release: str) -> Iterator[Parameter]:
+def _rows(rows: Iterable[PluginParameter], release: str) -> Iterator[PluginParameter]:
     for row in rows:
         if release in row.releases:
             yield row
             yield from _rows(row.children, release)
 
 
-def _of_parameter(owner: str, name: str, rows: list[Parameter], read: Read) -> Iterator[Difference]:
+def _of_parameter(owner: str, name: str, rows: list[PluginParameter], read: Read) -> Iterator[Difference]:
     types = {_AS_READ.get(row.type, row.type) for row in rows}
     if read.kinds and not types & read.kinds and types != {"element"}:
         yield Difference(owner, "type", name, ", ".join(sorted(types)), ", ".join(sorted(read.kinds)))
@@ -119,7 +119,7 @@ def _topic_parts(kind: PluginKind, release: str) -> set[str]:
     } - _STRUCTURE
 
 
-def _alternatives(kind: PluginKind, channel: Channel, release: str) -> Iterator[Alternative]:
+def _alternatives(kind: PluginKind, channel: TopicChannel, release: str) -> Iterator[Alternative]:
     """Those whose parameters the release reads."""
     for each in channel.alternatives:
         rows = [kind.parameter(name) for name in each.parameters]

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from testbed import robots
 from twinform.compiler import ConversionRequest, LoadOptions
-from twinform.compiler.batch import Convert, Entry
+from twinform.compiler.batch import Convert, ModelEntry
 from twinform.compiler.batch.task import Task, work
 
 _TIME = 1_000_000_000
@@ -82,7 +82,7 @@ class Sources:
         known = self._wanted.get(name)
         if known is None or known.versions != key:
             task = Task(
-                entry=Entry(name, name),
+                entry=ModelEntry(name, name),
                 job=JOB,
                 root=str(self.folder),
                 load_options=LoadOptions(),

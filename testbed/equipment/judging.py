@@ -14,7 +14,7 @@ from testbed.corpus.there_and_back import SDF_VERSION, robots
 from testbed.equipment.differences import Difference, differences
 from testbed.equipment.saying import Said
 from testbed.markdown import without_names
-from twinform.diagnostics import Entry, Ledger
+from twinform.diagnostics import Ledger, LedgerEntry
 from twinform.testing.oracles.libsdformat.library import RobotRow, describe, models_of
 
 _QUOTED = re.compile(r"'([^']*)'")
@@ -112,7 +112,7 @@ def _is_listed(found: Difference, ledger: Ledger) -> bool:
     return any(_covers(entry.location.path, found) or _is_followed(entry, found) for entry in ledger.entries)
 
 
-def _is_followed(entry: Entry, found: Difference) -> bool:
+def _is_followed(entry: LedgerEntry, found: Difference) -> bool:
     """Whether a plugin names what has another name in URDF, which it follows."""
     if entry.rule.name != "renamed" or found.kind != "plugin":
         return False

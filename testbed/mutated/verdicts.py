@@ -13,7 +13,7 @@ from testbed.mutated.mutated import Mutated
 from testbed.oracles import urdfdom
 from twinform.diagnostics import Diagnostic
 from twinform.testing.oracles import libsdformat
-from twinform.testing.oracles.libsdformat import Reading
+from twinform.testing.oracles.libsdformat import LibsdformatReading
 
 _COLOR = re.compile(r"\x1b\[[0-9;]*m")
 _CONSOLE = re.compile(r"^(?P<kind>Error|Warning)(?: \[\w+\.cc:\d+\]|:)\s*(?P<text>.*)")
@@ -103,7 +103,7 @@ def _of_libsdformat(paths: Sequence[Path]) -> Iterator[tuple[Path, Opinion]]:
         yield path, _opinion(reading, str(path))
 
 
-def _opinion(reading: Reading, path: str) -> Opinion:
+def _opinion(reading: LibsdformatReading, path: str) -> Opinion:
     printed = [_CONSOLE.match(line) for line in _COLOR.sub("", reading.console).splitlines()]
     lines = [(found["kind"], _PLACE.sub("", found["text"])) for found in printed if found]
     errors = tuple(dict.fromkeys(text for kind, text in lines if kind == "Error"))

@@ -96,7 +96,7 @@ def _drake(packaged: Packaged) -> str | None:
     """How the robot differs from its source in Drake; None where Drake cannot read the source."""
     try:
         verdict = oracles.compare(packaged.robot.file, packaged.folder / "model.sdf", engine="drake")
-    except oracles.UnreadableError as error:
+    except oracles.EngineUnreadableError as error:
         return None if error.path == packaged.robot.file.resolve() else error.cause
     return "" if verdict else str(verdict)
 

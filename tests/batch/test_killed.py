@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from twinform.compiler.batch.dependencies import Dependency, Kind
+from twinform.compiler.batch.dependencies import Dependency, DependencyKind
 from twinform.compiler.batch.manifest import Manifest, read_records, record_line
-from twinform.compiler.batch.record import Outcome, Record
+from twinform.compiler.batch.record import ModelRecord, Outcome
 
 from .conftest import SUMMARY, converting, finish, records, results, wait_for
 
@@ -66,9 +66,11 @@ def _workers(parent: int) -> list[int]:
 
 
 def test_a_manifest_that_was_cut_anywhere_keeps_the_whole_lines_and_takes_more(tmp_path: Path) -> None:
-    dependency = Dependency("a.urdf", Kind.READ, 3, 5, "x")
+    dependency = Dependency("a.urdf", DependencyKind.READ, 3, 5, "x")
     names = ("a", "b\udcff", "ö")
-    written = [Record(source=name, request="r", outcome=Outcome.REFUSED, dependencies=(dependency,)) for name in names]
+    written = [
+        ModelRecord(source=name, request="r", outcome=Outcome.REFUSED, dependencies=(dependency,)) for name in names
+    ]
     whole = b"".join(map(record_line, written))
     path = tmp_path / ".twinform-batch/manifest.jsonl"
     path.parent.mkdir()
@@ -83,7 +85,7 @@ def test_a_manifest_that_was_cut_anywhere_keeps_the_whole_lines_and_takes_more(t
 
 
 def test_a_manifest_is_written_anew_where_most_of_it_is_old(tmp_path: Path) -> None:
-    record = Record(source="a", request="r", outcome=Outcome.REFUSED)
+    record = ModelRecord(source="a", request="r", outcome=Outcome.REFUSED)
     with Manifest(tmp_path).open() as manifest:
         for _ in range(10):
             manifest.add(record)

@@ -19,7 +19,7 @@ from twinform.compiler import LoadOptions
 
 pytest.importorskip("viser", reason="viser is not installed")
 
-from twinform.view import Subject, read_subject, standalone_page
+from twinform.view import ViewSubject, read_subject, standalone_page
 from twinform.view.names import shortened
 from twinform.view.viewer import Viewer, camera_for
 
@@ -88,7 +88,7 @@ POSITIONS: dict[str, tuple[dict[tuple[str, int], float], ...]] = {
 ZERO = {key: 0.0 for moves in POSITIONS.values() for moved in moves for key in moved}
 
 
-def _subject(text: str | bytes | Path) -> Subject:
+def _subject(text: str | bytes | Path) -> ViewSubject:
     source = text.encode() if isinstance(text, str) else text
     subject, _ = read_subject(source, LoadOptions())
     assert subject is not None

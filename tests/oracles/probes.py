@@ -78,7 +78,7 @@ class Probe:
             return ""
         try:
             found = compared(self.path, _written(self), ("libsdformat", "libsdformat"), lumped=True)
-        except oracles.UnreadableError:
+        except oracles.EngineUnreadableError:
             return ""
         return "yes" if found else found.cause
 

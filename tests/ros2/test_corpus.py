@@ -9,7 +9,7 @@ from testbed.corpus.files import Kind, corpus_files
 from testbed.ros2.judges import yaml_problems
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.packaging.kinds import build
-from twinform.compiler.packaging.order import Details, Order
+from twinform.compiler.packaging.order import Order, PackageDetails
 from twinform.compiler.packaging.ros2.controllers import Controller, controllers_of
 from twinform.compiler.packaging.ros2.systems import systems_of
 from twinform.compiler.request import ConversionRequest
@@ -38,7 +38,7 @@ def _check(content: bytes, name: str) -> bool:
         folder="robot",
         conversion=ConversionRequest(to="urdf"),
         load_options=LoadOptions(),
-        details=Details(description="A robot", maintainer="Ann", email="ann@example.org", license="MIT"),
+        details=PackageDetails(description="A robot", maintainer="Ann", email="ann@example.org", license="MIT"),
         allow_missing=True,
     )
     try:

@@ -14,7 +14,7 @@ from tests.profile import examples
 from twinform.compiler import CompileError
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.packaging.kinds import build
-from twinform.compiler.packaging.order import Built, Details, Order
+from twinform.compiler.packaging.order import Built, Order, PackageDetails
 from twinform.compiler.request import ConversionRequest
 
 _HOOKS = ("env-hooks/gazebo_resource_path.dsv.in", "env-hooks/gazebo_resource_path.sh.in")
@@ -113,7 +113,7 @@ def _texts(built: Built) -> dict[str, str]:
 
 
 def _package(urdf: bytes, description: str, maintainer: str, license_: str) -> Built:
-    details = Details(description=description, maintainer=maintainer, email="a@example.org", license=license_)
+    details = PackageDetails(description=description, maintainer=maintainer, email="a@example.org", license=license_)
     order = Order(
         source=urdf,
         source_name="robot.urdf",

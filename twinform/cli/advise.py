@@ -11,7 +11,7 @@ from twinform.cli.printing import print_report
 from twinform.compiler import CompileError
 from twinform.compiler.advice import REPORTERS, advise
 from twinform.compiler.input.options import FileOptions
-from twinform.diagnostics.reporters import Findings
+from twinform.diagnostics.reporters import FileFindings
 from twinform.profiles import Profile, UnknownProfileError, load, names, parse
 from twinform.profiles.profile import PORTABLE
 
@@ -61,6 +61,6 @@ def command(
     try:
         found = advise(source.content, profiles, load_options, name=source.name, model=model)
     except CompileError as error:
-        show(Findings(source.name, error.diagnostics), notes=False, on_stderr=True)
+        show(FileFindings(source.name, error.diagnostics), notes=False, on_stderr=True)
         ctx.exit(UNUSABLE if error.unreadable else FINDINGS)
     print_report(REPORTERS[style](found), style)

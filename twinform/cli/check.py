@@ -18,7 +18,7 @@ from twinform.cli.inputs import model_inputs, reading_options
 from twinform.cli.own_options import OptionsByFile
 from twinform.cli.pipeline_option import pipeline_option
 from twinform.cli.policy import policy_options
-from twinform.cli.source import Source
+from twinform.cli.source import InputSource
 from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, inspect, read
 from twinform.compiler.input.options import ReadingOptions
 from twinform.diagnostics.reporters import REPORTERS
@@ -101,12 +101,12 @@ def command(
 
     def look(content: str | bytes, name: str) -> LoadResult:
         load_options, _, passes = options.of(name)
-        return _checked(Source(content, name), load_options, passes, expand_includes=expand_includes)
+        return _checked(InputSource(content, name), load_options, passes, expand_includes=expand_includes)
 
-    def check(source: Source, report: CheckReport) -> None:
+    def check(source: InputSource, report: CheckReport) -> None:
         report.add(look(*source), options.of(source.name).policy)
 
-    def fixing(source: Source) -> "Fixing":
+    def fixing(source: InputSource) -> "Fixing":
         from twinform.cli.fixing import Fixing  # noqa: PLC0415 - see above
 
         load_options, policy, _ = options.of(source.name)
@@ -127,7 +127,12 @@ def command(
 
 
 def _fix(
-    sources: "Sequence[Source]", fixing: "Callable[[Source], Fixing]", report: CheckReport, *, diff: bool, silent: bool
+    sources: "Sequence[InputSource]",
+    fixing: "Callable[[InputSource], Fixing]",
+    report: CheckReport,
+    *,
+    diff: bool,
+    silent: bool,
 ) -> int:
     """Fix files, or print what would change; gives the exit code. What is left is reported, unless `silent`."""
     from twinform.cli.fixing import run_fixes  # noqa: PLC0415 - most runs only look
@@ -144,7 +149,7 @@ def _fix(
 
 
 def _checked(
-    source: Source, load_options: LoadOptions, passes: "Pipeline | None", *, expand_includes: bool
+    source: InputSource, load_options: LoadOptions, passes: "Pipeline | None", *, expand_includes: bool
 ) -> LoadResult:
     loaded = read(source.content, load_options, name=source.name)
     if expand_includes:

@@ -10,7 +10,7 @@ from twinform.cli.findings import placed, show
 from twinform.cli.printing import print_document, print_line
 from twinform.compiler import LoadResult
 from twinform.diagnostics import Policy, Safety, Severity
-from twinform.diagnostics.reporters import REPORTERS, Findings
+from twinform.diagnostics.reporters import REPORTERS, FileFindings
 
 if TYPE_CHECKING:
     from twinform.compiler.input.source_files import SourceFiles
@@ -28,7 +28,7 @@ class CheckReport:
         self.style, self.notes, self.every, self.baseline = style, notes, every, baseline
         self.on_stderr, self.fixed = False, 0
         self.fixes: Counter[Safety] = Counter()
-        self.kept: list[Findings] = []
+        self.kept: list[FileFindings] = []
         self.counts: Counter[Severity] = Counter()
         self.files = self.unreadable = self.unopened = self.allowed = self.known = 0
 
@@ -51,9 +51,9 @@ class CheckReport:
 
             new = with_fixes(replace(loaded, diagnostics=new), lambda each: each.severity >= least)
             self.fixes.update(each.fix.safety for each in new if each.fix)
-        self._print(Findings(loaded.path, new), _files(loaded) if new else None)
+        self._print(FileFindings(loaded.path, new), _files(loaded) if new else None)
 
-    def _print(self, findings: Findings, files: "SourceFiles | None") -> None:
+    def _print(self, findings: FileFindings, files: "SourceFiles | None") -> None:
         if self.style in _FOR_PEOPLE:
             short = self.style == "concise"
             show(findings, notes=self.notes, on_stderr=self.on_stderr, every=self.every, short=short, files=files)

@@ -15,11 +15,11 @@ from twinform.cli.mesh_progress import mesh_progress
 from twinform.cli.outputs import Output, Outputs, beside
 from twinform.cli.own_options import ResolvedOptions
 from twinform.cli.printing import print_line
-from twinform.cli.source import Source
-from twinform.cli.targets import Job
+from twinform.cli.source import InputSource
+from twinform.cli.targets import ConversionJob
 from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadOptions, read, run_conversion
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
-from twinform.diagnostics.reporters import Findings
+from twinform.diagnostics.reporters import FileFindings
 from twinform.passes import FilesPass, PassError, PassInstrumentation, Pipeline, SideFilePass
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class Options:
     gazebo_files: GazeboFiles
     audit: bool = False
 
-    def request_for(self, job: Job) -> ConversionRequest:
+    def request_for(self, job: ConversionJob) -> ConversionRequest:
         """What one input is to become."""
         return replace(
             self.request, to=job.target, sdf_version=self.request.sdf_version if job.target == "sdf" else None
@@ -59,7 +59,7 @@ class Options:
         """The files that the user's passes make, by their paths below the folder of the result."""
         return [step.file for step in self.request.passes if isinstance(step, SideFilePass)]
 
-    def places(self, job: Job, outputs: Outputs) -> Iterator[Output]:
+    def places(self, job: ConversionJob, outputs: Outputs) -> Iterator[Output]:
         """All that one conversion writes.
 
         Raises:
@@ -73,21 +73,21 @@ class Options:
         beside(job.path, [step.place for step in self.request.passes if isinstance(step, FilesPass)])  # raises early
         yield from beside(job.path, self.beside)
 
-    def show(self, source: Source, diagnostics: tuple[Diagnostic, ...]) -> bool:
+    def show(self, source: InputSource, diagnostics: tuple[Diagnostic, ...]) -> bool:
         """Print the findings as the project wants to see them; whether none of them is an error."""
         seen = self.policy.apply(diagnostics)
         files = _files(source) if seen else None
-        show(Findings(source.name, seen), notes=self.notes, on_stderr=True, every=self.every, files=files)
+        show(FileFindings(source.name, seen), notes=self.notes, on_stderr=True, every=self.every, files=files)
         return not any(each.is_error for each in seen)
 
 
-def _files(source: Source) -> "SourceFiles":
+def _files(source: InputSource) -> "SourceFiles":
     from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - only findings have places
 
     return SourceFiles({source.name: source.content}) if isinstance(source.content, bytes) else SourceFiles()
 
 
-def run_job(job: Job, options: Options, label: str, outputs: Outputs) -> int:
+def run_job(job: ConversionJob, options: Options, label: str, outputs: Outputs) -> int:
     """Run one conversion, and add what it makes to what is written; gives its exit code."""
     instrumented = options.watching.begin(job.source.name)
     try:
@@ -129,7 +129,7 @@ def _audit(conversion: Conversion, name: str, outputs: Outputs) -> int:
 
 
 def _converted(
-    job: Job, options: Options, instrumentation: PassInstrumentation | None
+    job: ConversionJob, options: Options, instrumentation: PassInstrumentation | None
 ) -> tuple[Conversion, "Updated | None"]:
     """The conversion and, where it is one in place, the file with what it changes.
 
@@ -166,7 +166,7 @@ def summary(ledger: Ledger) -> str:
     return ", ".join([f"expressed {ledger.expressed}", *(f"{fate} {ledger.count(fate)}" for fate in Fate)])
 
 
-def print_plan(job: Job, options: Options, label: str) -> int:
+def print_plan(job: ConversionJob, options: Options, label: str) -> int:
     """Print the passes of one conversion; gives its exit code."""
     loaded = read(job.source.content, options.load_options, name=job.source.name)
     if loaded.document is None or not loaded.accepted:
@@ -181,7 +181,7 @@ def print_plan(job: Job, options: Options, label: str) -> int:
     return 0
 
 
-def _fitted(request: ConversionRequest, source: Source, load_options: LoadOptions) -> ConversionRequest:
+def _fitted(request: ConversionRequest, source: InputSource, load_options: LoadOptions) -> ConversionRequest:
     """The request with the passes for the consumers, if there are any.
 
     Raises:

@@ -23,8 +23,8 @@ from twinform.cli.own_options import OptionsByFile
 from twinform.cli.policy import policy_options
 from twinform.cli.printing import print_line
 from twinform.cli.request import passes_of, request_options, whole_request
-from twinform.cli.source import Source
-from twinform.cli.targets import TARGETS, Job, Target, jobs, jobs_in_place
+from twinform.cli.source import InputSource
+from twinform.cli.targets import TARGETS, ConversionJob, Target, jobs, jobs_in_place
 from twinform.compiler import ConversionRequest
 from twinform.compiler.input.options import ReadingOptions
 from twinform.compiler.request_options import RequestOptions
@@ -138,7 +138,9 @@ def command(
         audit=audit,
         gazebo_files=gazebo_files,
     )
-    run = _Run(ctx, sources, by_file, options.for_file(by_file.of(sources[0].name)) if len(sources) == 1 else options)
+    run = _ConvertRun(
+        ctx, sources, by_file, options.for_file(by_file.of(sources[0].name)) if len(sources) == 1 else options
+    )
     run.require_one_input(split=split)
     _require_consumers(profiles, alone=not (split or into), keep_physics=keep_physics)
     if split:
@@ -154,11 +156,11 @@ def command(
 
 
 @dataclass(frozen=True, slots=True)
-class _Run:
+class _ConvertRun:
     """The inputs of one run, and the options for them: each mode gives the exit code."""
 
     ctx: click.Context
-    sources: Sequence[Source]
+    sources: Sequence[InputSource]
     by_file: OptionsByFile
     options: Options
 
@@ -186,18 +188,18 @@ class _Run:
         outputs = self._outputs([into] if into else (), check=check)
         return self._end(outputs, [run_into(_only(self.sources, "--into"), into, base, self.options, outputs)])
 
-    def print_pipelines(self, todo: Sequence[Job]) -> int:
+    def print_pipelines(self, todo: Sequence[ConversionJob]) -> int:
         """Print the passes that would run."""
         return max(print_plan(job, self._options_for(job), label=_label(job, todo)) for job in todo)
 
-    def convert(self, todo: Sequence[Job], *, in_place: bool, check: bool) -> int:
+    def convert(self, todo: Sequence[ConversionJob], *, in_place: bool, check: bool) -> int:
         """Write new files, or change the inputs themselves."""
         planned = [(job, self._options_for(job)) for job in todo]
         outputs = self._outputs([job.path for job in todo if in_place and job.path], check=check)
         outputs.require_apart([place for job, own in planned for place in own.places(job, outputs)])
         return self._end(outputs, [run_job(job, own, _label(job, todo), outputs) for job, own in planned])
 
-    def _options_for(self, job: Job) -> Options:
+    def _options_for(self, job: ConversionJob) -> Options:
         return self.options.for_file(self.by_file.of(job.source.name))
 
     def _outputs(self, rewritten: Sequence[Path] = (), *, check: bool) -> Outputs:
@@ -223,19 +225,19 @@ def _require_consumers(profiles: "tuple[Profile, ...]", *, alone: bool, keep_phy
         raise click.UsageError("--for takes neither --split nor --into")
 
 
-def _require_sdf(ctx: click.Context, todo: Sequence[Job]) -> None:
+def _require_sdf(ctx: click.Context, todo: Sequence[ConversionJob]) -> None:
     """Raise where a version of SDF is typed, and nothing becomes SDF."""
     versioned = ctx.get_parameter_source("sdf_version") is ParameterSource.COMMANDLINE
     if versioned and all(job.target != "sdf" for job in todo):
         raise click.UsageError("--sdf-version is for --to sdf")
 
 
-def _label(job: Job, todo: Sequence[Job]) -> str:
+def _label(job: ConversionJob, todo: Sequence[ConversionJob]) -> str:
     """What is printed before the news of a job, where there are several."""
     return job.source.name if len(todo) > 1 else ""
 
 
-def _only(sources: Sequence[Source], option: str = "--split") -> Source:
+def _only(sources: Sequence[InputSource], option: str = "--split") -> InputSource:
     if len(sources) > 1:
         raise click.UsageError(f"{option} takes one input")
     return sources[0]

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from twinform.cli.flags import group
-from twinform.compiler.packaging.order import Details
+from twinform.compiler.packaging.order import PackageDetails
 from twinform.compiler.packaging.source_details import details_around
 
 _OPTIONS = (
@@ -18,14 +18,14 @@ _OPTIONS = (
 )
 
 
-def _details(package_version: str, **words: str) -> Details:
-    return Details(version=package_version.strip(), **{name: word.strip() for name, word in words.items()})
+def _details(package_version: str, **words: str) -> PackageDetails:
+    return PackageDetails(version=package_version.strip(), **{name: word.strip() for name, word in words.items()})
 
 
 detail_options = group("details", _details, *_OPTIONS)
 """Gives a command the options for what a package says about itself."""
 
 
-def details_of(given: Details, source: str | bytes) -> Details:
+def details_of(given: PackageDetails, source: str | bytes) -> PackageDetails:
     """The details; what is not given is as the package or model around a file has it."""
     return given if isinstance(source, bytes) else given.or_else(details_around(Path(source)))

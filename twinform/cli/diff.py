@@ -10,12 +10,16 @@ from twinform.cli.findings import show
 from twinform.cli.inputs import file_options, inputs, load_options_of
 from twinform.cli.printing import Color, print_report, print_text, styled
 from twinform.compiler import CompileError
-from twinform.compiler.compare import ComparisonOptions, Severity, compare_files
+from twinform.compiler.compare import ComparisonOptions, DifferenceSeverity, compare_files
 from twinform.compiler.compare.reporters import REPORTERS, summary, text
 from twinform.compiler.input.options import FileOptions
-from twinform.diagnostics.reporters import Findings
+from twinform.diagnostics.reporters import FileFindings
 
-_COLORS: dict[Severity, Color] = {Severity.DIFFERENCE: "red", Severity.CARRIED: "yellow", Severity.NOTE: "cyan"}
+_COLORS: dict[DifferenceSeverity, Color] = {
+    DifferenceSeverity.DIFFERENCE: "red",
+    DifferenceSeverity.CARRIED: "yellow",
+    DifferenceSeverity.NOTE: "cyan",
+}
 _PAIR = 2
 
 
@@ -57,12 +61,12 @@ def command(
         load_options, names = load_options_of(arguments, reading), (a.name, b.name)
         found = compare_files(a.content, b.content, load_options, comparison, names=names, model=model)
     except CompileError as error:
-        show(Findings(a.name, error.diagnostics), notes=False, on_stderr=True)
+        show(FileFindings(a.name, error.diagnostics), notes=False, on_stderr=True)
         ctx.exit(UNUSABLE)
     print_report(text(found, _paint) if style == "text" else REPORTERS[style](found), style)
     print_text(summary(found), err=True)
     ctx.exit(0 if found.same else FINDINGS)
 
 
-def _paint(word: str, severity: Severity) -> str:
+def _paint(word: str, severity: DifferenceSeverity) -> str:
     return styled(word, _COLORS[severity])

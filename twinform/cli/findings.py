@@ -6,7 +6,7 @@ import click
 
 from twinform.cli.printing import Color, print_text, styled
 from twinform.diagnostics import Severity
-from twinform.diagnostics.reporters import Findings, concise, text
+from twinform.diagnostics.reporters import FileFindings, concise, text
 
 if TYPE_CHECKING:
     from twinform.compiler.input.source_files import SourceFiles
@@ -28,7 +28,7 @@ all_option = click.option("--all", "every", is_flag=True, help="Print each findi
 
 
 def show(
-    findings: Findings,
+    findings: FileFindings,
     *,
     notes: bool,
     on_stderr: bool,
@@ -50,7 +50,7 @@ def show(
         print_text(report, nl=False, err=on_stderr)
 
 
-def placed(findings: Findings, files: "SourceFiles | None" = None) -> Findings:
+def placed(findings: FileFindings, files: "SourceFiles | None" = None) -> FileFindings:
     """The findings with columns, and with the texts that they are about; without findings nothing is read."""
     if not findings.diagnostics:
         return findings
@@ -59,4 +59,4 @@ def placed(findings: Findings, files: "SourceFiles | None" = None) -> Findings:
     from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - see above
 
     files = files or SourceFiles()
-    return Findings(findings.path, with_columns(findings.diagnostics, files), files)
+    return FileFindings(findings.path, with_columns(findings.diagnostics, files), files)

@@ -18,12 +18,12 @@ from twinform.cli.pipeline_option import pipeline_option
 from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.printing import print_line
 from twinform.cli.rewriting import Rewrite, show_differences, write_back
-from twinform.cli.source import Source
+from twinform.cli.source import InputSource
 from twinform.compiler import CompileError, ConversionRequest, Language, LoadResult, inspect, read
 from twinform.compiler.in_place import convert_bytes_in_place
 from twinform.compiler.input.options import FileOptions
 from twinform.diagnostics import Diagnostic
-from twinform.diagnostics.reporters import Findings
+from twinform.diagnostics.reporters import FileFindings
 from twinform.passes import PassError, Pipeline, SideFilePass
 
 Report = Callable[[str, tuple[Diagnostic, ...]], None]
@@ -80,7 +80,7 @@ def command(
         return inspect(read(content, load_options, name=name), load_options)
 
     def report(name: str, diagnostics: tuple[Diagnostic, ...]) -> None:
-        show(Findings(name, policy.apply(diagnostics)), notes=notes, on_stderr=True)
+        show(FileFindings(name, policy.apply(diagnostics)), notes=notes, on_stderr=True)
 
     for source in sources:
         _require_model(source, passes)
@@ -97,7 +97,7 @@ def command(
     write_back(rewrites)
 
 
-def _require_model(source: Source, passes: Pipeline | None) -> None:
+def _require_model(source: InputSource, passes: Pipeline | None) -> None:
     """Raise for what has no text of its own that could be changed.
 
     Raises:
@@ -110,7 +110,7 @@ def _require_model(source: Source, passes: Pipeline | None) -> None:
         raise click.UsageError(f"a pass writes {made[0]} beside the result: give it to convert")
 
 
-def _run(source: Source, passes: Pipeline | None, fixing: Fixing, report: Report) -> Rewrite | int:
+def _run(source: InputSource, passes: Pipeline | None, fixing: Fixing, report: Report) -> Rewrite | int:
     """A file as it is to be, or the exit code where it cannot be changed."""
     fixed = fixed_source(source, fixing)
     rewrite, news = fixed.rewrite, fixed.news
@@ -138,4 +138,4 @@ def _run(source: Source, passes: Pipeline | None, fixing: Fixing, report: Report
 
 def _format_of(rewrite: Rewrite) -> Language:
     """The format of a file, which stays."""
-    return "urdf" if Source(rewrite.after, rewrite.source.name).format == "urdf" else "sdf"
+    return "urdf" if InputSource(rewrite.after, rewrite.source.name).format == "urdf" else "sdf"

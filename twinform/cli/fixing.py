@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from twinform.cli.printing import print_line
 from twinform.cli.rewriting import Rewrite, show_differences, write_back
-from twinform.cli.source import Source
+from twinform.cli.source import InputSource
 from twinform.compiler import LoadOptions, LoadResult
 from twinform.compiler.fixing import FixResult, apply_fixes_by
 from twinform.compiler.input.loading import XACRO
@@ -46,7 +46,7 @@ class MendedSource(NamedTuple):
     number: int
 
 
-def run_fixes(sources: Sequence[Source], fixing: Callable[[Source], Fixing]) -> tuple[list[LoadResult], int]:
+def run_fixes(sources: Sequence[InputSource], fixing: Callable[[InputSource], Fixing]) -> tuple[list[LoadResult], int]:
     """Fix files, and write them or print what would change; gives what is found then, and how much was fixed.
 
     Raises:
@@ -64,7 +64,7 @@ def run_fixes(sources: Sequence[Source], fixing: Callable[[Source], Fixing]) -> 
     return [each.loaded for each in done], sum(each.number for each in done)
 
 
-def fixed_source(source: Source, fixing: Fixing) -> MendedSource:
+def fixed_source(source: InputSource, fixing: Fixing) -> MendedSource:
     """A file once it is fixed; nothing is written. One that cannot be is only looked at."""
     sink = DiagnosticSink(source.name)
     try:
@@ -80,7 +80,7 @@ def fixed_source(source: Source, fixing: Fixing) -> MendedSource:
     )
 
 
-def _data(source: Source, sink: DiagnosticSink, load_options: LoadOptions) -> bytes | None:
+def _data(source: InputSource, sink: DiagnosticSink, load_options: LoadOptions) -> bytes | None:
     """The bytes of a file that can be fixed; what xacro expands is not read from its own text.
 
     Raises:

@@ -16,14 +16,14 @@ from twinform.cli.findings import show
 from twinform.cli.inputs import model_inputs, size_option
 from twinform.cli.printing import print_document, print_line, print_text
 from twinform.cli.rewriting import Rewrite, write_back
-from twinform.cli.source import Source
+from twinform.cli.source import InputSource
 from twinform.compiler import CompileError
 from twinform.compiler.formatting import formatted
 from twinform.compiler.input.limits import LARGEST, Limits
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.compiler.options import given
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.reporters import Findings
+from twinform.diagnostics.reporters import FileFindings
 from twinform.text import SourceText
 from twinform.text.formatting import FormatOptions
 from twinform.text.line_diff import line_diff
@@ -93,7 +93,7 @@ def command(
     or written, or is no XML.
     """
     options, limits = FormatOptions(indent, numbers, sort_attributes), Limits(given(max_size, LARGEST))
-    run = _Run(options, limits, check=check, diff=diff)
+    run = _FormatRun(options, limits, check=check, diff=diff)
     sources, _ = model_inputs(files, exclusion_of(ctx, exclude, force=force_exclude), is_text)
     found = Counter[Outcome](map(run.file, sources))
     print_line(run.summary(found), err=True)
@@ -104,19 +104,19 @@ def command(
 Outcome = Literal["changed", "same", "unusable"]
 
 
-class _Run:
+class _FormatRun:
     """One call: what is done with each file."""
 
     def __init__(self, options: FormatOptions, limits: Limits, *, check: bool, diff: bool) -> None:
         self.options, self.limits, self.check, self.diff = options, limits, check, diff
 
-    def file(self, source: Source) -> Outcome:
+    def file(self, source: InputSource) -> Outcome:
         """Format a file, or tell what would change in it."""
         try:
             before = _data(source, self.limits)
             after = formatted(before, source.name, self.options, self.limits)
         except CompileError as error:
-            show(Findings(source.name, error.diagnostics), notes=False, on_stderr=True)
+            show(FileFindings(source.name, error.diagnostics), notes=False, on_stderr=True)
             return "unusable"
         if self.check or self.diff:
             self._tell(source, before, after)
@@ -126,7 +126,7 @@ class _Run:
             return "unusable"
         return "same" if before == after else "changed"
 
-    def _tell(self, source: Source, before: bytes, after: bytes) -> None:
+    def _tell(self, source: InputSource, before: bytes, after: bytes) -> None:
         if self.diff:
             for line in line_diff(source.name, SourceText.of(before).text, SourceText.of(after).text):
                 print_text(line, nl=False)
@@ -144,7 +144,7 @@ def _count(number: int) -> str:
     return f"{number} file{'' if number == 1 else 's'}"
 
 
-def _data(source: Source, limits: Limits) -> bytes:
+def _data(source: InputSource, limits: Limits) -> bytes:
     """The bytes of a file.
 
     Raises:

@@ -12,7 +12,7 @@ from twinform.cli.flags import group
 from twinform.cli.outputs import Output, Outputs
 from twinform.compiler import Conversion
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.reporters import Findings
+from twinform.diagnostics.reporters import FileFindings
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.schemas import parse_version
 
@@ -70,7 +70,7 @@ class GazeboFiles:
         if self.bridge is not None:
             world = _WORLD if self.world else None
             outputs.add("--bridge", self.bridge, bridge_text(document, self.gazebo, found, world))
-        show(Findings(name, tuple(found.diagnostics)), notes=notes, on_stderr=True)
+        show(FileFindings(name, tuple(found.diagnostics)), notes=notes, on_stderr=True)
         return not found.has_errors
 
 

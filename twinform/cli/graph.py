@@ -14,7 +14,7 @@ from twinform.compiler import expand, read
 from twinform.compiler.graph import WRITERS, build_graph
 from twinform.compiler.graph.mermaid import MOST_CHARACTERS, MOST_EDGES, fits
 from twinform.compiler.input.options import ReadingOptions
-from twinform.diagnostics.reporters import Findings
+from twinform.diagnostics.reporters import FileFindings
 
 _SUFFIXES = {".mmd": "mermaid", ".mermaid": "mermaid", ".dot": "dot", ".gv": "dot", ".svg": "svg"}
 EXAMPLES = {
@@ -63,7 +63,7 @@ def command(
     loaded = read(sources[0].content, load_options, name=sources[0].name)
     loaded = expand(loaded, load_options) if reading.get("expand_includes") else loaded
     if not loaded.accepted:
-        show(Findings(loaded.path, loaded.diagnostics), notes=False, on_stderr=True)
+        show(FileFindings(loaded.path, loaded.diagnostics), notes=False, on_stderr=True)
     if loaded.document is None:
         ctx.exit(UNUSABLE if loaded.unreadable else FINDINGS)
     style = style or (_SUFFIXES.get(output.suffix.lower()) if output else None) or "mermaid"

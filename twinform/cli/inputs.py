@@ -9,9 +9,9 @@ import click
 
 from twinform.cli.config import config_options, settings_of
 from twinform.cli.files import Exclusion, NothingFoundError, PatternError, discover
-from twinform.cli.files.model_files import Kind, is_model
+from twinform.cli.files.model_files import FileKind, is_model
 from twinform.cli.flags import flag, flags_of, group
-from twinform.cli.source import Source, open_source
+from twinform.cli.source import InputSource, open_source
 from twinform.compiler import LoadOptions
 from twinform.compiler.input.limits import LARGEST
 from twinform.compiler.input.options import FileOptions, ReadingOptions
@@ -62,7 +62,7 @@ def load_options_of(
     return LoadOptions.of(given, allow=allow, profiles=profiles, tolerant=policy is not None)
 
 
-def inputs(words: Sequence[str]) -> tuple[list[Source], dict[str, str]]:
+def inputs(words: Sequence[str]) -> tuple[list[InputSource], dict[str, str]]:
     """The files among the arguments of a command line, and the `name:=value` arguments for those that are xacro.
 
     Raises:
@@ -73,8 +73,8 @@ def inputs(words: Sequence[str]) -> tuple[list[Source], dict[str, str]]:
 
 
 def model_inputs(
-    words: Sequence[str], exclusion: Exclusion, kind: Kind = is_model
-) -> tuple[list[Source], dict[str, str]]:
+    words: Sequence[str], exclusion: Exclusion, kind: FileKind = is_model
+) -> tuple[list[InputSource], dict[str, str]]:
     """Open the model files that a command line names, also by folders and globs, without what is excluded.
 
     Raises:
@@ -96,7 +96,7 @@ def _split(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
     return files, arguments
 
 
-def _opened(files: Sequence[str], arguments: Mapping[str, str]) -> list[Source]:
+def _opened(files: Sequence[str], arguments: Mapping[str, str]) -> list[InputSource]:
     ctx = click.get_current_context(silent=True)
     xacro = bool(ctx and ctx.params.get("xacro"))
     if arguments and not (xacro or any(file.lower().endswith(".xacro") for file in files)):

@@ -7,10 +7,10 @@ import click
 from twinform.cli.conversion import Options
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.outputs import Outputs
-from twinform.cli.source import Source
-from twinform.cli.targets import Job, known_target
+from twinform.cli.source import InputSource
+from twinform.cli.targets import ConversionJob, known_target
 from twinform.compiler import CompileError
-from twinform.compiler.in_place import Change
+from twinform.compiler.in_place import TextChange
 from twinform.compiler.into import convert_into
 from twinform.diagnostics.reporters import printable
 
@@ -18,7 +18,7 @@ _LONGEST = 60
 """The longest piece of a file that is shown, in characters."""
 
 
-def run_into(source: Source, into: Path | None, base: Path | None, options: Options, outputs: Outputs) -> int:
+def run_into(source: InputSource, into: Path | None, base: Path | None, options: Options, outputs: Outputs) -> int:
     """Add what becomes of a file that follows another one to what is written; gives the exit code.
 
     Raises:
@@ -31,10 +31,10 @@ def run_into(source: Source, into: Path | None, base: Path | None, options: Opti
             raise click.UsageError(f"{path} is no file")
     if isinstance(source.content, bytes):
         raise click.UsageError(f"{source.name} is no file that could have been made of {into}")
-    target = known_target(Source(str(into), str(into)).format)
+    target = known_target(InputSource(str(into), str(into)).format)
     if target is None or target in {"json", source.format} or into.suffix.lower() == ".xacro":
         raise click.UsageError(f"--into takes a file of the other format, URDF or SDF, which {into} is not")
-    request = options.request_for(Job(source, target, into))
+    request = options.request_for(ConversionJob(source, target, into))
     try:
         updated = convert_into(request, Path(source.name), into, options.load_options, base=base)
     except CompileError as error:
@@ -50,7 +50,7 @@ def run_into(source: Source, into: Path | None, base: Path | None, options: Opti
     return 0
 
 
-def _line(path: Path, change: Change) -> str:
+def _line(path: Path, change: TextChange) -> str:
     """Where a change was made, and what: nobody's edit is to go without a word."""
     line, column = change.place
     old, new = _short(change.old), _short(change.new)

@@ -18,7 +18,7 @@ from twinform.cli.request import passes_of, request_options_of_versions, whole_r
 from twinform.compiler import ConversionRequest
 from twinform.compiler.input.options import ReadingOptions
 from twinform.compiler.packaging.kind_names import KIND_NAMES, kinds_of
-from twinform.compiler.packaging.order import Details, Order
+from twinform.compiler.packaging.order import Order, PackageDetails
 from twinform.compiler.request_options import RequestOptions
 from twinform.passes.plugins.release_names import ReleaseName
 
@@ -86,7 +86,7 @@ def command(
     ledger: Path | None,
     notes: bool,
     every: bool,
-    details: Details,
+    details: PackageDetails,
     request: RequestOptions,
     rules: RuleSettings,
     reading: ReadingOptions,

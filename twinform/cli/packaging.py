@@ -12,7 +12,7 @@ from twinform.cli.findings import show
 from twinform.cli.instrumentation import show_fault
 from twinform.cli.outputs import Output, Outputs
 from twinform.cli.printing import print_line, print_text
-from twinform.cli.source import Source
+from twinform.cli.source import InputSource
 from twinform.compiler import CompileError
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.packaging.kinds import build
@@ -20,7 +20,7 @@ from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Package
 from twinform.compiler.packaging.writing import OccupiedError, write_package
 from twinform.diagnostics import Diagnostic, Policy
-from twinform.diagnostics.reporters import Findings
+from twinform.diagnostics.reporters import FileFindings
 from twinform.passes import PassError
 
 
@@ -28,7 +28,7 @@ from twinform.passes import PassError
 class Packaging:
     """What is put into a package, where that goes, and what is printed."""
 
-    source: Source
+    source: InputSource
     order: Order
     kinds: tuple[str, ...]
     folder: Path
@@ -44,7 +44,7 @@ class Packaging:
         seen = self.policy.apply(diagnostics)
         content = self.source.content
         files = SourceFiles({self.source.name: content}) if isinstance(content, bytes) else SourceFiles()
-        show(Findings(self.source.name, seen), notes=self.notes, on_stderr=True, every=self.every, files=files)
+        show(FileFindings(self.source.name, seen), notes=self.notes, on_stderr=True, every=self.every, files=files)
         return not any(each.is_error for each in seen)
 
 

@@ -14,7 +14,7 @@ from twinform.cli.outputs import Outputs
 from twinform.compiler import CompileError
 from twinform.compiler.compare import ComparisonOptions
 from twinform.compiler.input.options import FileOptions
-from twinform.diagnostics.reporters import Findings
+from twinform.diagnostics.reporters import FileFindings
 from twinform.report import WRITERS, build_report
 from twinform.report.content import make_page
 
@@ -80,12 +80,12 @@ def command(
             view=make_page if view and style == "html" else None,
         )
     except CompileError as error:
-        show(Findings(first.name, error.diagnostics), notes=False, on_stderr=True)
+        show(FileFindings(first.name, error.diagnostics), notes=False, on_stderr=True)
         ctx.exit(UNUSABLE)
     if found.unreadable:
         for subject in found.subjects:
             if subject.loaded.unreadable:
-                show(Findings(subject.loaded.path, subject.loaded.diagnostics), notes=False, on_stderr=True)
+                show(FileFindings(subject.loaded.path, subject.loaded.diagnostics), notes=False, on_stderr=True)
         ctx.exit(UNUSABLE)
     outputs, text = Outputs(inputs=[source.path for source in sources]), WRITERS[style](found)
     if output is None or str(output) == "-":

@@ -18,7 +18,7 @@ from twinform.compiler.reproducers.files import read_reproducer
 from twinform.compiler.reproducers.reproducer import Reproducer
 from twinform.compiler.search.uris import LocalAssets, SearchPath
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.reporters import Findings, concise
+from twinform.diagnostics.reporters import FileFindings, concise
 from twinform.passes import PassError, PipelineError, RegistryError
 
 EXAMPLES = {
@@ -50,7 +50,7 @@ def command(ctx: click.Context, file: Path, paths: tuple[Path, ...]) -> None:
         print_line(f"this is twinform {__version__}", err=True)
     sink = DiagnosticSink(found.source)
     error = _run(found, file, SearchPath.of(paths), sink)
-    print_text(concise([Findings(found.source, tuple(sink.diagnostics))], paint), nl=False, err=True)
+    print_text(concise([FileFindings(found.source, tuple(sink.diagnostics))], paint), nl=False, err=True)
     if error is None:
         other = "" if found.again else ", as it did when this file was written: it needs the source, lines and all"
         print_line(f"it does not fail{other}", err=True)

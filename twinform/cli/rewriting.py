@@ -8,7 +8,7 @@ from pathlib import Path
 from twinform.cli.failure import Unusable
 from twinform.cli.outputs import Outputs, require_as_read
 from twinform.cli.printing import print_document, print_line, print_text
-from twinform.cli.source import Source
+from twinform.cli.source import InputSource
 from twinform.compiler import write_all_atomically
 from twinform.diagnostics import SideFile
 from twinform.text import SourceText, UndecodableError
@@ -19,7 +19,7 @@ from twinform.text.line_diff import line_diff
 class Rewrite:
     """A file, or standard input, as it was read and as it is to be."""
 
-    source: Source
+    source: InputSource
     before: bytes
     after: bytes
     side_files: tuple[SideFile, ...] = ()

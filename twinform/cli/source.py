@@ -22,7 +22,7 @@ _STDIN = "<stdin>"
 _NAME_END = b" \t\r\n/>"
 
 
-class Source(NamedTuple):
+class InputSource(NamedTuple):
     """A file by its path, or the bytes of standard input, under the name that messages use."""
 
     content: str | bytes
@@ -42,14 +42,14 @@ class Source(NamedTuple):
         return _FORMATS.get(_root_name(head)) or format_of_suffix(self.name)
 
 
-def open_source(argument: str, size: int = LARGEST) -> Source:
+def open_source(argument: str, size: int = LARGEST) -> InputSource:
     """The source that an argument names; streams are read here, of what is too large a part."""
     if argument == "-":
-        return Source(read_up_to(sys.stdin.buffer, size), _STDIN)
+        return InputSource(read_up_to(sys.stdin.buffer, size), _STDIN)
     if _is_stream(argument):
         with Path(argument).open("rb") as pipe:
-            return Source(read_up_to(pipe, size), argument)
-    return Source(argument, argument)
+            return InputSource(read_up_to(pipe, size), argument)
+    return InputSource(argument, argument)
 
 
 def _is_stream(argument: str) -> bool:

@@ -6,13 +6,13 @@ from pathlib import Path
 from twinform.cli.conversion import Options, summary
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.outputs import Outputs
-from twinform.cli.source import Source
+from twinform.cli.source import InputSource
 from twinform.cli.targets import Target
-from twinform.compiler import CompileError, Split, split
+from twinform.compiler import CompileError, SplitWorld, split
 from twinform.passes import PassError
 
 
-def run_split(source: Source, to: Target, options: Options, folder: Path, outputs: Outputs) -> int:
+def run_split(source: InputSource, to: Target, options: Options, folder: Path, outputs: Outputs) -> int:
     """Split one world into a folder; gives the exit code. Nothing is made where one of the files has an error.
 
     Models become URDF where Gazebo reads that as the same robots, or stay SDF with `to`.
@@ -43,7 +43,7 @@ def run_split(source: Source, to: Target, options: Options, folder: Path, output
     return 0
 
 
-def _add(result: Split, folder: Path, ledger: Path | None, outputs: Outputs) -> None:
+def _add(result: SplitWorld, folder: Path, ledger: Path | None, outputs: Outputs) -> None:
     for name, text in result.files.items():
         outputs.add("--split", folder / name, text)
     if ledger is not None:

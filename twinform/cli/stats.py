@@ -11,7 +11,7 @@ from twinform.cli.printing import print_report
 from twinform.compiler import expand, read
 from twinform.compiler.input.options import ReadingOptions
 from twinform.compiler.statistics import REPORTERS, FileStatistics, measure
-from twinform.diagnostics.reporters import Findings
+from twinform.diagnostics.reporters import FileFindings
 
 EXAMPLES = {
     "Count links, joints, masses and triangles": "twinform stats robot.urdf",
@@ -47,7 +47,7 @@ def command(
         loaded = read(source.content, load_options, name=source.name)
         loaded = expand(loaded, load_options) if reading.get("expand_includes") else loaded
         if loaded.document is None or not loaded.accepted:
-            show(Findings(loaded.path, loaded.diagnostics), notes=False, on_stderr=True)
+            show(FileFindings(loaded.path, loaded.diagnostics), notes=False, on_stderr=True)
             code = max(code, UNUSABLE if loaded.unreadable else FINDINGS)
         else:
             found.append(measure(loaded, loaded.document, load_options.search, meshes=meshes))

@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple, get_args
 
 import click
 
-from twinform.cli.source import Source, format_of_suffix
+from twinform.cli.source import InputSource, format_of_suffix
 from twinform.compiler.output.same_files import folded
 
 Target = Literal["sdf", "urdf", "json"]
@@ -18,16 +18,16 @@ _OTHER: dict[str, Target] = {"urdf": "sdf", "sdf": "urdf"}
 _ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".json", ".xacro"})
 
 
-class Job(NamedTuple):
+class ConversionJob(NamedTuple):
     """One conversion; `path` is None for standard output. `in_place` keeps what the conversion leaves as it was."""
 
-    source: Source
+    source: InputSource
     target: Target
     path: Path | None
     in_place: bool = False
 
 
-def jobs(sources: Sequence[Source], out: str | None, target: Target | None) -> list[Job]:
+def jobs(sources: Sequence[InputSource], out: str | None, target: Target | None) -> list[ConversionJob]:
     """The conversions that a command line asks for.
 
     Raises:
@@ -36,10 +36,12 @@ def jobs(sources: Sequence[Source], out: str | None, target: Target | None) -> l
     if out is None or out == "-":
         if len(sources) > 1:
             raise click.UsageError("several inputs need -o DIRECTORY")
-        return [Job(source, target or _other_format(source), None) for source in sources]
+        return [ConversionJob(source, target or _other_format(source), None) for source in sources]
     folder = Path(out)
     if not _is_folder(out, len(sources)):
-        return [Job(source, target or _of_suffix(folder) or _other_format(source), folder) for source in sources]
+        return [
+            ConversionJob(source, target or _of_suffix(folder) or _other_format(source), folder) for source in sources
+        ]
     if folder.exists() and not folder.is_dir():
         raise click.UsageError(f"several inputs need a directory, and {out} is a file")
     found = [_into(folder, source, target or _other_format(source)) for source in sources]
@@ -47,7 +49,7 @@ def jobs(sources: Sequence[Source], out: str | None, target: Target | None) -> l
     return found
 
 
-def jobs_in_place(sources: Sequence[Source], out: str | None, target: Target | None) -> list[Job]:
+def jobs_in_place(sources: Sequence[InputSource], out: str | None, target: Target | None) -> list[ConversionJob]:
     """The conversions of `--in-place`: each input becomes what it is, after the passes.
 
     Raises:
@@ -58,7 +60,7 @@ def jobs_in_place(sources: Sequence[Source], out: str | None, target: Target | N
     return [_job_in_place(source, target) for source in sources]
 
 
-def _job_in_place(source: Source, target: Target | None) -> Job:
+def _job_in_place(source: InputSource, target: Target | None) -> ConversionJob:
     """Return the job of changing a file in its place, if it is one that can be."""
     if isinstance(source.content, bytes):
         raise click.UsageError(f"{source.name} is no file that could be written in place")
@@ -67,7 +69,7 @@ def _job_in_place(source: Source, target: Target | None) -> Job:
     found = known_target(source.format)
     if found is None or target not in {None, found}:
         raise click.UsageError(f"{source.name} stays {found or 'what it is'} in its place; leave --to out")
-    return Job(source, found, Path(source.content), in_place=True)
+    return ConversionJob(source, found, Path(source.content), in_place=True)
 
 
 def _is_folder(out: str, count: int) -> bool:
@@ -83,23 +85,23 @@ def known_target(word: str | None) -> Target | None:
     return next((target for target in TARGETS if target == word), None)
 
 
-def _other_format(source: Source) -> Target:
+def _other_format(source: InputSource) -> Target:
     """The format that the source is not in; where nothing tells its format, the compiler reports why."""
     if source.format == "json":
         raise click.UsageError(f"{source.name} is a JSON document, which can become either format: give --to")
     return _OTHER.get(source.format or "urdf", "sdf")
 
 
-def _into(folder: Path, source: Source, target: Target) -> Job:
+def _into(folder: Path, source: InputSource, target: Target) -> ConversionJob:
     name = Path("stdin" if isinstance(source.content, bytes) else source.name)
     ending: str = target
     while name.suffix.lower() in _ENDINGS:
         ending = "world" if target == "sdf" and name.suffix.lower() == ".world" else ending
         name = name.with_suffix("")
-    return Job(source, target, folder / f"{name.name}.{ending}")
+    return ConversionJob(source, target, folder / f"{name.name}.{ending}")
 
 
-def _require_distinct(found: Sequence[Job]) -> None:
+def _require_distinct(found: Sequence[ConversionJob]) -> None:
     counts = Counter(folded(job.path) for job in found if job.path)
     for path, count in counts.items():
         if count > 1:

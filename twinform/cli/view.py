@@ -15,16 +15,16 @@ from twinform.cli.failure import UNUSABLE, Unusable
 from twinform.cli.findings import show
 from twinform.cli.inputs import file_options, inputs, load_options_of
 from twinform.cli.printing import print_line
-from twinform.cli.source import Source
+from twinform.cli.source import InputSource
 from twinform.compiler import CompileError, LoadOptions
 from twinform.compiler.input.options import FileOptions
 from twinform.diagnostics import Diagnostic
-from twinform.diagnostics.reporters import Findings
+from twinform.diagnostics.reporters import FileFindings
 from twinform.signals import signals_exit_with
 
 if TYPE_CHECKING:
     from twinform.compiler.compare import Comparison
-    from twinform.view import Subject
+    from twinform.view import ViewSubject
     from twinform.view.viewer import Viewer
 
 _MOST = 2
@@ -87,7 +87,7 @@ def _until_stopped() -> Generator[None]:
 class _Session:
     """The server, and what it shows."""
 
-    sources: Sequence[Source]
+    sources: Sequence[InputSource]
     load_options: LoadOptions
     port: int
     opens: bool
@@ -115,7 +115,7 @@ class _Session:
         """Read the files and show them; False where one could not be read."""
         return self.show_subjects([self.read(source) for source in self.sources])
 
-    def read(self, source: Source) -> "Subject | None":
+    def read(self, source: InputSource) -> "ViewSubject | None":
         """What is to be shown of a file; its findings are printed where there is nothing."""
         from twinform.view import read_subject  # noqa: PLC0415 - see above
 
@@ -124,7 +124,7 @@ class _Session:
             self._complain(f"{source.name} cannot be shown", loaded.path, loaded.diagnostics)
         return subject
 
-    def show_subjects(self, subjects: "Sequence[Subject | None]") -> bool:
+    def show_subjects(self, subjects: "Sequence[ViewSubject | None]") -> bool:
         """Show what could be read; False where something could not."""
         found = [subject for subject in subjects if subject is not None]
         if len(found) < len(subjects) or not found:
@@ -176,7 +176,7 @@ class _Session:
 
     def _complain(self, title: str, name: str, diagnostics: tuple[Diagnostic, ...]) -> None:
         """Say what is wrong, on the terminal and in the page if there is one."""
-        show(Findings(name, diagnostics), notes=False, on_stderr=True)
+        show(FileFindings(name, diagnostics), notes=False, on_stderr=True)
         self.complaints.append((title, [_line(each) for each in diagnostics if each.is_error]))
 
 
@@ -185,9 +185,9 @@ class _Round:
     """The files as they were last read, of which one or both have changed."""
 
     session: _Session
-    subjects: "dict[str, Subject | None]" = field(default_factory=dict[str, "Subject | None"])
+    subjects: "dict[str, ViewSubject | None]" = field(default_factory=dict[str, "ViewSubject | None"])
 
-    def read(self, source: Source) -> None:
+    def read(self, source: InputSource) -> None:
         """Read a file again."""
         self.subjects[source.name] = self.session.read(source)
 

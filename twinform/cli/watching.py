@@ -11,7 +11,7 @@ import click
 
 from twinform.cli.failure import Unusable
 from twinform.cli.printing import print_line
-from twinform.cli.source import Source, format_of_suffix
+from twinform.cli.source import InputSource, format_of_suffix
 from twinform.compiler.observing import Observation, observed
 
 _INTERRUPTED = 130
@@ -70,9 +70,9 @@ class _Watched:
 
 
 def watch_models(
-    find: Callable[[], Sequence[Source]],
+    find: Callable[[], Sequence[InputSource]],
     new_round: Callable[[], AnyRound],
-    work: Callable[[Source, AnyRound], None],
+    work: Callable[[InputSource, AnyRound], None],
 ) -> int:
     """Work on the models that are found, then on those that change, until Ctrl-C; gives the exit code.
 
@@ -93,7 +93,7 @@ def watch_models(
         return _INTERRUPTED
 
 
-def _find_models(find: Callable[[], Sequence[Source]]) -> Sequence[Source]:
+def _find_models(find: Callable[[], Sequence[InputSource]]) -> Sequence[InputSource]:
     try:
         return find()
     except click.UsageError:
@@ -101,7 +101,7 @@ def _find_models(find: Callable[[], Sequence[Source]]) -> Sequence[Source]:
 
 
 def _work_on(
-    sources: Sequence[Source], round_: AnyRound, work: Callable[[Source, AnyRound], None], watched: _Watched
+    sources: Sequence[InputSource], round_: AnyRound, work: Callable[[InputSource, AnyRound], None], watched: _Watched
 ) -> None:
     for source in sources:
         with observed() as seen:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from twinform.compiler.request import ConversionRequest
     from twinform.compiler.request_options import URDF_VERSIONS, Language, UrdfVersion
     from twinform.compiler.search.uris import SearchPath, UriError
-    from twinform.compiler.splitting import Split, split
+    from twinform.compiler.splitting import SplitWorld, split
     from twinform.schemas import DEFAULT_SDF_VERSION
     from twinform.storage.writing import write_all_atomically, write_atomically
 else:
@@ -36,7 +36,7 @@ else:
             "twinform.compiler.request": "ConversionRequest",
             "twinform.compiler.request_options": "URDF_VERSIONS Language UrdfVersion",
             "twinform.compiler.search.uris": "SearchPath UriError",
-            "twinform.compiler.splitting": "Split split",
+            "twinform.compiler.splitting": "SplitWorld split",
         },
     )
 
@@ -52,7 +52,7 @@ __all__ = [
     "LoadResult",
     "ReadOnlyPassError",
     "SearchPath",
-    "Split",
+    "SplitWorld",
     "UrdfVersion",
     "UriError",
     "check",

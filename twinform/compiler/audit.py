@@ -38,7 +38,7 @@ _Place = tuple[int, str]
 _PUNCTUATION = str.maketrans(dict.fromkeys("/:,;", " "))
 
 
-class Part(NamedTuple):
+class UnaccountedPart(NamedTuple):
     """An element or attribute of the source that nothing accounts for."""
 
     location: Location
@@ -53,7 +53,7 @@ class Audit:
     carried: int
     approximated: int
     dropped: int
-    unaccounted: tuple[Part, ...]
+    unaccounted: tuple[UnaccountedPart, ...]
 
     @property
     def total(self) -> int:
@@ -76,12 +76,14 @@ class Met(NamedTuple):
 def audit(source: XmlElement, result: str, ledger: Ledger) -> Audit:
     """Count the fates of all parts of `source` in the XML of `result`."""
     count = dict.fromkeys(("expressed", *Fate), 0)
-    unaccounted: list[Part] = []
+    unaccounted: list[UnaccountedPart] = []
     for met in fates(source, result, ledger):
         if met.missing:
             path = path_of(met.element)
             path = f"{path}/@{met.attribute}" if met.attribute else path
-            unaccounted.append(Part(Location(line=met.element.sourceline or 0, path=path), ", ".join(met.missing)))
+            unaccounted.append(
+                UnaccountedPart(Location(line=met.element.sourceline or 0, path=path), ", ".join(met.missing))
+            )
         else:
             count[met.fate or "expressed"] += 1
     carried, approximated, dropped = (count[fate] for fate in Fate)

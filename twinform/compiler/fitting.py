@@ -16,11 +16,11 @@ from twinform.compiler.inspection import inspect
 from twinform.compiler.inspection.consumers import subject_of, unread
 from twinform.compiler.output.emitting import located
 from twinform.compiler.request import ConversionRequest
-from twinform.diagnostics import Diagnostic, Entry, Location, PhysicsChange, Severity
+from twinform.diagnostics import Diagnostic, LedgerEntry, Location, PhysicsChange, Severity
 from twinform.diagnostics.rules import KEPT_PHYSICS
 from twinform.ir import Document, Format
 from twinform.passes import Pass, PassInstrumentation, Pipeline
-from twinform.profiles import Assessment, Judgment, Profile, Subject, assess, findings
+from twinform.profiles import Assessment, Judgment, Profile, ProfiledFile, assess, findings
 from twinform.profiles.physics import described
 from twinform.profiles.remedies import in_order, remedies
 
@@ -108,13 +108,13 @@ def _at_source_lines(assessment: Assessment, document: Document, placed: dict[in
 
 def _tried(
     request: ConversionRequest, source: Input, load_options: LoadOptions, name: str
-) -> tuple[tuple[Assessment, ...], tuple[Entry, ...]]:
+) -> tuple[tuple[Assessment, ...], tuple[LedgerEntry, ...]]:
     """What consumers make of the result, and its ledger; or of the errors for which there is none yet."""
     try:
         made = convert_once(request, source, load_options, name=name)
     except CompileError as error:
         # The errors of a source that a pass fixes must not stop the search for that pass.
-        subject = Subject(name, None, diagnostics=tuple(each for each in error.diagnostics if each.is_error))
+        subject = ProfiledFile(name, None, diagnostics=tuple(each for each in error.diagnostics if each.is_error))
         found = assess(subject, load_options.profiles)
         if not any(each.judgments for each in found):
             raise
@@ -130,7 +130,7 @@ def _require_readers(profiles: Iterable[Profile], request: ConversionRequest, na
         raise CompileError(tuple(replace(each, severity=Severity.ERROR) for each in deaf))
 
 
-def _require_kept(entries: Iterable[Entry]) -> None:
+def _require_kept(entries: Iterable[LedgerEntry]) -> None:
     """Raise where a pass has changed the physics."""
     changes = [(each.change, each.location) for each in entries if each.change]
     if changes:

@@ -16,16 +16,16 @@ from twinform.diagnostics.rules import EDIT_CONFLICT
 from twinform.ir import Document
 from twinform.passes import PassInstrumentation
 from twinform.schemas import XmlElement, path_of
-from twinform.text import Lines, Merge, Place, SourceText, UndecodableError, UnplacedError, apply, edits, merge
+from twinform.text import LineColumn, Lines, Merge, SourceText, UndecodableError, UnplacedError, apply, edits, merge
 
 _ADDITIVE = "gazebo"
 """Elements of URDF that add up where they refer to the same part."""
 
 
-class Change(NamedTuple):
+class TextChange(NamedTuple):
     """A piece of a file that becomes another one; one of both may be empty."""
 
-    place: Place
+    place: LineColumn
     old: str
     new: str
 
@@ -38,7 +38,7 @@ class Updated(NamedTuple):
 
     conversion: Conversion
     data: bytes
-    changes: tuple[Change, ...]
+    changes: tuple[TextChange, ...]
     source: bytes
 
 
@@ -131,7 +131,7 @@ def _patched(source: bytes, own: XmlElement, tree: XmlElement, conversion: Conve
     text = SourceText.of(source)
     made = sorted(edits(text, own, tree), key=lambda edit: edit.span)
     lines = Lines(text.text)
-    changes = [Change(lines.place(span.start), span.of(text.text), new) for span, new in made]
+    changes = [TextChange(lines.place(span.start), span.of(text.text), new) for span, new in made]
     return Updated(conversion, text.with_text(apply(text.text, made)).data, tuple(changes), source)
 
 

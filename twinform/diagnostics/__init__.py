@@ -4,8 +4,8 @@ from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.did_you_mean import did_you_mean, meant_name, nearest_name
 from twinform.diagnostics.fix import Fix, Safety
-from twinform.diagnostics.ledger import Entry, Fate, Ledger, PhysicsChange, ValueChange
-from twinform.diagnostics.location import NOWHERE, Location, Origins, Source
+from twinform.diagnostics.ledger import Fate, Ledger, LedgerEntry, PhysicsChange, ValueChange
+from twinform.diagnostics.location import NOWHERE, LineOrigins, Location, Source
 from twinform.diagnostics.policy import Policy
 from twinform.diagnostics.rule import Rule, Severity
 from twinform.diagnostics.sink import HEAD, DiagnosticSink, SideFile
@@ -16,12 +16,12 @@ __all__ = [
     "NOWHERE",
     "Diagnostic",
     "DiagnosticSink",
-    "Entry",
     "Fate",
     "Fix",
     "Ledger",
+    "LedgerEntry",
+    "LineOrigins",
     "Location",
-    "Origins",
     "PhysicsChange",
     "Policy",
     "Rule",

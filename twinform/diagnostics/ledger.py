@@ -37,7 +37,7 @@ class PhysicsChange:
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class LedgerEntry:
     """One piece of the source and its fate. `weight` counts the elements and attributes that the piece stands for.
 
     `change` is there where a pass changed the physics for the sake of a consumer.
@@ -56,7 +56,7 @@ class Ledger:
     """Every piece of the source: those expressed are counted, all others are listed."""
 
     expressed: int = 0
-    entries: tuple[Entry, ...] = ()
+    entries: tuple[LedgerEntry, ...] = ()
 
     def count(self, fate: Fate) -> int:
         """How many elements and attributes met this fate; an approximation that stands for none was made up: one."""
@@ -70,7 +70,7 @@ class Ledger:
         return json.dumps({"expressed": self.expressed, "entries": list(_rows(self.entries))}, indent=2) + "\n"
 
 
-def _rows(entries: Iterable[Entry]) -> Iterable[dict[str, object]]:
+def _rows(entries: Iterable[LedgerEntry]) -> Iterable[dict[str, object]]:
     for entry in entries:
         yield {
             "fate": str(entry.fate),

@@ -66,7 +66,7 @@ class Source(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Origins:
+class LineOrigins:
     """For each line of an expanded text that starts an element, the file and line that the element was written on."""
 
     lines: tuple[int, ...] = ()

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from twinform.diagnostics.diagnostic import Diagnostic
-from twinform.diagnostics.ledger import Entry, Fate
-from twinform.diagnostics.location import NOWHERE, Location, Origins
+from twinform.diagnostics.ledger import Fate, LedgerEntry
+from twinform.diagnostics.location import NOWHERE, LineOrigins, Location
 from twinform.diagnostics.rule import Rule, Severity
 
 
@@ -54,10 +54,10 @@ class DiagnosticSink:
     file: str = ""
     strict: bool = False
     diagnostics: list[Diagnostic] = field(default_factory=list[Diagnostic])
-    entries: list[Entry] = field(default_factory=list[Entry])
+    entries: list[LedgerEntry] = field(default_factory=list[LedgerEntry])
     left_out: int = 0
     has_errors: bool = False
-    origins: dict[str, Origins] = field(default_factory=dict[str, Origins])
+    origins: dict[str, LineOrigins] = field(default_factory=dict[str, LineOrigins])
     side_files: list[SideFile] = field(default_factory=list[SideFile])
     allows: Callable[[Diagnostic], bool] | None = None
     allowed: list[Diagnostic] = field(default_factory=list[Diagnostic])
@@ -119,9 +119,9 @@ class DiagnosticSink:
 
     def account(self, fate: Fate, rule: Rule, message: str, location: Location = NOWHERE, weight: int = 1) -> None:
         """Add a ledger entry."""
-        self.entries.append(Entry(fate, rule, message, self._origin(self._complete(location)), weight))
+        self.entries.append(LedgerEntry(fate, rule, message, self._origin(self._complete(location)), weight))
 
-    def traced_entries(self) -> tuple[Entry, ...]:
+    def traced_entries(self) -> tuple[LedgerEntry, ...]:
         """The ledger's entries, also those that others have made, with the places where their parts were written."""
         return tuple(replace(each, location=self._origin(each.location)) for each in self.entries)
 

@@ -28,7 +28,7 @@ class ChangeKind(StrEnum):
     REORDERED = ">"
 
 
-class Change(NamedTuple):
+class NodeChange(NamedTuple):
     """One value or node. `node` is the path of the node that it belongs to, or of itself; `path` is its own.
 
     Paths are those of the JSON of a document, with names in brackets where lists have names.
@@ -46,12 +46,12 @@ class Change(NamedTuple):
         return self.node == self.path
 
 
-def changes(old: Node, new: Node) -> Iterator[Change]:
+def changes(old: Node, new: Node) -> Iterator[NodeChange]:
     """Every difference, from the outside in."""
     return _inside(old, new, "")
 
 
-def _inside(old: Node, new: Node, path: str) -> Iterator[Change]:
+def _inside(old: Node, new: Node, path: str) -> Iterator[NodeChange]:
     if old is new:
         return
     for name, before in field_values(old).items():
@@ -60,7 +60,7 @@ def _inside(old: Node, new: Node, path: str) -> Iterator[Change]:
             yield from _field(before, after, path, f"{path}/{name}")
 
 
-def _field(old: object, new: object, node: str, path: str) -> Iterator[Change]:
+def _field(old: object, new: object, node: str, path: str) -> Iterator[NodeChange]:
     if isinstance(old, Node) and type(old) is type(new):
         yield from _inside(old, cast("Node", new), path)
     elif isinstance(old, Node) or isinstance(new, Node):
@@ -69,7 +69,7 @@ def _field(old: object, new: object, node: str, path: str) -> Iterator[Change]:
     elif _has_parts(old) or _has_parts(new):
         yield from _lists(cast("Sequence[Sourced]", old or ()), cast("Sequence[Sourced]", new or ()), node, path)
     elif not _is_same(old, new):
-        yield Change(ChangeKind.CHANGED, node, path, old, new)
+        yield NodeChange(ChangeKind.CHANGED, node, path, old, new)
 
 
 def _is_same(old: object, new: object) -> bool:
@@ -82,11 +82,11 @@ def _has_parts(value: object) -> bool:
     return bool(parts) and isinstance(parts[0], Sourced)
 
 
-def _whole(how: ChangeKind, part: object, path: str) -> Iterator[Change]:
+def _whole(how: ChangeKind, part: object, path: str) -> Iterator[NodeChange]:
     """A node that only one document has, and all values in it."""
     if not isinstance(part, Node):
         return
-    yield Change(how, path, path)
+    yield NodeChange(how, path, path)
     for name, value in field_values(part).items():
         if value is None or value == ():
             continue
@@ -100,11 +100,11 @@ def _whole(how: ChangeKind, part: object, path: str) -> Iterator[Change]:
             yield _value(how, value, path, inner)
 
 
-def _value(how: ChangeKind, value: object, node: str, path: str) -> Change:
-    return Change(how, node, path, *((value, None) if how is ChangeKind.REMOVED else (None, value)))
+def _value(how: ChangeKind, value: object, node: str, path: str) -> NodeChange:
+    return NodeChange(how, node, path, *((value, None) if how is ChangeKind.REMOVED else (None, value)))
 
 
-def _alone(how: ChangeKind, part: Sourced, node: str, path: str) -> Iterator[Change]:
+def _alone(how: ChangeKind, part: Sourced, node: str, path: str) -> Iterator[NodeChange]:
     """A part of a list that only one document has."""
     if isinstance(part, Node):
         yield from _whole(how, part, path)
@@ -112,14 +112,14 @@ def _alone(how: ChangeKind, part: Sourced, node: str, path: str) -> Iterator[Cha
         yield _value(how, part, node, path)
 
 
-def _lists(old: Sequence[Sourced], new: Sequence[Sourced], node: str, path: str) -> Iterator[Change]:
+def _lists(old: Sequence[Sourced], new: Sequence[Sourced], node: str, path: str) -> Iterator[NodeChange]:
     pairs = _matched(old, new)
     old_labels, new_labels = _labels(old), _labels(new)
     for at, part in enumerate(old):
         if at not in pairs:
             yield from _alone(ChangeKind.REMOVED, part, node, path + old_labels[at])
     if [pairs[at] for at in sorted(pairs)] != sorted(pairs.values()):
-        yield Change(ChangeKind.REORDERED, node, path, old_labels, new_labels)
+        yield NodeChange(ChangeKind.REORDERED, node, path, old_labels, new_labels)
     back = {after: before for before, after in pairs.items()}
     for at, part in enumerate(new):
         if at not in back:

@@ -14,31 +14,40 @@ from typing import TYPE_CHECKING
 from twinform.lazy import lazy_attributes
 
 if TYPE_CHECKING:
-    from twinform.profiles.assessment import Assessment, Judgment, Verdict, assess
+    from twinform.profiles.assessment import Assessment, ConsumerVerdict, Judgment, assess
     from twinform.profiles.findings import findings
-    from twinform.profiles.profile import Effect, Profile, ProfileError, Row, UnknownProfileError, load, names, parse
-    from twinform.profiles.subject import Subject
+    from twinform.profiles.profile import (
+        Effect,
+        Profile,
+        ProfileError,
+        ProfileRow,
+        UnknownProfileError,
+        load,
+        names,
+        parse,
+    )
+    from twinform.profiles.subject import ProfiledFile
 else:
     __getattr__ = lazy_attributes(
         __name__,
         {
-            "twinform.profiles.assessment": "Assessment Judgment Verdict assess",
+            "twinform.profiles.assessment": "Assessment ConsumerVerdict Judgment assess",
             "twinform.profiles.findings": "findings",
-            "twinform.profiles.profile": "Effect Profile ProfileError Row UnknownProfileError load names parse",
-            "twinform.profiles.subject": "Subject",
+            "twinform.profiles.profile": "Effect Profile ProfileError ProfileRow UnknownProfileError load names parse",
+            "twinform.profiles.subject": "ProfiledFile",
         },
     )
 
 __all__ = [
     "Assessment",
+    "ConsumerVerdict",
     "Effect",
     "Judgment",
     "Profile",
     "ProfileError",
-    "Row",
-    "Subject",
+    "ProfileRow",
+    "ProfiledFile",
     "UnknownProfileError",
-    "Verdict",
     "assess",
     "findings",
     "load",

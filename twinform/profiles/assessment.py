@@ -8,9 +8,9 @@ from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, rules
 from twinform.ir import Format
 from twinform.profiles.counterparts import Counterparts
 from twinform.profiles.detectors import DETECTORS
-from twinform.profiles.profile import Effect, Profile, Row
+from twinform.profiles.profile import Effect, Profile, ProfileRow
 from twinform.profiles.reading import Shortfall, read_as
-from twinform.profiles.subject import Subject
+from twinform.profiles.subject import ProfiledFile
 
 _SHORTFALLS = {
     "value": rules.UNREAD_VALUE,
@@ -22,7 +22,7 @@ _SHORTFALLS = {
 """The rules about what a consumer's table of reads demands, by the kind of shortfall."""
 
 
-class Verdict(StrEnum):
+class ConsumerVerdict(StrEnum):
     """Whether a consumer takes a file."""
 
     ACCEPTS = "accepts"
@@ -34,7 +34,7 @@ class Verdict(StrEnum):
 class Judgment:
     """A finding, and the row about it."""
 
-    row: Row
+    row: ProfileRow
     finding: Diagnostic
 
 
@@ -47,19 +47,19 @@ class Assessment:
     judgments: tuple[Judgment, ...] = ()
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> ConsumerVerdict:
         """Whether the consumer takes the file."""
         effects = {each.row.effect for each in self.judgments}
         if not self.reads or Effect.REFUSES in effects:
-            return Verdict.REFUSES
-        return Verdict.WARNS if Effect.WARNS in effects else Verdict.ACCEPTS
+            return ConsumerVerdict.REFUSES
+        return ConsumerVerdict.WARNS if Effect.WARNS in effects else ConsumerVerdict.ACCEPTS
 
     def by(self, effect: Effect) -> tuple[Judgment, ...]:
         """The judgments with this effect."""
         return tuple(each for each in self.judgments if each.row.effect is effect)
 
 
-def assess(subject: Subject, profiles: Iterable[Profile]) -> tuple[Assessment, ...]:
+def assess(subject: ProfiledFile, profiles: Iterable[Profile]) -> tuple[Assessment, ...]:
     """What each consumer makes of a file; what detectors find is looked for once."""
     wanted = tuple(profiles)
     # Rows name rules instead of checking by themselves: classes with checks of their own would
@@ -70,7 +70,7 @@ def assess(subject: Subject, profiles: Iterable[Profile]) -> tuple[Assessment, .
     return tuple(_assessed(subject, each, found, shortfalls) for each in wanted)
 
 
-def detected(subject: Subject, rules: Iterable[str]) -> list[Diagnostic]:
+def detected(subject: ProfiledFile, rules: Iterable[str]) -> list[Diagnostic]:
     """What the detectors of these rules find."""
     sink, wanted = DiagnosticSink(subject.path), frozenset(rules)
     for detector in DETECTORS:
@@ -80,7 +80,7 @@ def detected(subject: Subject, rules: Iterable[str]) -> list[Diagnostic]:
 
 
 def _assessed(
-    subject: Subject, profile: Profile, found: tuple[Diagnostic, ...], shortfalls: "Shortfalls"
+    subject: ProfiledFile, profile: Profile, found: tuple[Diagnostic, ...], shortfalls: "Shortfalls"
 ) -> Assessment:
     if subject.format is not None and subject.format not in profile.formats:
         return Assessment(profile, reads=False)
@@ -99,7 +99,7 @@ def _judgments(profile: Profile, found: Iterable[Diagnostic], format_: Format | 
 class Shortfalls:
     """What consumers cannot read of a text, by their tables: one finding for the same thing of all of them."""
 
-    def __init__(self, subject: Subject) -> None:
+    def __init__(self, subject: ProfiledFile) -> None:
         self._subject = subject
         self._findings: dict[tuple[str, str, int], Diagnostic] = {}
         self._known = Counterparts(subject.diagnostics)
@@ -114,7 +114,7 @@ class Shortfalls:
         for each in read_as(profile.reads, self._subject.content, self._subject.has_file):
             finding = self._finding(each)
             words = {"rule": finding.rule.name, "effect": each.effect, "about": each.about, "pass": each.pipeline}
-            yield Judgment(Row.model_validate(words), finding)
+            yield Judgment(ProfileRow.model_validate(words), finding)
 
     def _finding(self, each: Shortfall) -> Diagnostic:
         rule = _SHORTFALLS[each.kind]

@@ -4,8 +4,8 @@ import sys
 from collections.abc import Iterator
 
 from twinform.diagnostics.generated_files import main_of_folder
-from twinform.profiles.profile import PORTABLE, Profile, Row, load, names
-from twinform.profiles.reading.notation import Demand, Step, reads
+from twinform.profiles.profile import PORTABLE, Profile, ProfileRow, load, names
+from twinform.profiles.reading.notation import Demand, PlaceStep, reads
 from twinform.profiles.remedies import REMEDIES
 
 _INTRODUCTION = """\
@@ -66,7 +66,7 @@ def _profile(profile: Profile) -> str:
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
-def _row(row: Row) -> str:
+def _row(row: ProfileRow) -> str:
     narrowed = f", `{row.message}`" if row.message else ""
     format_ = row.format.upper() if row.format else ""
     passes = f"`{row.pipeline}`" if row.pipeline else ""
@@ -88,7 +88,7 @@ def _place(demand: Demand) -> str:
     return f"`{path}` `{demand.item}`: {demand.form}{needed}" if demand.form else f"`{path}` `{demand.item}`{needed}"
 
 
-def _step(step: Step) -> str:
+def _step(step: PlaceStep) -> str:
     types = f"[{'!' if step.other else ''}{','.join(sorted(step.types))}]" if step.types else ""
     return f"{step.tag}{types}"
 

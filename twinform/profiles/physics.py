@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 
-from twinform.diagnostics import Entry, Fate, Location, PhysicsChange, ValueChange
+from twinform.diagnostics import Fate, LedgerEntry, Location, PhysicsChange, ValueChange
 from twinform.diagnostics.rules import CHANGED_PHYSICS
 from twinform.ir import Document, Joint, Link
 from twinform.ir.changes import changes
@@ -17,7 +17,7 @@ _NO_VALUES = ("/shape/uri", "]/name")
 _Key = tuple[str, str]
 
 
-def physics_changes(before: Document, after: Document, step: str) -> Iterator[Entry]:
+def physics_changes(before: Document, after: Document, step: str) -> Iterator[LedgerEntry]:
     """An entry of the ledger for each link and joint of which a pass, called `step`, changed the physics."""
     # Documents are compared, instead of asking passes what they did: a pass of another package is
     # covered too, and a report can apply the list to the source and ask Drake. The user's own
@@ -30,7 +30,9 @@ def physics_changes(before: Document, after: Document, step: str) -> Iterator[En
         if values:
             change, place = PhysicsChange(step, *key, values), _place(old.get(key), new.get(key))
             written = sum(bool(each.path) and each.was is not None for each in values)
-            yield Entry(Fate.APPROXIMATED, CHANGED_PHYSICS, f"{step}: {described(change)}", place, written, change)
+            yield LedgerEntry(
+                Fate.APPROXIMATED, CHANGED_PHYSICS, f"{step}: {described(change)}", place, written, change
+            )
 
 
 def _parts(document: Document) -> Iterator[tuple[_Key, Part]]:
@@ -71,6 +73,6 @@ def _place(*parts: Part | None) -> Location:
     return next(part.location for part in parts if part is not None)
 
 
-def of_ledger(entries: Iterable[Entry]) -> tuple[PhysicsChange, ...]:
+def of_ledger(entries: Iterable[LedgerEntry]) -> tuple[PhysicsChange, ...]:
     """The changes of the physics that a ledger lists."""
     return tuple(each.change for each in entries if each.change)

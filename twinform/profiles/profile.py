@@ -35,7 +35,7 @@ class Effect(StrEnum):
     WARNS = "warns"
 
 
-class Row(BaseModel):
+class ProfileRow(BaseModel):
     """One thing that a consumer minds: the rule that finds it, and what the consumer does.
 
     `format`, `message`, `place`, `severity`, `since` and `until` narrow the findings: the format of the file, patterns
@@ -97,7 +97,7 @@ class _Table(BaseModel):
     release: str = ""
     """The release that is meant where none is named."""
 
-    row: tuple[Row, ...] = ()
+    row: tuple[ProfileRow, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +116,7 @@ class Profile:
     seen: str
     tested: bool
     release: str
-    rows: tuple[Row, ...]
+    rows: tuple[ProfileRow, ...]
     reads: str = ""
     sdf: str = ""
     named: bool = True
@@ -188,7 +188,7 @@ def _of_release(name: str, table: _Table, release: str, *, named: bool = True) -
     return Profile(name, *about, chosen, rows, table.reads, sdf, named)
 
 
-def _holds(row: Row, release: str, known: list[str]) -> bool:
+def _holds(row: ProfileRow, release: str, known: list[str]) -> bool:
     def place(word: str) -> int:
         if word not in known:
             raise ProfileError(f"row {row.rule!r}: there is no release {word!r}")

@@ -9,7 +9,7 @@ from twinform.schemas import XmlElement
 
 
 @dataclass(frozen=True, slots=True)
-class Subject:
+class ProfiledFile:
     """A file before consumers: its bytes, tree and document as far as it has them, and what `check` finds in it."""
 
     path: str

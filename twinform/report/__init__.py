@@ -11,12 +11,12 @@ report.html(made), report.markdown(made)
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
-from twinform.report.content import Report, build_report
+from twinform.report.content import ModelReport, build_report
 from twinform.report.markdown import markdown
 from twinform.report.notebook import Shown, show
 from twinform.report.page import html
 
-WRITERS: Mapping[str, Callable[[Report], str]] = MappingProxyType({"html": html, "md": markdown})
+WRITERS: Mapping[str, Callable[[ModelReport], str]] = MappingProxyType({"html": html, "md": markdown})
 """Every form by its name on the command line."""
 
-__all__ = ["WRITERS", "Report", "Shown", "build_report", "html", "markdown", "show"]
+__all__ = ["WRITERS", "ModelReport", "Shown", "build_report", "html", "markdown", "show"]

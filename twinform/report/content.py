@@ -19,7 +19,7 @@ from twinform.compiler.scene import Scene, build_scene
 from twinform.compiler.search.uris import SearchPath
 from twinform.compiler.statistics import FileStatistics, MeshCost, ModelStatistics, measure
 from twinform.diagnostics import Diagnostic, Ledger, Severity
-from twinform.diagnostics.reporters import Findings
+from twinform.diagnostics.reporters import FileFindings
 from twinform.ir import Document, Format
 from twinform.passes import PassError
 from twinform.view import NotDrawn, StandaloneView, ViewError, standalone_view
@@ -32,12 +32,12 @@ _NO_VIEW = StandaloneView("")
 
 
 @dataclass(frozen=True, slots=True)
-class Subject:
+class ReportSubject:
     """One file. Where it has errors, there may be no document, and no numbers."""
 
     name: str
     loaded: LoadResult
-    findings: Findings
+    findings: FileFindings
     document: Document | None = None
     statistics: FileStatistics | None = None
     scene: Scene | None = None
@@ -74,11 +74,11 @@ class Converted:
 
 
 @dataclass(frozen=True, slots=True)
-class Report:
+class ModelReport:
     """Everything. `view` is a page of its own. Where there is none, or no comparison, there is the reason."""
 
-    first: Subject
-    second: Subject | None = None
+    first: ReportSubject
+    second: ReportSubject | None = None
     comparison: Comparison | None = None
     without_comparison: str = ""
     converted: Converted | None = None
@@ -87,7 +87,7 @@ class Report:
     without_view: str = ""
 
     @property
-    def subjects(self) -> tuple[Subject, ...]:
+    def subjects(self) -> tuple[ReportSubject, ...]:
         """The file or both."""
         return (self.first,) if self.second is None else (self.first, self.second)
 
@@ -119,7 +119,7 @@ def build_report(
     options: ComparisonOptions = USUAL,
     meshes: bool = True,
     view: View | None = make_page,
-) -> Report:
+) -> ModelReport:
     """Find out everything about a file or document, and how it differs from a second one.
 
     `names` are what the files are called, by default their paths; meshes for the view are looked for beside them.
@@ -142,24 +142,24 @@ def build_report(
             problem = str(error)
     converted = _converted(first, one, load_options, model)
     made, reason = _view(one, two, comparison, load_options.search, view)
-    return Report(one, two, comparison, problem, converted, made.page, made.not_drawn, reason)
+    return ModelReport(one, two, comparison, problem, converted, made.page, made.not_drawn, reason)
 
 
-def _subject(source: Input, name: str, load_options: LoadOptions, *, meshes: bool) -> Subject:
+def _subject(source: Input, name: str, load_options: LoadOptions, *, meshes: bool) -> ReportSubject:
     """All about one file, with what its includes name."""
     loaded = inspect(expand(read(source, load_options, name=name), load_options), load_options)
     files, name = SourceFiles.of(loaded), name or name_of_input(source)
-    findings = Findings(loaded.path, with_columns(loaded.diagnostics, files), files)
+    findings = FileFindings(loaded.path, with_columns(loaded.diagnostics, files), files)
     document = loaded.document
     if document is None:
-        return Subject(name, loaded, findings)
+        return ReportSubject(name, loaded, findings)
     numbers = measure(loaded, document, load_options.search, meshes=meshes) if loaded.accepted else None
     scene = build_scene(document) if loaded.accepted else None
     graph = build_graph(document, mimics=True)
-    return Subject(name, loaded, findings, document, numbers, scene, graph)
+    return ReportSubject(name, loaded, findings, document, numbers, scene, graph)
 
 
-def _converted(source: Input, subject: Subject, load_options: LoadOptions, model: str | None) -> Converted | None:
+def _converted(source: Input, subject: ReportSubject, load_options: LoadOptions, model: str | None) -> Converted | None:
     if subject.document is None or not subject.loaded.accepted:
         return None
     target = Format.SDF if subject.document.format is Format.URDF else Format.URDF
@@ -173,7 +173,7 @@ def _converted(source: Input, subject: Subject, load_options: LoadOptions, model
 
 
 def _view(
-    one: Subject, two: Subject | None, comparison: Comparison | None, search: SearchPath, view: View | None
+    one: ReportSubject, two: ReportSubject | None, comparison: Comparison | None, search: SearchPath, view: View | None
 ) -> tuple[StandaloneView, str]:
     if view is None:
         return _NO_VIEW, "it was not asked for"

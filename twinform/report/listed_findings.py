@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from twinform.diagnostics import Diagnostic, Severity
 from twinform.diagnostics.reporters.grouping import Group, grouped
-from twinform.report.content import Subject
+from twinform.report.content import ReportSubject
 
 MOST = 300
 """So many groups of a severity are listed."""
@@ -12,7 +12,7 @@ WORDS: Mapping[Severity, str] = {Severity.ERROR: "error", Severity.WARNING: "war
 """The severities, the worst first, and what a report calls them."""
 
 
-def groups_of(subject: Subject, severity: Severity) -> list[Group]:
+def groups_of(subject: ReportSubject, severity: Severity) -> list[Group]:
     """All groups of a severity, in the order of the file."""
     return grouped(each for each in subject.findings.diagnostics if each.severity is severity)
 
@@ -22,7 +22,7 @@ def anchor(severity: Severity, number: int, subject: int = 0) -> str:
     return f"{WORDS[severity]}-{'ab'[subject]}{number}"
 
 
-def anchors(subject: Subject) -> Mapping[int, str]:
+def anchors(subject: ReportSubject) -> Mapping[int, str]:
     """Where each finding of the first file is listed, by its identity; nothing of those that are left out."""
     return {
         id(finding): anchor(severity, number)

@@ -8,7 +8,7 @@ from twinform.compiler.compare.reporters import amounts_of, heading_of, places_o
 from twinform.compiler.graph.mermaid import fits, mermaid
 from twinform.diagnostics import Diagnostic, Fate, Severity
 from twinform.diagnostics.reporters import printable
-from twinform.report.content import Report, Subject
+from twinform.report.content import ModelReport, ReportSubject
 from twinform.report.page import outcome
 from twinform.report.parts import count, place
 
@@ -24,7 +24,7 @@ _JOINED = re.compile(r"[@#]|://|(?<=www)\.|(?<=GH)-", re.IGNORECASE)
 _BREAK = "\N{ZERO WIDTH SPACE}"
 
 
-def markdown(report: Report) -> str:
+def markdown(report: ModelReport) -> str:
     """Verdict, differences, findings, what a conversion loses, numbers and a small drawing."""
     text = ""
     for most in _LISTED:
@@ -40,7 +40,7 @@ def escaped(text: str) -> str:
     return _SIGNS.sub(lambda sign: f"\\{sign[0]}", _JOINED.sub(lambda found: found[0] + _BREAK, text))
 
 
-def _blocks(report: Report, most: int) -> Iterator[str]:
+def _blocks(report: ModelReport, most: int) -> Iterator[str]:
     yield f"## {' and '.join(escaped(each.title) for each in report.subjects)}"
     yield ""
     for subject in report.subjects:
@@ -55,12 +55,12 @@ def _blocks(report: Report, most: int) -> Iterator[str]:
         yield from block(report, most)
 
 
-def _counts(subject: Subject) -> str:
+def _counts(subject: ReportSubject) -> str:
     words = ((Severity.ERROR, "error"), (Severity.WARNING, "warning"), (Severity.INFO, "note"))
     return ", ".join(count(subject.count(severity), word) for severity, word in words)
 
 
-def _differences(report: Report, most: int) -> Iterator[str]:
+def _differences(report: ModelReport, most: int) -> Iterator[str]:
     found = report.comparison
     if found is None or found.same:
         return
@@ -71,7 +71,7 @@ def _differences(report: Report, most: int) -> Iterator[str]:
     yield from _table("Differences", ("Part", "What", "By", "Where"), rows, most)
 
 
-def _findings(report: Report, most: int) -> Iterator[str]:
+def _findings(report: ModelReport, most: int) -> Iterator[str]:
     for severity, title in ((Severity.ERROR, "Errors"), (Severity.WARNING, "Warnings")):
         rows = [
             _finding(each, subject)
@@ -82,12 +82,12 @@ def _findings(report: Report, most: int) -> Iterator[str]:
         yield from _table(title, ("Where", "What", "Rule"), rows, most)
 
 
-def _finding(each: Diagnostic, subject: Subject) -> tuple[str, str, str]:
+def _finding(each: Diagnostic, subject: ReportSubject) -> tuple[str, str, str]:
     help_ = f" ({each.help})" if each.help else ""
     return place(each.location, subject.findings.path), f"{each.message}{help_}", each.rule.name
 
 
-def _losses(report: Report, most: int) -> Iterator[str]:
+def _losses(report: ModelReport, most: int) -> Iterator[str]:
     converted = report.converted
     if converted is None:
         return
@@ -115,7 +115,7 @@ def _table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]], most
     yield "\n</details>"
 
 
-def _numbers(report: Report, _: int) -> Iterator[str]:
+def _numbers(report: ModelReport, _: int) -> Iterator[str]:
     """A line for each model."""
     for subject in report.subjects:
         for number, model in enumerate(islice(subject.models, 10)):
@@ -125,7 +125,7 @@ def _numbers(report: Report, _: int) -> Iterator[str]:
             yield f"{escaped(model.name)}: {', '.join(words)}, {model.mass:.6g} kg"
 
 
-def _drawing(report: Report, most: int) -> Iterator[str]:
+def _drawing(report: ModelReport, most: int) -> Iterator[str]:
     graph = report.first.graph
     if graph is None or not most or not 1 < len(graph.nodes) <= _DRAWN:
         return

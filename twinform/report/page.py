@@ -7,14 +7,14 @@ import twinform
 from twinform.compiler.compare.reporters import summary
 from twinform.diagnostics import Fate, Severity
 from twinform.package_files import package_files
-from twinform.report.content import Converted, Report
+from twinform.report.content import Converted, ModelReport
 from twinform.report.frame import framed, policy
 from twinform.report.markup import Markup, breakable, element, join
 from twinform.report.parts import count
 from twinform.report.sections import SECTIONS
 
 
-def html(report: Report) -> str:
+def html(report: ModelReport) -> str:
     """The whole page."""
     made = [(each, each.content(report)) for each in SECTIONS]
     sections = [(each, content) for each, content in made if content]
@@ -36,7 +36,7 @@ def html(report: Report) -> str:
     return f"<!DOCTYPE html>\n{element('html', _head(report, title), body, lang='en')}\n"
 
 
-def _head(report: Report, title: str) -> Markup:
+def _head(report: ModelReport, title: str) -> Markup:
     style, script = _data("report.css"), _data("report.js")
     nonce = framed(report.view).nonce if report.view else None
     return element(
@@ -50,7 +50,7 @@ def _head(report: Report, title: str) -> Markup:
     )
 
 
-def verdicts(report: Report) -> Iterator[Markup]:
+def verdicts(report: ModelReport) -> Iterator[Markup]:
     """What there is to know first, each in a few words."""
     for each in report.subjects:
         file = join((breakable(each.name), ": ")) if report.second else None
@@ -74,7 +74,7 @@ def outcome(converted: Converted) -> str:
     return f"in {target}: {ledger.expressed:,} expressed, {fates}"
 
 
-def _files(report: Report) -> Markup:
+def _files(report: ModelReport) -> Markup:
     names = [element("code", breakable(each.name)) for each in report.subjects]
     return element("p", join(names, " and "), class_="quiet")
 

@@ -13,7 +13,7 @@ from twinform.schemas.facts import (
 )
 from twinform.schemas.messages import Context
 from twinform.schemas.packaged import json_schema_text, schema_text
-from twinform.schemas.reader import Reader, reader
+from twinform.schemas.reader import SchemaReader, reader
 from twinform.schemas.text_output import Item, WrittenParts, end_of_element, in_attribute
 from twinform.schemas.text_writer import node_xml, parse_written, root_text
 from twinform.schemas.untyped_parts import LAST_LINE, element_xml
@@ -47,8 +47,8 @@ __all__ = [
     "Engine",
     "Fact",
     "Item",
-    "Reader",
     "SchemaError",
+    "SchemaReader",
     "Table",
     "Version",
     "WrittenParts",

@@ -26,7 +26,7 @@ _BEYOND_THE_XSD = frozenset(
 """Findings that no XSD refuses a document for."""
 
 
-class Details(TypedDict, total=False):
+class FindingDetails(TypedDict, total=False):
     """What a finding may say beside its message."""
 
     found: str | None
@@ -67,7 +67,9 @@ class Context:
     broken: bool = False
     places: Places = field(default_factory=dict[XmlElement, int], repr=False)
 
-    def report(self, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[Details]) -> None:
+    def report(
+        self, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[FindingDetails]
+    ) -> None:
         """Report at an element, or at a step below it."""
         if self.aside and rule.severity is Severity.ERROR and not self.sink.strict:
             more["severity"] = Severity.WARNING
@@ -224,7 +226,7 @@ def _check_word(context: Context, element: XmlElement, name: str, step: str = ""
 
 
 def _report_prefixed(
-    context: Context, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[Details]
+    context: Context, rule: Rule, element: XmlElement, message: str, step: str = "", **more: Unpack[FindingDetails]
 ) -> None:
     context.report(rule, element, message, step, **more)
     context.structural -= 1  # an XSD does not see it

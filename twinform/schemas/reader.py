@@ -28,7 +28,7 @@ _ROOTS: dict[str, type[Node]] = {"urdf": Model, "sdf": Document}
 """The class of the node that the root element of a format makes."""
 
 
-class Reader:
+class SchemaReader:
     """Reads elements of one format in one version.
 
     A file has few of the elements that there are, and definitions refer to each other, so nothing is made before it is
@@ -207,6 +207,6 @@ def _below(at: str, row: Fact) -> str:
 
 
 @cache
-def reader(format: str, version: Version) -> Reader:
+def reader(format: str, version: Version) -> SchemaReader:
     """The reader of a format in a version."""
-    return Reader(table(format), version)
+    return SchemaReader(table(format), version)

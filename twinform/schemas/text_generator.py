@@ -99,7 +99,7 @@ _SHOWN = {
 _SHOWN_ELSE = "{format_value(value)}"
 
 
-class _Part(NamedTuple):
+class _WriterFunction(NamedTuple):
     """What a function writes: the facts of a node, the path that leads to them from a definition, the element's tag.
 
     `keep` says that the element is kept where it is empty.
@@ -113,10 +113,10 @@ class _Part(NamedTuple):
 
 def generate_text_writer(facts: Table) -> str:
     """The module that writes a format."""
-    return _Generator(facts).module()
+    return _WriterGenerator(facts).module()
 
 
-class _Generator:
+class _WriterGenerator:
     """Makes the module of a format. A function stands behind those that it calls."""
 
     def __init__(self, facts: Table) -> None:
@@ -130,7 +130,7 @@ class _Generator:
     def module(self) -> str:
         """The text of the module."""
         root = self.table.root
-        name = self._node(_Part(self.table.definitions[root], root, root, keep=True), root)
+        name = self._node(_WriterFunction(self.table.definitions[root], root, root, keep=True), root)
         functions = "\n\n".join(self.pieces).rstrip()
         names = {"format": self.table.format.upper(), "imports": _imports(functions), "root": name}
         return _MODULE.substitute(names, functions=functions, writers=self._writers())
@@ -142,7 +142,7 @@ class _Generator:
         }
         return "\n".join([f'    "{tag}": {name},' for tag, name in found.items()])
 
-    def _node(self, part: _Part, longer_path: str) -> str:
+    def _node(self, part: _WriterFunction, longer_path: str) -> str:
         """The name of the function that writes a node; `longer_path` names it where another one has its path."""
         key = id(part.fact), part.tag, part.keep
         if key not in self.names:
@@ -170,7 +170,7 @@ class _Generator:
             self.pieces.append(head.substitute(name=name, tag=tag) + code)
         return self.alike[like]
 
-    def _code_of_node(self, part: _Part) -> str:
+    def _code_of_node(self, part: _WriterFunction) -> str:
         rows = self._rows(part.fact.rows)
         code = _BEFORE_ROOT if part.path == self.table.root else ""
         code += "".join([self._row(row, part.path) for row in rows if not row.kind and not makes_many(row)])
@@ -236,7 +236,7 @@ class _Generator:
         """The name of the function that writes the node of a row."""
         longer = f"{path}/{row.name}"
         path = row.name if row.reference == row.name else longer
-        return self._node(_Part(self.table.resolve(row), path, row.name, keep), longer)
+        return self._node(_WriterFunction(self.table.resolve(row), path, row.name, keep), longer)
 
     def _rows(self, rows: Iterable[Fact]) -> list[Fact]:
         return rows_to_write(rows, self.table.newest)
@@ -295,7 +295,7 @@ def _written(code: str) -> list[str]:
     return [each for each in ("attributes", "body") if f"{each} +=" in code]
 
 
-def _unusual(part: _Part, written: Iterable[str]) -> str:
+def _unusual(part: _WriterFunction, written: Iterable[str]) -> str:
     """The code for parts of a node that have no typed field, and for nodes whose place in the text is asked for."""
     content = f"node.{part.fact.place}" if part.fact.any and part.fact.place else ""
     condition = " or ".join([*[content] * bool(content), "node.opaque", "out.parts is not None"])

@@ -105,7 +105,7 @@ def _namespace(name: str) -> str:
     return name[1:].partition("}")[0] if name.startswith("{") else ""
 
 
-class _Names(dict[str, str]):
+class _PrefixNames(dict[str, str]):
     """Names as they are written, by their names in the IR; KeyError for one in a namespace without a prefix."""
 
     def __init__(self, prefixes: Mapping[str, str]) -> None:
@@ -171,7 +171,7 @@ class TextOutput:
         self._taken = namespaces
         # Of two prefixes of a namespace lxml takes the first.
         prefixes = {uri: f"{prefix}:" for prefix, uri in reversed(namespaces.items())} if namespaces else {}
-        self._names = _Names(_KNOWN | prefixes)
+        self._names = _PrefixNames(_KNOWN | prefixes)
         self._made_up = count()
         self._late: dict[int, list[Item]] = {}
 
@@ -264,7 +264,7 @@ class TextOutput:
             return body[: span[0]] + child + body[span[1] :]
         return body + _behind(body, child, indent)
 
-    def _element(self, element: Any, indent: str, names: _Names, mark: str = "") -> str:
+    def _element(self, element: Any, indent: str, names: _PrefixNames, mark: str = "") -> str:
         """An untyped element, and the text behind it."""
         try:
             name, attributes = names[element.name], _attributes(element.attributes, names)
@@ -280,7 +280,7 @@ class TextOutput:
             made = f"{indent}<{name}{attributes}{end}"
         return made if element.tail is None or element.tail.isspace() else made + in_text(element.tail)
 
-    def _content(self, element: Any, indent: str, names: _Names) -> str:
+    def _content(self, element: Any, indent: str, names: _PrefixNames) -> str:
         """The text of an untyped element and its children."""
         children, text = element.children, element.text
         if self.arrange:
@@ -292,7 +292,7 @@ class TextOutput:
             body += _behind(body, made, indent)
         return body
 
-    def _declared_in(self, element: Any, names: _Names) -> tuple[_Names, str]:
+    def _declared_in(self, element: Any, names: _PrefixNames) -> tuple[_PrefixNames, str]:
         """Names where an untyped element declares namespaces: its own is the default, if all names in it have one."""
         namespace = _namespace(element.name)
         attributes = [name for name, _ in element.attributes]
@@ -301,10 +301,10 @@ class TextOutput:
             return self._declared([element.name, *attributes], names)
         next(self._made_up)  # lxml counts these too
         prefixes = {uri: prefix for uri, prefix in names.prefixes.items() if prefix or not uri}
-        names, declared = self._declared(attributes, _Names(prefixes | {namespace: ""}))
+        names, declared = self._declared(attributes, _PrefixNames(prefixes | {namespace: ""}))
         return names, f' xmlns="{in_attribute(namespace)}"{declared}'
 
-    def _declared(self, wanted: Iterable[str], names: _Names) -> tuple[_Names, str]:
+    def _declared(self, wanted: Iterable[str], names: _PrefixNames) -> tuple[_PrefixNames, str]:
         """Names with a prefix for the namespace of each that is wanted, and the declarations of these prefixes."""
         made = dict[str, str]()
         for namespace in map(_namespace, wanted):
@@ -313,7 +313,7 @@ class TextOutput:
         if not made:
             return names, ""
         declared = "".join([f' xmlns:{prefix}="{in_attribute(uri)}"' for uri, prefix in made.items()])
-        return _Names({**names.prefixes, **{uri: f"{prefix}:" for uri, prefix in made.items()}}), declared
+        return _PrefixNames({**names.prefixes, **{uri: f"{prefix}:" for uri, prefix in made.items()}}), declared
 
 
 def _declarations(namespaces: Mapping[str | None, str]) -> str:
@@ -322,7 +322,7 @@ def _declarations(namespaces: Mapping[str | None, str]) -> str:
     return holder.removeprefix("<holder").removesuffix("/>")
 
 
-def _attributes(attributes: Iterable[tuple[str, str]], names: _Names) -> str:
+def _attributes(attributes: Iterable[tuple[str, str]], names: _PrefixNames) -> str:
     return "".join([f' {names[name]}="{in_attribute(value)}"' for name, value in dict(attributes).items()])
 
 

@@ -35,7 +35,7 @@ def generate_schema(
     facts: Table, version: Version, xsd: XsdVersion, *, lenient: bool = False, xacro: bool = False
 ) -> str:
     """The text of the schema of a version of the format; one for xacro files is lenient."""
-    schema = _Generator(facts, version, xsd, lenient=lenient or xacro, xacro=xacro).generate()
+    schema = _XsdGenerator(facts, version, xsd, lenient=lenient or xacro, xacro=xacro).generate()
     etree.indent(schema)
     for annotation in schema.iter(XS + "annotation"):
         annotation.text = annotation[0].tail = None  # one line each
@@ -47,7 +47,7 @@ def lenient_schema_text(format: str, version: Version, xsd: XsdVersion = "1.0") 
     return generate_schema(table(format), version, xsd, lenient=True)
 
 
-class _Generator:
+class _XsdGenerator:
     """Makes one schema; definitions are declared as they are met."""
 
     def __init__(self, facts: Table, version: Version, xsd: XsdVersion, *, lenient: bool, xacro: bool) -> None:

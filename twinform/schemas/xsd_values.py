@@ -27,7 +27,7 @@ _BOOL = "[tT][rR][uU][eE]|[fF][aA][lL][sS][eE]|0|1"
 
 
 @dataclass(frozen=True, slots=True)
-class Tokens:
+class TokenCount:
     """Text of so many tokens of one pattern."""
 
     pattern: str
@@ -36,23 +36,23 @@ class Tokens:
 
 
 _URDF = {
-    "bool": Tokens(_BOOL),
-    "int": Tokens(_INT),
-    "uint": Tokens(_UINT),
-    "double": Tokens(_FINITE),
-    "vector3": Tokens(_FINITE, 3, 3),
-    "quaternion": Tokens(_FINITE, 4, 4),
-    "color4": Tokens(_FINITE, 4, 4),
+    "bool": TokenCount(_BOOL),
+    "int": TokenCount(_INT),
+    "uint": TokenCount(_UINT),
+    "double": TokenCount(_FINITE),
+    "vector3": TokenCount(_FINITE, 3, 3),
+    "quaternion": TokenCount(_FINITE, 4, 4),
+    "color4": TokenCount(_FINITE, 4, 4),
 }
 
 _SDF = _URDF | {
-    "double": Tokens(_NUMBER),
-    "vector2d": Tokens(_FINITE, 2, 2),
-    "vector2i": Tokens(_INT, 2, 2),
-    "quaternion": Tokens(_FINITE, 3, 4),
-    "color": Tokens(_FINITE, 3, 4),
-    "pose": Tokens(_FINITE, 6, 7),
-    "time": Tokens(_FINITE, 1, 2),
+    "double": TokenCount(_NUMBER),
+    "vector2d": TokenCount(_FINITE, 2, 2),
+    "vector2i": TokenCount(_INT, 2, 2),
+    "quaternion": TokenCount(_FINITE, 3, 4),
+    "color": TokenCount(_FINITE, 3, 4),
+    "pose": TokenCount(_FINITE, 6, 7),
+    "time": TokenCount(_FINITE, 1, 2),
 }
 
 TOKENS = {"urdf": _URDF, "sdf": _SDF}
@@ -126,7 +126,7 @@ class Values:
             blank = xs(xs(schema, "simpleType", name="blank"), "restriction", base="xs:token")
             xs(blank, "length", value="0")
 
-    def _declare_value(self, simple_type: XmlElement, tokens: Tokens) -> None:
+    def _declare_value(self, simple_type: XmlElement, tokens: TokenCount) -> None:
         if self.expressions:
             union = xs(simple_type, "union", memberTypes="expression")
             _declare_tokens(xs(union, "simpleType"), tokens)
@@ -181,7 +181,7 @@ def _literally(word: str) -> str:
     return re.sub(r"([.\\?*+{}()\[\]|^-])", r"\\\1", word)
 
 
-def _declare_tokens(simple_type: XmlElement, tokens: Tokens) -> None:
+def _declare_tokens(simple_type: XmlElement, tokens: TokenCount) -> None:
     restriction = xs(simple_type, "restriction")
     if tokens.least == tokens.most == 1:
         restriction.set("base", "xs:token")

@@ -7,7 +7,7 @@ from lsprotocol import types
 
 from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit
 from twinform.server.diagnostics import as_protocol, span_of
-from twinform.server.documents import Document
+from twinform.server.documents import TextDocument
 from twinform.server.mapping.rows import FormatName
 from twinform.server.session import Session
 
@@ -41,7 +41,7 @@ PASSES = (
 
 
 def actions(
-    session: Session, document: Document, where: types.Range, only: Iterable[str] | None
+    session: Session, document: TextDocument, where: types.Range, only: Iterable[str] | None
 ) -> list[types.CodeAction]:
     """What can be done about a piece of a document; `only` are the kinds that are asked for."""
     wanted = None if only is None else tuple(only)
@@ -60,7 +60,7 @@ def _is_wanted(kind: str, wanted: tuple[str, ...] | None) -> bool:
     return any(kind == each or kind.startswith(f"{each}.") or not each for each in wanted)
 
 
-def _fixes(session: Session, document: Document, where: types.Range) -> Iterator[types.CodeAction]:
+def _fixes(session: Session, document: TextDocument, where: types.Range) -> Iterator[types.CodeAction]:
     piece = document.positions.span(where)
     for found in session.findings(document):
         here = span_of(found.location, document)
@@ -76,7 +76,7 @@ def _fixes(session: Session, document: Document, where: types.Range) -> Iterator
         )
 
 
-def _fix_all(session: Session, document: Document) -> Iterator[types.CodeAction]:
+def _fix_all(session: Session, document: TextDocument) -> Iterator[types.CodeAction]:
     edits = together(_safe(session.findings(document)))
     if edits:
         yield types.CodeAction(
@@ -101,7 +101,7 @@ def _meet(one: Span, other: Span) -> bool:
     return one == other or (one.start < other.end and other.start < one.end)
 
 
-def _passes(document: Document) -> Iterator[types.CodeAction]:
+def _passes(document: TextDocument) -> Iterator[types.CodeAction]:
     if document.is_xacro or not document.tree.whole:
         return  # what a pass changes is the expanded file
     for each in PASSES:
@@ -110,12 +110,12 @@ def _passes(document: Document) -> Iterator[types.CodeAction]:
             yield types.CodeAction(title=each.title, kind=types.CodeActionKind.RefactorRewrite, command=command)
 
 
-def edit_of(document: Document, edits: Iterable[TextEdit]) -> types.WorkspaceEdit:
+def edit_of(document: TextDocument, edits: Iterable[TextEdit]) -> types.WorkspaceEdit:
     """Edits of a document as the protocol has them."""
     return types.WorkspaceEdit(changes={document.uri: text_edits(document, edits)})
 
 
-def text_edits(document: Document, edits: Iterable[TextEdit]) -> list[types.TextEdit]:
+def text_edits(document: TextDocument, edits: Iterable[TextEdit]) -> list[types.TextEdit]:
     """Edits of its text; a byte order mark, which is no part of the text of a file, is counted."""
     mark = document.text.startswith("\ufeff")
     return [

@@ -16,18 +16,18 @@ from twinform.compiler.input.options import LoadOptions, LoadResult
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.inspection import inspect
 from twinform.diagnostics import Diagnostic, rules
-from twinform.server.settings import Settings
+from twinform.server.settings import EditorSettings
 
 # Missing in a xacro file that others include, so these are not reported there.
 _OF_WHOLE_ROBOTS = frozenset({rules.EMPTY_MODEL.name, rules.MISSING_ATTRIBUTE.name, rules.MISSING_ELEMENT.name})
 
 
-class Job(NamedTuple):
+class CheckJob(NamedTuple):
     """A document to check. `unsaved` are the texts of all files that are open; others include one that `is_part`."""
 
     path: Path
     unsaved: Mapping[str, bytes]
-    settings: Settings
+    settings: EditorSettings
     is_part: bool = False
 
     @property
@@ -45,7 +45,7 @@ class Checked:
     files: frozenset[str]
 
 
-def check(job: Job) -> Checked:
+def check(job: CheckJob) -> Checked:
     """Read a document as `twinform check` does."""
     load_options = job.load_options
     loaded = inspect(read(str(job.path), load_options), load_options)

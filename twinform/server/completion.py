@@ -6,26 +6,26 @@ from lsprotocol import types
 
 from twinform.diagnostics import Span
 from twinform.passes.plugins.catalog import systems
-from twinform.passes.plugins.parts import Parameter
+from twinform.passes.plugins.parts import PluginParameter
 from twinform.schemas import Fact, rows_by_name
-from twinform.server.cursor import Cursor, Kind, cursor_at
-from twinform.server.documents import Document
+from twinform.server.cursor import Cursor, CursorKind, cursor_at
+from twinform.server.documents import TextDocument
 from twinform.server.hover import text_of_row
 from twinform.server.known_names import names_for
-from twinform.server.mapping.rows import Row
+from twinform.server.mapping.rows import MappingRow
 from twinform.server.names import kind_at
 from twinform.server.plugin_facts import described, parameter_of, parameters_in
 from twinform.server.proposal import Proposal, literal
-from twinform.server.schema import Place, inside, is_of_xacro
+from twinform.server.schema import SchemaPlace, inside, is_of_xacro
 from twinform.server.session import Session
-from twinform.server.tree import Node
+from twinform.server.tree import TolerantNode
 from twinform.server.xacro_completion import in_expression, xacro_attributes, xacro_elements
 
 _ITEM = types.CompletionItemKind
 _BOOLS = ("true", "false")
 
 
-def complete(session: Session, document: Document, offset: int) -> types.CompletionList:
+def complete(session: Session, document: TextDocument, offset: int) -> types.CompletionList:
     """What may be written at an offset, in the place of what is there."""
     cursor = cursor_at(document, offset)
     if cursor is None:
@@ -37,7 +37,7 @@ def complete(session: Session, document: Document, offset: int) -> types.Complet
     return _listed(session, document, *_proposals(session, document, cursor, offset))
 
 
-def _listed(session: Session, document: Document, span: Span, found: Iterable[Proposal]) -> types.CompletionList:
+def _listed(session: Session, document: TextDocument, span: Span, found: Iterable[Proposal]) -> types.CompletionList:
     range_ = document.positions.range(span)
     snippet = session.snippets
     items = [
@@ -73,23 +73,25 @@ def plain(snippet: str) -> str:
     return "".join((*pieces, rest))
 
 
-def _proposals(session: Session, document: Document, cursor: Cursor, offset: int) -> tuple[Span, Iterable[Proposal]]:
+def _proposals(
+    session: Session, document: TextDocument, cursor: Cursor, offset: int
+) -> tuple[Span, Iterable[Proposal]]:
     node = cursor.node
     match cursor.kind:
-        case Kind.TAG:
+        case CursorKind.TAG:
             whole = node is not None and node.whole_tag
             return cursor.piece, _elements(session, document, node.parent if node else None, node, bare=whole)
-        case Kind.ATTRIBUTE if node is not None:
+        case CursorKind.ATTRIBUTE if node is not None:
             return cursor.piece, _attributes(session, document, node, named=cursor.attribute is not None)
-        case Kind.VALUE if node is not None and cursor.attribute is not None:
+        case CursorKind.VALUE if node is not None and cursor.attribute is not None:
             return cursor.piece, _values(session, document, node, cursor.attribute)
-        case Kind.END_TAG if node is not None:
+        case CursorKind.END_TAG if node is not None:
             return cursor.piece, [Proposal(node.tag, node.tag, _ITEM.Property)]
         case _:
             return _in_text(session, document, cursor, offset)
 
 
-def _in_text(session: Session, document: Document, cursor: Cursor, offset: int) -> tuple[Span, Iterable[Proposal]]:
+def _in_text(session: Session, document: TextDocument, cursor: Cursor, offset: int) -> tuple[Span, Iterable[Proposal]]:
     """Between tags: an end tag that was begun, the text of the element, or an element."""
     node = cursor.node
     start = document.text.rfind("<", 0, offset)
@@ -111,7 +113,7 @@ def _with_bracket(found: Iterable[Proposal]) -> Iterator[Proposal]:
 
 
 def _elements(
-    session: Session, document: Document, parent: Node | None, own: Node | None, *, bare: bool
+    session: Session, document: TextDocument, parent: TolerantNode | None, own: TolerantNode | None, *, bare: bool
 ) -> Iterator[Proposal]:
     """The elements that may stand in another; `bare` is without what comes behind the name."""
     if parent is None:
@@ -130,13 +132,13 @@ def _elements(
     yield from xacro_elements(session, document, bare=bare)
 
 
-def _children(place: Place) -> list[Row]:
+def _children(place: SchemaPlace) -> list[MappingRow]:
     names = [row.name for row in place.known() if not row.is_attribute]
     rows = (place.below(name) for name in dict.fromkeys(names))
     return [row for row in rows if row is not None]
 
 
-def _roots(document: Document) -> Iterator[Proposal]:
+def _roots(document: TextDocument) -> Iterator[Proposal]:
     start = document.schema.start()
     if start is None:
         return
@@ -146,7 +148,7 @@ def _roots(document: Document) -> Iterator[Proposal]:
         yield Proposal("sdf", 'sdf version="${1:1.11}">\n  $0\n</sdf>', _ITEM.Class)
 
 
-def _element(name: str, row: Row) -> str:
+def _element(name: str, row: MappingRow) -> str:
     """The snippet of an element, behind its `<`: with the attributes that it needs."""
     place = inside(row)
     known = place.known()
@@ -166,7 +168,7 @@ def _attribute(fact: Fact, number: int) -> str:
     return f'{name}="${number}"' if fact.default is None else f'{name}="${{{number}:{fact.default}}}"'
 
 
-def _parameter(parameter: Parameter, *, bare: bool) -> Proposal:
+def _parameter(parameter: PluginParameter, *, bare: bool) -> Proposal:
     name = parameter.name
     ending = ">\n  $0\n</" if parameter.children else ">$1</"
     new = name if bare else f"{name}{ending}{name}>"
@@ -175,7 +177,7 @@ def _parameter(parameter: Parameter, *, bare: bool) -> Proposal:
     )
 
 
-def _attributes(session: Session, document: Document, node: Node, *, named: bool) -> Iterator[Proposal]:
+def _attributes(session: Session, document: TextDocument, node: TolerantNode, *, named: bool) -> Iterator[Proposal]:
     """The attributes that an element does not have yet; `named` is without the value, which is there."""
     if is_of_xacro(node.tag):
         yield from xacro_attributes(session, document, node, named=named)
@@ -189,7 +191,7 @@ def _attributes(session: Session, document: Document, node: Node, *, named: bool
             yield Proposal(name, new, _ITEM.Property, _detail(fact), text_of_row(row), _rank(fact))
 
 
-def _values(session: Session, document: Document, node: Node, attribute: str | None) -> Iterator[Proposal]:
+def _values(session: Session, document: TextDocument, node: TolerantNode, attribute: str | None) -> Iterator[Proposal]:
     """The values of an attribute, or of the text of an element."""
     if node.parent is None and attribute == "version" and document.schema.table is not None:
         for version in reversed(document.schema.table.versions):
@@ -211,7 +213,7 @@ def _values(session: Session, document: Document, node: Node, attribute: str | N
             yield Proposal(value, value, _ITEM.EnumMember)
 
 
-def _listed_values(row: Row | None) -> tuple[str, ...]:
+def _listed_values(row: MappingRow | None) -> tuple[str, ...]:
     if row is None:
         return ()
     fact = row.fact

@@ -7,8 +7,8 @@ from lsprotocol import types
 
 from twinform.diagnostics import Diagnostic, Location, Severity, Span, catalog
 from twinform.diagnostics.addresses import rule_address
-from twinform.server.documents import Document
-from twinform.server.tree import Node, Tree
+from twinform.server.documents import TextDocument
+from twinform.server.tree import TolerantNode, Tree
 
 SOURCE = "twinform"
 _SEVERITIES = {
@@ -18,7 +18,7 @@ _SEVERITIES = {
 }
 """How the editor shows findings."""
 
-DocumentOf = Callable[[Path], Document | None]
+DocumentOf = Callable[[Path], TextDocument | None]
 """The text of a file: that of the editor, or else that on the disk."""
 
 
@@ -32,7 +32,7 @@ def by_file(found: Iterable[Diagnostic], top: Path) -> dict[Path, list[Diagnosti
     return {file: list(own.values()) for file, own in files.items()}
 
 
-def as_protocol(found: Diagnostic, document: Document, document_of: DocumentOf) -> types.Diagnostic:
+def as_protocol(found: Diagnostic, document: TextDocument, document_of: DocumentOf) -> types.Diagnostic:
     """A finding about a document."""
     message = f"{found.message}\n{found.help}" if found.help else found.message
     return types.Diagnostic(
@@ -52,7 +52,7 @@ def notice(message: str, severity: types.DiagnosticSeverity = types.DiagnosticSe
     return types.Diagnostic(types.Range(start, start), message, severity, source=SOURCE)
 
 
-def span_of(where: Location, document: Document) -> Span:
+def span_of(where: Location, document: TextDocument) -> Span:
     """The piece of a text that a location means: by its columns, or else by its line and what its path ends with."""
     positions = document.positions
     if where.column and 0 < where.line <= len(positions.starts):
@@ -74,7 +74,7 @@ def _part(where: Location, tree: Tree, line: Span) -> Span | None:
     return node.attributes[attribute].whole if attribute in node.attributes else _start_tag(node)
 
 
-def _start_tag(node: Node) -> Span:
+def _start_tag(node: TolerantNode) -> Span:
     return node.start_tag if node.whole_tag else node.name
 
 

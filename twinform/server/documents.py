@@ -22,7 +22,7 @@ _LONE = re.compile("[\ud800-\udfff]")
 
 
 @dataclass(frozen=True)  # no slots: what is made of the text is kept in the dictionary
-class Document:
+class TextDocument:
     """One state of a text. It is never changed: each key makes another one.
 
     `excess` tells why it is not followed; its text is empty then.
@@ -60,7 +60,7 @@ class Document:
         """Its elements, however much is missing."""
         return parse(self.text)
 
-    def once(self, make: "Callable[[Document], Made]") -> "Made":
+    def once(self, make: "Callable[[TextDocument], Made]") -> "Made":
         """What a function makes of it, made once."""
         known: dict[object, Any] = self.__dict__.setdefault("made", {})
         if make not in known:
@@ -113,34 +113,34 @@ class Documents:
 
     def __init__(self) -> None:
         self.encoding = PositionEncodingKind.Utf16
-        self._open: dict[str, Document] = {}
-        self._good: dict[str, Document] = {}
+        self._open: dict[str, TextDocument] = {}
+        self._good: dict[str, TextDocument] = {}
 
-    def __iter__(self) -> Iterator[Document]:
+    def __iter__(self) -> Iterator[TextDocument]:
         return iter(tuple(self._open.values()))
 
-    def get(self, uri: str) -> Document | None:
+    def get(self, uri: str) -> TextDocument | None:
         """The document of a URI, if it is open and followed."""
         found = self._open.get(uri)
         return None if found is None or found.excess else found
 
-    def state(self, uri: str) -> Document | None:
+    def state(self, uri: str) -> TextDocument | None:
         """Return what is known of a document, also of one that is not followed."""
         return self._open.get(uri)
 
-    def of_path(self, path: Path) -> Document | None:
+    def of_path(self, path: Path) -> TextDocument | None:
         """The document that is open of a file."""
         return next((each for each in self if each.is_file and each.path == path and not each.excess), None)
 
-    def last_good(self, document: Document) -> Document | None:
+    def last_good(self, document: TextDocument) -> TextDocument | None:
         """The last state of a document that was well-formed, as far as anybody has looked at it."""
         return document if document.tree.whole else self._good.get(document.uri)
 
-    def open(self, uri: str, text: str, version: int, language: str) -> Document:
+    def open(self, uri: str, text: str, version: int, language: str) -> TextDocument:
         """Take up a document."""
         return self._keep(uri, text, version, language)
 
-    def change(self, uri: str, changes: Iterable[TextDocumentContentChangeEvent], version: int) -> Document | None:
+    def change(self, uri: str, changes: Iterable[TextDocumentContentChangeEvent], version: int) -> TextDocument | None:
         """Do what was done in the editor; None for what is not open."""
         document = self._open.get(uri)
         if document is None:
@@ -161,18 +161,18 @@ class Documents:
         self._open.pop(uri, None)
         self._good.pop(uri, None)
 
-    def _keep(self, uri: str, text: str, version: int, language: str) -> Document:
+    def _keep(self, uri: str, text: str, version: int, language: str) -> TextDocument:
         last = self._open.get(uri)
         if last is not None:
             self._leave(last)
         # A text that is too large is kept as a document without content, so that its closing and
         # shrinking are still followed.
         excess = excess_of(text)
-        made = Document(uri, "" if excess else text, version, language, self.encoding, excess)
+        made = TextDocument(uri, "" if excess else text, version, language, self.encoding, excess)
         self._open[uri] = made
         return made
 
-    def _leave(self, last: Document) -> None:
+    def _leave(self, last: TextDocument) -> None:
         """Go on from a state: it is kept as the last good one, or let go."""
         if last.is_parsed and last.tree.whole:
             last, self._good[last.uri] = self._good.get(last.uri, last), last

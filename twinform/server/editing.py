@@ -9,7 +9,7 @@ from twinform.compiler.input.loading import read
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import Diagnostic, Span, TextEdit
 from twinform.passes import FilesPass, PassError, PipelineError, parse_pipeline
-from twinform.server.checking import Job
+from twinform.server.checking import CheckJob
 from twinform.text import Lines, SourceText
 
 
@@ -20,7 +20,7 @@ class Rewritten(NamedTuple):
     problem: str = ""
 
 
-def run_passes(job: Job, pipeline: str) -> Rewritten:
+def run_passes(job: CheckJob, pipeline: str) -> Rewritten:
     """What passes change in a document; all else stays as it is written."""
     load_options = job.load_options
     document = read(str(job.path), load_options).document
@@ -43,7 +43,7 @@ def run_passes(job: Job, pipeline: str) -> Rewritten:
     return Rewritten(tuple(TextEdit(Span(start, start + len(old)), new) for start, old, new in starts))
 
 
-def lay_out(job: Job) -> Rewritten:
+def lay_out(job: CheckJob) -> Rewritten:
     """What the formatter changes in a document."""
     data = _data(job)
     try:
@@ -63,7 +63,7 @@ def _difference(before: str, after: str) -> TextEdit:
     return TextEdit(Span(start, len(before) - end), after[start : len(after) - end])
 
 
-def _data(job: Job) -> bytes:
+def _data(job: CheckJob) -> bytes:
     unsaved = job.load_options.search.unsaved_of(job.path)
     return unsaved if unsaved is not None else job.load_options.search.readable(job.path).read(job.path)
 

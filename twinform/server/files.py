@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from twinform.file_access import Readable
-from twinform.server.documents import Document, Documents, excess_of
+from twinform.server.documents import Documents, TextDocument, excess_of
 from twinform.server.settings import LARGEST
 from twinform.server.uris import uri_of
 from twinform.text import SourceText, UndecodableError
@@ -12,19 +12,19 @@ _MOST = 500
 """So many files are kept."""
 
 
-class Files:
+class DocumentFiles:
     """Documents by their files, whether they are open or not."""
 
     def __init__(self, documents: Documents) -> None:
         self._documents = documents
-        self._read: dict[Path, tuple[tuple[int, int], Document]] = {}
+        self._read: dict[Path, tuple[tuple[int, int], TextDocument]] = {}
 
-    def document(self, path: Path) -> Document | None:
+    def document(self, path: Path) -> TextDocument | None:
         """The document of a file; None for one that cannot be read, is no text, or is too large."""
         found = self._documents.of_path(path)
         return found if found is not None else self._on_disk(path)
 
-    def _on_disk(self, path: Path) -> Document | None:
+    def _on_disk(self, path: Path) -> TextDocument | None:
         try:
             status = path.stat()
             state = (status.st_mtime_ns, status.st_size)
@@ -39,6 +39,6 @@ class Files:
             return None
         if len(self._read) >= _MOST:
             self._read.clear()
-        document = Document(uri_of(path), text, encoding=self._documents.encoding)
+        document = TextDocument(uri_of(path), text, encoding=self._documents.encoding)
         self._read[path] = (state, document)
         return document

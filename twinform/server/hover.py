@@ -11,25 +11,25 @@ from twinform.passes.plugins.catalog import systems
 from twinform.passes.plugins.parts import PluginKind
 from twinform.schemas import table
 from twinform.schemas.documentation import Documentation
-from twinform.server.cursor import Cursor, Kind, cursor_at
+from twinform.server.cursor import Cursor, CursorKind, cursor_at
 from twinform.server.diagnostics import span_of
-from twinform.server.documents import Document
+from twinform.server.documents import TextDocument
 from twinform.server.mapping.destinations import destination
-from twinform.server.mapping.rows import FORMATS, FormatName, Row, rows
+from twinform.server.mapping.rows import FORMATS, FormatName, MappingRow, rows
 from twinform.server.markdown import code, code_block
 from twinform.server.name import Name
 from twinform.server.names import name_at
 from twinform.server.navigation import Found, meant_by, search_of
 from twinform.server.plugin_facts import described, kind_of, parameter_of
 from twinform.server.session import Session
-from twinform.server.tree import Node
+from twinform.server.tree import TolerantNode
 from twinform.server.xacro_names import ELEMENTS, PREFIX
 
 _OTHERS: dict[FormatName, str] = {"urdf": "SDF", "sdf": "URDF"}
 _LONGEST = 200
 
 
-def hover(session: Session, document: Document, offset: int) -> types.Hover | None:
+def hover(session: Session, document: TextDocument, offset: int) -> types.Hover | None:
     """The text about what is at an offset, with the pages of the rules that found something there."""
     cursor = cursor_at(document, offset)
     parts = list(_parts(session, document, cursor, offset)) if cursor else []
@@ -48,7 +48,7 @@ def warm_up() -> None:
     systems()
 
 
-def text_of_row(row: Row) -> str:
+def text_of_row(row: MappingRow) -> str:
     """The documentation of a row, its type, and what becomes of it in the other format."""
     fact = row.fact
     documentation = _documentation(row.format)
@@ -62,7 +62,7 @@ def text_of_row(row: Row) -> str:
     return "\n\n".join(filter(None, lines))
 
 
-def _facts(row: Row) -> Iterator[str]:
+def _facts(row: MappingRow) -> Iterator[str]:
     fact = row.fact
     words = [*(["required"] if fact.required else []), *(["may be repeated"] if fact.repeats else [])]
     words += [fact.type] if fact.type else []
@@ -79,7 +79,7 @@ def _documentation(format: FormatName) -> Documentation:
     return Documentation(table(format))
 
 
-def _parts(session: Session, document: Document, cursor: Cursor, offset: int) -> Iterator[str]:
+def _parts(session: Session, document: TextDocument, cursor: Cursor, offset: int) -> Iterator[str]:
     name = name_at(document, offset)
     if name is not None:
         yield from _of_name(session, document, name)
@@ -88,8 +88,8 @@ def _parts(session: Session, document: Document, cursor: Cursor, offset: int) ->
         return
     if node.tag.startswith(PREFIX):
         yield from _of_xacro(node, cursor)
-    attribute = cursor.attribute if cursor.kind in {Kind.ATTRIBUTE, Kind.VALUE} else None
-    if attribute is None and cursor.kind is Kind.ATTRIBUTE:
+    attribute = cursor.attribute if cursor.kind in {CursorKind.ATTRIBUTE, CursorKind.VALUE} else None
+    if attribute is None and cursor.kind is CursorKind.ATTRIBUTE:
         return
     yield from _of_plugin(node, cursor)
     row = document.schema.row(node, attribute)
@@ -98,7 +98,7 @@ def _parts(session: Session, document: Document, cursor: Cursor, offset: int) ->
         yield f"**{shown}** in {row.format.upper()} `{row.definition}`\n\n{text_of_row(row)}"
 
 
-def _of_name(session: Session, document: Document, name: Name) -> Iterator[str]:
+def _of_name(session: Session, document: TextDocument, name: Name) -> Iterator[str]:
     """Where a name is defined."""
     if name.defines:
         return
@@ -110,19 +110,19 @@ def _of_name(session: Session, document: Document, name: Name) -> Iterator[str]:
         yield f"{found.name.kind} {code(found.name.text[:_LONGEST])}, line {line}{where}\n\n{code_block(tag, 'xml')}"
 
 
-def _of_xacro(node: Node, cursor: Cursor) -> Iterator[str]:
+def _of_xacro(node: TolerantNode, cursor: Cursor) -> Iterator[str]:
     known = ELEMENTS.get(node.tag.removeprefix(PREFIX))
-    if known is not None and cursor.kind in {Kind.TAG, Kind.END_TAG}:
+    if known is not None and cursor.kind in {CursorKind.TAG, CursorKind.END_TAG}:
         needed, others, text = known
         attributes = [f"`{each}`" for each in needed] + [f"`{each}` (optional)" for each in others]
         yield f"**`<{node.tag}>`**\n\n{text}\n\nAttributes: {', '.join(attributes)}."
 
 
-def _of_plugin(node: Node, cursor: Cursor) -> Iterator[str]:
+def _of_plugin(node: TolerantNode, cursor: Cursor) -> Iterator[str]:
     parameter = parameter_of(node)
-    if parameter is not None and cursor.kind is not Kind.ATTRIBUTE:
+    if parameter is not None and cursor.kind is not CursorKind.ATTRIBUTE:
         yield f"**`<{node.tag}>`** of the plugin\n\n{described(parameter)}"
-    elif node.tag == "plugin" and cursor.kind in {Kind.TAG, Kind.VALUE}:
+    elif node.tag == "plugin" and cursor.kind in {CursorKind.TAG, CursorKind.VALUE}:
         kind = kind_of(node)
         if kind is not None:
             yield _plugin(kind)
@@ -136,7 +136,7 @@ def _plugin(kind: PluginKind) -> str:
     return "\n\n".join(lines)
 
 
-def _findings(session: Session, document: Document, offset: int) -> list[str]:
+def _findings(session: Session, document: TextDocument, offset: int) -> list[str]:
     """The pages of the rules that found something at an offset."""
     pages: dict[str, str] = {}
     for found in session.findings(document):

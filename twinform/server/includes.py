@@ -10,9 +10,9 @@ from pathlib import Path
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Span
 from twinform.passes import AssetError
-from twinform.server.documents import Document
-from twinform.server.files import Files
-from twinform.server.tree import Node
+from twinform.server.documents import TextDocument
+from twinform.server.files import DocumentFiles
+from twinform.server.tree import TolerantNode
 
 _FIND = re.compile(r"\$\(find\s+(?P<package>[\w.-]+)\)(?P<rest>.*)", re.DOTALL)
 _DIRNAME = re.compile(r"\$\(dirname\)/?")
@@ -27,20 +27,20 @@ _SKIPPED = frozenset({"node_modules", "build", "install", "log", "__pycache__"})
 
 
 @dataclass(frozen=True, slots=True)
-class Include:
+class DocumentInclude:
     """An include: the element, the piece of text that names the file, and what this is."""
 
-    node: Node
+    node: TolerantNode
     span: Span
     uri: str
 
 
-def includes_of(document: Document) -> tuple[Include, ...]:
+def includes_of(document: TextDocument) -> tuple[DocumentInclude, ...]:
     """The files that a document includes, by what it calls them."""
     return document.once(_includes)
 
 
-def target(include: Include, document: Document, search: SearchPath) -> Path | None:
+def target(include: DocumentInclude, document: TextDocument, search: SearchPath) -> Path | None:
     """The file that an include leads to; None where it leads nowhere, or that is known only once it is expanded."""
     found = resolved(include.uri, document, search)
     if found is not None and found.is_dir():
@@ -52,7 +52,7 @@ def target(include: Include, document: Document, search: SearchPath) -> Path | N
     return found
 
 
-def resolved(uri: str, document: Document, search: SearchPath) -> Path | None:
+def resolved(uri: str, document: TextDocument, search: SearchPath) -> Path | None:
     """The file or folder that a URI in a document means."""
     wanted = _DIRNAME.sub("", uri.strip())
     package = _FIND.fullmatch(wanted)
@@ -66,28 +66,28 @@ def resolved(uri: str, document: Document, search: SearchPath) -> Path | None:
         return None
 
 
-def _includes(document: Document) -> tuple[Include, ...]:
+def _includes(document: TextDocument) -> tuple[DocumentInclude, ...]:
     return tuple(islice(_find_includes(document), _MOST_INCLUDES))
 
 
-def _find_includes(document: Document) -> Iterator[Include]:
+def _find_includes(document: TextDocument) -> Iterator[DocumentInclude]:
     for node in document.tree.nodes:
         if node.tag in {"xacro:include", "include"} and "filename" in node.attributes:
-            yield Include(node, node.attributes["filename"].value, node.values["filename"])
+            yield DocumentInclude(node, node.attributes["filename"].value, node.values["filename"])
         elif node.tag == "uri" and node.parent is not None and node.parent.tag == "include":
             span = document.tree.text_of(node)
-            yield Include(node.parent, span, span.of(document.text))
+            yield DocumentInclude(node.parent, span, span.of(document.text))
 
 
-class Neighbors:
+class IncludedNeighbors:
     """Finds the documents that are connected by includes, among those of the workspace."""
 
-    def __init__(self, files: Files) -> None:
+    def __init__(self, files: DocumentFiles) -> None:
         self._files = files
 
-    def included(self, document: Document, search: SearchPath) -> list[Document]:
+    def included(self, document: TextDocument, search: SearchPath) -> list[TextDocument]:
         """A document and all that it includes, each once; the nearest first."""
-        found: dict[Path, Document] = {document.path: document}
+        found: dict[Path, TextDocument] = {document.path: document}
         waiting = [document]
         while waiting and len(found) < _MOST_FILES:
             here = waiting.pop(0)
@@ -99,7 +99,7 @@ class Neighbors:
                     waiting.append(other)
         return list(found.values())
 
-    def connected(self, document: Document, search: SearchPath, folders: Iterable[Path]) -> list[Document]:
+    def connected(self, document: TextDocument, search: SearchPath, folders: Iterable[Path]) -> list[TextDocument]:
         """A document, all that it includes, and all that include it, with all that these include."""
         found = {each.path: each for each in self.included(document, search)}
         for path in _models(folders):

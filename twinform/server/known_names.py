@@ -4,15 +4,15 @@ from collections.abc import Iterator
 
 from twinform.ir.references import ReferenceKind
 from twinform.passes.structure.scopes import LOOKUP_ORDER
-from twinform.server.documents import Document
+from twinform.server.documents import TextDocument
 from twinform.server.name import Name
 from twinform.server.names import names_of, scope_of_reference
 from twinform.server.navigation import search_of
 from twinform.server.session import Session
-from twinform.server.tree import Node
+from twinform.server.tree import TolerantNode
 
 
-def names_for(session: Session, document: Document, node: Node, kind: ReferenceKind) -> Iterator[Name]:
+def names_for(session: Session, document: TextDocument, node: TolerantNode, kind: ReferenceKind) -> Iterator[Name]:
     """The names of a kind that an element may refer to, each once."""
     scope = scope_of_reference(document, node)
     wanted = scope.get("name") if scope is not None and document.schema.format == "sdf" else None
@@ -27,7 +27,7 @@ def names_for(session: Session, document: Document, node: Node, kind: ReferenceK
                 yield name
 
 
-def names_of_kind(session: Session, document: Document, *kinds: str) -> Iterator[Name]:
+def names_of_kind(session: Session, document: TextDocument, *kinds: str) -> Iterator[Name]:
     """The definitions of some kinds, each name once."""
     seen: set[str] = set()
     for other in _documents(session, document):
@@ -37,7 +37,7 @@ def names_of_kind(session: Session, document: Document, *kinds: str) -> Iterator
                 yield name
 
 
-def _kinds(kind: ReferenceKind, document: Document) -> tuple[str, ...]:
+def _kinds(kind: ReferenceKind, document: TextDocument) -> tuple[str, ...]:
     """The kinds that are proposed: in URDF only that one itself."""
     if kind not in LOOKUP_ORDER:
         return (kind,)
@@ -46,7 +46,7 @@ def _kinds(kind: ReferenceKind, document: Document) -> tuple[str, ...]:
     return LOOKUP_ORDER[kind]
 
 
-def _documents(session: Session, document: Document) -> Iterator[Document]:
+def _documents(session: Session, document: TextDocument) -> Iterator[TextDocument]:
     yield document
     # While somebody types, half of the document may be inside an element that is not closed yet.
     good = session.documents.last_good(document)

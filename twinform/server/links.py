@@ -6,7 +6,7 @@ from lsprotocol import types
 
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Span
-from twinform.server.documents import Document
+from twinform.server.documents import TextDocument
 from twinform.server.includes import includes_of, resolved, target
 from twinform.server.uris import uri_of
 
@@ -15,7 +15,7 @@ _TEXTS = frozenset({"uri", "albedo_map", "normal_map", "roughness_map", "metalne
 _MOST = 2_000
 
 
-def links(document: Document, search: SearchPath) -> list[types.DocumentLink]:
+def links(document: TextDocument, search: SearchPath) -> list[types.DocumentLink]:
     """The pieces of a document that name files which are there."""
     found: list[types.DocumentLink] = []
     included = {include.span: target(include, document, search) for include in includes_of(document)}
@@ -27,7 +27,7 @@ def links(document: Document, search: SearchPath) -> list[types.DocumentLink]:
     return found
 
 
-def _uris(document: Document) -> Iterator[tuple[Span, str]]:
+def _uris(document: TextDocument) -> Iterator[tuple[Span, str]]:
     for node in document.tree.nodes:
         if "filename" in node.attributes and node.tag != "plugin":
             yield node.attributes["filename"].value, node.values["filename"]

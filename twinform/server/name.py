@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from twinform.diagnostics import Span
 from twinform.passes.structure.scopes import LOOKUP_ORDER
-from twinform.server.tree import Node
+from twinform.server.tree import TolerantNode
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,10 +18,10 @@ class Name:
 
     text: str
     span: Span
-    node: Node
+    node: TolerantNode
     kind: str
     defines: bool
-    scope: Node | None = None
+    scope: TolerantNode | None = None
 
     @property
     def kinds(self) -> tuple[str, ...]:

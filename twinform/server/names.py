@@ -13,12 +13,12 @@ from twinform.diagnostics import Span
 from twinform.ir import Element
 from twinform.ir.references import REFERENCES, ReferenceKind
 from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text
-from twinform.server.documents import Document
-from twinform.server.mapping.rows import FormatName, Row
+from twinform.server.documents import TextDocument
+from twinform.server.mapping.rows import FormatName, MappingRow
 from twinform.server.mapping.targets import field_of
 from twinform.server.name import Name
 from twinform.server.schema import is_of_xacro
-from twinform.server.tree import Node
+from twinform.server.tree import TolerantNode
 from twinform.server.xacro_names import XACRO_KINDS, xacro_names
 
 Key = TypeVar("Key")
@@ -35,33 +35,33 @@ _FIELDS: dict[str, ReferenceKind] = {
 }
 
 
-def names_of(document: Document) -> tuple[Name, ...]:
+def names_of(document: TextDocument) -> tuple[Name, ...]:
     """All names in a document, in the order of the text."""
     return document.once(_collected)
 
 
-class Surroundings(NamedTuple):
+class NameSurroundings(NamedTuple):
     """The nearest scope and macro, the element itself included, and whether it is part of a recorded state."""
 
-    scope: Node | None
-    macro: Node | None
+    scope: TolerantNode | None
+    macro: TolerantNode | None
     in_state: bool
 
 
-_NOWHERE = Surroundings(None, None, in_state=False)
+_NOWHERE = NameSurroundings(None, None, in_state=False)
 
 
-def surroundings(document: Document, node: Node | None) -> Surroundings:
+def surroundings(document: TextDocument, node: TolerantNode | None) -> NameSurroundings:
     """What is around an element in a document: nothing, if the element is one of another document."""
     return document.once(_all_surroundings).get(node, _NOWHERE)
 
 
-def _all_surroundings(document: Document) -> dict[Node | None, Surroundings]:
+def _all_surroundings(document: TextDocument) -> dict[TolerantNode | None, NameSurroundings]:
     """Return the surroundings of all elements, each made from its parent's: climbing for each takes minutes."""
-    found: dict[Node | None, Surroundings] = {None: _NOWHERE}
+    found: dict[TolerantNode | None, NameSurroundings] = {None: _NOWHERE}
     for node in document.tree.nodes:
         outer, parent = found[node.parent], node.parent
-        found[node] = Surroundings(
+        found[node] = NameSurroundings(
             scope=node if node.tag in _SCOPES else outer.scope,
             macro=node if node.tag == _MACRO else outer.macro,
             in_state=outer.in_state or (parent is not None and parent.tag == "state"),
@@ -69,26 +69,26 @@ def _all_surroundings(document: Document) -> dict[Node | None, Surroundings]:
     return found
 
 
-def defined(document: Document, text: str, kind: str, scope: Node | None) -> list[Name]:
+def defined(document: TextDocument, text: str, kind: str, scope: TolerantNode | None) -> list[Name]:
     """The definitions of a name of a kind in one scope."""
     return document.once(_by_scope).get((text, kind, scope), [])
 
 
-def defined_anywhere(document: Document, text: str, kind: str) -> list[Name]:
+def defined_anywhere(document: TextDocument, text: str, kind: str) -> list[Name]:
     """The definitions of a name of a kind in any scope."""
     return document.once(_by_kind).get((text, kind), [])
 
 
-def _collected(document: Document) -> tuple[Name, ...]:
+def _collected(document: TextDocument) -> tuple[Name, ...]:
     """All names; those of models first, then those of xacro."""
     return (*_names(document), *xacro_names(document))
 
 
-def _by_scope(document: Document) -> dict[tuple[str, str, Node | None], list[Name]]:
+def _by_scope(document: TextDocument) -> dict[tuple[str, str, TolerantNode | None], list[Name]]:
     return _grouped(((each.text, each.kind, each.scope), each) for each in names_of(document) if each.defines)
 
 
-def _by_kind(document: Document) -> dict[tuple[str, str], list[Name]]:
+def _by_kind(document: TextDocument) -> dict[tuple[str, str], list[Name]]:
     return _grouped(((each.text, each.kind), each) for each in names_of(document) if each.defines)
 
 
@@ -99,20 +99,20 @@ def _grouped(pairs: Iterable[tuple[Key, Name]]) -> dict[Key, list[Name]]:
     return found
 
 
-def name_at(document: Document, offset: int) -> Name | None:
+def name_at(document: TextDocument, offset: int) -> Name | None:
     """The name around an offset; the innermost, where one is in an expression that is in another."""
     around = [each for each in names_of(document) if each.span.start <= offset <= each.span.end]
     return min(around, key=lambda each: each.span.end - each.span.start, default=None)
 
 
-def _names(document: Document) -> Iterator[Name]:
+def _names(document: TextDocument) -> Iterator[Name]:
     for node in document.tree.nodes:
         if node.tag and not is_of_xacro(node.tag) and len(node.attributes) <= MOST_ATTRIBUTES:
             yield from _of_attributes(document, node)
             yield from _of_text(document, node)
 
 
-def _of_attributes(document: Document, node: Node) -> Iterator[Name]:
+def _of_attributes(document: TextDocument, node: TolerantNode) -> Iterator[Name]:
     for attribute, span in node.attributes.items():
         value = node.values[attribute]
         if not value:
@@ -131,7 +131,7 @@ def _of_attributes(document: Document, node: Node) -> Iterator[Name]:
             yield from _steps(document, value, span.value, node, kind)
 
 
-def _steps(document: Document, text: str, span: Span, node: Node, kind: str) -> Iterator[Name]:
+def _steps(document: TextDocument, text: str, span: Span, node: TolerantNode, kind: str) -> Iterator[Name]:
     """A reference; of `model::part` each step on its own, known by all the steps before it."""
     if text.count("::") >= _MOST_STEPS:
         return
@@ -145,7 +145,7 @@ def _steps(document: Document, text: str, span: Span, node: Node, kind: str) -> 
         start = end + len("::")
 
 
-def _of_text(document: Document, node: Node) -> Iterator[Name]:
+def _of_text(document: TextDocument, node: TolerantNode) -> Iterator[Name]:
     if node.children or node.empty or not node.closed:
         return
     kind = kind_at(document, node, None)
@@ -160,7 +160,7 @@ def _of_text(document: Document, node: Node) -> Iterator[Name]:
         yield from _steps(document, text, span, node, kind)
 
 
-def _defines(document: Document, node: Node) -> bool:
+def _defines(document: TextDocument, node: TolerantNode) -> bool:
     """Whether an element is what its name calls, and not something that refers to it."""
     if node.tag not in DEFINED or (node.tag == "model" and surroundings(document, node).in_state):
         return False
@@ -172,12 +172,12 @@ def _defines(document: Document, node: Node) -> bool:
     return row.fact.place is not None or row.fact.reference in DEFINED
 
 
-def _is_misplaced(document: Document, node: Node) -> bool:
+def _is_misplaced(document: TextDocument, node: TolerantNode) -> bool:
     """Whether it stands where the facts have no such element, as while the element before it is not closed yet."""
     return not document.tree.whole and any(child.tag for child in node.children)
 
 
-def kind_at(document: Document, node: Node, attribute: str | None) -> ReferenceKind | None:
+def kind_at(document: TextDocument, node: TolerantNode, attribute: str | None) -> ReferenceKind | None:
     """What an attribute, or the text of an element, names."""
     row = document.schema.row(node, attribute)
     if row is not None and row.fact.place is not None and row.fact.place != ".":
@@ -192,19 +192,19 @@ def kind_at(document: Document, node: Node, attribute: str | None) -> ReferenceK
     return kind_of_attribute(element, attribute)
 
 
-def _is_typed(document: Document, node: Node) -> bool:
+def _is_typed(document: TextDocument, node: TolerantNode) -> bool:
     """Whether the IR knows the element, so that what refers to something in it is known too."""
     row = document.schema.row(node)
     return row is not None and row.fact.place is not None
 
 
 @cache
-def _field(row: Row) -> str:
+def _field(row: MappingRow) -> str:
     """The field of the IR that a row fills, whatever kind of node it is in."""
     return field_of(row).partition(":")[0]
 
 
-def scope_of_reference(document: Document, node: Node) -> Node | None:
+def scope_of_reference(document: TextDocument, node: TolerantNode) -> TolerantNode | None:
     """The scope of what an element refers to: for the pose of a model itself that around the model."""
     scope = surroundings(document, node).scope
     if scope is not None and node.tag == "pose" and node.parent is scope:
@@ -212,7 +212,7 @@ def scope_of_reference(document: Document, node: Node) -> Node | None:
     return scope
 
 
-def found_in(document: Document, name: Name) -> list[Name]:
+def found_in(document: TextDocument, name: Name) -> list[Name]:
     """The definitions that a name means in a document: of the first kind that has any, in the nearest scope."""
     format: FormatName | None = document.schema.format
     if format == "sdf" and "::" in name.text:
@@ -227,7 +227,7 @@ def found_in(document: Document, name: Name) -> list[Name]:
     return []
 
 
-def _parameters(document: Document, name: Name) -> list[Name]:
+def _parameters(document: TextDocument, name: Name) -> list[Name]:
     """The parameter that a name means: that of the nearest macro around it that has one."""
     around = surroundings(document, name.node) if name.kind in {"property", "param"} else None
     while around is not None and around.macro is not None:
@@ -238,7 +238,7 @@ def _parameters(document: Document, name: Name) -> list[Name]:
     return []
 
 
-def _model_of_state(document: Document, scope: Node | None) -> Node | None:
+def _model_of_state(document: TextDocument, scope: TolerantNode | None) -> TolerantNode | None:
     """The model whose state an element records; any other scope itself."""
     if scope is None or not surroundings(document, scope).in_state:
         return scope
@@ -246,7 +246,7 @@ def _model_of_state(document: Document, scope: Node | None) -> Node | None:
     return models[0].node if models else scope
 
 
-def _inside(document: Document, name: Name) -> list[Name]:
+def _inside(document: TextDocument, name: Name) -> list[Name]:
     """What `inner::name` means: the last of its words, in models of these names in each other."""
     *outer, last = name.text.split("::")
     scope = name.scope

@@ -6,47 +6,47 @@ from typing import NamedTuple
 
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Span
-from twinform.server.documents import Document
+from twinform.server.documents import TextDocument
 from twinform.server.includes import includes_of, target
 from twinform.server.name import Name
 from twinform.server.names import defined, found_in, name_at, names_of, surroundings
 from twinform.server.session import Session
-from twinform.server.tree import Node
+from twinform.server.tree import TolerantNode
 from twinform.server.xacro_names import XACRO_KINDS
 
 
-class Place(NamedTuple):
+class DocumentPlace(NamedTuple):
     """A piece of a document."""
 
-    document: Document
+    document: TextDocument
     span: Span
 
 
 class Found(NamedTuple):
     """A name in a document."""
 
-    document: Document
+    document: TextDocument
     name: Name
 
     @property
-    def place(self) -> Place:
+    def place(self) -> DocumentPlace:
         """Where it stands."""
-        return Place(self.document, self.name.span)
+        return DocumentPlace(self.document, self.name.span)
 
 
-def search_of(session: Session, document: Document) -> SearchPath:
+def search_of(session: Session, document: TextDocument) -> SearchPath:
     """The folders in which the URIs of a document are looked up."""
     return session.settings_of(document.path).load_options.search
 
 
-def definitions(session: Session, document: Document, offset: int) -> list[Place]:
+def definitions(session: Session, document: TextDocument, offset: int) -> list[DocumentPlace]:
     """Where the name at an offset is defined, or the file begins that an include there names."""
     search = search_of(session, document)
     for include in includes_of(document):
         if include.span.start <= offset <= include.span.end:
             path = target(include, document, search)
             other = session.files.document(path) if path is not None else None
-            return [Place(other, Span(0, 0))] if other is not None else []
+            return [DocumentPlace(other, Span(0, 0))] if other is not None else []
     name = name_at(document, offset)
     if name is None:
         return []
@@ -55,7 +55,7 @@ def definitions(session: Session, document: Document, offset: int) -> list[Place
     ]
 
 
-def references(session: Session, document: Document, offset: int) -> tuple[list[Found], list[Found]]:
+def references(session: Session, document: TextDocument, offset: int) -> tuple[list[Found], list[Found]]:
     """What the name at an offset means, and all that refer to it; the definitions are not among the latter."""
     name = name_at(document, offset)
     if name is None:
@@ -83,13 +83,13 @@ def _what_decides(found: Found) -> object:
     return document.path, name.text, name.kind, name.scope, macro
 
 
-def connected(session: Session, document: Document) -> list[Document]:
+def connected(session: Session, document: TextDocument) -> list[TextDocument]:
     """The documents in which a name of this one may stand."""
     folders = session.folders or [document.path.parent]
     return session.neighbors.connected(document, search_of(session, document), folders)
 
 
-def meant_by(found: Found, group: Sequence[Document], session: Session) -> list[Found]:
+def meant_by(found: Found, group: Sequence[TextDocument], session: Session) -> list[Found]:
     """The definitions that a name means: in its document, else in an include, else in the others of its group."""
     document, name = found
     if name.defines:
@@ -123,20 +123,20 @@ def _in_included_model(found: Found, session: Session) -> list[Found]:
     return []
 
 
-def _called_as(include: Node, document: Document) -> str | None:
+def _called_as(include: TolerantNode, document: TextDocument) -> str | None:
     """The name that an include gives to its model."""
     own = next((child for child in include.children if child.tag == "name"), None)
     return document.tree.text_of(own).of(document.text) if own is not None else None
 
 
-def _model(root: Node | None) -> Node | None:
+def _model(root: TolerantNode | None) -> TolerantNode | None:
     """The model of a file."""
     if root is None or root.tag == "robot":
         return root
     return next((child for child in root.children if child.tag == "model"), None)
 
 
-def _called(group: Sequence[Document], last: str) -> Iterator[Found]:
+def _called(group: Sequence[TextDocument], last: str) -> Iterator[Found]:
     """All references whose last step is a name."""
     for document in group:
         if last not in document.text:
@@ -146,7 +146,7 @@ def _called(group: Sequence[Document], last: str) -> Iterator[Found]:
                 yield Found(document, name)
 
 
-def is_taken(document: Document, new: str, like: Name) -> Name | None:
+def is_taken(document: TextDocument, new: str, like: Name) -> Name | None:
     """What is called so already, where the two names would be the same."""
     kinds = {like.kind} if document.schema.format == "urdf" or like.kind not in _ONE_SCOPE else _ONE_SCOPE
     return next((own[0] for kind in sorted(kinds) if (own := defined(document, new, kind, like.scope))), None)

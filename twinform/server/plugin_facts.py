@@ -5,18 +5,18 @@ from twinform.passes.plugins.catalog import (
     system_of_class,
     systems_of_file,
 )
-from twinform.passes.plugins.parts import Parameter, PluginKind
-from twinform.server.tree import Node
+from twinform.passes.plugins.parts import PluginKind, PluginParameter
+from twinform.server.tree import TolerantNode
 
 
-def plugin_around(node: Node | None) -> Node | None:
+def plugin_around(node: TolerantNode | None) -> TolerantNode | None:
     """The plugin that an element is in, or is."""
     while node is not None and node.tag != "plugin":
         node = node.parent
     return node
 
 
-def kind_of(plugin: Node) -> PluginKind | None:
+def kind_of(plugin: TolerantNode) -> PluginKind | None:
     """What a plugin is, by its class or its file."""
     file = plugin.get("filename") or ""
     of_class = system_of_class(plugin.get("name") or "")
@@ -26,13 +26,13 @@ def kind_of(plugin: Node) -> PluginKind | None:
     return found[0] if found else None
 
 
-def parameter_of(node: Node) -> Parameter | None:
+def parameter_of(node: TolerantNode) -> PluginParameter | None:
     """What an element in a plugin is."""
     plugin = plugin_around(node)
     if plugin is None or plugin is node:
         return None
     steps: list[str] = []
-    here: Node | None = node
+    here: TolerantNode | None = node
     while here is not None and here is not plugin:
         steps.append(here.tag)
         here = here.parent
@@ -40,7 +40,7 @@ def parameter_of(node: Node) -> Parameter | None:
     return kind.parameter(*reversed(steps)) if kind else None
 
 
-def parameters_in(node: Node) -> tuple[Parameter, ...]:
+def parameters_in(node: TolerantNode) -> tuple[PluginParameter, ...]:
     """What may stand in a plugin, or in a parameter of one."""
     if node.tag == "plugin":
         kind = kind_of(node)
@@ -49,7 +49,7 @@ def parameters_in(node: Node) -> tuple[Parameter, ...]:
     return parameter.children if parameter else ()
 
 
-def described(parameter: Parameter) -> str:
+def described(parameter: PluginParameter) -> str:
     """Type, unit, default and choices of a parameter."""
     words = [f"Type: {parameter.type}" + (f" ({parameter.unit})" if parameter.unit else "") + "."]
     words += [f"Default: {parameter.default}."] if parameter.default is not None else []

@@ -7,12 +7,12 @@ forgotten. One that takes too long is ended with its process, and so is one of a
 import asyncio
 from collections.abc import Awaitable, Callable
 
-from twinform.server.checking import Checked, Job, check
+from twinform.server.checking import Checked, CheckJob, check
 from twinform.server.workers import TaskError, Worker
 
 PAUSE = 0.15
 """Seconds without a key after which a document is checked."""
-JobOf = Callable[[str], Job | None]
+JobOf = Callable[[str], CheckJob | None]
 Show = Callable[[str, "Checked | str"], Awaitable[None]]
 """Shows what came of the check of a document: the findings, or why there are none."""
 
@@ -75,7 +75,7 @@ class Checks:
         while (left := self._due[uri] - loop.time()) > 0:
             await asyncio.sleep(left)
 
-    async def _outcome(self, job: Job) -> Checked | str:
+    async def _outcome(self, job: CheckJob) -> Checked | str:
         try:
             return await self._worker.run(check, job)
         except TaskError as error:

@@ -6,10 +6,10 @@ Elements of xacro that only hold others, such as `<xacro:if>`, are looked throug
 from dataclasses import dataclass
 
 from twinform.schemas import Fact, Table, Version, parse_version, rows_by_name, table
-from twinform.server.mapping.rows import FORMATS, FormatName, Row
-from twinform.server.tree import Node, Tree
+from twinform.server.mapping.rows import FORMATS, FormatName, MappingRow
+from twinform.server.tree import TolerantNode, Tree
 
-__all__ = ["FormatName", "Place", "Schema", "format_of", "inside", "is_of_xacro"]
+__all__ = ["FormatName", "Schema", "SchemaPlace", "format_of", "inside", "is_of_xacro"]
 
 _ROOTS: dict[str, FormatName] = {"robot": "urdf", "sdf": "sdf", "gazebo": "sdf"}
 _ENDINGS: tuple[tuple[tuple[str, ...], FormatName], ...] = (
@@ -36,11 +36,11 @@ def format_of(tree: Tree, name: str, language: str = "") -> FormatName | None:
     return promised[0] if promised else _LANGUAGES.get(language)
 
 
-_ROWS: dict[tuple[str, str, str, Version], dict[str, Row]] = {}
+_ROWS: dict[tuple[str, str, str, Version], dict[str, MappingRow]] = {}
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class SchemaPlace:
     """What an element is. `row` is None for a root; `inside` holds the rows of what may stand in it.
 
     `around` is what the steps of these begin with, below the `definition`.
@@ -48,23 +48,23 @@ class Place:
 
     format: FormatName
     version: Version
-    row: Row | None
+    row: MappingRow | None
     inside: Fact
     definition: str
     around: str
 
-    def below(self, name: str) -> Row | None:
+    def below(self, name: str) -> MappingRow | None:
         """The row of a child, or with `@` of an attribute; that of another version where this one has none."""
         return self._rows.get(name)
 
     @property
-    def _rows(self) -> dict[str, Row]:
+    def _rows(self) -> dict[str, MappingRow]:
         """The rows of all that any version has in it, made once for each definition and version."""
         key = (self.format, self.definition, self.around, self.version)
         if key not in _ROWS:
             best = rows_by_name(self.inside.rows, self.version)
             _ROWS[key] = {
-                name: Row(self.format, self.definition, f"{self.around}{name}", fact.since, fact)
+                name: MappingRow(self.format, self.definition, f"{self.around}{name}", fact.since, fact)
                 for name, fact in best.items()
             }
         return _ROWS[key]
@@ -81,12 +81,12 @@ class Schema:
         self.format: FormatName | None = format
         self.table: Table | None = table(format) if format else None
         self.version = _version(tree.root, format) if format else (0, 0)
-        self._places: dict[Node, Place | None] = {}
+        self._places: dict[TolerantNode, SchemaPlace | None] = {}
 
-    def place(self, node: Node) -> Place | None:
+    def place(self, node: TolerantNode) -> SchemaPlace | None:
         """What an element is; None for what the facts do not know."""
-        waiting: list[Node] = []
-        here: Node | None = node
+        waiting: list[TolerantNode] = []
+        here: TolerantNode | None = node
         while here is not None and here not in self._places:
             waiting.append(here)
             here = here.parent
@@ -94,21 +94,21 @@ class Schema:
             self._places[each] = self._place(each)
         return self._places[node]
 
-    def row(self, node: Node, attribute: str | None = None) -> Row | None:
+    def row(self, node: TolerantNode, attribute: str | None = None) -> MappingRow | None:
         """The row of an element, or of one of its attributes."""
         place = self.place(node)
         if place is None or attribute is None:
             return place.row if place and not is_of_xacro(node.tag) else None
         return None if is_of_xacro(node.tag) else place.below(f"@{attribute}")
 
-    def start(self) -> Place | None:
+    def start(self) -> SchemaPlace | None:
         """What the root is."""
         if self.table is None or self.format is None:
             return None
         root = self.table.definitions[self.table.root]
-        return Place(self.format, self.version, None, root, self.table.root, "")
+        return SchemaPlace(self.format, self.version, None, root, self.table.root, "")
 
-    def _place(self, node: Node) -> Place | None:
+    def _place(self, node: TolerantNode) -> SchemaPlace | None:
         if node.parent is None:
             return self.start() if node.tag in _ROOTS or is_of_xacro(node.tag) else None
         around = self._places[node.parent]
@@ -120,27 +120,27 @@ class Schema:
         return inside(row, around.version)
 
 
-def inside(row: Row, version: Version | None = None) -> Place:
+def inside(row: MappingRow, version: Version | None = None) -> SchemaPlace:
     """What an element of a row is, in a version of its format or else in the newest."""
     fact, facts = row.fact, table(row.format)
     version = version or facts.newest
     if fact.reference is None:
-        return Place(row.format, version, row, fact, row.definition, f"{row.steps}/")
-    return Place(row.format, version, row, facts.definitions[fact.reference], fact.reference, "")
+        return SchemaPlace(row.format, version, row, fact, row.definition, f"{row.steps}/")
+    return SchemaPlace(row.format, version, row, facts.definitions[fact.reference], fact.reference, "")
 
 
-def _extension(node: Node, around: Place) -> Place | None:
+def _extension(node: TolerantNode, around: SchemaPlace) -> SchemaPlace | None:
     """What an element of SDF in `<gazebo>` is."""
     facts = table("sdf")
     for definition in _IN_GAZEBO if around.format == "urdf" else ():
-        holder = Place(FORMATS[1], facts.newest, None, facts.definitions[definition], definition, "")
+        holder = SchemaPlace(FORMATS[1], facts.newest, None, facts.definitions[definition], definition, "")
         row = holder.below(node.tag)
         if row is not None:
             return inside(row)
     return None
 
 
-def _version(root: Node | None, format: FormatName) -> Version:
+def _version(root: TolerantNode | None, format: FormatName) -> Version:
     """The version that a document declares, or else the newest; URDF without one is read as the oldest."""
     facts = table(format)
     declared = root.get("version") if root else None

@@ -7,11 +7,11 @@ from pathlib import Path
 from lsprotocol import types
 
 from twinform.diagnostics import Diagnostic
-from twinform.server.checking import Checked, Job
+from twinform.server.checking import Checked, CheckJob
 from twinform.server.diagnostics import as_protocol, by_file, notice
-from twinform.server.documents import Document, Documents
-from twinform.server.files import Files
-from twinform.server.includes import Neighbors
+from twinform.server.documents import Documents, TextDocument
+from twinform.server.files import DocumentFiles
+from twinform.server.includes import IncludedNeighbors
 from twinform.server.scheduling import PAUSE, Checks
 from twinform.server.settings import SettingsOf
 from twinform.server.workers import Worker
@@ -25,11 +25,11 @@ class Session:
 
     def __init__(self, settings_of: SettingsOf, publish: Publish, worker: Worker | None = None) -> None:
         self.documents = Documents()
-        self.files = Files(self.documents)
-        self.neighbors = Neighbors(self.files)
+        self.files = DocumentFiles(self.documents)
+        self.neighbors = IncludedNeighbors(self.files)
         self.folders: list[Path] = []
         self.snippets = False
-        self.found: dict[str, tuple[Document, tuple[Diagnostic, ...]]] = {}
+        self.found: dict[str, tuple[TextDocument, tuple[Diagnostic, ...]]] = {}
         self.settings_of = settings_of
         self._publish = publish
         self.worker = worker or Worker()
@@ -65,12 +65,12 @@ class Session:
         self._checks.stop()
         self.worker.stop()
 
-    def findings(self, document: Document) -> tuple[Diagnostic, ...]:
+    def findings(self, document: TextDocument) -> tuple[Diagnostic, ...]:
         """What was found in this very text; nothing while it was not checked yet."""
         found = self.found.get(document.uri)
         return found[1] if found is not None and found[0] is document else ()
 
-    def _changed(self, document: Document, pause: float) -> None:
+    def _changed(self, document: TextDocument, pause: float) -> None:
         if document.excess:
             self._checks.forget(document.uri)
             self._publish_for(document.uri, {document.uri: [notice(f"{document.excess}: {_ADVICE}")]})
@@ -78,22 +78,22 @@ class Session:
             self._checks.want(document.uri, pause)
         self._check_those_that_read(document)
 
-    def _check_those_that_read(self, document: Document) -> None:
+    def _check_those_that_read(self, document: TextDocument) -> None:
         """Check the documents again that include one."""
         for uri, files in self._read.items():
             if document.is_file and uri != document.uri and str(document.path.absolute()) in files:
                 self._checks.want(uri)
 
-    def job(self, uri: str) -> Job | None:
+    def job(self, uri: str) -> CheckJob | None:
         """What a task in another process has to know of a document; None for one that is not followed."""
         document = self.documents.get(uri)
         if document is None:
             return None
         root = document.tree.root
         is_part = document.is_xacro and root is not None and root.tag == "robot" and root.get("name") is None
-        return Job(document.path.absolute(), self._unsaved(document), self.settings_of(document.path), is_part)
+        return CheckJob(document.path.absolute(), self._unsaved(document), self.settings_of(document.path), is_part)
 
-    def _unsaved(self, document: Document) -> Mapping[str, bytes]:
+    def _unsaved(self, document: TextDocument) -> Mapping[str, bytes]:
         """The texts of all files that are open, and that of a document, which may be no file."""
         files = [each for each in self.documents if each.is_file and not each.excess]
         return {os.path.realpath(each.path): each.data for each in (*files, document)}

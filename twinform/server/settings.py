@@ -17,7 +17,7 @@ USUAL_LIMITS = Limits(LARGEST, MOST_TAGS)
 
 
 @dataclass(frozen=True, slots=True)
-class Settings:
+class EditorSettings:
     """How files are read and laid out, and which findings are shown. `problem` is what is wrong with its file."""
 
     load_options: LoadOptions = field(default_factory=lambda: LoadOptions(limits=USUAL_LIMITS, tolerant=True))
@@ -26,10 +26,10 @@ class Settings:
     problem: str = ""
 
 
-SettingsOf = Callable[[Path], Settings]
+SettingsOf = Callable[[Path], EditorSettings]
 """The settings for a file."""
 
 
-def no_settings(_: Path) -> Settings:
+def no_settings(_: Path) -> EditorSettings:
     """Return the settings of a project that has none."""
-    return Settings()
+    return EditorSettings()

@@ -2,11 +2,11 @@
 
 from lsprotocol import types
 
-from twinform.server.documents import Document
+from twinform.server.documents import TextDocument
 from twinform.server.name import Name
 from twinform.server.names import names_of
 from twinform.server.session import Session
-from twinform.server.tree import Node
+from twinform.server.tree import TolerantNode
 
 _KINDS = {
     "robot": types.SymbolKind.Module,
@@ -37,10 +37,10 @@ _DEEPEST = 32
 _MOST_FOUND = 500
 
 
-def outline(document: Document) -> list[types.DocumentSymbol]:
+def outline(document: TextDocument) -> list[types.DocumentSymbol]:
     """The elements of a document that have a name, in each other as they stand."""
     found: list[types.DocumentSymbol] = []
-    holders: list[tuple[Node, list[types.DocumentSymbol]]] = []
+    holders: list[tuple[TolerantNode, list[types.DocumentSymbol]]] = []
     for node in document.tree.nodes:
         while holders and holders[-1][0].end <= node.start_tag.start:
             holders.pop()
@@ -69,7 +69,7 @@ def _kind(name: Name) -> types.SymbolKind | None:
     return _KINDS.get(_OF_NAMES.get(name.kind, name.kind))
 
 
-def _symbol(document: Document, node: Node) -> types.DocumentSymbol:
+def _symbol(document: TextDocument, node: TolerantNode) -> types.DocumentSymbol:
     called = node.get("name") or node.get("reference") or node.get("filename")
     positions = document.positions
     key = node.attributes.get("name")

@@ -26,7 +26,7 @@ _BLANKS = re.compile(r"\s*")
 
 
 @dataclass(slots=True, eq=False)
-class Node:
+class TolerantNode:
     """An element: where its tags, attributes and children stand.
 
     `closed` is whether it has its end tag or ends with `/>`, and `whole_tag` whether its start tag has its `>`.
@@ -37,13 +37,13 @@ class Node:
     name: Span
     attributes: dict[str, AttributeSpan]
     values: dict[str, str]
-    parent: "Node | None"
+    parent: "TolerantNode | None"
     whole_tag: bool = True
     empty: bool = False
     closed: bool = False
     end_tag: Span | None = None
     end: int = 0
-    children: list["Node"] = field(default_factory=list["Node"])
+    children: list["TolerantNode"] = field(default_factory=list["TolerantNode"])
 
     @property
     def whole(self) -> Span:
@@ -59,15 +59,15 @@ class Node:
         """The value of an attribute."""
         return self.values.get(attribute)
 
-    def walk(self) -> Iterator["Node"]:
+    def walk(self) -> Iterator["TolerantNode"]:
         """This element and all in it, in the order of their start tags."""
-        pending: list[Node] = [self]
+        pending: list[TolerantNode] = [self]
         while pending:
             here = pending.pop()
             yield here
             pending.extend(reversed(here.children))
 
-    def above(self) -> Iterator["Node"]:
+    def above(self) -> Iterator["TolerantNode"]:
         """The elements around it, from the nearest on."""
         here = self.parent
         while here is not None:
@@ -83,12 +83,12 @@ class Tree:
     """
 
     text: str
-    root: Node | None
-    nodes: tuple[Node, ...]
+    root: TolerantNode | None
+    nodes: tuple[TolerantNode, ...]
     asides: tuple[Span, ...]
     whole: bool
 
-    def at(self, offset: int) -> Node | None:
+    def at(self, offset: int) -> TolerantNode | None:
         """The innermost element around an offset; a tag is in its element, and so is what follows a tag cut off."""
         here, found = self.root, None
         while here is not None and here.start_tag.start < offset and _reaches(here, offset):
@@ -106,7 +106,7 @@ class Tree:
         """The comment, section or instruction around an offset."""
         return next((each for each in self.asides if each.start < offset < each.end), None)
 
-    def text_of(self, node: Node) -> Span:
+    def text_of(self, node: TolerantNode) -> Span:
         """The text directly in an element without children, without the blanks around it."""
         inside = node.content
         raw = inside.of(self.text)
@@ -114,11 +114,11 @@ class Tree:
         return Span(start, max(start, inside.start + len(raw.rstrip())))
 
 
-def _reaches(node: Node, offset: int) -> bool:
+def _reaches(node: TolerantNode, offset: int) -> bool:
     return offset < node.end or (not node.closed and offset == node.end)
 
 
-def _child_at(node: Node, offset: int) -> Node | None:
+def _child_at(node: TolerantNode, offset: int) -> TolerantNode | None:
     """The last child that begins before an offset."""
     low, high = 0, len(node.children)
     while low < high:
@@ -140,10 +140,10 @@ class _Scan:
 
     def __init__(self, text: str) -> None:
         self.text = text
-        self.root: Node | None = None
-        self.nodes: list[Node] = []
+        self.root: TolerantNode | None = None
+        self.nodes: list[TolerantNode] = []
         self.asides: list[Span] = []
-        self.open: list[Node] = []
+        self.open: list[TolerantNode] = []
         self.names: Counter[str] = Counter()
         self.whole = True
 
@@ -203,7 +203,9 @@ class _Scan:
         whole = empty or self.text.startswith(">", end)
         end += 2 if empty else 1 if whole else 0
         tag = Span(start, end)
-        node = Node(name, tag, Span(start + 1, start + 1 + len(name)), attributes, values, parent, whole, empty, empty)
+        node = TolerantNode(
+            name, tag, Span(start + 1, start + 1 + len(name)), attributes, values, parent, whole, empty, empty
+        )
         node.end = end
         self.whole = self.whole and whole and bool(name)
         self._add(node, parent)
@@ -212,7 +214,7 @@ class _Scan:
             self.names[name] += 1
         return end
 
-    def _add(self, node: Node, parent: Node | None) -> None:
+    def _add(self, node: TolerantNode, parent: TolerantNode | None) -> None:
         self.nodes.append(node)
         if parent is not None:
             parent.children.append(node)

@@ -14,14 +14,14 @@ from pygls.protocol import default_converter
 from twinform import __version__
 from twinform.server.actions import FIX_ALL, RUN_PASSES, actions, edit_of, text_edits, word_of
 from twinform.server.completion import complete
-from twinform.server.documents import Document
+from twinform.server.documents import TextDocument
 from twinform.server.editing import Rewritten, lay_out, run_passes
 from twinform.server.folding import folds
 from twinform.server.hover import hover, warm_up
 from twinform.server.links import links
-from twinform.server.navigation import Place, definitions, references, search_of
+from twinform.server.navigation import DocumentPlace, definitions, references, search_of
 from twinform.server.protocol import Protocol
-from twinform.server.renaming import RefusedError, prepare, rename
+from twinform.server.renaming import RenameRefusedError, prepare, rename
 from twinform.server.session import Session
 from twinform.server.settings import SettingsOf, no_settings
 from twinform.server.symbols import outline, search
@@ -104,7 +104,7 @@ def _follow_documents(server: Server, session: Session) -> None:
 def _answer_at_places(server: LanguageServer, session: Session) -> None:
     """Answer what is asked about a place in a document."""
 
-    def at(params: Any, answer: Callable[[Document, int], Answer], otherwise: Answer) -> Answer:
+    def at(params: Any, answer: Callable[[TextDocument, int], Answer], otherwise: Answer) -> Answer:
         document = session.documents.get(params.text_document.uri)
         return otherwise if document is None else answer(document, document.positions.offset(params.position))
 
@@ -147,7 +147,7 @@ def _answer_at_places(server: LanguageServer, session: Session) -> None:
 def _answer_about_documents(server: LanguageServer, session: Session) -> None:
     """Answer what is asked about a whole document."""
 
-    def about(params: Any, answer: Callable[[Document], list[Answer]]) -> list[Answer]:
+    def about(params: Any, answer: Callable[[TextDocument], list[Answer]]) -> list[Answer]:
         document = session.documents.get(params.text_document.uri)
         return [] if document is None else answer(document)
 
@@ -208,7 +208,7 @@ def _rewrite(server: LanguageServer, session: Session) -> None:
 
 async def _rewritten(
     session: Session, uri: str, task: Callable[..., Rewritten], *args: str
-) -> tuple[Document | None, Rewritten]:
+) -> tuple[TextDocument | None, Rewritten]:
     """A document and its edits; no document where there are none, and why."""
     document, job = session.documents.get(uri), session.job(uri)
     if document is None or job is None:
@@ -234,7 +234,7 @@ def _tell(server: LanguageServer, message: str) -> None:
     server.window_show_message(types.ShowMessageParams(types.MessageType.Warning, message))
 
 
-def _locations(places: list[Place]) -> list[types.Location]:
+def _locations(places: list[DocumentPlace]) -> list[types.Location]:
     return [types.Location(each.document.uri, each.document.positions.range(each.span)) for each in places]
 
 
@@ -242,5 +242,5 @@ def _or_refused(answer: Callable[[], Answer]) -> Answer:
     """An answer, or the error of the protocol that shows why there is none."""
     try:
         return answer()
-    except RefusedError as error:
+    except RenameRefusedError as error:
         raise JsonRpcInvalidParams(str(error)) from error

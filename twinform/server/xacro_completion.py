@@ -6,12 +6,12 @@ from collections.abc import Iterator
 from lsprotocol import types
 
 from twinform.diagnostics import Span
-from twinform.server.documents import Document
+from twinform.server.documents import TextDocument
 from twinform.server.known_names import names_of_kind
 from twinform.server.name import Name
 from twinform.server.proposal import Proposal, literal
 from twinform.server.session import Session
-from twinform.server.tree import Node
+from twinform.server.tree import TolerantNode
 from twinform.server.xacro_names import ELEMENTS, PREFIX, parameter_names
 
 _ITEM = types.CompletionItemKind
@@ -21,7 +21,7 @@ _COMMANDS = ("arg", "find", "dirname", "env", "optenv", "eval")
 _LOOKED_BACK = 500
 
 
-def in_expression(session: Session, document: Document, offset: int) -> tuple[Span, list[Proposal]] | None:
+def in_expression(session: Session, document: TextDocument, offset: int) -> tuple[Span, list[Proposal]] | None:
     """What may be written in `${...}` or `$(...)` at an offset; None outside of these."""
     before = document.text[max(0, offset - _LOOKED_BACK) : offset]
     found = _IN_EXPRESSION.search(before)
@@ -43,7 +43,7 @@ def in_expression(session: Session, document: Document, offset: int) -> tuple[Sp
     return Span(offset - len(found["word"]), offset), [_named(each.text, each.kind) for each in names]
 
 
-def xacro_elements(session: Session, document: Document, *, bare: bool) -> Iterator[Proposal]:
+def xacro_elements(session: Session, document: TextDocument, *, bare: bool) -> Iterator[Proposal]:
     """The elements of xacro, and the macros that can be called."""
     if not document.is_xacro and "xmlns:xacro" not in document.text:
         return
@@ -60,7 +60,9 @@ def xacro_elements(session: Session, document: Document, *, bare: bool) -> Itera
         yield Proposal(tag, new, _ITEM.Function, macro.node.get("params") or "")
 
 
-def xacro_attributes(session: Session, document: Document, node: Node, *, named: bool) -> Iterator[Proposal]:
+def xacro_attributes(
+    session: Session, document: TextDocument, node: TolerantNode, *, named: bool
+) -> Iterator[Proposal]:
     """The attributes of an element of xacro, or the parameters of the macro that is called."""
     local = node.tag.removeprefix(PREFIX)
     if local in ELEMENTS:
@@ -77,7 +79,7 @@ def xacro_attributes(session: Session, document: Document, node: Node, *, named:
                 yield Proposal(each.name, new, _ITEM.Property, each.written, rank=0 if each.needed else 1)
 
 
-def _is_here(parameter: Name, document: Document, offset: int) -> bool:
+def _is_here(parameter: Name, document: TextDocument, offset: int) -> bool:
     """Whether a place is in the macro of a parameter."""
     macro = parameter.node
     return macro in document.tree.nodes and macro.start_tag.start <= offset <= macro.end

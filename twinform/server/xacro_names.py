@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from twinform.diagnostics import Span
-from twinform.server.documents import Document
+from twinform.server.documents import TextDocument
 from twinform.server.name import Name
-from twinform.server.tree import Node
+from twinform.server.tree import TolerantNode
 
 PREFIX = "xacro:"
 ELEMENTS: dict[str, tuple[tuple[str, ...], tuple[str, ...], str]] = {
@@ -31,7 +31,7 @@ _PARAMETER = re.compile(r"(?<![*^|])[*^|]*+(?P<name>[A-Za-z_][\w.]*)(?:\s*:?=\s*
 _RESERVED = frozenset(["and", "or", "not", "if", "else", "for", "in", "is", "True", "False", "None", "lambda"])
 
 
-def xacro_names(document: Document) -> Iterator[Name]:
+def xacro_names(document: TextDocument) -> Iterator[Name]:
     """All names of xacro in a document."""
     if "xacro" not in document.text:
         return
@@ -46,7 +46,7 @@ def xacro_names(document: Document) -> Iterator[Name]:
             yield from _in_expressions(inside.of(document.text), inside.start, node)
 
 
-class Parameter(NamedTuple):
+class MacroParameter(NamedTuple):
     """A parameter of a macro. One that has no default is `needed`, unless it is a `block`, which is an element."""
 
     name: str
@@ -55,15 +55,15 @@ class Parameter(NamedTuple):
     block: bool
 
 
-def parameter_names(macro: Node) -> list[Parameter]:
+def parameter_names(macro: TolerantNode) -> list[MacroParameter]:
     """The parameters of a macro, in their order."""
     return [
-        Parameter(found["name"], found[0], "=" not in found[0] and found[0][0] != "*", found[0][0] == "*")
+        MacroParameter(found["name"], found[0], "=" not in found[0] and found[0][0] != "*", found[0][0] == "*")
         for found in _PARAMETER.finditer(macro.get("params") or "")
     ]
 
 
-def _of_element(node: Node) -> Iterator[Name]:
+def _of_element(node: TolerantNode) -> Iterator[Name]:
     kind = _DEFINES.get(node.tag)
     called = node.get("name")
     if kind is not None and called:
@@ -82,14 +82,14 @@ def _of_element(node: Node) -> Iterator[Name]:
         yield from _of_call(node, local)
 
 
-def _of_call(node: Node, macro: str) -> Iterator[Name]:
+def _of_call(node: TolerantNode, macro: str) -> Iterator[Name]:
     yield Name(macro, Span(node.name.start + len(PREFIX), node.name.end), node, "macro", defines=False)
     if node.end_tag is not None:
         start = node.end_tag.start + len("</") + len(PREFIX)
         yield Name(macro, Span(start, start + len(macro)), node, "macro", defines=False)
 
 
-def _in_expressions(text: str, start: int, node: Node) -> Iterator[Name]:
+def _in_expressions(text: str, start: int, node: TolerantNode) -> Iterator[Name]:
     for found in _EXPRESSION.finditer(text):
         if found["arg"]:
             yield Name(

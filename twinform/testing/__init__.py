@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from twinform.testing import strategies
-    from twinform.testing.case_files import Case, CheckOptions, Finding, cases
+    from twinform.testing.case_files import Case, CaseCheckOptions, Finding, cases
     from twinform.testing.pass_case_files import PassCase, pass_cases
     from twinform.testing.properties import (
         assert_pass_contract,
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Case",
-    "CheckOptions",
+    "CaseCheckOptions",
     "Finding",
     "PassCase",
     "assert_pass_contract",
@@ -38,7 +38,7 @@ __all__ = [
 ]
 
 _MODULES = {
-    **dict.fromkeys(("Case", "CheckOptions", "Finding", "cases"), "case_files"),
+    **dict.fromkeys(("Case", "CaseCheckOptions", "Finding", "cases"), "case_files"),
     **dict.fromkeys(("PassCase", "pass_cases"), "pass_case_files"),
     **dict.fromkeys(("assert_pass_contract", "assert_round_trip", "assert_same_robot", "assert_valid"), "properties"),
 }

@@ -25,7 +25,7 @@ Finding = tuple[int, str, str]
 """line, severity, rule"""
 
 
-class CheckOptions(TypedDict, total=False):
+class CaseCheckOptions(TypedDict, total=False):
     """What `check` is asked for besides the file."""
 
     paths: tuple[Path, ...]
@@ -38,7 +38,7 @@ class Case:
 
     path: Path
     strict: bool = False
-    options: CheckOptions = field(default_factory=CheckOptions)
+    options: CaseCheckOptions = field(default_factory=CaseCheckOptions)
 
     @property
     def expected(self) -> Counter[Finding]:
@@ -90,7 +90,7 @@ def findings(diagnostics: Iterable[Diagnostic], file: str) -> Counter[Finding]:
     )
 
 
-def cases(folder: Path, *, options: CheckOptions | None = None) -> list[Case]:
+def cases(folder: Path, *, options: CaseCheckOptions | None = None) -> list[Case]:
     """Every case of a folder and those below it, in the order of their names, without parts and expected outputs."""
     return [Case(path, options=options or {}) for path in sorted(folder.rglob("*")) if _is_case(path, folder)]
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Literal
 
 from twinform.compiler import CompileError, Conversion, convert
-from twinform.diagnostics import Diagnostic, Entry
+from twinform.diagnostics import Diagnostic, LedgerEntry
 from twinform.testing.case_files import Case, Finding, cases, findings
 from twinform.text.asides import IN_COMMENT
 
@@ -43,7 +43,7 @@ class PassCase(Case):
     @property
     def rules(self) -> frozenset[str]:
         """Every rule that was reported, be it by a finding or an entry of the ledger."""
-        findings: tuple[Diagnostic | Entry, ...] = self._outcome.diagnostics
+        findings: tuple[Diagnostic | LedgerEntry, ...] = self._outcome.diagnostics
         if isinstance(self._outcome, Conversion):
             findings = (*findings, *self._outcome.ledger.entries)
         return frozenset(each.rule.name for each in findings)

@@ -67,13 +67,13 @@ class CheckItem(_ModelItem):
     def runtest(self) -> None:
         """Check the file."""
         from twinform.compiler import check  # noqa: PLC0415 - pytest has to start without the compiler
-        from twinform.diagnostics.reporters import REPORTERS, Findings  # noqa: PLC0415 - as above
+        from twinform.diagnostics.reporters import REPORTERS, FileFindings  # noqa: PLC0415 - as above
 
         paths: list[Path] = self.config.getini("twinform_paths")
         checked = check(self.path, strict=self.config.getini("twinform_strict"), paths=paths)
         if not checked.accepted:
             errors = tuple(each for each in checked.diagnostics if each.is_error)
-            raise ModelError(REPORTERS["text"]([Findings(checked.path, errors)]))
+            raise ModelError(REPORTERS["text"]([FileFindings(checked.path, errors)]))
 
 
 class RoundTripItem(_ModelItem):

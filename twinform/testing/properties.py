@@ -11,7 +11,7 @@ from twinform.compiler.compare import diff
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import Diagnostic, DiagnosticSink
-from twinform.diagnostics.reporters import REPORTERS, Findings
+from twinform.diagnostics.reporters import REPORTERS, FileFindings
 from twinform.ir import Document
 from twinform.ir.verify import verify
 from twinform.passes import Pass
@@ -108,4 +108,4 @@ def _converted(text: bytes | Path, to: Language, sdf_version: str | None = None)
 
 
 def _report(name: str, diagnostics: list[Diagnostic] | tuple[Diagnostic, ...]) -> str:
-    return REPORTERS["text"]([Findings(name, tuple(diagnostics))])
+    return REPORTERS["text"]([FileFindings(name, tuple(diagnostics))])

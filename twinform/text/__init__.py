@@ -11,9 +11,9 @@ if TYPE_CHECKING:
     from twinform.text.masking import masked
     from twinform.text.merging import Conflict, Merge, merge
     from twinform.text.patching import edits, patch
-    from twinform.text.positions import AttributeSpan, ElementSpan, Lines, Place, UnplacedError, spans
+    from twinform.text.positions import AttributeSpan, ElementSpan, LineColumn, Lines, UnplacedError, spans
     from twinform.text.source_text import SourceText, UndecodableError
-    from twinform.text.surroundings import Surroundings
+    from twinform.text.surroundings import TextSurroundings
 else:
     __getattr__ = lazy_attributes(
         __name__,
@@ -24,9 +24,9 @@ else:
             "twinform.text.masking": "masked",
             "twinform.text.merging": "Conflict Merge merge",
             "twinform.text.patching": "edits patch",
-            "twinform.text.positions": "AttributeSpan ElementSpan Lines Place UnplacedError spans",
+            "twinform.text.positions": "AttributeSpan ElementSpan LineColumn Lines UnplacedError spans",
             "twinform.text.source_text": "SourceText UndecodableError",
-            "twinform.text.surroundings": "Surroundings",
+            "twinform.text.surroundings": "TextSurroundings",
         },
     )
 
@@ -35,12 +35,12 @@ __all__ = [
     "Conflict",
     "Editor",
     "ElementSpan",
+    "LineColumn",
     "Lines",
     "Merge",
     "OverlapError",
-    "Place",
     "SourceText",
-    "Surroundings",
+    "TextSurroundings",
     "UndecodableError",
     "UnplacedError",
     "apply",

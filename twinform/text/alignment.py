@@ -48,7 +48,7 @@ def _as_written(value: str) -> Hashable:
     return value
 
 
-class Contents:
+class ElementContents:
     """The contents of elements by number, so that equal ones have the same; `value` tells which values are equal."""
 
     def __init__(self, value: Callable[[str], Hashable] = _as_written) -> None:
@@ -85,7 +85,7 @@ def texts(element: XmlElement) -> tuple[str, ...]:
     return tuple(map(stripped, found))
 
 
-def aligned(before: Sequence[XmlElement], after: Sequence[XmlElement], contents: Contents) -> list[Pair]:
+def aligned(before: Sequence[XmlElement], after: Sequence[XmlElement], contents: ElementContents) -> list[Pair]:
     """Which elements of two lists belong together, in order.
 
     First those that are equal, then between these those with the same tag and name, then those with the same tag. What
@@ -107,7 +107,7 @@ def known_by(element: XmlElement) -> tuple[str, str | None]:
     return str(element.tag), element.get("name") or element.get("reference")
 
 
-def matched(before: Sequence[XmlElement], after: Sequence[XmlElement], contents: Contents) -> list[Pair]:
+def matched(before: Sequence[XmlElement], after: Sequence[XmlElement], contents: ElementContents) -> list[Pair]:
     """Which elements of two lists in different orders belong together.
 
     First those that are equal, then those with the same tag and name, of several of a name the most similar ones, then
@@ -152,7 +152,7 @@ def _in_order(old: Places, new: Places) -> Iterable[Pair]:
 
 
 def _most_similar(
-    before: Sequence[XmlElement], after: Sequence[XmlElement], contents: Contents, old: Places, new: Places
+    before: Sequence[XmlElement], after: Sequence[XmlElement], contents: ElementContents, old: Places, new: Places
 ) -> Iterable[Pair]:
     """Pairs of those that have most in common. Where a side has more of them, nothing in common makes no pair."""
     if len(old) == len(new) == 1 or len(old) * len(new) > _MANY:
@@ -167,7 +167,7 @@ def _most_similar(
     return pairs
 
 
-def _parts(element: XmlElement, contents: Contents) -> Counter[Hashable]:
+def _parts(element: XmlElement, contents: ElementContents) -> Counter[Hashable]:
     """What an element has: attributes, and all elements in it."""
     inside: list[Hashable] = [contents.number(each) for each in element.iter("*") if each is not element]
     return Counter([*inside, *element.items()])
@@ -238,5 +238,5 @@ def _common(before: Sequence[Hashable], after: Sequence[Hashable]) -> tuple[int,
 
 def same_element(one: XmlElement, other: XmlElement) -> bool:
     """Whether two elements say the same, but for the spelling of numbers."""
-    contents = Contents(spelled_alike)
+    contents = ElementContents(spelled_alike)
     return contents.number(one) == contents.number(other)

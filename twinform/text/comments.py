@@ -32,7 +32,7 @@ class Comment(NamedTuple):
 
 
 @dataclass(slots=True)
-class _Open:
+class _UnfinishedElement:
     """An element that has not ended, the comments before it, and those in it that wait for an element."""
 
     before: list[int]
@@ -42,17 +42,17 @@ class _Open:
 
 def comments(text: str) -> list[Comment]:
     """Every comment of a text, in order."""
-    return list(_Reading(text).run())
+    return list(_CommentScan(text).run())
 
 
-class _Reading:
+class _CommentScan:
     """One run over a text; lines end with a line feed, as in findings."""
 
     def __init__(self, text: str) -> None:
         self.text = text
         self.line, self.counted = 1, 0
         self.found: list[Comment] = []
-        self.open = [_Open([], 0, [])]
+        self.open = [_UnfinishedElement([], 0, [])]
         self.last_begin, self.last_end = 0, 0
         """The lines on which the last tag began and ended."""
 
@@ -91,7 +91,7 @@ class _Reading:
         if token["empty"]:
             self._settle(before, begin, end)
         else:
-            self.open.append(_Open(before, begin, []))
+            self.open.append(_UnfinishedElement(before, begin, []))
 
     def _settle(self, before: list[int], first: int, last: int) -> None:
         for index in before:

@@ -8,14 +8,14 @@ from twinform.schemas import XmlElement
 from twinform.text.alignment import BLANKS
 from twinform.text.positions import ElementSpan
 from twinform.text.serializing import Prefixes, serialized, text_of, value_of
-from twinform.text.surroundings import Surroundings
+from twinform.text.surroundings import TextSurroundings
 
 
 @dataclass(frozen=True, slots=True)
 class Editor:
     """Makes edits of a well-formed text whose elements stand at these places. What an edit does not say stays."""
 
-    around: Surroundings
+    around: TextSurroundings
     places: Mapping[XmlElement, ElementSpan] = field(repr=False)
 
     @property

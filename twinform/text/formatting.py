@@ -23,7 +23,7 @@ from twinform.text.numbers import all_numbers, shortest
 from twinform.text.positions import Lines
 from twinform.text.source_text import SourceText
 from twinform.text.start_tags import TAB, StartTag, name_of
-from twinform.text.tokens import Kind, Tokens
+from twinform.text.tokens import TokenKind, Tokens
 from twinform.text.usage import usage
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
@@ -36,8 +36,8 @@ _PRESERVED = re.compile(r"""\sxml:space\s*=\s*["']preserve["']""")
 _WIDE = re.compile(r"[ \t\r\n]{2}|\t")
 _PLAIN = re.compile(r"""<([^\s/>]++)(?: [^\s=<>/"']++=(?:"[^"\r\n]*+"|'[^'\r\n]*+'))*+(?:>| ?/>)""")
 """A start tag that is laid out already."""
-_TAGS = frozenset({Kind.START, Kind.EMPTY})
-_BETWEEN = frozenset({Kind.BLANK, Kind.COMMENT})
+_TAGS = frozenset({TokenKind.START, TokenKind.EMPTY})
+_BETWEEN = frozenset({TokenKind.BLANK, TokenKind.COMMENT})
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,7 @@ class _Formatting:
         self.asked = (0, False)
         self.keeps_tags = options.numbers == "kept" and not options.sort_attributes
         self.opaque = usage().opaque
-        self.open: list[_Open] = [_Open("", opaque=False)]
+        self.open: list[_OpenElement] = [_OpenElement("", opaque=False)]
 
     def run(self) -> str:
         """The whole text."""
@@ -88,11 +88,11 @@ class _Formatting:
                 if fixed[number]:
                     self._fixed(number, fixed[number])
                     number = fixed[number]
-            elif kind == Kind.END:
+            elif kind == TokenKind.END:
                 self._end(number)
-            elif kind == Kind.COMMENT:
+            elif kind == TokenKind.COMMENT:
                 self._comment(number)
-            elif kind == Kind.INSTRUCTION:
+            elif kind == TokenKind.INSTRUCTION:
                 self._begin_line(number)
                 self.out.append(self.tokens[number])
             number += 1
@@ -104,15 +104,15 @@ class _Formatting:
         plain = _PLAIN.fullmatch(text) if self.keeps_tags else None
         self.out.append(text if plain else self._tag_text(number, self._tag(number)))
         around.row = number if self._is_row(number) else None
-        if self.tokens.kinds[number] == Kind.START:
+        if self.tokens.kinds[number] == TokenKind.START:
             name = plain[1] if plain else name_of(text)
-            self.open.append(_Open(name, opaque=around.opaque or name in self.opaque))
+            self.open.append(_OpenElement(name, opaque=around.opaque or name in self.opaque))
 
     def _end(self, number: int) -> None:
         ended = self.open.pop()
         if not (ended.on_one_line and self._lines_before(number) == 0):
             self._begin_line(number)
-        elif self.tokens.kinds[number - 1] == Kind.BLANK:
+        elif self.tokens.kinds[number - 1] == TokenKind.BLANK:
             self.out.append(self.tokens[number - 1])
         self.out.append(f"</{ended.name}>")
 
@@ -120,14 +120,14 @@ class _Formatting:
         """What is between two tags and stays, and the second of them."""
         begin = self.tokens.ends[number]
         text, ended = self.tokens.text[begin : self.tokens.start(end)], self.open.pop()
-        is_leaf = end == number + 2 and self.tokens.kinds[number + 1] == Kind.TEXT
+        is_leaf = end == number + 2 and self.tokens.kinds[number + 1] == TokenKind.TEXT
         if is_leaf and not ended.opaque and ended.name in usage().numeric_texts and all_numbers(text):
             text = self._moved(shortest(text) if self.options.numbers == "shortest" else text, number)
         self.out.append(f"{text}</{ended.name}>")
 
     def _comment(self, number: int) -> None:
         if self.out and self._lines_before(number) == 0 and self._ends_line(number):
-            before = self.tokens[number - 1] if self.tokens.kinds[number - 1] == Kind.BLANK else ""
+            before = self.tokens[number - 1] if self.tokens.kinds[number - 1] == TokenKind.BLANK else ""
             self.out.append(before + self.tokens[number])
         else:
             self._begin_line(number)
@@ -143,11 +143,11 @@ class _Formatting:
         """The token behind the comments on a line that begin here, and whether it ends the line, or the element."""
         kinds = self.tokens.kinds
         for here in range(number, len(kinds)):
-            if kinds[here] == Kind.BLANK:
+            if kinds[here] == TokenKind.BLANK:
                 if _LINE_END.search(self.tokens[here]):
                     return here, True
-            elif kinds[here] != Kind.COMMENT:
-                return here, kinds[here] == Kind.END
+            elif kinds[here] != TokenKind.COMMENT:
+                return here, kinds[here] == TokenKind.END
         return len(kinds), True
 
     def _begin_line(self, number: int) -> None:
@@ -162,7 +162,7 @@ class _Formatting:
         return self.options.indent * (len(self.open) - 1)
 
     def _lines_before(self, number: int) -> int:
-        if not number or self.tokens.kinds[number - 1] != Kind.BLANK:
+        if not number or self.tokens.kinds[number - 1] != TokenKind.BLANK:
             return 0
         return len(_LINE_END.findall(self.tokens[number - 1]))
 
@@ -178,7 +178,7 @@ class _Formatting:
         if not number:
             return ""
         before = self.tokens[number - 1]
-        is_blank = self.tokens.kinds[number - 1] == Kind.BLANK
+        is_blank = self.tokens.kinds[number - 1] == TokenKind.BLANK
         return _LINE_END.split(before)[-1] if is_blank and _LINE_END.search(before) else None
 
     def _tag(self, number: int) -> StartTag:
@@ -208,10 +208,10 @@ class _Formatting:
 
     def _end_of_row(self, number: int) -> int | None:
         kinds = self.tokens.kinds
-        if kinds[number] == Kind.EMPTY:
+        if kinds[number] == TokenKind.EMPTY:
             return number
-        end = number + 1 if kinds[number + 1] == Kind.END else number + 2
-        return end if kinds[end] == Kind.END and kinds[number + 1] != Kind.COMMENT else None
+        end = number + 1 if kinds[number + 1] == TokenKind.END else number + 2
+        return end if kinds[end] == TokenKind.END and kinds[number + 1] != TokenKind.COMMENT else None
 
     def _next_row(self, number: int) -> int | None:
         kinds, here = self.tokens.kinds, (self._end_of_row(number) or number) + 1
@@ -239,12 +239,12 @@ def _fixed_contents(tokens: Tokens) -> "array[int]":
     is_fixed: list[bool] = []
     may_preserve = "xml:space" in tokens.text
     for number, kind in enumerate(tokens.kinds):
-        if kind == Kind.START:
+        if kind == TokenKind.START:
             open_tags.append(number)
             is_fixed.append(may_preserve and _PRESERVED.search(tokens[number]) is not None)
-        elif kind == Kind.TEXT:
+        elif kind == TokenKind.TEXT:
             is_fixed[-1] = True
-        elif kind == Kind.END:
+        elif kind == TokenKind.END:
             start = open_tags.pop()
             if is_fixed.pop() or _has_blanks_only(tokens, start, number):
                 fixed[start] = number
@@ -253,11 +253,11 @@ def _fixed_contents(tokens: Tokens) -> "array[int]":
 
 def _has_blanks_only(tokens: Tokens, start: int, end: int) -> bool:
     """Whether there are blanks between two tags, on one line: somebody may want them."""
-    return end == start + 2 and tokens.kinds[start + 1] == Kind.BLANK and not _LINE_END.search(tokens[start + 1])
+    return end == start + 2 and tokens.kinds[start + 1] == TokenKind.BLANK and not _LINE_END.search(tokens[start + 1])
 
 
 @dataclass(slots=True)
-class _Open:
+class _OpenElement:
     """An element that is not ended yet.
 
     `row` is its last child if that has no elements in it; `on_one_line` that nothing in it has begun a line.

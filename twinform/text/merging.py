@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from twinform.schemas import XmlElement
 from twinform.text.alignment import (
-    Contents,
+    ElementContents,
     aligned,
     elements,
     known_by,
@@ -88,8 +88,8 @@ class _Merging:
     originals: dict[XmlElement, XmlElement]
     same: bool
     additive: str | None = None
-    exact: Contents = field(default_factory=Contents)
-    alike: Contents = field(default_factory=lambda: Contents(spelled_alike))
+    exact: ElementContents = field(default_factory=ElementContents)
+    alike: ElementContents = field(default_factory=lambda: ElementContents(spelled_alike))
     conflicts: list[Conflict] = field(default_factory=list[Conflict])
 
     def element(self, before: XmlElement, after: XmlElement, owns: Sequence[XmlElement]) -> None:

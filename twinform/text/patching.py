@@ -9,14 +9,14 @@ from dataclasses import dataclass, field
 
 from twinform.diagnostics import Span, TextEdit
 from twinform.schemas import XmlElement
-from twinform.text.alignment import Contents, aligned, elements, texts
+from twinform.text.alignment import ElementContents, aligned, elements, texts
 from twinform.text.applying import apply
 from twinform.text.editing import Editor
 from twinform.text.positions import ElementSpan, spans
 from twinform.text.renaming import renamed, with_renamed
 from twinform.text.serializing import Prefixes, contents, serialized, value_of
 from twinform.text.source_text import SourceText
-from twinform.text.surroundings import Surroundings
+from twinform.text.surroundings import TextSurroundings
 
 
 def patch(source: SourceText, before: XmlElement, after: XmlElement) -> SourceText:
@@ -36,7 +36,7 @@ def edits(source: SourceText, before: XmlElement, after: XmlElement) -> list[Tex
     """
     root = spans(source.text)
     places = dict(zip(before.iter("*"), root.walk(), strict=True))
-    patching = _Patching(Surroundings.of(source, root), places)
+    patching = _Patching(TextSurroundings.of(source, root), places)
     patching.change(before, after)
     return patching.edits
 
@@ -46,7 +46,7 @@ class _Patching(Editor):
     """One run over a text, which collects its edits."""
 
     edits: list[TextEdit] = field(default_factory=list[TextEdit])
-    contents: Contents = field(default_factory=Contents)
+    contents: ElementContents = field(default_factory=ElementContents)
 
     def change(self, before: XmlElement, after: XmlElement) -> None:
         """Add the edits that make an element another one."""

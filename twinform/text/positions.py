@@ -18,7 +18,7 @@ _NAME = re.compile(r"</?([^\s<>/]+)")
 _END_OF_TAG = re.compile(r"\s*/?>")
 
 
-class Place(NamedTuple):
+class LineColumn(NamedTuple):
     """A line and a column, both from 1."""
 
     line: int
@@ -113,10 +113,10 @@ class Lines:
     def __init__(self, text: str) -> None:
         self._starts = [0, *(found.end() for found in re.finditer(r"\r\n|\n|\r", text))]
 
-    def place(self, offset: int) -> Place:
+    def place(self, offset: int) -> LineColumn:
         """The line and column of an offset."""
         line = bisect_right(self._starts, offset)
-        return Place(line, offset - self._starts[line - 1] + 1)
+        return LineColumn(line, offset - self._starts[line - 1] + 1)
 
     def start(self, line: int) -> int:
         """Where a line begins."""
@@ -132,10 +132,10 @@ def spans(text: str) -> ElementSpan:
     Raises:
         UnplacedError: the text is not well-formed, or has a document type declaration.
     """
-    return _Placing(text).run()
+    return _PositionScan(text).run()
 
 
-class _Placing:
+class _PositionScan:
     """One run of expat over a text, which is given as UTF-8 whatever the file was encoded in."""
 
     def __init__(self, text: str) -> None:

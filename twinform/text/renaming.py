@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from twinform.schemas import XmlElement
-from twinform.text.alignment import Contents, Pair, elements, stripped
+from twinform.text.alignment import ElementContents, Pair, elements, stripped
 
 _SHARE = 0.5
 """How much of the children of two elements is equal where one is the other with a new name."""
@@ -12,7 +12,7 @@ _MOST = 10_000
 """So many pairs are compared between two that stay; where there are more, nothing is taken for renamed."""
 
 
-def renamed(old: XmlElement, new: XmlElement, contents: Contents) -> bool:
+def renamed(old: XmlElement, new: XmlElement, contents: ElementContents) -> bool:
     """Whether an element is another one under a new name; one with a namespace never is."""
     if "{" in f"{old.tag}{new.tag}":
         return False
@@ -24,7 +24,7 @@ def renamed(old: XmlElement, new: XmlElement, contents: Contents) -> bool:
 
 
 def with_renamed(
-    pairs: Sequence[Pair], before: Sequence[XmlElement], after: Sequence[XmlElement], contents: Contents
+    pairs: Sequence[Pair], before: Sequence[XmlElement], after: Sequence[XmlElement], contents: ElementContents
 ) -> list[Pair]:
     """Pairs of children that belong together, in order, and between them those that were renamed."""
     found: list[Pair] = []
@@ -39,7 +39,7 @@ def with_renamed(
 
 
 def _between(
-    old: range, new: range, before: Sequence[XmlElement], after: Sequence[XmlElement], contents: Contents
+    old: range, new: range, before: Sequence[XmlElement], after: Sequence[XmlElement], contents: ElementContents
 ) -> Iterator[Pair]:
     here = new.start
     for i in old:

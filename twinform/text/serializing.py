@@ -67,7 +67,7 @@ class Prefixes:
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class ElementLayout:
     """How new elements are laid out: what one stands behind, and by how much more those in it are indented.
 
     `indent` begins with a line end, or is what separates elements that share a line.
@@ -77,12 +77,12 @@ class Layout:
     step: str
 
     @property
-    def inner(self) -> "Layout":
+    def inner(self) -> "ElementLayout":
         """The layout of the elements inside."""
-        return Layout(self.indent + self.step, self.step) if self.step else self
+        return ElementLayout(self.indent + self.step, self.step) if self.step else self
 
 
-def serialized(element: XmlElement, layout: Layout, prefixes: Prefixes) -> str:
+def serialized(element: XmlElement, layout: ElementLayout, prefixes: Prefixes) -> str:
     """The text of an element, without what stands before it."""
     declarations = prefixes.missing(element)
     prefixes = prefixes.with_(declarations)
@@ -96,7 +96,7 @@ def serialized(element: XmlElement, layout: Layout, prefixes: Prefixes) -> str:
     return f"{start}>{inside}</{tag}>" if inside else f"{start}/>"
 
 
-def contents(element: XmlElement, layout: Layout, prefixes: Prefixes) -> str:
+def contents(element: XmlElement, layout: ElementLayout, prefixes: Prefixes) -> str:
     """What is between the tags of an element; blanks between elements are ours unless there is text beside them."""
     children, (first, *others) = elements(element), texts(element)
     if not children:

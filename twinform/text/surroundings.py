@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from twinform.diagnostics import Span
 from twinform.text.alignment import BLANKS
 from twinform.text.positions import ElementSpan, indentation
-from twinform.text.serializing import Layout
+from twinform.text.serializing import ElementLayout
 from twinform.text.source_text import SourceText
 
 _REST_OF_LINE = re.compile(r"(?:[ \t]*<!--(?:(?!-->)[^\n])*-->)+(?=[ \t]*\r?\n)")
@@ -16,7 +16,7 @@ _STEP = "  "
 
 
 @dataclass(frozen=True, slots=True)
-class Surroundings:
+class TextSurroundings:
     """A text, what ends its lines, and by how much each level is indented more."""
 
     text: str
@@ -24,7 +24,7 @@ class Surroundings:
     step: str
 
     @classmethod
-    def of(cls, source: SourceText, root: ElementSpan) -> "Surroundings":
+    def of(cls, source: SourceText, root: ElementSpan) -> "TextSurroundings":
         """Find out how a file is laid out: its line ends and its usual indentation."""
         return cls(source.text, source.line_end, _usual_step(source.text, root))
 
@@ -52,20 +52,20 @@ class Surroundings:
         found = _REST_OF_LINE.match(self.text, end)
         return found.end() if found else end
 
-    def layout(self, place: ElementSpan) -> Layout:
+    def layout(self, place: ElementSpan) -> ElementLayout:
         """How an element itself is laid out."""
         indent = self._indent(place.whole.start)
-        return Layout(indent, self.step) if indent is not None else Layout("", "")
+        return ElementLayout(indent, self.step) if indent is not None else ElementLayout("", "")
 
-    def layout_inside(self, place: ElementSpan) -> Layout:
+    def layout_inside(self, place: ElementSpan) -> ElementLayout:
         """How new children of an element are laid out: like those that it has."""
         shown = [self._indent(child.whole.start) for child in place.children]
         own = next((indent for indent in shown if indent is not None), None)
         if own is not None:
-            return Layout(own, self.step)
+            return ElementLayout(own, self.step)
         if place.children:
             first = place.children[0].whole.start
-            return Layout(self.text[self.before_blanks(first) : first], "")
+            return ElementLayout(self.text[self.before_blanks(first) : first], "")
         return self.layout(place).inner
 
     def _indent(self, offset: int) -> str | None:

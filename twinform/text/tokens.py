@@ -15,7 +15,7 @@ from twinform.text.positions import UnplacedError
 _TOKEN = re.compile(rf"""{COMMENT}|{INSTRUCTION}|{SECTION}|<(?:[^"'<>]++|"[^"]*+"|'[^']*+')*+>|[^<]++""")
 
 
-class Kind(IntEnum):
+class TokenKind(IntEnum):
     """What a token is; `BLANK` is a text of nothing but white space, and `EMPTY` a tag such as `<a/>`."""
 
     BLANK = 0
@@ -54,18 +54,18 @@ class Tokens:
         return self.ends[number - 1] if number else 0
 
 
-def _kind(token: str) -> Kind:
+def _kind(token: str) -> TokenKind:
     if token[0] != "<":
-        return Kind.TEXT if token.strip(" \t\r\n") else Kind.BLANK
+        return TokenKind.TEXT if token.strip(" \t\r\n") else TokenKind.BLANK
     match token[1]:
         case "/":
-            return Kind.END
+            return TokenKind.END
         case "?":
-            return Kind.INSTRUCTION
+            return TokenKind.INSTRUCTION
         case "!":
-            return Kind.COMMENT if token[2] == "-" else Kind.TEXT
+            return TokenKind.COMMENT if token[2] == "-" else TokenKind.TEXT
         case _:
-            return Kind.EMPTY if token[-2] == "/" else Kind.START
+            return TokenKind.EMPTY if token[-2] == "/" else TokenKind.START
 
 
 def _require_well_formed(text: str) -> None:

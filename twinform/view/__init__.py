@@ -3,14 +3,14 @@
 from twinform.view.errors import PortTakenError, ViewerMissingError, ViewError
 from twinform.view.pages import NotDrawn, StandaloneView, new_viewer, standalone_page, standalone_view
 from twinform.view.reading import read_subject
-from twinform.view.subject import Subject
+from twinform.view.subject import ViewSubject
 
 __all__ = [
     "NotDrawn",
     "PortTakenError",
     "StandaloneView",
-    "Subject",
     "ViewError",
+    "ViewSubject",
     "ViewerMissingError",
     "new_viewer",
     "read_subject",

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from twinform.compiler.compare.comparison import Comparison, Difference
 from twinform.compiler.scene import Scene
 from twinform.view.figure import Rgb
-from twinform.view.subject import Subject
+from twinform.view.subject import ViewSubject
 
 CHANGED: Rgb = (220, 40, 40)
 ONLY_A: Rgb = (150, 50, 200)
@@ -13,7 +13,7 @@ ONLY_B: Rgb = (20, 150, 60)
 MEANINGS: Mapping[str, Rgb] = {"in both, and different": CHANGED, "in A only": ONLY_A, "in B only": ONLY_B}
 
 
-def difference_colors(comparison: Comparison, subjects: Sequence[Subject]) -> dict[str, Rgb]:
+def difference_colors(comparison: Comparison, subjects: Sequence[ViewSubject]) -> dict[str, Rgb]:
     """The colors of links that differ."""
     first, second = (subject.links for subject in subjects)
     found: dict[str, Rgb] = {}
@@ -22,7 +22,7 @@ def difference_colors(comparison: Comparison, subjects: Sequence[Subject]) -> di
     return found
 
 
-def links_of(difference: Difference, subjects: Sequence[Subject]) -> tuple[str, ...]:
+def links_of(difference: Difference, subjects: Sequence[ViewSubject]) -> tuple[str, ...]:
     """The links that a difference is seen on."""
     found = (link for subject in subjects for link in _seen_on(difference, subject.scene))
     return tuple(dict.fromkeys(found))

@@ -10,7 +10,7 @@ from twinform.compiler.scene import build_scene
 from twinform.compiler.search.uris import SearchPath
 from twinform.ir import Document
 from twinform.view.errors import ViewerMissingError
-from twinform.view.subject import Subject
+from twinform.view.subject import ViewSubject
 
 if TYPE_CHECKING:
     from twinform.view.viewer import Viewer
@@ -92,6 +92,6 @@ def standalone_view(
         viewer.stop()
 
 
-def _subject(document: Document, search: SearchPath) -> Subject:
+def _subject(document: Document, search: SearchPath) -> ViewSubject:
     file = unexpanded_name(document.location.file)
-    return Subject(document, build_scene(document), file if file and Path(file).is_file() else "", search)
+    return ViewSubject(document, build_scene(document), file if file and Path(file).is_file() else "", search)

@@ -16,7 +16,7 @@ from twinform.view.figure import MARK, Figure, Handle, Rgb
 from twinform.view.joint_controls import Choices, JointControls, slider_range
 from twinform.view.layers import LAYERS, SKELETON, Layer
 from twinform.view.names import shortened
-from twinform.view.subject import Subject
+from twinform.view.subject import ViewSubject
 from twinform.view.tree import Mark, tree
 
 _MOST_ROWS = 100
@@ -34,7 +34,7 @@ class Panel:
     """
 
     gui: Any
-    subjects: Sequence[Subject]
+    subjects: Sequence[ViewSubject]
     figures: Sequence[Figure]
     grid: Handle
     comparison: Comparison | None = None
@@ -181,7 +181,7 @@ class Panel:
         if ranks:
             self.select([names[min(ranks, key=lambda name: (ranks[name], len(name)))]])
 
-    def _marks(self, subject: Subject, figure: Figure) -> dict[str, list[Mark]]:
+    def _marks(self, subject: ViewSubject, figure: Figure) -> dict[str, list[Mark]]:
         """What there is to see about links in the tree."""
         marks: dict[str, list[Mark]] = {}
         for link, about in subject.about.items():

@@ -8,16 +8,16 @@ from twinform.compiler.includes.expanding import expand
 from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
 from twinform.compiler.inspection import inspect
 from twinform.compiler.scene import build_scene
-from twinform.diagnostics.ledger import Entry
+from twinform.diagnostics.ledger import LedgerEntry
 from twinform.ir import Document, Format, Model
 from twinform.passes import PassError
 from twinform.passes.analyses.candidates import candidates
-from twinform.view.subject import Subject
+from twinform.view.subject import ViewSubject
 
 _OTHER: Mapping[Format, Format] = {Format.URDF: Format.SDF, Format.SDF: Format.URDF}
 
 
-def read_subject(source: Input, load_options: LoadOptions, *, name: str = "") -> tuple[Subject | None, LoadResult]:
+def read_subject(source: Input, load_options: LoadOptions, *, name: str = "") -> tuple[ViewSubject | None, LoadResult]:
     """What is to be shown of a file or document; None where so much is wrong with it that there is nothing to show."""
     loaded = inspect(expand(read(source, load_options, name=name), load_options), load_options)
     document = loaded.document
@@ -25,15 +25,15 @@ def read_subject(source: Input, load_options: LoadOptions, *, name: str = "") ->
         return None, loaded
     scene = build_scene(document)
     entries, unconverted = _ledger(document) if loaded.accepted else ((), ("it has errors",))
-    subject = Subject(
+    subject = ViewSubject(
         document, scene, loaded.path, load_options.search, loaded.diagnostics, entries, unconverted
     )  # fmt: skip
     return subject, loaded
 
 
-def _ledger(document: Document) -> tuple[tuple[Entry, ...], tuple[str, ...]]:
+def _ledger(document: Document) -> tuple[tuple[LedgerEntry, ...], tuple[str, ...]]:
     """What conversions to the other format make of each model alone, and why there is none of some."""
-    entries: list[Entry] = []
+    entries: list[LedgerEntry] = []
     reasons: list[str] = []
     # With the world around it, each conversion would list all other models as dropped: 28 s and
     # 41,000 entries for 200 models instead of 0.4 s.

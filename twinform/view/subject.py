@@ -9,15 +9,15 @@ from pathlib import Path
 from twinform.compiler.scene import Scene
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Diagnostic, Location
-from twinform.diagnostics.ledger import Entry
+from twinform.diagnostics.ledger import LedgerEntry
 from twinform.ir import Document
 
-About = Diagnostic | Entry
+About = Diagnostic | LedgerEntry
 """What is said about a place of the file: a finding, or what became of a piece."""
 
 
 @dataclass(frozen=True)
-class Subject:
+class ViewSubject:
     """A document as it is shown. `path` is its file, beside which meshes are looked for.
 
     `unconverted` says why there are no `entries` of a model.
@@ -28,7 +28,7 @@ class Subject:
     path: str = ""
     search: SearchPath | None = None
     findings: tuple[Diagnostic, ...] = ()
-    entries: tuple[Entry, ...] = ()
+    entries: tuple[LedgerEntry, ...] = ()
     unconverted: tuple[str, ...] = ()
 
     @property

@@ -31,7 +31,7 @@ class Mark(NamedTuple):
     text: str
 
 
-class _Row(NamedTuple):
+class _TreeRow(NamedTuple):
     link: str
     joint: SceneJoint | None
     depth: int
@@ -56,7 +56,7 @@ def tree(scene: Scene, marks: Mapping[str, Sequence[Mark]]) -> str:
     return f'{_STYLE}<div class="tf-tree">{"".join(parts)}{"</details>" * len(open_)}</div>'
 
 
-def _rows(scene: Scene) -> Iterator[_Row]:
+def _rows(scene: Scene) -> Iterator[_TreeRow]:
     hung = spanning_tree(scene.joints)
     below: dict[str, list[SceneJoint]] = {}
     for joint in scene.joints:
@@ -67,11 +67,11 @@ def _rows(scene: Scene) -> Iterator[_Row]:
     while stack:
         link, joint, depth = stack.pop()
         children = below.get(link, []) if joint is None or hung.get(link) is joint else []
-        yield _Row(link, joint, min(depth, _DEEPEST), bool(children))
+        yield _TreeRow(link, joint, min(depth, _DEEPEST), bool(children))
         stack += [(each.child, each, depth + 1) for each in reversed(children)]
 
 
-def _text(row: _Row, marks: Sequence[Mark]) -> str:
+def _text(row: _TreeRow, marks: Sequence[Mark]) -> str:
     joint = row.joint
     name, full = escape(shortened(row.link)), escape(row.link)
     by = f' <span class="by">{escape(joint.type)} {escape(shortened(joint.name))}</span>' if joint else ""

@@ -23,7 +23,7 @@ from twinform.view.joint_controls import Choices
 from twinform.view.mesh_drawings import MeshDrawings
 from twinform.view.names import shortened
 from twinform.view.panel import Panel
-from twinform.view.subject import Subject
+from twinform.view.subject import ViewSubject
 
 np: Any = importlib.import_module("numpy")
 viser: Any = importlib.import_module("viser")
@@ -70,7 +70,7 @@ class Viewer:
         """What is shown."""
         return self._panel.figures if self._panel else ()
 
-    def show(self, subjects: Sequence[Subject], comparison: Comparison | None = None) -> None:
+    def show(self, subjects: Sequence[ViewSubject], comparison: Comparison | None = None) -> None:
         """Show one subject, or a second one over it, in place of what is shown; joints and cameras stay."""
         with self._lock, self._server.atomic():
             choices = self._panel.choices if self._panel else Choices()
@@ -171,7 +171,7 @@ class Viewer:
 
 
 def draw(
-    api: Any, subjects: Sequence[Subject], root: str, listen: Callable[[Figure, Handle, str], None] | None = None
+    api: Any, subjects: Sequence[ViewSubject], root: str, listen: Callable[[Figure, Handle, str], None] | None = None
 ) -> tuple[list[Figure], Handle]:
     """The figures of subjects below a node of viser, the second one in a color of its own, and a grid under them."""
     figures: list[Figure] = []

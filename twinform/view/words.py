@@ -6,11 +6,11 @@ from html import escape
 from twinform.compiler.compare.comparison import Comparison, Difference
 from twinform.compiler.scene import SceneLink
 from twinform.diagnostics import Diagnostic, Severity
-from twinform.diagnostics.ledger import Entry
+from twinform.diagnostics.ledger import LedgerEntry
 from twinform.view.difference_colors import MEANINGS
 from twinform.view.figure import Rgb
 from twinform.view.names import shortened
-from twinform.view.subject import Subject
+from twinform.view.subject import ViewSubject
 from twinform.view.tree import Mark
 
 QUIET: Rgb = (110, 116, 125)
@@ -53,7 +53,7 @@ def alert(title: str, lines: Iterable[str]) -> str:
     return f'<div role="alert">{heading(title, _SEVERITIES[Severity.ERROR][1])}{text}</div>'
 
 
-def welcome(subjects: Sequence[Subject], key: str) -> str:
+def welcome(subjects: Sequence[ViewSubject], key: str) -> str:
     """What there is to do at first."""
     if not any(subject.scene.links for subject in subjects):
         return paragraph("There is no link in it, so there is nothing to see: Findings may say why.")
@@ -70,7 +70,7 @@ def more(count: int, what: str) -> str:
     return paragraph(f"and {count:,} more {what}, which have no row here")
 
 
-def verdict(subjects: Sequence[Subject]) -> str:
+def verdict(subjects: Sequence[ViewSubject]) -> str:
     """How many findings there are."""
     found = [each for subject in subjects for each in subject.findings]
     errors = sum(each.severity is Severity.ERROR for each in found)
@@ -100,19 +100,19 @@ def difference(found: Difference) -> str:
     return paragraph(found.message) + sides
 
 
-def part(link: str, subject: Subject) -> str:
+def part(link: str, subject: ViewSubject) -> str:
     """What a file says of a link, what was found in it, and what a conversion makes of it."""
     found = next((each for each in subject.scene.links if each.name == link), None)
     if found is None:
         return ""
     rows = [*_facts(found, subject).items()]
     about = subject.about.get(link, ())
-    rows += [(str(each.fate if isinstance(each, Entry) else each.severity), each.message) for each in about]
+    rows += [(str(each.fate if isinstance(each, LedgerEntry) else each.severity), each.message) for each in about]
     cells = "".join(f"<tr><th>{escape(shortened(name))}</th><td>{escape(value)}</td></tr>" for name, value in rows)
     return f'<table style="font-size:0.8em;margin:0.5em 0.75em;text-align:left">{cells}</table>'
 
 
-def _facts(link: SceneLink, subject: Subject) -> Mapping[str, str]:
+def _facts(link: SceneLink, subject: ViewSubject) -> Mapping[str, str]:
     joint = next((each for each in subject.scene.joints if each.child == link.name), None)
     visuals = sum(shape.role == "visual" for shape in link.shapes)
     facts = {"link": shortened(link.name), "line": str(link.where.line or "")}

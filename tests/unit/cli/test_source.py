@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from twinform.cli.source import Source
+from twinform.cli.source import InputSource
 
 CASES = [
     (b"<robot name='a'/>", "urdf"),
@@ -21,7 +21,7 @@ CASES = [
 
 @pytest.mark.parametrize(("text", "format_"), CASES)
 def test_format_is_that_of_the_root_element(text: bytes, format_: str | None) -> None:
-    assert Source(text, "<stdin>").format == format_
+    assert InputSource(text, "<stdin>").format == format_
 
 
 @pytest.mark.parametrize(
@@ -31,10 +31,10 @@ def test_format_is_that_of_the_root_element(text: bytes, format_: str | None) ->
 def test_format_of_a_file_that_tells_nothing_is_that_of_its_suffix(
     name: str, format_: str | None, tmp_path: Path
 ) -> None:
-    assert Source(str(tmp_path / name), name).format == format_
+    assert InputSource(str(tmp_path / name), name).format == format_
 
 
 def test_content_counts_more_than_the_suffix(tmp_path: Path) -> None:
     file = tmp_path / "robot.sdf"
     file.write_text("<robot name='a'/>")
-    assert Source(str(file), str(file)).format == "urdf"
+    assert InputSource(str(file), str(file)).format == "urdf"

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from twinform.passes.mesh_jobs.job import Job, Result
+from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 
 from .conftest import BROKEN, WRONG, Run
 
@@ -175,9 +175,9 @@ def test_a_mesh_that_is_not_there_is_reported(run: Run, tmp_path: Path) -> None:
 
 
 def test_without_trimesh_the_bytes_are_known(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    def do(job: Job) -> Result:
+    def do(job: MeshJob) -> MeshResult:
         del job
-        return Result({}, trouble="missing", message="trimesh")
+        return MeshResult({}, trouble="missing", message="trimesh")
 
     monkeypatch.setattr("twinform.passes.mesh_jobs.child_process.do", do)
     costs = stats(run, _EXAMPLES / "arm.urdf")["models"][0]["meshes"]

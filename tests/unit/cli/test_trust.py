@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from pydantic import BaseModel
 
-from twinform.cli.config.settings import FileSettings, FormatSettings, Settings
+from twinform.cli.config.settings import FileSettings, FormatSettings, ProjectSettings
 from twinform.cli.config.trust import HELD, is_own
 
 from .conftest import GOOD, Run
@@ -295,7 +295,7 @@ def test_the_search_ends_at_the_home_of_the_user(run: Run, here: Path, monkeypat
 
 
 def test_every_setting_is_held_to_something_and_the_page_says_to_what() -> None:
-    settings = {**_keys(Settings), **{f"files.{key}": "" for key in _keys(FileSettings)}}
+    settings = {**_keys(ProjectSettings), **{f"files.{key}": "" for key in _keys(FileSettings)}}
     settings |= {f"format.{key}": "" for key in _keys(FormatSettings)}
     assert HELD.keys() == settings.keys() - {"files", "format"}
     page = (Path(__file__).parents[3] / "docs/how-to/set-up-a-project.md").read_text()

@@ -7,7 +7,7 @@ import pytest
 from twinform.compiler import LoadResult, check
 from twinform.compiler.input.xacro import expansion
 from twinform.compiler.input.xacro.expansion import Expansion
-from twinform.diagnostics import Location, Origins
+from twinform.diagnostics import LineOrigins, Location
 
 TEXT = b"""<robot name="r"><link name="a"/>
 <link name="b"><nonsense/></link>
@@ -15,7 +15,7 @@ TEXT = b"""<robot name="r"><link name="a"/>
 
 
 def read(monkeypatch: pytest.MonkeyPatch, *, strict: bool, text: bytes = TEXT) -> LoadResult:
-    origins = Origins.of([(1, Location("/arm.xacro", 10)), (2, Location("/parts.xacro", 20))])
+    origins = LineOrigins.of([(1, Location("/arm.xacro", 10)), (2, Location("/parts.xacro", 20))])
 
     def expand(path: Path, *_: object) -> Expansion:
         assert path == Path("arm.xacro")

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import twinform
-from twinform.cli.config.settings import Settings
+from twinform.cli.config.settings import ProjectSettings
 from twinform.cli.convert import command
 from twinform.compiler import plan
 from twinform.compiler.input.options import FileOptions, ReadingOptions
@@ -51,4 +51,4 @@ def test_the_command_line_and_the_configuration_have_what_is_declared(name: str)
     _, option = _DECLARED[name]
     flags = {each.name: each for each in command.params}
     assert flags[name].opts == [option.flag or f"--{name.replace('_', '-')}"]
-    assert name in Settings.model_fields or not option.setting
+    assert name in ProjectSettings.model_fields or not option.setting

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from twinform.diagnostics import NOWHERE, Diagnostic, Fix, Location, Rule, Safety, Severity, Span, TextEdit
-from twinform.diagnostics.reporters import NO_TEXTS, REPORTERS, Findings, text
+from twinform.diagnostics.reporters import NO_TEXTS, REPORTERS, FileFindings, text
 from twinform.diagnostics.rules import DANGLING_LINK
 
 RULE = Rule(name="odd-value", severity=Severity.ERROR, finds="Odd.", matters="So.", example="3", better="2")
@@ -24,7 +24,7 @@ FULL = Diagnostic(
     related=(Location("a.urdf", 3, "/robot"), Location("other.sdf", 5)),
 )
 BARE = Diagnostic(RULE, "the file is odd", NOWHERE, Severity.WARNING)
-FILES = [Findings("a.urdf", (FULL, BARE)), Findings("clean.sdf")]
+FILES = [FileFindings("a.urdf", (FULL, BARE)), FileFindings("clean.sdf")]
 
 
 def test_text_shows_place_severity_headline_rule_path_and_help() -> None:
@@ -47,7 +47,7 @@ def test_text_shows_what_a_terminal_would_obey() -> None:
     nasty = Diagnostic(
         RULE, "link '\x1b[2J\x9b\n'", Location("\udcff.urdf", 1, "/\u202e"), Severity.ERROR, help="a\nb\x07"
     )
-    assert text([Findings("x", (nasty,))]).splitlines() == [
+    assert text([FileFindings("x", (nasty,))]).splitlines() == [
         r"\udcff.urdf:1: error: link '\x1b[2J\x9b\n' [odd-value]",
         r"    at /\u202e",
         "    help: a",
@@ -117,12 +117,12 @@ def test_github_prints_one_command_for_each_finding() -> None:
 
 def test_github_escapes_properties_and_data() -> None:
     odd = Diagnostic(RULE, "100% a,b:c\r\nend", Location("C:\\a,b%.urdf", 1), Severity.INFO)
-    assert REPORTERS["github"]([Findings("x", (odd,))]) == (
+    assert REPORTERS["github"]([FileFindings("x", (odd,))]) == (
         "::notice file=C%3A\\a%2Cb%25.urdf,line=1,title=odd-value::100%25 a,b:c%0D%0Aend\n"
     )
 
 
-def sarif(files: list[Findings]) -> dict[str, Any]:
+def sarif(files: list[FileFindings]) -> dict[str, Any]:
     log = json.loads(REPORTERS["sarif"](files))
     assert log["version"] == "2.1.0"
     (run,) = log["runs"]
@@ -131,18 +131,18 @@ def sarif(files: list[Findings]) -> dict[str, Any]:
 
 def test_sarif_lists_the_rules_that_were_found_with_their_pages() -> None:
     known = Diagnostic(DANGLING_LINK, "no link", NOWHERE, Severity.ERROR)
-    own, other = sarif([Findings("a.urdf", (FULL, known, BARE))])["tool"]["driver"]["rules"]
+    own, other = sarif([FileFindings("a.urdf", (FULL, known, BARE))])["tool"]["driver"]["rules"]
     assert (own["id"], other["id"]) == ("dangling-link", "odd-value")
     assert own["helpUri"].endswith("twinform/diagnostics/rules/dangling-link.md")
     assert "helpUri" not in other
     assert other["help"]["text"].startswith("What it finds: Odd.\n")
     assert other["help"]["markdown"].startswith("**What it finds.** Odd.\n\n")
-    assert sarif([Findings("clean.sdf")])["tool"]["driver"]["rules"] == []
+    assert sarif([FileFindings("clean.sdf")])["tool"]["driver"]["rules"] == []
 
 
 def test_sarif_fingerprints_stay_where_lines_move() -> None:
     def fingerprints(*found: Diagnostic) -> list[str]:
-        return [one["partialFingerprints"]["finding/v1"] for one in sarif([Findings("a.urdf", found)])["results"]]
+        return [one["partialFingerprints"]["finding/v1"] for one in sarif([FileFindings("a.urdf", found)])["results"]]
 
     moved = replace(FULL, location=FULL.location._replace(line=99))
     assert fingerprints(FULL) == fingerprints(moved)
@@ -177,13 +177,13 @@ def test_sarif_results_refer_to_rules_and_places() -> None:
     ],
 )
 def test_sarif_writes_files_as_uris(file: str, uri: str) -> None:
-    (result,) = sarif([Findings(file, (BARE,))])["results"]
+    (result,) = sarif([FileFindings(file, (BARE,))])["results"]
     assert result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == uri
 
 
 @pytest.mark.parametrize("name", ["text", "github"])
 def test_no_findings_are_no_text(name: str) -> None:
-    assert REPORTERS[name]([Findings("clean.sdf")]) == ""
+    assert REPORTERS[name]([FileFindings("clean.sdf")]) == ""
 
 
 WORDS = st.text(max_size=10)
@@ -232,7 +232,7 @@ class OneLine:
 @given(st.lists(DIAGNOSTICS, max_size=2), st.text(max_size=30).filter(lambda line: "\n" not in line))
 @pytest.mark.parametrize("name", REPORTERS)
 def test_every_finding_is_reported_once_whatever_is_in_it(name: str, found: list[Diagnostic], line: str) -> None:
-    report = REPORTERS[name]([Findings("robot.urdf", tuple(found), OneLine(line))])
+    report = REPORTERS[name]([FileFindings("robot.urdf", tuple(found), OneLine(line))])
     report.encode()
     assert ONE_LINE[name](report) == len(found)
 
@@ -243,7 +243,7 @@ TEXT = OneLine("a 33 bcd e")
 
 
 def test_text_shows_the_piece_and_the_fix() -> None:
-    assert text([Findings("a.urdf", (FIXED,), TEXT)], lambda word, _: f"<{word}>").splitlines() == [
+    assert text([FileFindings("a.urdf", (FIXED,), TEXT)], lambda word, _: f"<{word}>").splitlines() == [
         "a.urdf:1:3: <error>: the value is '3'; expected an even one [odd-value]",
         "    at /robot",
         "    1 | a 33 bcd e",
@@ -256,7 +256,7 @@ def test_text_shows_the_piece_and_the_fix() -> None:
 
 
 def test_json_has_the_edits_of_a_fix_by_line_and_column() -> None:
-    (file,) = json.loads(REPORTERS["json"]([Findings("a.urdf", (FIXED,), TEXT)]))["files"]
+    (file,) = json.loads(REPORTERS["json"]([FileFindings("a.urdf", (FIXED,), TEXT)]))["files"]
     (found,) = file["diagnostics"]
     assert (found["line"], found["column"], found["end_line"], found["end_column"]) == (1, 3, 1, 5)
     assert found["fix"] == {
@@ -270,13 +270,13 @@ def test_json_has_the_edits_of_a_fix_by_line_and_column() -> None:
 
 
 def test_a_fix_of_a_text_that_is_not_at_hand_is_not_told() -> None:
-    (file,) = json.loads(REPORTERS["json"]([Findings("a.urdf", (FIXED,))]))["files"]
+    (file,) = json.loads(REPORTERS["json"]([FileFindings("a.urdf", (FIXED,))]))["files"]
     assert file["diagnostics"][0]["fix"] is None
-    assert "fixes" not in sarif([Findings("a.urdf", (FIXED,))])["results"][0]
+    assert "fixes" not in sarif([FileFindings("a.urdf", (FIXED,))])["results"][0]
 
 
 def test_sarif_has_columns_and_fixes() -> None:
-    (result,) = sarif([Findings("a.urdf", (FIXED,), TEXT)])["results"]
+    (result,) = sarif([FileFindings("a.urdf", (FIXED,), TEXT)])["results"]
     region = {"startLine": 1, "startColumn": 3, "endLine": 1, "endColumn": 5}
     assert result["locations"][0]["physicalLocation"]["region"] == region
     (fix,) = result["fixes"]
@@ -296,19 +296,19 @@ def test_sarif_has_columns_and_fixes() -> None:
     ],
 )
 def test_github_has_columns_of_one_line(where: Location, properties: str) -> None:
-    report = REPORTERS["github"]([Findings("a", (replace(BARE, location=where),))])
+    report = REPORTERS["github"]([FileFindings("a", (replace(BARE, location=where),))])
     assert report.startswith(f"::warning {properties}title=odd-value::")
 
 
 def test_concise_has_one_line_for_each() -> None:
-    assert REPORTERS["concise"]([Findings("a.urdf", (PLACED, BARE))]).splitlines() == [
+    assert REPORTERS["concise"]([FileFindings("a.urdf", (PLACED, BARE))]).splitlines() == [
         "a.urdf:1:3: error: the value is '3'; expected an even one [odd-value]",
         "a.urdf: warning: the file is odd [odd-value]",
     ]
 
 
 def test_junit_has_a_suite_for_each_file_and_fails_for_errors_only() -> None:
-    root = ET.fromstring(REPORTERS["junit"]([Findings("a.urdf", (PLACED, BARE)), Findings("clean.sdf")]))
+    root = ET.fromstring(REPORTERS["junit"]([FileFindings("a.urdf", (PLACED, BARE)), FileFindings("clean.sdf")]))
     assert {key: root.get(key) for key in ("tests", "failures", "errors", "skipped")} == {
         "tests": "3",
         "failures": "1",
@@ -327,5 +327,5 @@ def test_junit_has_a_suite_for_each_file_and_fails_for_errors_only() -> None:
 
 def test_junit_is_xml_whatever_is_in_it() -> None:
     nasty = Diagnostic(RULE, 'a<b>&"\x00\x1b\ud800', Location("x\x07.urdf", 1, "/\uffff"), Severity.ERROR)
-    (suite,) = ET.fromstring(REPORTERS["junit"]([Findings("x\x07.urdf", (nasty,))]))
+    (suite,) = ET.fromstring(REPORTERS["junit"]([FileFindings("x\x07.urdf", (nasty,))]))
     assert suite[0][0].get("message") == r'a<b>&"\x00\x1b\ud800'

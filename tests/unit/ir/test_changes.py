@@ -4,7 +4,7 @@ import pytest
 
 import twinform
 from twinform.ir import Document, Link, Model
-from twinform.ir.changes import Change, ChangeKind, changes, count_changes
+from twinform.ir.changes import ChangeKind, NodeChange, changes, count_changes
 
 ROBOT = """
 <sdf version="1.11"><model name="m">
@@ -69,23 +69,23 @@ def test_a_part_without_fields_belongs_to_its_node() -> None:
     link = "/models['m']/links['b']"
     before, after = OLD.models[0].links[1].opaque[0], new.models[0].links[1].opaque[0]
     assert list(changes(OLD, new)) == [
-        Change(ChangeKind.REMOVED, link, f"{link}/opaque[0]", before, None),
-        Change(ChangeKind.ADDED, link, f"{link}/opaque[0]", None, after),
+        NodeChange(ChangeKind.REMOVED, link, f"{link}/opaque[0]", before, None),
+        NodeChange(ChangeKind.ADDED, link, f"{link}/opaque[0]", None, after),
     ]
 
 
 def test_a_value_is_reported_with_its_node_and_what_it_was() -> None:
     body = "/models['m']/links['a']/inertial"
     heavy = twinform.loads(ROBOT.replace("<mass>1", "<mass>2"))
-    assert list(changes(OLD, heavy)) == [Change(ChangeKind.CHANGED, body, f"{body}/mass", 1.0, 2.0)]
+    assert list(changes(OLD, heavy)) == [NodeChange(ChangeKind.CHANGED, body, f"{body}/mass", 1.0, 2.0)]
     none = twinform.loads(ROBOT.replace("<inertial><mass>1</mass></inertial>", ""))
     assert list(changes(OLD, none)) == [
-        Change(ChangeKind.REMOVED, body, body),
-        Change(ChangeKind.REMOVED, body, f"{body}/mass", 1.0, None),
+        NodeChange(ChangeKind.REMOVED, body, body),
+        NodeChange(ChangeKind.REMOVED, body, f"{body}/mass", 1.0, None),
     ]
     assert list(changes(none, OLD)) == [
-        Change(ChangeKind.ADDED, body, body),
-        Change(ChangeKind.ADDED, body, f"{body}/mass", None, 1.0),
+        NodeChange(ChangeKind.ADDED, body, body),
+        NodeChange(ChangeKind.ADDED, body, f"{body}/mass", None, 1.0),
     ]
 
 
@@ -93,14 +93,14 @@ def test_parts_are_added_to_and_taken_from_lists_that_have_none() -> None:
     sensor = "/models['m']/links['b']/sensors['s']"
     new = twinform.loads(ROBOT.replace('<link name="b">', '<link name="b"><sensor name="s" type="imu"/>'))
     assert list(changes(OLD, new)) == [
-        Change(ChangeKind.ADDED, sensor, sensor),
-        Change(ChangeKind.ADDED, sensor, f"{sensor}/name", None, "s"),
-        Change(ChangeKind.ADDED, sensor, f"{sensor}/type", None, "imu"),
+        NodeChange(ChangeKind.ADDED, sensor, sensor),
+        NodeChange(ChangeKind.ADDED, sensor, f"{sensor}/name", None, "s"),
+        NodeChange(ChangeKind.ADDED, sensor, f"{sensor}/type", None, "imu"),
     ]
     assert list(changes(new, OLD)) == [
-        Change(ChangeKind.REMOVED, sensor, sensor),
-        Change(ChangeKind.REMOVED, sensor, f"{sensor}/name", "s", None),
-        Change(ChangeKind.REMOVED, sensor, f"{sensor}/type", "imu", None),
+        NodeChange(ChangeKind.REMOVED, sensor, sensor),
+        NodeChange(ChangeKind.REMOVED, sensor, f"{sensor}/name", "s", None),
+        NodeChange(ChangeKind.REMOVED, sensor, f"{sensor}/type", "imu", None),
     ]
 
 

@@ -9,7 +9,7 @@ from twinform.diagnostics import Diagnostic, Location, Severity, catalog
 from twinform.diagnostics.rules import IMPOSSIBLE_INERTIA
 from twinform.ir import Format
 from twinform.passes import parse_pipeline
-from twinform.profiles import Effect, Profile, Row, UnknownProfileError, load, names, parse
+from twinform.profiles import Effect, Profile, ProfileRow, UnknownProfileError, load, names, parse
 from twinform.profiles.counterparts import OF_FACTS
 from twinform.profiles.profile import PORTABLE
 from twinform.profiles.reading.notation import reads
@@ -103,11 +103,11 @@ def test_names_that_there_are_not(text: str, message: str) -> None:
     ],
 )
 def test_conditions_narrow_a_row(conditions: dict[str, object], minded: bool) -> None:
-    row = Row.model_validate({"rule": "impossible-inertia", "effect": Effect.REFUSES, "about": "", **conditions})
+    row = ProfileRow.model_validate({"rule": "impossible-inertia", "effect": Effect.REFUSES, "about": "", **conditions})
     assert row.minds(_FINDING, Format.URDF) is minded
     assert not row.minds(replace(_FINDING, rule=next(iter(catalog().values()))), Format.URDF)
 
 
 def test_a_pattern_that_is_none_is_refused() -> None:
     with pytest.raises(re.error):
-        Row.model_validate({"rule": "a", "effect": "refuses", "about": "", "message": "("})
+        ProfileRow.model_validate({"rule": "a", "effect": "refuses", "about": "", "message": "("})

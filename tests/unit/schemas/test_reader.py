@@ -16,7 +16,7 @@ from lxml import etree
 from twinform.diagnostics import DiagnosticSink, Source
 from twinform.ir import Element, Node, Pose
 from twinform.ir.record import Record, record
-from twinform.schemas import Context, Reader, Table, table
+from twinform.schemas import Context, SchemaReader, Table, table
 from twinform.schemas.facts import parse_facts
 
 FACTS = """
@@ -181,7 +181,7 @@ def read(text: str, definition: str, *, simple: bool = False) -> dict[str, objec
     """All that becomes of a text."""
     sink = DiagnosticSink(file="notes")
     context = Context(sink, "file", "sdf", (1, 1), simple=simple)
-    data = Reader(TABLE, (1, 1)).read(etree.fromstring(text), context, definition, NODES[definition])
+    data = SchemaReader(TABLE, (1, 1)).read(etree.fromstring(text), context, definition, NODES[definition])
     return {
         "text": text,
         "definition": definition,
@@ -221,10 +221,10 @@ def test_a_source_may_be_given() -> None:
     context = Context(DiagnosticSink(), "file", "sdf", (1, 1))
     source = Source("elsewhere", 7, None, "origin", "o")
     element = etree.fromstring("<sensor><child>c</child></sensor>")
-    given = Reader(TABLE, (1, 1)).read(element, context, "part", Part, source)
+    given = SchemaReader(TABLE, (1, 1)).read(element, context, "part", Part, source)
     assert given == {"source": source, "child": "c"}
     element = etree.fromstring("<thing name='t'><part name='p'/></thing>")
-    root = Reader(TABLE, (1, 1)).read(element, context, "thing", Thing)
+    root = SchemaReader(TABLE, (1, 1)).read(element, context, "thing", Thing)
     assert root["name"] == "t"
     assert root["parts"][0].source == Source("file", 1, Source("file", 1, None, "thing", "t"), "part", "p")
 
@@ -233,7 +233,7 @@ def test_what_is_read_depends_on_the_version() -> None:
     element = etree.fromstring("<thing name='t' unit='1' old='1' new='2'><late>1</late></thing>")
     for version, strange in (((1, 0), ["new", "late"]), ((1, 1), ["old", "new", "late"]), ((1, 2), ["old"])):
         context = Context(DiagnosticSink(), "", "sdf", version)
-        data = Reader(TABLE, version).read(element, context, "thing", Thing)
+        data = SchemaReader(TABLE, version).read(element, context, "thing", Thing)
         assert (data["old"], data["new"], data["late"]) == (1.0, 2.0, 1.0)
         assert [what or str(where.tag) for where, what in context.tolerated] == strange
 
@@ -241,7 +241,7 @@ def test_what_is_read_depends_on_the_version() -> None:
 def test_a_node_without_what_it_needs_breaks_the_document() -> None:
     for text, broken in (("<thing unit='1'/>", True), ("<thing name='t' unit='1'/>", False)):
         context = Context(DiagnosticSink(), "", "sdf", (1, 1))
-        Reader(TABLE, (1, 1)).read(etree.fromstring(text), context, "thing", Thing)
+        SchemaReader(TABLE, (1, 1)).read(etree.fromstring(text), context, "thing", Thing)
         assert context.broken is broken
         assert context.sink.has_errors is broken
 
@@ -270,4 +270,4 @@ def test_a_place_is_a_field_of_the_class(link: str, element: str, complaint: str
     facts = replace(table("urdf"), definitions={**table("urdf").definitions, "link": definition})
     context = Context(DiagnosticSink(), "", "urdf", (1, 0))
     with pytest.raises(ValueError, match=complaint):
-        Reader(facts, (1, 0)).read(etree.fromstring(f"<robot name='r'>{element}</robot>"), context)
+        SchemaReader(facts, (1, 0)).read(etree.fromstring(f"<robot name='r'>{element}</robot>"), context)

@@ -7,11 +7,11 @@ from lsprotocol import types
 from tests.unit.server.test_half_typed import session_with
 from twinform.diagnostics import Diagnostic, Fix, Location, Safety, Severity, Span, TextEdit, rules
 from twinform.server.actions import FIX_ALL, actions, edit_of, together
-from twinform.server.checking import Job, check
-from twinform.server.documents import Document
+from twinform.server.checking import CheckJob, check
+from twinform.server.documents import TextDocument
 from twinform.server.editing import lay_out, run_passes
 from twinform.server.session import Session
-from twinform.server.settings import Settings
+from twinform.server.settings import EditorSettings
 from twinform.text import apply
 
 TEXT = '<robot name="a">\r\n  <link nam="b" name="é"/>\r\n  <link nam="c" name="d"/>\r\n</robot>\r\n'
@@ -26,7 +26,7 @@ def finding(text: str, start: int, safety: Safety) -> Diagnostic:
     return Diagnostic(rules.UNKNOWN_ATTRIBUTE, "no", where, Severity.WARNING, fix=fix)
 
 
-def offered(safety: Safety, text: str = TEXT) -> tuple[Session, Document]:
+def offered(safety: Safety, text: str = TEXT) -> tuple[Session, TextDocument]:
     session, document = session_with("a.urdf", text)
     first = text.index(" nam=")
     found = (finding(text, first, safety), finding(text, text.index(" nam=", first + 1), safety))
@@ -34,7 +34,7 @@ def offered(safety: Safety, text: str = TEXT) -> tuple[Session, Document]:
     return session, document
 
 
-def after(document: Document, edit: types.WorkspaceEdit | None) -> str:
+def after(document: TextDocument, edit: types.WorkspaceEdit | None) -> str:
     assert edit is not None
     assert edit.changes is not None
     made = [TextEdit(document.positions.span(each.range), each.new_text) for each in edit.changes[document.uri]]
@@ -85,8 +85,8 @@ def test_a_byte_order_mark_moves_the_edits() -> None:
     assert after(document, edit) == "\ufeff<sdf/>"
 
 
-def job(path: Path, text: str | None = None) -> Job:
-    return Job(path, {} if text is None else {str(path.resolve()): text.encode()}, Settings())
+def job(path: Path, text: str | None = None) -> CheckJob:
+    return CheckJob(path, {} if text is None else {str(path.resolve()): text.encode()}, EditorSettings())
 
 
 def test_passes_change_the_text_of_the_editor_and_nothing_else(tmp_path: Path) -> None:

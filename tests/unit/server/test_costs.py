@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from tests.profile import DEEP
-from twinform.server.documents import Document
+from twinform.server.documents import TextDocument
 from twinform.server.hover import hover
 from twinform.server.navigation import references
-from twinform.server.renaming import RefusedError, rename
+from twinform.server.renaming import RenameRefusedError, rename
 from twinform.server.session import Session
 from twinform.server.settings import no_settings
 from twinform.server.symbols import outline, search
@@ -61,7 +61,7 @@ SHAPES: Mapping[str, tuple[str, Callable[[int], str]]] = {
     "calls": ("<xacro:m", lambda n: _urdf(f"{_MACRO}</xacro:macro>" + '<xacro:m p="1"/>' * n)),
     "expressions": ("${p", lambda n: _urdf(f'{_MACRO}<link name="{"${p}" * n}"/></xacro:macro>')),
 }
-ANSWERS: Mapping[str, Callable[[Session, Document, int], object]] = {
+ANSWERS: Mapping[str, Callable[[Session, TextDocument, int], object]] = {
     "hover": hover,
     "references": references,
     "rename": lambda session, document, offset: rename(session, document, offset, "b"),
@@ -86,7 +86,7 @@ def calls(shape: str, answer: str, size: int, folder: Path) -> int:
     sys.setprofile(look)
     try:
         ANSWERS[answer](session, document, text.rindex(before) + len(before))
-    except RefusedError:
+    except RenameRefusedError:
         pass
     finally:
         sys.setprofile(None)

@@ -15,12 +15,12 @@ from tests.profile import DEEP
 from tests.unit.server.test_diagnostics import HOSTILE
 from twinform.server.actions import actions
 from twinform.server.completion import complete
-from twinform.server.documents import Document
+from twinform.server.documents import TextDocument
 from twinform.server.folding import folds
 from twinform.server.hover import hover
 from twinform.server.links import links
 from twinform.server.navigation import definitions, references, search_of
-from twinform.server.renaming import RefusedError, prepare, rename
+from twinform.server.renaming import RenameRefusedError, prepare, rename
 from twinform.server.session import Session
 from twinform.server.settings import no_settings
 from twinform.server.symbols import outline
@@ -31,13 +31,13 @@ SESSION = Path(__file__).with_name("session")
 FILES = ("arm.urdf", "cart.sdf", "rover.urdf.xacro", "wheel.xacro")
 
 
-def session_with(name: str, text: str) -> tuple[Session, Document]:
+def session_with(name: str, text: str) -> tuple[Session, TextDocument]:
     session = Session(no_settings, lambda _: None)
     uri = (SESSION / name).as_uri()
     return session, session.documents.open(uri, text, 1, "urdf")
 
 
-def ask_everything(session: Session, document: Document, offset: int) -> None:
+def ask_everything(session: Session, document: TextDocument, offset: int) -> None:
     hover(session, document, offset)
     found = complete(session, document, offset)
     for item in found.items:
@@ -46,7 +46,7 @@ def ask_everything(session: Session, document: Document, offset: int) -> None:
     definitions(session, document, offset)
     references(session, document, offset)
     for ask in (lambda: prepare(document, offset), lambda: rename(session, document, offset, "another")):
-        with suppress(RefusedError):
+        with suppress(RenameRefusedError):
             ask()
     outline(document)
     folds(document)

@@ -9,8 +9,8 @@ import pytest
 
 from testbed import robots
 from tests.profile import DEEP
-from twinform.server.checking import Job, check
-from twinform.server.settings import Settings
+from twinform.server.checking import CheckJob, check
+from twinform.server.settings import EditorSettings
 
 pytestmark = pytest.mark.slow
 
@@ -28,7 +28,7 @@ _MOST_GROWTH = 8 * 2**20
 
 def edit(name: str, number: int) -> None:
     path = Path("/nowhere/robot.urdf")
-    check(Job(path, {str(path): EDITS[name](number).encode()}, Settings()))
+    check(CheckJob(path, {str(path): EDITS[name](number).encode()}, EditorSettings()))
 
 
 @pytest.mark.parametrize("name", EDITS)

@@ -10,9 +10,9 @@ import twinform
 from testbed.corpus.files import ROOT
 from twinform.diagnostics import TextEdit
 from twinform.passes.structure.scopes import RESERVED
-from twinform.server.documents import Document
+from twinform.server.documents import TextDocument
 from twinform.server.names import names_of
-from twinform.server.renaming import RefusedError, rename
+from twinform.server.renaming import RenameRefusedError, rename
 from twinform.server.session import Session
 from twinform.server.settings import no_settings
 from twinform.text import apply
@@ -22,13 +22,13 @@ KINDS = ("link", "joint", "frame")
 EXAMPLES = ("rover.urdf", "gripper.urdf", "arm.urdf", "warehouse.sdf")
 
 
-def opened(path: Path, text: str | None = None) -> tuple[Session, Document]:
+def opened(path: Path, text: str | None = None) -> tuple[Session, TextDocument]:
     session = Session(no_settings, lambda _: None)
     content = path.read_bytes().decode() if text is None else text
     return session, session.documents.open(path.as_uri(), content, 1, "")
 
 
-def renamed(session: Session, document: Document, at: str, new: str) -> dict[str, str]:
+def renamed(session: Session, document: TextDocument, at: str, new: str) -> dict[str, str]:
     """The texts of all documents that change."""
     before, _, behind = at.partition("|")
     offset = document.text.index(before + behind) + len(before)
@@ -121,7 +121,7 @@ REFUSED = {
 def test_what_does_not_fit_is_refused(case: str) -> None:
     name, at, new, message = REFUSED[case]
     session, document = opened(SESSION / name)
-    with pytest.raises(RefusedError, match=message):
+    with pytest.raises(RenameRefusedError, match=message):
         renamed(session, document, at, new)
 
 
@@ -147,7 +147,7 @@ def test_files_outside_of_the_workspace_are_not_changed(
     session, document = opened(workspace / "rover.urdf.xacro")
     session.folders = [workspace]
     at = document.text.index("2 * radius") + 5
-    with pytest.raises(RefusedError, match=r"outside of the workspace|has to be known"):
+    with pytest.raises(RenameRefusedError, match=r"outside of the workspace|has to be known"):
         rename(session, document, at, "r")
     session.folders = [tmp_path]
     if not by_link:

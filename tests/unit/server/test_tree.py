@@ -9,14 +9,14 @@ from hypothesis import given
 from testbed.corpus.files import ROOT
 from twinform import convert
 from twinform.ir import Document
-from twinform.server.tree import Node, parse
+from twinform.server.tree import TolerantNode, parse
 from twinform.testing.strategies import robots
 from twinform.text import ElementSpan, spans
 
 EXAMPLES = sorted(path for path in (ROOT / "examples").iterdir() if path.suffix in {".urdf", ".sdf", ".xacro"})
 
 
-def same(node: Node, span: ElementSpan) -> bool:
+def same(node: TolerantNode, span: ElementSpan) -> bool:
     attributes = list(node.attributes.items()) == list(span.attributes.items())
     tags = (node.start_tag, node.name, node.end_tag, node.whole) == (
         span.start_tag,

@@ -73,6 +73,6 @@ def test_joints_that_only_one_of_them_has_are_named(tmp_path: Path):
 
 def test_a_model_that_cannot_be_simulated_is_an_error_with_its_name(tmp_path: Path):
     massless = written(tmp_path / "a.urdf", ROBOT.partition('<link name="tail">')[0] + '<link name="tail"/></robot>')
-    with pytest.raises(oracles.UnreadableError) as caught:
+    with pytest.raises(oracles.EngineUnreadableError) as caught:
         oracles.simulate(massless, massless)
     assert caught.value.path == massless.resolve()

@@ -206,13 +206,13 @@ def test_an_engine_that_does_not_exist_is_an_error_that_names_those_that_do():
 
 def test_a_format_that_the_engine_does_not_have_is_an_error(tmp_path: Path):
     path = written(tmp_path / "a.sdf", "<sdf version='1.9'/>")
-    with pytest.raises(oracles.UnreadableError, match=r"does not read \.sdf"):
+    with pytest.raises(oracles.EngineUnreadableError, match=r"does not read \.sdf"):
         oracles.compare(path, path, engine=present("mujoco"))
 
 
 def test_a_fault_in_one_file_is_an_error_with_its_name(engine: str, tmp_path: Path):
     good, bad = written(tmp_path / "a.urdf", ROBOT), written(tmp_path / "b.urdf", "<robot name='r'><link/>")
-    with pytest.raises(oracles.UnreadableError) as caught:
+    with pytest.raises(oracles.EngineUnreadableError) as caught:
         oracles.compare(good, bad, engine=engine)
     assert caught.value.path == bad.resolve()
 

@@ -8,7 +8,7 @@ from lxml import etree
 from tests.tree_changes import PARSER
 from twinform.diagnostics import TextEdit
 from twinform.schemas import XmlElement
-from twinform.text import Editor, SourceText, Surroundings, apply, spans
+from twinform.text import Editor, SourceText, TextSurroundings, apply, spans
 
 TEXT = """<robot>
 \t<link name='a'/> <!-- about a -->
@@ -25,7 +25,7 @@ def _made(change: Callable[[Editor, XmlElement], TextEdit | tuple[TextEdit, ...]
     root = etree.fromstring(text.encode(), PARSER)
     source = SourceText.of(text.encode())
     place = spans(text)
-    editor = Editor(Surroundings.of(source, place), dict(zip(root.iter("*"), place.walk(), strict=True)))
+    editor = Editor(TextSurroundings.of(source, place), dict(zip(root.iter("*"), place.walk(), strict=True)))
     found = change(editor, root)
     return apply(text, (found,) if isinstance(found, TextEdit) else found)
 

@@ -3,7 +3,7 @@
 import pytest
 from lxml import etree
 
-from twinform.text import Lines, Place, UnplacedError, spans
+from twinform.text import LineColumn, Lines, UnplacedError, spans
 
 ROBOT = """<?xml version="1.0"?>
 <robot name="ü">  <!-- ☃ -->
@@ -41,8 +41,8 @@ def test_texts_are_between_children_and_comments() -> None:
 
 def test_places_count_from_one() -> None:
     lines = Lines(ROBOT)
-    assert lines.place(ROBOT.index("name = ")) == Place(4, 7)
-    assert lines.place(0) == Place(1, 1)
+    assert lines.place(ROBOT.index("name = ")) == LineColumn(4, 7)
+    assert lines.place(0) == LineColumn(1, 1)
     assert [Lines("a\r\nb\rc\nd").place(offset).line for offset in (0, 3, 5, 7)] == [1, 2, 3, 4]
 
 

@@ -6,8 +6,8 @@ import twinform
 from tests.unit.report.models import EVIL, hostile
 from twinform.compiler import LoadOptions
 from twinform.diagnostics import Location
-from twinform.diagnostics.ledger import Entry
-from twinform.view import Subject, read_subject
+from twinform.diagnostics.ledger import LedgerEntry
+from twinform.view import ViewSubject, read_subject
 from twinform.view.names import shortened
 from twinform.view.tree import Mark, tree
 from twinform.view.words import part, verdict
@@ -19,7 +19,7 @@ LOOP = """<sdf version="1.11"><model name="loop"><link name="a"/><link name="b"/
 </model></sdf>"""
 
 
-def _subject(text: str) -> Subject:
+def _subject(text: str) -> ViewSubject:
     subject, _ = read_subject(text.encode(), LoadOptions())
     assert subject is not None
     return subject
@@ -61,7 +61,9 @@ WORLD = """<sdf version="1.11"><world name="w">
 
 def test_what_becomes_of_a_part_is_said_in_worlds_and_models_in_models():
     subject = _subject(WORLD)
-    fates = {link: [each.message for each in about if isinstance(each, Entry)] for link, about in subject.about.items()}
+    fates = {
+        link: [each.message for each in about if isinstance(each, LedgerEntry)] for link, about in subject.about.items()
+    }
     assert any("ball" in each for each in fates["one::tip"])
     assert any("ball" in each for each in fates["around::inner::tip"])
     assert "<th>carried</th>" in part("one::tip", subject)

@@ -11,7 +11,7 @@ import click
 
 from twinform.cli.failure import Unusable
 from twinform.cli.flags import group
-from twinform.compiler.batch import PATTERNS, Entry, FolderError, Shard, of_folder, of_names, with_arguments
+from twinform.compiler.batch import PATTERNS, FolderError, ModelEntry, Shard, of_folder, of_names, with_arguments
 from twinform.compiler.batch.archives import is_archive, unpacked
 from twinform.file_access import Readable
 
@@ -35,7 +35,7 @@ class Models:
     """
 
     folder: Path
-    entries: Sequence[Entry]
+    entries: Sequence[ModelEntry]
     shown: str = ""
     contents: Mapping[str, str] = field(default_factory=dict[str, str])
 
@@ -107,7 +107,7 @@ def models(source: Path, options: ModelOptions, results: Path | None = None) -> 
         raise click.UsageError(str(error)) from error
 
 
-def _entries(folder: Path, names: Path | None, options: ModelOptions, results: Path | None) -> list[Entry]:
+def _entries(folder: Path, names: Path | None, options: ModelOptions, results: Path | None) -> list[ModelEntry]:
     try:
         if names is None:
             found = of_folder(folder, options["patterns"], results)

@@ -17,7 +17,7 @@ from twinform.compiler.batch import (
     Batch,
     BusyError,
     FolderError,
-    Record,
+    ModelRecord,
     Summary,
     UnfitWorkerError,
     batch,
@@ -112,7 +112,7 @@ def _run(asked: Batch, options: RunOptions, summary: Summary) -> None:
             shown.step(known=result.known)
 
 
-def _tell(record: Record) -> None:
+def _tell(record: ModelRecord) -> None:
     """Name a model that has no result on stderr, with its reason, as soon as it is known."""
     kept = "; the result of an earlier run stays" if record.kept else ""
     print_line(f"{record.source}: {record.outcome}: {record.message}{kept}", err=True)

@@ -12,7 +12,7 @@ from twinform.cli.config.files import Table, find, section
 
 if TYPE_CHECKING:
     from twinform.cli.config.per_file import PerFile
-    from twinform.cli.config.settings import Settings
+    from twinform.cli.config.settings import ProjectSettings
     from twinform.passes import Names, Pipeline
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -171,7 +171,7 @@ def _nearest() -> tuple[Path, Table] | None:
         return None  # the current folder is gone
 
 
-def _per_file(path: Path, settings: "Settings") -> "PerFile | None":
+def _per_file(path: Path, settings: "ProjectSettings") -> "PerFile | None":
     if not settings.files:
         return None
     from twinform.cli.config.per_file import PerFile  # noqa: PLC0415 - few projects have such tables

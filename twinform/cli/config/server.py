@@ -6,17 +6,16 @@ from pathlib import Path
 from twinform.cli.config.errors import ConfigError
 from twinform.cli.config.files import find
 from twinform.cli.config.per_file import NO_OWN_SETTINGS, OwnSettings, PerFile, RuleSettings
-from twinform.cli.config.settings import Settings as ProjectSettings
-from twinform.cli.config.settings import parse_settings
+from twinform.cli.config.settings import ProjectSettings, parse_settings
 from twinform.cli.config.trust import require_inside
 from twinform.compiler.input.options import profiles_of
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Policy
 from twinform.profiles import Profile
-from twinform.server.settings import Settings
+from twinform.server.settings import EditorSettings
 
 
-def settings_of(path: Path) -> Settings:
+def settings_of(path: Path) -> EditorSettings:
     """The settings for a file: of the nearest configuration, where there is one that can be read.
 
     Folders that it names outside of its own are refused, since nobody was asked whether it is to be trusted.
@@ -24,19 +23,19 @@ def settings_of(path: Path) -> Settings:
     try:
         found = find(path.absolute().parent)
         if found is None:
-            return Settings()
+            return EditorSettings()
         config, table = found
         project = parse_settings(config, table)
         for folder in project.paths:
             require_inside(config, Path(folder), "paths")
         own = PerFile(config, project.files).of(str(path)) if project.files else NO_OWN_SETTINGS
     except ConfigError as error:
-        return Settings(problem=str(error))
+        return EditorSettings(problem=str(error))
     return _settings(project, own)
 
 
-def _settings(project: ProjectSettings, own: OwnSettings) -> Settings:
-    usual, policy = Settings(), Policy()
+def _settings(project: ProjectSettings, own: OwnSettings) -> EditorSettings:
+    usual, policy = EditorSettings(), Policy()
     for allow, deny, _ in (RuleSettings(project.allow, project.deny), *own.rules):
         policy = Policy((policy.allow - {*deny}) | {*allow}, (policy.deny - {*allow}) | {*deny})
     load_options = replace(

@@ -62,7 +62,7 @@ _fields: dict[str, Any] = {
 _OptionSettings: type[BaseModel] = create_model("_OptionSettings", __config__=_CONFIG, **_fields)
 
 
-class Settings(_OptionSettings):
+class ProjectSettings(_OptionSettings):
     """The settings of a project; `None` where nothing is set. Paths are relative to the folder of the file."""
 
     model_config = _CONFIG
@@ -102,14 +102,14 @@ class Settings(_OptionSettings):
         return {name: value for name, value in given.items() if value is not None}
 
 
-def parse_settings(path: Path, found: Table) -> Settings:
+def parse_settings(path: Path, found: Table) -> ProjectSettings:
     """The settings in a file.
 
     Raises:
         ConfigError: a key is unknown, or has a value that it does not take.
     """
     try:
-        settings = Settings.model_validate(found)
+        settings = ProjectSettings.model_validate(found)
     except ValidationError as error:
         raise _readable(path, error) from error
     folders = [str(path.parent / each) for each in settings.paths]
@@ -124,7 +124,7 @@ def _readable(path: Path, error: ValidationError) -> ConfigError:
     problem = error.errors(include_url=False)[0]
     key = "".join(f"[{each}]" if isinstance(each, int) else f".{each}" for each in problem["loc"]).removeprefix(".")
     if problem["type"] == "extra_forbidden":
-        table = {"files": FileSettings, "format": FormatSettings}.get(str(problem["loc"][0]), Settings)
+        table = {"files": FileSettings, "format": FormatSettings}.get(str(problem["loc"][0]), ProjectSettings)
         known = sorted(field.alias or name for name, field in table.model_fields.items())
         return ConfigError(path, f"there is no such key{nearest(str(problem['loc'][-1]), known)}", key=key)
     return ConfigError(

@@ -17,7 +17,7 @@ _SHARED = frozenset({"material", "xacro:if", "xacro:unless"})
 """What files of definitions have as well."""
 
 
-class Kind(Protocol):
+class FileKind(Protocol):
     """Whether a file of a folder is meant; `named` means that a pattern was given for its kind of names."""
 
     def __call__(self, path: Path, /, *, named: bool = False) -> bool:

@@ -7,21 +7,21 @@ from pathlib import Path
 
 from twinform.cli.files.exclusion import Exclusion
 from twinform.cli.files.gitignore import GitIgnore
-from twinform.cli.files.model_files import Kind, is_model
+from twinform.cli.files.model_files import FileKind, is_model
 from twinform.cli.files.patterns import PathPatterns
 
 _HIDDEN = "."
 
 
 @dataclass(slots=True)
-class Walk:
+class FolderWalk:
     """One run through a folder; `wanted` are the files that count, all of the `kind` without it."""
 
     top: str
     exclusion: Exclusion
     wanted: PathPatterns | None = None
     named: bool = False
-    kind: Kind = is_model
+    kind: FileKind = is_model
     left_out: int = 0
     excluded: PathPatterns = field(init=False)
 

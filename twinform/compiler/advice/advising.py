@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from twinform.compiler.advice.choosing import Choice, Facts, choose
-from twinform.compiler.advice.consumers import Reading, readings
+from twinform.compiler.advice.consumers import ConsumerReading, readings
 from twinform.compiler.advice.forms import Form, converted_form, own_form
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.loading import XACRO, read
@@ -23,7 +23,7 @@ class Advice:
     name: str
     choice: Choice
     other: Form
-    consumers: tuple[Reading, ...]
+    consumers: tuple[ConsumerReading, ...]
 
 
 def advise(

@@ -11,7 +11,7 @@ from twinform.profiles import Assessment, Effect, Profile
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class ConsumerReading:
     """One consumer, and what it makes of each form that it reads."""
 
     profile: Profile
@@ -25,7 +25,7 @@ class Reading:
 
 def readings(
     forms: Mapping[Format, Form], profiles: Sequence[Profile], load_options: LoadOptions, name: str
-) -> Iterator[Reading]:
+) -> Iterator[ConsumerReading]:
     """Every consumer, with what it makes of the forms that exist and that it reads."""
     found = {
         format_: assess_file(form.text, profiles, load_options, name=name)
@@ -34,7 +34,7 @@ def readings(
     }
     for number, profile in enumerate(profiles):
         of_it = {format_: each[number] for format_, each in found.items()}
-        yield Reading(profile, {format_: one for format_, one in of_it.items() if one.reads})
+        yield ConsumerReading(profile, {format_: one for format_, one in of_it.items() if one.reads})
 
 
 def _loss(assessment: Assessment) -> tuple[int, int]:

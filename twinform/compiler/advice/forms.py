@@ -10,7 +10,7 @@ from twinform.compiler.errors import CompileError
 from twinform.compiler.input.options import Input, LoadOptions, LoadResult
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.request_options import Language
-from twinform.diagnostics import Diagnostic, Entry, Fate, rules
+from twinform.diagnostics import Diagnostic, Fate, LedgerEntry, rules
 from twinform.ir import Document, Format
 
 
@@ -29,7 +29,7 @@ class Form:
 
     format: Format
     text: bytes = b""
-    entries: tuple[Entry, ...] = ()
+    entries: tuple[LedgerEntry, ...] = ()
     errors: tuple[Diagnostic, ...] = ()
 
     @property
@@ -45,15 +45,15 @@ class Form:
             yield Loss(rule, Fate(fate), len(entries), entries[0].message)
 
 
-def _is_of_the_robot(entry: Entry) -> bool:
+def _is_of_the_robot(entry: LedgerEntry) -> bool:
     return entry.rule not in _THE_SAME_ROBOT and entry.location.path != _VERSION
 
 
-def _gravity(entries: list[Entry]) -> tuple[int, int]:
+def _gravity(entries: list[LedgerEntry]) -> tuple[int, int]:
     return entries[0].rule.severity, len(entries)
 
 
-def _kind(entry: Entry) -> tuple[str, str]:
+def _kind(entry: LedgerEntry) -> tuple[str, str]:
     return entry.rule.name, entry.fate
 
 

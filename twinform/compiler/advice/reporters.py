@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import chain
 
 from twinform.compiler.advice.advising import Advice
-from twinform.compiler.advice.consumers import Reading
+from twinform.compiler.advice.consumers import ConsumerReading
 from twinform.diagnostics.reporters import printable
 from twinform.ir import Format
 from twinform.passes import Pipeline
@@ -64,12 +64,12 @@ def _table(advice: Advice) -> Iterator[str]:
         yield "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
 
 
-def _row(reading: Reading, advice: Advice) -> tuple[str, ...]:
+def _row(reading: ConsumerReading, advice: Advice) -> tuple[str, ...]:
     cells = (_cell(reading.forms.get(format_)) for format_ in _FORMATS)
     return (_label(reading), *cells, _help(reading.best(advice.choice.format)))
 
 
-def _label(reading: Reading) -> str:
+def _label(reading: ConsumerReading) -> str:
     return reading.profile.label if reading.profile.tested else f"{reading.profile.label} (not tested)"
 
 
@@ -101,7 +101,7 @@ def _details(advice: Advice) -> Iterator[str]:
         yield "* changes the physics; the ledger of the conversion says how"
 
 
-def _details_of(reading: Reading, advice: Advice) -> Iterator[str]:
+def _details_of(reading: ConsumerReading, advice: Advice) -> Iterator[str]:
     best = reading.best(advice.choice.format)
     for format_, assessment in reading.forms.items():
         effects = (Effect.REFUSES, Effect.DROPS, Effect.MISREADS) if assessment is best else (Effect.REFUSES,)
@@ -115,7 +115,7 @@ def _details_of(reading: Reading, advice: Advice) -> Iterator[str]:
             yield printable(f"{reading.profile.label} {first.row.effect}{what}: {place}{first.finding.message}{more}")
 
 
-def _consumer(reading: Reading) -> dict[str, object]:
+def _consumer(reading: ConsumerReading) -> dict[str, object]:
     profile = reading.profile
     return {
         "name": profile.name,

@@ -7,8 +7,8 @@ on one, wherever it is done, and `recording` keeps the result. `driver` puts the
 from twinform.compiler.batch.driver import Batch, batch
 from twinform.compiler.batch.entries import (
     PATTERNS,
-    Entry,
     FolderError,
+    ModelEntry,
     Shard,
     of_folder,
     of_names,
@@ -18,8 +18,8 @@ from twinform.compiler.batch.entries import (
 from twinform.compiler.batch.jobs import Check, Convert, Diff, Stats
 from twinform.compiler.batch.lock import BusyError
 from twinform.compiler.batch.merging import merge
-from twinform.compiler.batch.record import Outcome, Record, Summary
-from twinform.compiler.batch.recording import Result
+from twinform.compiler.batch.record import ModelRecord, Outcome, Summary
+from twinform.compiler.batch.recording import ModelResult
 from twinform.compiler.batch.report import open_report, report_line
 from twinform.compiler.batch.worksite import UnfitWorkerError
 
@@ -30,11 +30,11 @@ __all__ = [
     "Check",
     "Convert",
     "Diff",
-    "Entry",
     "FolderError",
+    "ModelEntry",
+    "ModelRecord",
+    "ModelResult",
     "Outcome",
-    "Record",
-    "Result",
     "Shard",
     "Stats",
     "Summary",

@@ -29,7 +29,7 @@ Status = Callable[[str], os.stat_result | None]
 """The status of a path; None where nothing is there."""
 
 
-class Kind(StrEnum):
+class DependencyKind(StrEnum):
     """What was found at a path, or done with it."""
 
     ABSENT = "absent"
@@ -50,7 +50,7 @@ class Dependency:
     """
 
     path: str
-    kind: Kind
+    kind: DependencyKind
     size: int = 0
     time: int = 0
     digest: str = ""
@@ -74,7 +74,7 @@ def dependencies_of(seen: Observation, root: str, *, outside: str | None) -> tup
     if seen.failed:
         return None
     found: list[Dependency] = []
-    for kind, table in ((Kind.READ, seen.read), (Kind.LISTED, seen.listed)):
+    for kind, table in ((DependencyKind.READ, seen.read), (DependencyKind.LISTED, seen.listed)):
         for path, before in table.items():
             if _is_below(path, outside):
                 continue
@@ -89,7 +89,7 @@ def dependencies_of(seen: Observation, root: str, *, outside: str | None) -> tup
 
 def stamp(path: Path, name: str, made: str) -> Dependency:
     """A result as it was written."""
-    return _stamped(Dependency(name, Kind.READ, digest=made), path.stat())
+    return _stamped(Dependency(name, DependencyKind.READ, digest=made), path.stat())
 
 
 def are_current(
@@ -107,10 +107,10 @@ def are_current(
     """
     for each in dependencies:
         path = os.path.join(root, each.path)  # noqa: PTH118 - as above
-        if contents and each.kind is Kind.READ and path != each.path:
+        if contents and each.kind is DependencyKind.READ and path != each.path:
             same = contents.get(normpath(each.path)) == each.digest
-        elif contents and each.kind is Kind.LISTED and path != each.path:
-            same = _content(path, Kind.LISTED) == each.digest
+        elif contents and each.kind is DependencyKind.LISTED and path != each.path:
+            same = _content(path, DependencyKind.LISTED) == each.digest
         else:
             same = _is_current(each, status(path), noted)
         if not same:
@@ -164,18 +164,18 @@ def unpacked(rows: Iterable[Iterable[Any]]) -> Iterator[Dependency]:
             raise TypeError(path)
         if not all(isinstance(number, int) for number in (size, time, changed, inode)):
             raise TypeError(path)
-        yield Dependency(path, Kind(kind), size, time, made, changed, inode)
+        yield Dependency(path, DependencyKind(kind), size, time, made, changed, inode)
 
 
-def _record_content(path: str, kind: Kind, before: os.stat_result | None) -> Dependency | None:
+def _record_content(path: str, kind: DependencyKind, before: os.stat_result | None) -> Dependency | None:
     """What is read or listed, as it is now; None where it is not as it was before."""
     now = status(path)
     if before is None or now is None:
-        return Dependency(path, Kind.ABSENT) if before is now else None
+        return Dependency(path, DependencyKind.ABSENT) if before is now else None
     # The file has changed between being read and now: what was read may be any mixture of both.
     if _status_marks(before) != _status_marks(now):
         return None
-    usual = stat.S_ISREG if kind is Kind.READ else stat.S_ISDIR
+    usual = stat.S_ISREG if kind is DependencyKind.READ else stat.S_ISDIR
     if not usual(now.st_mode):
         return _look(path, now)
     made = _content(path, kind)
@@ -183,7 +183,7 @@ def _record_content(path: str, kind: Kind, before: os.stat_result | None) -> Dep
 
 
 def _stamped(dependency: Dependency, now: os.stat_result) -> Dependency:
-    size = now.st_size if dependency.kind is Kind.READ else 0
+    size = now.st_size if dependency.kind is DependencyKind.READ else 0
     return replace(dependency, size=size, time=now.st_mtime_ns, changed=now.st_ctime_ns, inode=now.st_ino)
 
 
@@ -191,9 +191,9 @@ def _status_marks(status: os.stat_result) -> tuple[int, ...]:
     return status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino
 
 
-def _content(path: str, kind: Kind) -> str | None:
+def _content(path: str, kind: DependencyKind) -> str | None:
     try:
-        return digest(read_regular(Path(path))) if kind is Kind.READ else _names(path)
+        return digest(read_regular(Path(path))) if kind is DependencyKind.READ else _names(path)
     except OSError:
         return None
 
@@ -205,10 +205,10 @@ def _names(path: str) -> str:
 
 def _look(path: str, now: os.stat_result | None) -> Dependency:
     if now is None:
-        return Dependency(path, Kind.ABSENT)
+        return Dependency(path, DependencyKind.ABSENT)
     if stat.S_ISREG(now.st_mode):
-        return Dependency(path, Kind.FILE, now.st_size)
-    return Dependency(path, Kind.FOLDER if stat.S_ISDIR(now.st_mode) else Kind.OTHER)
+        return Dependency(path, DependencyKind.FILE, now.st_size)
+    return Dependency(path, DependencyKind.FOLDER if stat.S_ISDIR(now.st_mode) else DependencyKind.OTHER)
 
 
 def _below_root(dependency: Dependency, root: str) -> Dependency:
@@ -222,9 +222,9 @@ def _is_below(path: str, folder: str | None) -> bool:
 
 
 def _is_current(dependency: Dependency, now: os.stat_result | None, noted: int | None) -> bool:
-    if dependency.kind not in {Kind.READ, Kind.LISTED}:
+    if dependency.kind not in {DependencyKind.READ, DependencyKind.LISTED}:
         return _look(dependency.path, now) == dependency
-    if now is None or (dependency.kind is Kind.READ and now.st_size != dependency.size):
+    if now is None or (dependency.kind is DependencyKind.READ and now.st_size != dependency.size):
         return False
     # Digests of everything in every run would need no trust at all, but they open every mesh: 28 s
     # over the corpus, where a run with nothing to do takes less than one, in the process that must
@@ -242,7 +242,7 @@ def _is_current(dependency: Dependency, now: os.stat_result | None, noted: int |
 def _renewed(dependency: Dependency, path: str) -> Dependency | None:
     """A dependency with its status from before its content was compared; None where that is another one."""
     now = status(path)
-    if dependency.kind not in {Kind.READ, Kind.LISTED}:
+    if dependency.kind not in {DependencyKind.READ, DependencyKind.LISTED}:
         return dependency if _look(dependency.path, now) == dependency else None
     if now is None or not dependency.digest or _content(path, dependency.kind) != dependency.digest:
         return None

@@ -11,14 +11,14 @@ from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from twinform.compiler.batch.entries import Entry, FolderError, Shard
+from twinform.compiler.batch.entries import FolderError, ModelEntry, Shard
 from twinform.compiler.batch.jobs import Convert, Diff
 from twinform.compiler.batch.manifest import Manifest
-from twinform.compiler.batch.places import Places, outputs, require_apart
-from twinform.compiler.batch.planning import Plan
-from twinform.compiler.batch.record import Outcome, Record
-from twinform.compiler.batch.recording import Recorder, Result
-from twinform.compiler.batch.task import Done, Job, Task, work
+from twinform.compiler.batch.places import ResultPlaces, outputs, require_apart
+from twinform.compiler.batch.planning import BatchPlan
+from twinform.compiler.batch.record import ModelRecord, Outcome
+from twinform.compiler.batch.recording import ModelResult, Recorder
+from twinform.compiler.batch.task import BatchJob, Done, Task, work
 from twinform.compiler.batch.worksite import READERS, UnfitWorkerError, checked, fingerprint, own_version
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.observing import digest
@@ -38,8 +38,8 @@ class Batch:
     """
 
     source: Path
-    entries: Sequence[Entry]
-    job: Job
+    entries: Sequence[ModelEntry]
+    job: BatchJob
     load_options: LoadOptions
     dest: Path | None = None
     shard: Shard | None = None
@@ -50,7 +50,7 @@ class Batch:
     contents: Mapping[str, str] = field(default_factory=dict[str, str])
 
     @property
-    def chosen(self) -> list[Entry]:
+    def chosen(self) -> list[ModelEntry]:
         """The entries of this shard."""
         return [entry for entry in self.entries if self.shard is None or self.shard.has(entry)]
 
@@ -72,7 +72,7 @@ class Batch:
 
 
 @contextmanager
-def batch(asked: Batch, executor: Executor | Runner | None = None) -> Generator[Iterator[Result]]:
+def batch(asked: Batch, executor: Executor | Runner | None = None) -> Generator[Iterator[ModelResult]]:
     """Do the job with every model: gives what comes of each, and whether that was known before, as it comes.
 
     Without an `executor` the work is done in processes that are started for it, one for each processor. One that breaks
@@ -94,7 +94,7 @@ def batch(asked: Batch, executor: Executor | Runner | None = None) -> Generator[
             yield found
         return
     require_apart(asked.source, asked.dest)
-    places = Places(asked.source, asked.dest, entries, names)
+    places = ResultPlaces(asked.source, asked.dest, entries, names)
     if asked.report:
         places.require_free(asked.report)
     with Manifest(asked.dest, asked.shard.label if asked.shard else "").open() as manifest:
@@ -105,12 +105,12 @@ def batch(asked: Batch, executor: Executor | Runner | None = None) -> Generator[
 
 def _results(
     asked: Batch,
-    entries: Sequence[Entry],
+    entries: Sequence[ModelEntry],
     names: Mapping[str, str],
     recorder: Recorder,
     runner: Runner,
-) -> Generator[Result]:
-    plan = Plan(
+) -> Generator[ModelResult]:
+    plan = BatchPlan(
         recorder.request,
         str(asked.source),
         asked.dest,
@@ -118,10 +118,10 @@ def _results(
         fresh=asked.fresh,
         contents=asked.contents,
     )
-    todo: list[Entry] = []
+    todo: list[ModelEntry] = []
     for entry in entries:
         if missing := _missing(entry, asked, recorder.request):
-            yield Result(missing, known=False)
+            yield ModelResult(missing, known=False)
         # Known results are passed on before any work begins, so that a run with nothing to do
         # starts no worker.
         elif known := plan.known(entry, names[entry.name]):
@@ -147,7 +147,7 @@ def _runner(executor: Executor | None, seconds: float) -> Runner:
     return process_runner(seconds=seconds) if executor is None else Runner.of(executor)
 
 
-def _outputs(asked: Batch, entries: Sequence[Entry]) -> Mapping[str, str]:
+def _outputs(asked: Batch, entries: Sequence[ModelEntry]) -> Mapping[str, str]:
     """The place of each result; none where there are no results."""
     job = asked.job
     if not isinstance(job, Convert):
@@ -160,16 +160,16 @@ def _outputs(asked: Batch, entries: Sequence[Entry]) -> Mapping[str, str]:
     return {entry.name: every[entry.name] for entry in entries}
 
 
-def _missing(entry: Entry, asked: Batch, request: str) -> Record | None:
+def _missing(entry: ModelEntry, asked: Batch, request: str) -> ModelRecord | None:
     """The record of a model that has nothing to be compared with."""
     if entry.path and (entry.other or not isinstance(asked.job, Diff)):
         return None
     side = "second" if entry.path else "first"
     message = f"there is no such model in the {side} folder"
-    return Record(source=entry.name, request=request, outcome=Outcome.MISSING, message=message)
+    return ModelRecord(source=entry.name, request=request, outcome=Outcome.MISSING, message=message)
 
 
-def _task(entry: Entry, asked: Batch, output: str, plan: Plan, recorder: Recorder, runner: Runner) -> Task:
+def _task(entry: ModelEntry, asked: Batch, output: str, plan: BatchPlan, recorder: Recorder, runner: Runner) -> Task:
     manifest = recorder.manifest
     return Task(
         entry=entry,

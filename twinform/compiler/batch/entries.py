@@ -23,7 +23,7 @@ class FolderError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class ModelEntry:
     """A model: its name, which is also its place among the results, and its path below the folder of the models.
 
     `arguments` are those of xacro. `other` is the path of the model that it is compared with, in another folder.
@@ -47,14 +47,14 @@ class Shard:
         """What its files are called."""
         return f"{self.number}-of-{self.count}"
 
-    def has(self, entry: Entry) -> bool:
+    def has(self, entry: ModelEntry) -> bool:
         """Whether a model is in this shard, which depends on its name alone."""
         # Not `hash`, which differs from process to process.
         place = int.from_bytes(hashlib.sha256(os.fsencode(entry.name)).digest()[:8], "big")
         return place % self.count == self.number - 1
 
 
-def of_folder(source: Path, patterns: Sequence[str] = PATTERNS, results: Path | None = None) -> list[Entry]:
+def of_folder(source: Path, patterns: Sequence[str] = PATTERNS, results: Path | None = None) -> list[ModelEntry]:
     """The models below a folder, sorted; hidden folders and that of the results are left out.
 
     Raises:
@@ -70,10 +70,10 @@ def of_folder(source: Path, patterns: Sequence[str] = PATTERNS, results: Path | 
         folders[:] = [name for name in folders if not name.startswith(".") and (here / name).resolve() != left_out]
         inside = PurePosixPath(here.relative_to(source).as_posix())
         found += [str(inside / name) for name in files if any((inside / name).match(each) for each in patterns)]
-    return [Entry(name, name) for name in sorted(found)]
+    return [ModelEntry(name, name) for name in sorted(found)]
 
 
-def of_names(source: Path, text: bytes) -> list[Entry]:
+def of_names(source: Path, text: bytes) -> list[ModelEntry]:
     """The models that a list names, a name in a line or, where there is one, between zero bytes; each counts once.
 
     Raises:
@@ -82,10 +82,10 @@ def of_names(source: Path, text: bytes) -> list[Entry]:
     # As `find -print0` and `git ls-files -z` write them: a name may contain a line break.
     names = text.split(b"\0") if b"\0" in text else text.splitlines()
     paths = {_inside(source, os.fsdecode(name)) for name in names if name.strip()}
-    return [Entry(name, name) for name in sorted(paths)]
+    return [ModelEntry(name, name) for name in sorted(paths)]
 
 
-def with_arguments(entries: Iterable[Entry], table: Path) -> list[Entry]:
+def with_arguments(entries: Iterable[ModelEntry], table: Path) -> list[ModelEntry]:
     """The same with arguments from a table of CSV or JSONL; a model with several rows becomes several models.
 
     Raises:
@@ -94,7 +94,7 @@ def with_arguments(entries: Iterable[Entry], table: Path) -> list[Entry]:
     """
     known = {entry.name: entry for entry in entries}
     named: set[str] = set()
-    made: dict[str, Entry] = {}
+    made: dict[str, ModelEntry] = {}
     for where, row in _rows(table):
         path = normpath(row.pop(_MODEL, ""))
         name = normpath(row.pop(_NAME, "") or path)
@@ -108,14 +108,14 @@ def with_arguments(entries: Iterable[Entry], table: Path) -> list[Entry]:
     return [entry for _, entry in sorted({**rest, **made}.items())]
 
 
-def pairs(a: Iterable[Entry], b: Iterable[Entry]) -> list[Entry]:
+def pairs(a: Iterable[ModelEntry], b: Iterable[ModelEntry]) -> list[ModelEntry]:
     """The models of two folders that have one name but for their endings, or all of it."""
     ours, theirs = _by_stem(a), _by_stem(b)
     for name in [name for name in theirs if name not in ours and name.rpartition(".")[0] in ours]:
         theirs.setdefault(
             name.rpartition(".")[0], theirs.pop(name)
         )  # where two had one name, results keep both endings
-    return [Entry(name, ours.get(name, ""), other=theirs.get(name, "")) for name in sorted({*ours, *theirs})]
+    return [ModelEntry(name, ours.get(name, ""), other=theirs.get(name, "")) for name in sorted({*ours, *theirs})]
 
 
 def stem(name: str) -> str:
@@ -129,7 +129,7 @@ def stem(name: str) -> str:
 _ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".json", ".xacro"})
 
 
-def _by_stem(entries: Iterable[Entry]) -> dict[str, str]:
+def _by_stem(entries: Iterable[ModelEntry]) -> dict[str, str]:
     """The paths by names without endings; where two would have one, both keep theirs."""
     found: dict[str, list[str]] = {}
     for entry in entries:

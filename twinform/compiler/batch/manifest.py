@@ -13,7 +13,7 @@ from typing import Any, BinaryIO, NamedTuple
 
 from twinform.compiler.batch.dependencies import Dependency, packed, unpacked
 from twinform.compiler.batch.lock import locked
-from twinform.compiler.batch.record import Outcome, Record
+from twinform.compiler.batch.record import ModelRecord, Outcome
 from twinform.compiler.output.same_files import is_open_at
 from twinform.storage.transaction import named_after, transaction
 from twinform.storage.writing import is_stream, refuse_way_out, sync_files
@@ -26,7 +26,7 @@ _DEPENDENCIES = ("dependencies", "results")
 _TIDY = 2
 
 
-class _Line(NamedTuple):
+class _ManifestLine(NamedTuple):
     file: int
     offset: int
 
@@ -39,7 +39,7 @@ class Manifest:
         self._shard = shard
         self._own = self.folder / (f"manifest-{shard}.jsonl" if shard else "manifest.jsonl")
         self._files: list[BinaryIO] = []
-        self._lines: dict[str, _Line] = {}
+        self._lines: dict[str, _ManifestLine] = {}
         self._count = 0
         self._log: BinaryIO | None = None
         self._journal: BinaryIO | None = None
@@ -85,7 +85,7 @@ class Manifest:
         """The names of all models that there is a record of."""
         return list(self._lines)
 
-    def get(self, source: str) -> Record | None:
+    def get(self, source: str) -> ModelRecord | None:
         """What is known of a model."""
         line = self._lines.get(source)
         if line is None:
@@ -133,7 +133,7 @@ class Manifest:
             self.add(replace(_unasked(announced.source, ()), outcome=Outcome.UNWRITTEN, kept=kept))
             self._read()
 
-    def add(self, record: Record) -> None:
+    def add(self, record: ModelRecord) -> None:
         """Keep a record, at once and for later runs.
 
         Raises:
@@ -160,7 +160,7 @@ class Manifest:
                 self._count += 1
                 source = _source(line)
                 if source is not None:
-                    self._lines[source] = _Line(len(self._files) - 1, offset)
+                    self._lines[source] = _ManifestLine(len(self._files) - 1, offset)
 
     def _tidy(self) -> None:
         """Write all that counts into one file.
@@ -187,24 +187,24 @@ class Manifest:
         self._tidy()
 
 
-def _unasked(source: str, results: tuple[Dependency, ...]) -> Record:
+def _unasked(source: str, results: tuple[Dependency, ...]) -> ModelRecord:
     """A record that says which files are ours, and that no request has the same results as."""
-    return Record(source=source, request="", outcome=Outcome.CONVERTED, results=results)
+    return ModelRecord(source=source, request="", outcome=Outcome.CONVERTED, results=results)
 
 
-def record_line(record: Record) -> bytes:
+def record_line(record: ModelRecord) -> bytes:
     """A record as a line of JSON."""
     return json.dumps(_packed(record)).encode("ascii") + b"\n"
 
 
-def _packed(record: Record) -> dict[str, Any]:
-    whole: dict[str, Any] = {each.name: getattr(record, each.name) for each in fields(Record)}
+def _packed(record: ModelRecord) -> dict[str, Any]:
+    whole: dict[str, Any] = {each.name: getattr(record, each.name) for each in fields(ModelRecord)}
     whole |= {name: packed(whole[name]) for name in _DEPENDENCIES}
     whole["kept"] = record.kept and _packed(record.kept)
     return {name: value for name, value in whole.items() if value or name in {"source", "request", "outcome"}}
 
 
-def parse_record(line: bytes) -> Record | None:
+def parse_record(line: bytes) -> ModelRecord | None:
     """The record in a line; None where there is none, as in one that was cut off."""
     try:
         record = _unpacked(json.loads(line))
@@ -213,15 +213,15 @@ def parse_record(line: bytes) -> Record | None:
     return record if _is_sound(record) and (record.kept is None or _is_sound(record.kept)) else None
 
 
-def _unpacked(whole: dict[str, Any]) -> Record:
+def _unpacked(whole: dict[str, Any]) -> ModelRecord:
     for name in _DEPENDENCIES:
         whole[name] = tuple(unpacked(whole.get(name, ())))
     whole["outcome"] = Outcome(whole["outcome"])
     whole["kept"] = _unpacked(whole["kept"]) if "kept" in whole else None
-    return Record(**whole)
+    return ModelRecord(**whole)
 
 
-def read_records(path: Path) -> Iterator[Record]:
+def read_records(path: Path) -> Iterator[ModelRecord]:
     """The records in a manifest of somebody else, or of another folder.
 
     Raises:
@@ -231,7 +231,7 @@ def read_records(path: Path) -> Iterator[Record]:
         yield from (record for _, line in _lines(file) if (record := parse_record(line)))
 
 
-def _is_sound(record: Record) -> bool:
+def _is_sound(record: ModelRecord) -> bool:
     """Whether the fields of a record have their types."""
     values: tuple[tuple[object, type], ...] = (
         (record.source, str),

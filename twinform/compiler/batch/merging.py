@@ -6,7 +6,7 @@ from pathlib import Path
 
 from twinform.compiler.batch.dependencies import Dependency, are_same, stamp
 from twinform.compiler.batch.manifest import FOLDER, Manifest, read_records
-from twinform.compiler.batch.record import Record
+from twinform.compiler.batch.record import ModelRecord
 from twinform.compiler.batch.superseding import supersede
 from twinform.compiler.output.same_files import is_below
 from twinform.storage.writing import is_stream, write_all_atomically
@@ -40,7 +40,7 @@ def _manifests(folder: Path) -> list[Path]:
     return found
 
 
-def _take_over(record: Record, known: Record | None, other: Path, manifest: Manifest) -> None:
+def _take_over(record: ModelRecord, known: ModelRecord | None, other: Path, manifest: Manifest) -> None:
     """Copy the results of a record, and take away what it makes obsolete; nothing where they do not match it."""
     dest = manifest.folder.parent
     results = _copied(record.results, other, dest)

@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path, PurePosixPath
 
-from twinform.compiler.batch.entries import Entry, FolderError, stem
+from twinform.compiler.batch.entries import FolderError, ModelEntry, stem
 from twinform.compiler.output.same_files import identities
 from twinform.storage.writing import is_stream
 
@@ -40,14 +40,14 @@ def _ending(name: str, to: str) -> str:
     return "world" if to == "sdf" and ".world" in map(str.lower, PurePosixPath(name).suffixes) else to
 
 
-class Places:
+class ResultPlaces:
     """The places of the results of one run, by the names of the models.
 
     Where nothing in the folder of the results is a symbolic link, and a file has one name, its path is its
     identity. So a million paths are only followed where there is a reason.
     """
 
-    def __init__(self, source: Path, dest: Path, entries: Sequence[Entry], outputs: Mapping[str, str]) -> None:
+    def __init__(self, source: Path, dest: Path, entries: Sequence[ModelEntry], outputs: Mapping[str, str]) -> None:
         self._source, self.dest, self._entries, self.outputs = source, dest, entries, outputs
         self._written: set[Hashable] = set()
 

@@ -9,9 +9,9 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from twinform.compiler.batch.dependencies import Dependency, are_current, renewed, status
-from twinform.compiler.batch.entries import Entry
+from twinform.compiler.batch.entries import ModelEntry
 from twinform.compiler.batch.manifest import Manifest
-from twinform.compiler.batch.record import Outcome, Record
+from twinform.compiler.batch.record import ModelRecord, Outcome
 from twinform.compiler.observing import digest
 
 # The most paths of which the status is kept: several models share macro libraries, meshes and
@@ -22,11 +22,11 @@ _MOST_REMEMBERED = 2**16
 class Known(NamedTuple):
     """The record of an earlier run, and whether the manifest has it as the last one of the model."""
 
-    record: Record
+    record: ModelRecord
     is_last: bool
 
 
-class Plan:
+class BatchPlan:
     """What is known of the models of a run."""
 
     def __init__(
@@ -43,15 +43,15 @@ class Plan:
         self._manifest, self._fresh, self._contents = manifest, fresh, contents
         self._status = lru_cache(_MOST_REMEMBERED)(status)
 
-    def known(self, entry: Entry, output: str) -> Known | None:
+    def known(self, entry: ModelEntry, output: str) -> Known | None:
         """What came of a model in an earlier run, if nothing has changed that can be seen without opening a model."""
         return next((each for each in self._candidates(entry, output) if self._is_current(each.record)), None)
 
-    def candidate(self, entry: Entry, output: str) -> Record | None:
+    def candidate(self, entry: ModelEntry, output: str) -> ModelRecord | None:
         """What came of a model in an earlier run, if what is asked for is the same and might end the same way."""
         return next((each.record for each in self._candidates(entry, output)), None)
 
-    def _candidates(self, entry: Entry, output: str) -> Iterator[Known]:
+    def _candidates(self, entry: ModelEntry, output: str) -> Iterator[Known]:
         """The record of a model, and that of the results which it left in their places, as far as they may hold."""
         last = self._manifest.get(entry.name) if self._manifest and not self._fresh else None
         for record in (last, last and last.kept):
@@ -62,14 +62,14 @@ class Plan:
             if results is not None:
                 yield Known(replace(record, results=results), record is last and results is record.results)
 
-    def _results(self, record: Record) -> tuple[Dependency, ...] | None:
+    def _results(self, record: ModelRecord) -> tuple[Dependency, ...] | None:
         """The results of a record, with their status now; None where one is not what was written."""
         # the status of a result is asked once, and not kept
         if are_current(record.results, self._dest):
             return record.results
         return renewed(record.results, self._dest)
 
-    def _is_current(self, record: Record) -> bool:
+    def _is_current(self, record: ModelRecord) -> bool:
         if any(os.environ.get(name) != value for name, value in record.variables.items()):
             return False
         return are_current(
@@ -77,7 +77,7 @@ class Plan:
         )
 
 
-def request_of(request: str, entry: Entry) -> str:
+def request_of(request: str, entry: ModelEntry) -> str:
     """The request for one model, with its file and its arguments where these are its own."""
     own = [entry.path, *entry.arguments] if entry.arguments or entry.path != entry.name else []
     return digest(f"{request}{own}".encode(errors="surrogateescape")) if own else request

@@ -57,7 +57,7 @@ _CODES = {**dict.fromkeys(_GOOD, 0), Outcome.UNREADABLE: 2, Outcome.UNWRITTEN: 2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Record:
+class ModelRecord:
     """What came of a model, as the manifest keeps it.
 
     `request` is the digest of what was asked for. `results` are the files that were written, `dependencies` and
@@ -73,7 +73,7 @@ class Record:
     outcome: Outcome
     output: str = ""
     results: tuple[Dependency, ...] = ()
-    kept: "Record | None" = None
+    kept: "ModelRecord | None" = None
     dependencies: tuple[Dependency, ...] = ()
     variables: Mapping[str, str | None] = field(default_factory=dict[str, "str | None"])
     time: int = 0
@@ -83,7 +83,7 @@ class Record:
     details: Row = field(default_factory=Row)
 
     @property
-    def standing(self) -> "Record | None":
+    def standing(self) -> "ModelRecord | None":
         """The record of the results that are in their places: this one, or that of an earlier run."""
         return self if self.outcome is Outcome.CONVERTED else self.kept
 

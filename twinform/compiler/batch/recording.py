@@ -7,11 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from twinform.compiler.batch.dependencies import Dependency, Kind, stamp
+from twinform.compiler.batch.dependencies import Dependency, DependencyKind, stamp
 from twinform.compiler.batch.manifest import Manifest
-from twinform.compiler.batch.places import Places
+from twinform.compiler.batch.places import ResultPlaces
 from twinform.compiler.batch.planning import Known, request_of
-from twinform.compiler.batch.record import Outcome, Record
+from twinform.compiler.batch.record import ModelRecord, Outcome
 from twinform.compiler.batch.superseding import supersede
 from twinform.compiler.batch.task import Done, Task
 from twinform.compiler.observing import digest
@@ -20,21 +20,21 @@ from twinform.storage.writing import write_all_atomically
 _FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
 
 
-class Result(NamedTuple):
+class ModelResult(NamedTuple):
     """What came of a model, and whether that was known before."""
 
-    record: Record
+    record: ModelRecord
     known: bool
 
 
 class Recorder:
     """Writes down what comes back."""
 
-    def __init__(self, request: str, manifest: Manifest | None, places: Places | None, shown: str = "") -> None:
+    def __init__(self, request: str, manifest: Manifest | None, places: ResultPlaces | None, shown: str = "") -> None:
         self.request, self.manifest = request, manifest
         self._places, self._shown = places, shown
 
-    def record(self, task: Task, done: Done) -> Result:
+    def record(self, task: Task, done: Done) -> ModelResult:
         """Put results in their places and keep the record.
 
         Raises:
@@ -48,9 +48,9 @@ class Recorder:
             record = self._superseding(self._put_results(task, done, self._fresh(task, done)))
         if self.manifest is not None:
             self.manifest.add(record)
-        return Result(record, known=done.known)
+        return ModelResult(record, known=done.known)
 
-    def note(self, known: Known) -> Result:
+    def note(self, known: Known) -> ModelResult:
         """Keep the record of an earlier run, where another one came after it or the results were touched.
 
         Raises:
@@ -58,10 +58,10 @@ class Recorder:
         """
         if self.manifest is not None and not known.is_last:
             self.manifest.add(known.record)
-        return Result(known.record, known=True)
+        return ModelResult(known.record, known=True)
 
-    def _fresh(self, task: Task, done: Done) -> Record:
-        record = Record(
+    def _fresh(self, task: Task, done: Done) -> ModelRecord:
+        record = ModelRecord(
             source=task.entry.name,
             request=request_of(self.request, task.entry),
             outcome=done.outcome,
@@ -80,14 +80,14 @@ class Recorder:
         message, diagnostics, details = _renamed(texts, task.root, self._shown)
         return replace(record, message=message, diagnostics=diagnostics, details=details)
 
-    def _put_results(self, task: Task, done: Done, record: Record) -> Record:
+    def _put_results(self, task: Task, done: Done, record: ModelRecord) -> ModelRecord:
         places = self._places
         if places is None or done.outcome is not Outcome.CONVERTED:
             return record
         made = {name: _digest(text) for name, text in done.texts.items()}
         problem = places.problem(task.entry.name, done.texts)
         if problem is None and self.manifest is not None:
-            announced = tuple(Dependency(name, Kind.READ, digest=digest) for name, digest in made.items())
+            announced = tuple(Dependency(name, DependencyKind.READ, digest=digest) for name, digest in made.items())
             self.manifest.announce(record.source, announced)
         problem = problem or _write_results(places.dest, done.texts)
         if problem is not None:
@@ -96,7 +96,7 @@ class Recorder:
         results = tuple(stamp(places.dest / name, name, digest) for name, digest in made.items())
         return replace(record, results=results)
 
-    def _superseding(self, record: Record) -> Record:
+    def _superseding(self, record: ModelRecord) -> ModelRecord:
         before = self.manifest.get(record.source) if self.manifest else None
         if before is None or self._places is None:
             return record

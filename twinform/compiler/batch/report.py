@@ -6,11 +6,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO
 
-from twinform.compiler.batch.recording import Result
+from twinform.compiler.batch.recording import ModelResult
 from twinform.storage.writing import refuse_way_out
 
 
-def report_line(result: Result) -> str:
+def report_line(result: ModelResult) -> str:
     """What a program may want to know of a model."""
     record = result.record
     row = {

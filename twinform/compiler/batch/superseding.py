@@ -10,12 +10,12 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
-from twinform.compiler.batch.dependencies import Dependency, Kind, are_same, is_there
-from twinform.compiler.batch.record import Outcome, Record
+from twinform.compiler.batch.dependencies import Dependency, DependencyKind, are_same, is_there
+from twinform.compiler.batch.record import ModelRecord, Outcome
 from twinform.compiler.output.same_files import is_below
 
 
-def supersede(dest: Path, before: Record, record: Record) -> Record:
+def supersede(dest: Path, before: ModelRecord, record: ModelRecord) -> ModelRecord:
     """Take away results that a new record makes obsolete, unless somebody has edited them; else note that they stay."""
     old = before.standing
     if old is None:
@@ -29,16 +29,16 @@ def supersede(dest: Path, before: Record, record: Record) -> Record:
     return replace(record, kept=old if any(is_there(each, str(dest)) for each in old.results) else None)
 
 
-def _is_verdict(old: Record, record: Record) -> bool:
+def _is_verdict(old: ModelRecord, record: ModelRecord) -> bool:
     """Whether a record is about the model itself, and about all that the old results were made from."""
     if record.outcome is Outcome.CONVERTED:
         return True
     # Half a file is unreadable while somebody copies it. Without dependencies something failed, or changed on the way.
     if record.outcome is not Outcome.REFUSED or not record.dependencies:
         return False
-    gone = {each.path for each in record.dependencies if each.kind is Kind.ABSENT}
+    gone = {each.path for each in record.dependencies if each.kind is DependencyKind.ABSENT}
     # an included model that was there and is not may be on a disk that is not mounted
-    return not any(each.path in gone for each in old.dependencies if each.kind is not Kind.ABSENT)
+    return not any(each.path in gone for each in old.dependencies if each.kind is not DependencyKind.ABSENT)
 
 
 def _remove(dest: Path, results: Iterable[Dependency]) -> None:

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Protocol, runtime_checkable
 
 from twinform.compiler.batch.dependencies import Dependency, dependencies_of, renewed
-from twinform.compiler.batch.entries import Entry
-from twinform.compiler.batch.record import Outcome, Record, Row
+from twinform.compiler.batch.entries import ModelEntry
+from twinform.compiler.batch.record import ModelRecord, Outcome, Row
 from twinform.compiler.batch.time_limit import LateError, time_limit
 from twinform.compiler.batch.worksite import fingerprint, own_version
 from twinform.compiler.input.loading import LoadOptions
@@ -31,13 +31,13 @@ class Task:
     machine must have in common with it.
     """
 
-    entry: Entry
-    job: "Job"
+    entry: ModelEntry
+    job: "BatchJob"
     root: str
     load_options: LoadOptions
     dest: str = ""
     output: str = ""
-    known: Record | None = None
+    known: ModelRecord | None = None
     faults: Path | None = None
     seconds: float | None = None
     version: str = ""
@@ -72,7 +72,7 @@ class Done:
 
 
 @runtime_checkable
-class Job(Protocol):
+class BatchJob(Protocol):
     """What a batch does with each model."""
 
     @property
@@ -125,7 +125,7 @@ def _machine(task: Task) -> str:
     return f", on {platform.node()}" if task.site else ""
 
 
-def _renewed(known: Record, root: str) -> tuple[Dependency, ...] | None:
+def _renewed(known: ModelRecord, root: str) -> tuple[Dependency, ...] | None:
     """What a record depends on with its status now; None where something has changed."""
     same = all(os.environ.get(name) == value for name, value in known.variables.items())
     return renewed(known.dependencies, root) if same else None

@@ -14,7 +14,7 @@ from functools import cache, partial
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from twinform.compiler.batch.entries import Entry
+from twinform.compiler.batch.entries import ModelEntry
 from twinform.compiler.observing import digest
 from twinform.compiler.workers import Runner
 from twinform.file_access import read_regular
@@ -63,7 +63,7 @@ def worksite(paths: Sequence[str]) -> Worksite:
     return Worksite(versions(), {path: _content(Path(path)) for path in paths})
 
 
-def checked(runner: Runner, root: Path, entries: Sequence[Entry], folders: Iterable[Path]) -> Runner:
+def checked(runner: Runner, root: Path, entries: Sequence[ModelEntry], folders: Iterable[Path]) -> Runner:
     """A runner that asks every worker for its worksite before the first job, if its workers are on other machines.
 
     They must see some of the models below `root`, all over the list, and the `folders` that are searched. The executor

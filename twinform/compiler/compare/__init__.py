@@ -6,7 +6,7 @@ from twinform.compiler.compare.comparison import (
     Comparison,
     ComparisonOptions,
     Difference,
-    Severity,
+    DifferenceSeverity,
     Side,
 )
 from twinform.compiler.compare.driver import compare_files, diff
@@ -17,7 +17,7 @@ __all__ = [
     "Comparison",
     "ComparisonOptions",
     "Difference",
-    "Severity",
+    "DifferenceSeverity",
     "Side",
     "compare_files",
     "diff",

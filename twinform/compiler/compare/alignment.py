@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from twinform.compiler.compare.findings import Base, Terms
 from twinform.compiler.compare.matching import unmatched
-from twinform.compiler.compare.robot import Body, JointView, Robot
+from twinform.compiler.compare.robot import ComparedBody, ComparedRobot, JointView
 from twinform.compiler.compare.values import Point, PoseValue, Tensor
 from twinform.ir.frames import WORLD
 from twinform.ir.motion import spanning_tree
@@ -37,16 +37,16 @@ class Alignment:
         return self.bases.get(link), link in self.moved, link in self.placed
 
 
-def align(a: Robot, b: Robot, terms: Terms) -> Alignment:
+def align(a: ComparedRobot, b: ComparedRobot, terms: Terms) -> Alignment:
     """A base for every link that both robots have, from the roots on."""
-    work = _Work(a, b, terms)
+    work = _AlignmentRun(a, b, terms)
     for name in _from_the_roots(a, work.above_a):
         if name in b.bodies:
             work.place(name)
     return Alignment(work.bases, frozenset(work.moved), frozenset(work.placed))
 
 
-def _from_the_roots(robot: Robot, above: Mapping[str, JointView]) -> Iterator[str]:
+def _from_the_roots(robot: ComparedRobot, above: Mapping[str, JointView]) -> Iterator[str]:
     """The links, each after the one that it hangs from."""
     seen: set[str] = set()
     for name in robot.bodies:
@@ -58,8 +58,8 @@ def _from_the_roots(robot: Robot, above: Mapping[str, JointView]) -> Iterator[st
         yield from reversed(path)
 
 
-class _Work:
-    def __init__(self, a: Robot, b: Robot, terms: Terms) -> None:
+class _AlignmentRun:
+    def __init__(self, a: ComparedRobot, b: ComparedRobot, terms: Terms) -> None:
         self.a, self.b, self.terms = a, b, terms
         self.above_a, self.above_b = spanning_tree(a.joints.values()), spanning_tree(b.joints.values())
         self.bases: dict[str, Base] = {WORLD: Base(a.world, b.world)}
@@ -115,7 +115,7 @@ class _Work:
         count += self._misfit_of_mass(one, other, base) + self._misfit_below(name, base)
         return count, bool(self.terms.worst(PoseValue(one.frame), PoseValue(other.frame), base))
 
-    def _misfit_of_mass(self, one: Body, other: Body, base: Base) -> int:
+    def _misfit_of_mass(self, one: ComparedBody, other: ComparedBody, base: Base) -> int:
         if not one.mass.solid.mass or not other.mass.solid.mass:
             return 0
         center = self.terms.worst(Point(one.mass.solid.center), Point(other.mass.solid.center), base)

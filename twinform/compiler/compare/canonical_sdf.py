@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from twinform.compiler.compare.memo import Memo
-from twinform.compiler.compare.readers import Reader, as_read_by
-from twinform.compiler.compare.robot import Robot
+from twinform.compiler.compare.readers import ComparingReader, as_read_by
+from twinform.compiler.compare.robot import ComparedRobot
 from twinform.compiler.compare.robot_builder import build_robot
-from twinform.compiler.compare.surroundings import Surroundings, read_surroundings
+from twinform.compiler.compare.surroundings import WorldSurroundings, read_surroundings
 from twinform.compiler.errors import CompileError
 from twinform.compiler.includes.expanding import expand
 from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
 from twinform.compiler.search.uris import LocalAssets
-from twinform.diagnostics import DiagnosticSink, Origins
+from twinform.diagnostics import DiagnosticSink, LineOrigins
 from twinform.ir import Document, Format, Model
 from twinform.ir.frames import FrameError
 from twinform.passes import Assets, Pass, Pipeline
@@ -35,14 +35,14 @@ class Robots:
 
     path: str
     format: Format
-    by_name: dict[str, Robot]
-    around: dict[str, Surroundings]
-    origins: Mapping[str, Origins]
+    by_name: dict[str, ComparedRobot]
+    around: dict[str, WorldSurroundings]
+    origins: Mapping[str, LineOrigins]
 
 
 def read_robots(
-    source: Input, load_options: LoadOptions, *, name: str, model: str | None, readers: Iterable[Reader]
-) -> dict[Reader, Robots]:
+    source: Input, load_options: LoadOptions, *, name: str, model: str | None, readers: Iterable[ComparingReader]
+) -> dict[ComparingReader, Robots]:
     """The robots of a file as each reader sees them; where there are several and `model` names one, that one.
 
     What two readers see alike is one object.
@@ -61,7 +61,7 @@ def read_robots(
     sink = DiagnosticSink(loaded.path, load_options.strict, origins=dict(loaded.origins))
     assets = LocalAssets(load_options.search, Path(loaded.path))
     known: dict[int, Robots] = {}
-    found: dict[Reader, Robots] = {}
+    found: dict[ComparingReader, Robots] = {}
     memos = defaultdict[str | None, Memo](Memo)
     for reader, seen in as_read_by(document, readers).items():
         if id(seen) not in known:
@@ -83,8 +83,8 @@ def _robots_seen(
     # makes every number below it another one; and an engine's numbers know nothing of colors,
     # sensors and plugins, nor of lines in the file.
     canonical = Pipeline(_to_newest_sdf(document)).with_files(assets).run(document, sink)
-    robots: dict[str, Robot] = {}
-    around: dict[str, Surroundings] = {}
+    robots: dict[str, ComparedRobot] = {}
+    around: dict[str, WorldSurroundings] = {}
     try:
         if not sink.has_errors:
             robots |= _robots(memos, document, canonical, model, sink)
@@ -103,7 +103,7 @@ def _robots(
     canonical: Document,
     model: str | None,
     sink: DiagnosticSink,
-) -> Iterator[tuple[str, Robot]]:
+) -> Iterator[tuple[str, ComparedRobot]]:
     """Each robot by its name, with its world's where several are called so."""
     if document.format is Format.SDF:  # names that a model of URDF had, as far as these are unlike others
         canonical = RestoreNames(to=Format.URDF, unique=True).run(canonical, DiagnosticSink())

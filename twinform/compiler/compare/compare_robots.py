@@ -7,8 +7,8 @@ from functools import partial
 from typing import TypeVar
 
 from twinform.compiler.compare.alignment import Alignment, align
-from twinform.compiler.compare.comparison import Difference, Severity
-from twinform.compiler.compare.findings import Base, Findings, Subject, Terms
+from twinform.compiler.compare.comparison import Difference, DifferenceSeverity
+from twinform.compiler.compare.findings import Base, ComparedSubject, ComparisonFindings, Terms
 from twinform.compiler.compare.fixed_bodies import FixedBodies
 from twinform.compiler.compare.frames import compare_frames
 from twinform.compiler.compare.joint_values import joint_type
@@ -16,16 +16,16 @@ from twinform.compiler.compare.kinematics import KINEMATICS, compare_kinematics
 from twinform.compiler.compare.lumping import lump
 from twinform.compiler.compare.matching import compare_leaves, compare_parts
 from twinform.compiler.compare.memo import Memo
-from twinform.compiler.compare.robot import Body, JointView, Leaves, Mass, Robot
+from twinform.compiler.compare.robot import ComparedBody, ComparedRobot, JointView, Leaves, Mass
 from twinform.compiler.compare.values import (
     Delta,
-    Direction,
     Flag,
     Numbers,
     Point,
     PoseValue,
     Tensor,
     Text,
+    UnitVector,
     Value,
     gaps,
 )
@@ -33,7 +33,7 @@ from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
 
-Named = TypeVar("Named", Body, JointView)
+Named = TypeVar("Named", ComparedBody, JointView)
 _SHARED = "inertial/inertia"
 """What depends on other links too: those of one body may share it in two ways."""
 _ABOUT_A_LINE = frozenset({"revolute", "continuous", "screw", "gearbox"})
@@ -44,14 +44,14 @@ _ABOUT_A_POINT = frozenset({"ball", "universal", "revolute2"})
 class RobotComparison:
     """Two robots as one reader sees them; `memo` has what the reader before found of what it saw alike."""
 
-    def __init__(self, a: Robot, b: Robot, terms: Terms, memo: Memo, *, several: bool) -> None:
+    def __init__(self, a: ComparedRobot, b: ComparedRobot, terms: Terms, memo: Memo, *, several: bool) -> None:
         lumped = self.lumped = lump(a, b)
         self.a, self.b = lumped.a, lumped.b
         self.terms = terms
         self.several = several
         self.memo = memo
-        self.subject = Subject("model", lumped.a.name if several else "")
-        self.found = Findings(terms, lumped.a.name if several else "")
+        self.subject = ComparedSubject("model", lumped.a.name if several else "")
+        self.found = ComparisonFindings(terms, lumped.a.name if several else "")
         self.alignment: Alignment = align(self.a, self.b, terms)
         self.fixed = (FixedBodies(self.a), FixedBodies(self.b))
 
@@ -87,14 +87,14 @@ class RobotComparison:
     ) -> None:
         for name, one in a.items():
             if name in b:
-                links = (one.name,) if isinstance(one, Body) else (one.parent, one.child)
+                links = (one.name,) if isinstance(one, ComparedBody) else (one.parent, one.child)
                 given = one, b[name], tuple(map(self.alignment.of, links))
                 self._once(group, name, given, partial(compare, one, b[name]))
             else:
-                self.found.only_in_one(Subject(group, name), "", group, one.where, in_a=True)
+                self.found.only_in_one(ComparedSubject(group, name), "", group, one.where, in_a=True)
         for name, other in b.items():
             if name not in a:
-                self.found.only_in_one(Subject(group, name), "", group, other.where, in_a=False)
+                self.found.only_in_one(ComparedSubject(group, name), "", group, other.where, in_a=False)
 
     def _note_lumped(self) -> None:
         both = ((self.lumped.from_a, self.terms.b), (self.lumped.from_b, self.terms.a))
@@ -102,7 +102,7 @@ class RobotComparison:
             for name, host in into.items():
                 frame = (self.a if file == self.terms.b else self.b).frames[name]
                 message = f"link {name!r} is a part of link {host!r} in {file}"
-                self.found.note(Subject("link", name), "", message, (frame.where, frame.where))
+                self.found.note(ComparedSubject("link", name), "", message, (frame.where, frame.where))
 
     def _model(self) -> None:
         places = (self.a.where, self.b.where)
@@ -120,11 +120,11 @@ class RobotComparison:
         if not away or (bases and Base() not in bases):
             return
         counts = self.several or _stands(self.a) or _stands(self.b)
-        severity = Severity.DIFFERENCE if counts else Severity.NOTE
+        severity = DifferenceSeverity.DIFFERENCE if counts else DifferenceSeverity.NOTE
         self.found.gaps(self.subject, "pose", away, (self.a.where, self.b.where), severity)
 
-    def _body(self, a: Body, b: Body) -> None:
-        subject, base = Subject("link", a.name), self.alignment.bases[a.name]
+    def _body(self, a: ComparedBody, b: ComparedBody) -> None:
+        subject, base = ComparedSubject("link", a.name), self.alignment.bases[a.name]
         self._mass(subject, a.mass, b.mass, base)
         compare_leaves(self.found, subject, a.leaves, b.leaves, base, (a.where, b.where))
         compare_parts(self.found, subject, a.parts, b.parts, base)
@@ -136,7 +136,7 @@ class RobotComparison:
             message = f"link {a.name!r} is expressed in another frame ({_amount(moved)} away)"
             self.found.note(subject, "frame", message, (a.where, b.where))
 
-    def _mass(self, subject: Subject, a: Mass, b: Mass, base: Base) -> None:
+    def _mass(self, subject: ComparedSubject, a: Mass, b: Mass, base: Base) -> None:
         places = (a.where, b.where)
         if a.automatic or b.automatic:
             self.found.values(subject, "inertial/auto", Flag(a.automatic), Flag(b.automatic), places)
@@ -168,7 +168,7 @@ class RobotComparison:
         )
 
     def _joint(self, a: JointView, b: JointView) -> None:
-        subject, places = Subject("joint", a.name), (a.where, b.where)
+        subject, places = ComparedSubject("joint", a.name), (a.where, b.where)
         for aspect, one, other in (("parent", a.parent, b.parent), ("child", a.child, b.child)):
             self.found.values(subject, aspect, Text(one), Text(other), places)
         one, other = joint_type(a.type), joint_type(b.type)
@@ -179,11 +179,11 @@ class RobotComparison:
         if one == other:
             for number, pair in enumerate(zip(a.axes, b.axes, strict=False)):
                 aspect = "axis2/xyz" if number else "axis/xyz"
-                self.found.values(subject, aspect, Direction(pair[0]), Direction(pair[1]), places, base)
+                self.found.values(subject, aspect, UnitVector(pair[0]), UnitVector(pair[1]), places, base)
         compare_leaves(self.found, subject, *_same_kind(a, b), base, places)
         compare_parts(self.found, subject, a.parts, b.parts, base)
 
-    def _place_of_joint(self, subject: Subject, a: JointView, b: JointView) -> None:
+    def _place_of_joint(self, subject: ComparedSubject, a: JointView, b: JointView) -> None:
         base = self.alignment.bases.get(a.parent, Base())
         away = self.terms.worst(PoseValue(a.frame), PoseValue(b.frame), base)
         if not away:
@@ -226,7 +226,7 @@ def _off_axis(a: JointView, b: JointView, base: Base) -> Iterable[Delta]:
 def _distance(joint: JointView, away: Vector3, base: Transform) -> float | None:
     """How far from the axis or center of a joint another place is; None where a joint slides."""
     if joint.type in _ABOUT_A_LINE and joint.axes:
-        axis = Direction(joint.axes[0]).seen_from(base).xyz
+        axis = UnitVector(joint.axes[0]).seen_from(base).xyz
         along = sum(part * share for part, share in zip(away, axis, strict=True))
         return math.hypot(*(away[i] - along * axis[i] for i in range(3)))
     return math.hypot(*away) if joint.type in _ABOUT_A_POINT else None
@@ -236,7 +236,7 @@ def _amount(gaps: Iterable[Delta]) -> str:
     return ", ".join(f"{gap.absolute:.3g} {gap.unit}" for gap in gaps)
 
 
-def _stands(robot: Robot) -> bool:
+def _stands(robot: ComparedRobot) -> bool:
     """Whether a robot is held by the world."""
     static = robot.leaves.get("static")
     held = any(WORLD in (joint.parent, joint.child) for joint in robot.joints.values())

@@ -9,7 +9,7 @@ TOLERANCE = 1e-9
 """The share of a value, or of a meter or radian where it is smaller than that, up to which a difference is rounding."""
 
 
-class Severity(StrEnum):
+class DifferenceSeverity(StrEnum):
     """How much it counts that something differs.
 
     A `difference` makes two robots different to every reader, and what is `carried` to some: a carrier or `<gazebo>`
@@ -41,7 +41,7 @@ class Difference:
     for what is no number.
     """
 
-    severity: Severity
+    severity: DifferenceSeverity
     model: str = ""
     group: str
     name: str
@@ -91,17 +91,17 @@ class Comparison:
     @property
     def differences(self) -> tuple[Difference, ...]:
         """What makes the robots different to every reader."""
-        return self._of(Severity.DIFFERENCE)
+        return self._of(DifferenceSeverity.DIFFERENCE)
 
     @property
     def carried(self) -> tuple[Difference, ...]:
         """What makes the robots different to some readers: only a carrier or `<gazebo>` says it."""
-        return self._of(Severity.CARRIED)
+        return self._of(DifferenceSeverity.CARRIED)
 
     @property
     def notes(self) -> tuple[Difference, ...]:
         """What is written in different ways, and is the same."""
-        return self._of(Severity.NOTE)
+        return self._of(DifferenceSeverity.NOTE)
 
-    def _of(self, severity: Severity) -> tuple[Difference, ...]:
+    def _of(self, severity: DifferenceSeverity) -> tuple[Difference, ...]:
         return tuple(item for item in self.items if item.severity is severity)

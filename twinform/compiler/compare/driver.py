@@ -7,10 +7,10 @@ from typing import Unpack
 from twinform.compiler.compare.canonical_sdf import Robots, read_robots
 from twinform.compiler.compare.compare_robots import RobotComparison
 from twinform.compiler.compare.comparison import TOLERANCE, USUAL, Comparison, ComparisonOptions, Difference
-from twinform.compiler.compare.findings import Findings, Subject, Terms
+from twinform.compiler.compare.findings import ComparedSubject, ComparisonFindings, Terms
 from twinform.compiler.compare.memo import Memo
-from twinform.compiler.compare.readers import Reader, reconcile
-from twinform.compiler.compare.robot import Robot
+from twinform.compiler.compare.readers import ComparingReader, reconcile
+from twinform.compiler.compare.robot import ComparedRobot
 from twinform.compiler.compare.surroundings import compare_surroundings
 from twinform.compiler.errors import CompileError
 from twinform.compiler.input.loading import Input, LoadOptions, garbage_collection_paused, name_of_input
@@ -58,8 +58,8 @@ def compare_files(
     """
     names = (names[0] or _name(a, "a"), names[1] or _name(b, "b"))
     with garbage_collection_paused():
-        readers = (Reader.TWINFORM,) if options.carriers else tuple(Reader)
-        robots: list[dict[Reader, Robots]] = []
+        readers = (ComparingReader.TWINFORM,) if options.carriers else tuple(ComparingReader)
+        robots: list[dict[ComparingReader, Robots]] = []
         errors: list[CompileError] = []
         for source, name in zip((a, b), names, strict=True):
             try:
@@ -79,7 +79,9 @@ def _name(source: Input, default: str) -> str:
     return f"<{default}>" if name in {"<bytes>", "<document>"} else name
 
 
-def _seen_by_all(a: Mapping[Reader, Robots], b: Mapping[Reader, Robots], tolerance: float) -> Iterable[Difference]:
+def _seen_by_all(
+    a: Mapping[ComparingReader, Robots], b: Mapping[ComparingReader, Robots], tolerance: float
+) -> Iterable[Difference]:
     """What every reader finds, and what only some of them do."""
     first, *more = a
     pair = a[first], b[first]
@@ -114,11 +116,13 @@ def _compared(a: Robots, b: Robots, tolerance: float, memos: Mapping[str, Memo])
             yield from _missing(robot, terms, in_a=False)
 
 
-def _compared_robots(a: Robot, b: Robot, terms: Terms, memo: Memo, *, several: bool = False) -> Iterable[Difference]:
+def _compared_robots(
+    a: ComparedRobot, b: ComparedRobot, terms: Terms, memo: Memo, *, several: bool = False
+) -> Iterable[Difference]:
     return memo.once("robot", (a, b), lambda: RobotComparison(a, b, terms, memo, several=several).run())
 
 
-def _missing(robot: Robot, terms: Terms, *, in_a: bool) -> list[Difference]:
-    found = Findings(terms)
-    found.only_in_one(Subject("model", robot.name), "", "model", robot.where, in_a=in_a)
+def _missing(robot: ComparedRobot, terms: Terms, *, in_a: bool) -> list[Difference]:
+    found = ComparisonFindings(terms)
+    found.only_in_one(ComparedSubject("model", robot.name), "", "model", robot.where, in_a=in_a)
     return found.items

@@ -3,10 +3,10 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
-from twinform.compiler.compare.comparison import Difference, Severity, Side
+from twinform.compiler.compare.comparison import Difference, DifferenceSeverity, Side
 from twinform.compiler.compare.robot import Leaf
 from twinform.compiler.compare.values import Delta, Value, gaps, show
-from twinform.diagnostics import NOWHERE, Location, Origins, Source
+from twinform.diagnostics import NOWHERE, LineOrigins, Location, Source
 from twinform.ir import Format
 from twinform.ir.transform import Transform
 
@@ -24,7 +24,7 @@ class Base:
 
 
 @dataclass(frozen=True, slots=True)
-class Subject:
+class ComparedSubject:
     """What a finding is about."""
 
     group: str
@@ -46,7 +46,7 @@ class Terms:
     format_a: Format
     format_b: Format
     tolerance: float
-    origins: Mapping[str, Origins] = field(default_factory=dict[str, Origins])
+    origins: Mapping[str, LineOrigins] = field(default_factory=dict[str, LineOrigins])
 
     def place(self, source: Source | None) -> Location:
         """Where somebody has written what was read there."""
@@ -70,7 +70,7 @@ class Terms:
 
 
 @dataclass(slots=True)
-class Findings:
+class ComparisonFindings:
     """What was found so far."""
 
     terms: Terms
@@ -79,7 +79,7 @@ class Findings:
 
     def values(
         self,
-        subject: Subject,
+        subject: ComparedSubject,
         aspect: str,
         a: Value,
         b: Value,
@@ -91,11 +91,11 @@ class Findings:
 
     def gaps(
         self,
-        subject: Subject,
+        subject: ComparedSubject,
         aspect: str,
         found: Iterable[Delta],
         places: Places,
-        severity: Severity = Severity.DIFFERENCE,
+        severity: DifferenceSeverity = DifferenceSeverity.DIFFERENCE,
         message: str = "",
     ) -> None:
         """Add a difference for each of the gaps."""
@@ -105,13 +105,13 @@ class Findings:
             number = gap if gap.absolute != float("inf") or gap.unit else None
             self._add(severity, subject, path, words, self._sides((gap.a, gap.b), places), number)
 
-    def note(self, subject: Subject, aspect: str, message: str, places: Places) -> None:
+    def note(self, subject: ComparedSubject, aspect: str, message: str, places: Places) -> None:
         """Add a note."""
-        self._add(Severity.NOTE, subject, aspect, message, self._sides((None, None), places))
+        self._add(DifferenceSeverity.NOTE, subject, aspect, message, self._sides((None, None), places))
 
     def only_in_one(
         self,
-        subject: Subject,
+        subject: ComparedSubject,
         aspect: str,
         what: str,
         where: Source | None,
@@ -124,9 +124,9 @@ class Findings:
         terms = self.terms
         here, other = (terms.a, terms.format_b) if in_a else (terms.b, terms.format_a)
         name = f"{aspect} of {subject}" if aspect else str(subject)
-        message, severity = f"{name} is only in {here}", Severity.DIFFERENCE
+        message, severity = f"{name} is only in {here}", DifferenceSeverity.DIFFERENCE
         if only is not None and other is not only:
-            message, severity = f"{name} is only in {here}: {other.upper()} cannot express it", Severity.NOTE
+            message, severity = f"{name} is only in {here}: {other.upper()} cannot express it", DifferenceSeverity.NOTE
         if carried:
             message = f"{name} is only in {here}, where it travels unseen by other readers"
         sides = self._sides((what, None), (where, None)) if in_a else self._sides((None, what), (None, where))
@@ -134,7 +134,7 @@ class Findings:
 
     def leaf(
         self,
-        subject: Subject,
+        subject: ComparedSubject,
         aspect: str,
         pair: tuple[Leaf | None, Leaf | None],
         base: Base,
@@ -152,7 +152,7 @@ class Findings:
             self._half_written(subject, aspect, one, places, in_a=a is not None)
         return len(self.items) > before
 
-    def _half_written(self, subject: Subject, aspect: str, one: Leaf, places: Places, *, in_a: bool) -> None:
+    def _half_written(self, subject: ComparedSubject, aspect: str, one: Leaf, places: Places, *, in_a: bool) -> None:
         if one.default is None:
             what = show(one.value)
             self.only_in_one(subject, aspect, what, one.where, in_a=in_a, only=one.only, carried=one.carried)
@@ -166,8 +166,8 @@ class Findings:
 
     def _add(
         self,
-        severity: Severity,
-        subject: Subject,
+        severity: DifferenceSeverity,
+        subject: ComparedSubject,
         aspect: str,
         message: str,
         sides: tuple[Side, Side],

@@ -6,7 +6,7 @@ SDF of a URDF does so where one of them has an inertia that no body has, and a f
 from collections import defaultdict
 from functools import cached_property
 
-from twinform.compiler.compare.robot import Robot
+from twinform.compiler.compare.robot import ComparedRobot
 from twinform.ir.groups import tops
 from twinform.ir.motion import spanning_tree
 from twinform.ir.solids import Solid, combined
@@ -16,7 +16,7 @@ from twinform.passes.legalise.shared_inertias import is_refused
 class FixedBodies:
     """The links of one robot by the bodies that they are parts of."""
 
-    def __init__(self, robot: Robot) -> None:
+    def __init__(self, robot: ComparedRobot) -> None:
         self.robot = robot
 
     @cached_property

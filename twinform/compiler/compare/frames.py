@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping
 
-from twinform.compiler.compare.findings import Base, Findings, Subject
-from twinform.compiler.compare.robot import NamedFrame, Robot
+from twinform.compiler.compare.findings import Base, ComparedSubject, ComparisonFindings
+from twinform.compiler.compare.robot import ComparedRobot, NamedFrame
 from twinform.compiler.compare.values import PoseValue, Text, show
 from twinform.ir import Format
 
@@ -11,7 +11,7 @@ _MOST_PAIRS = 2_500
 """Of more frames, not each is held against each."""
 
 
-def compare_frames(findings: Findings, a: Robot, b: Robot, bases: Mapping[str, Base]) -> None:
+def compare_frames(findings: ComparisonFindings, a: ComparedRobot, b: ComparedRobot, bases: Mapping[str, Base]) -> None:
     """Compare the frames of both robots; a link of the same name stands for a frame too."""
     nested = a.models | b.models
     for name, one in a.frames.items():
@@ -27,9 +27,9 @@ def compare_frames(findings: Findings, a: Robot, b: Robot, bases: Mapping[str, B
 
 
 def _compare(
-    findings: Findings, one: NamedFrame, other: NamedFrame, bases: Mapping[str, Base], *, nested: bool = False
+    findings: ComparisonFindings, one: NamedFrame, other: NamedFrame, bases: Mapping[str, Base], *, nested: bool = False
 ) -> None:
-    subject, places = Subject("frame", one.name), (one.where, other.where)
+    subject, places = ComparedSubject("frame", one.name), (one.where, other.where)
     base = bases.get(one.body, Base())
     findings.values(subject, "attached_to", Text(one.body), Text(other.body), places)
     terms = findings.terms
@@ -44,7 +44,7 @@ def _compare(
 
 
 def _without_like(
-    findings: Findings, robot: Robot, other: Robot, bases: Mapping[str, Base], *, in_a: bool
+    findings: ComparisonFindings, robot: ComparedRobot, other: ComparedRobot, bases: Mapping[str, Base], *, in_a: bool
 ) -> list[NamedFrame]:
     """The frames that the other robot has neither as a frame nor as a link; a link is compared here."""
     only_in_one: list[NamedFrame] = []
@@ -62,9 +62,9 @@ def _without_like(
 
 
 def _report(
-    findings: Findings,
+    findings: ComparisonFindings,
     only_in_one: list[NamedFrame],
-    robots: tuple[Robot, Robot],
+    robots: tuple[ComparedRobot, ComparedRobot],
     twins: Mapping[str, str],
     *,
     in_a: bool,
@@ -73,7 +73,7 @@ def _report(
     lumped = _is_lumped(*robots)
     here, there = (findings.terms.a, findings.terms.b) if in_a else (findings.terms.b, findings.terms.a)
     for frame in only_in_one:
-        subject, places = Subject("frame", frame.name), (frame.where, frame.where)
+        subject, places = ComparedSubject("frame", frame.name), (frame.where, frame.where)
         if frame.name in twins:
             message = f"frame {frame.name!r} of {here} is where frame {twins[frame.name]!r} is"
             if not frame.was_joint:
@@ -84,7 +84,9 @@ def _report(
             findings.only_in_one(subject, "", "frame", frame.where, in_a=in_a)
 
 
-def _twins(findings: Findings, only_in_one: list[NamedFrame], robot: Robot, other: Robot) -> dict[str, str]:
+def _twins(
+    findings: ComparisonFindings, only_in_one: list[NamedFrame], robot: ComparedRobot, other: ComparedRobot
+) -> dict[str, str]:
     """For frames that one robot has: another one at the same place that both have, as fixed joints of URDF do."""
     shared = [frame for name, frame in robot.frames.items() if name in other.frames or name in other.bodies]
     if len(only_in_one) * len(shared) > _MOST_PAIRS:
@@ -105,7 +107,7 @@ def _place(frame: NamedFrame) -> tuple[str, str]:
     return frame.body, show(PoseValue(frame.pose))
 
 
-def _is_lumped(robot: Robot, other: Robot) -> bool:
+def _is_lumped(robot: ComparedRobot, other: ComparedRobot) -> bool:
     """Whether the other file is what a reader makes of URDF that has no frames for the links that it merges."""
     formats = robot.format is Format.URDF and other.format is Format.SDF
     return formats and not robot.frames.keys() & other.frames.keys()

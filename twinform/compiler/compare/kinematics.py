@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from random import Random
 
-from twinform.compiler.compare.findings import Base, Findings, Subject
-from twinform.compiler.compare.robot import JointView, Robot
+from twinform.compiler.compare.findings import Base, ComparedSubject, ComparisonFindings
+from twinform.compiler.compare.robot import ComparedRobot, JointView
 from twinform.compiler.compare.values import Delta, PoseValue, gaps
 from twinform.compiler.kinematics import Degree, Kinematics, Positions
 from twinform.ir import Vector3
@@ -21,7 +21,9 @@ _AXES: tuple[Vector3, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 _STILL = Transform()
 
 
-def compare_kinematics(findings: Findings, a: Robot, b: Robot, bases: Mapping[str, Base]) -> None:
+def compare_kinematics(
+    findings: ComparisonFindings, a: ComparedRobot, b: ComparedRobot, bases: Mapping[str, Base]
+) -> None:
     """Report the link that is furthest from where it is in the other robot, over all samples."""
     worst: dict[str, tuple[Delta, str]] = {}
     one = Moving(a, {name: base.a for name, base in bases.items()})
@@ -38,13 +40,13 @@ def compare_kinematics(findings: Findings, a: Robot, b: Robot, bases: Mapping[st
     for gap, name in worst.values():
         message = f"link {name!r} is up to {gap.absolute:.3g} {gap.unit} elsewhere at sampled joint positions"
         places = (a.bodies[name].where, b.bodies[name].where)
-        findings.gaps(Subject(KINEMATICS, name), "pose", [gap], places, message=message)
+        findings.gaps(ComparedSubject(KINEMATICS, name), "pose", [gap], places, message=message)
 
 
 class Moving:
     """A robot whose joints stand somewhere; `frames` are those of its links that are looked at."""
 
-    def __init__(self, robot: Robot, frames: Mapping[str, Transform]) -> None:
+    def __init__(self, robot: ComparedRobot, frames: Mapping[str, Transform]) -> None:
         self.kinematics = Kinematics(frames, [_comparable(joint, frames) for joint in robot.joints.values()])
         self.roots = tops(frames, {name: joint.parent for name, joint in self.kinematics.hung.items()})
 

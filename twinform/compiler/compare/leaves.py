@@ -34,7 +34,7 @@ Resolve = Callable[[Pose, Transform], Transform]
 
 
 @dataclass(frozen=True, slots=True)
-class Walk:
+class LeafWalk:
     """A walk over one XML tree; `where` gives the source of the part at a path."""
 
     resolve: Resolve

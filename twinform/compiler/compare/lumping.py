@@ -8,7 +8,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from twinform.compiler.compare.robot import Body, JointView, Mass, NamedFrame, Robot
+from twinform.compiler.compare.robot import ComparedBody, ComparedRobot, JointView, Mass, NamedFrame
 from twinform.ir.motion import spanning_tree
 from twinform.ir.solids import combined
 
@@ -20,13 +20,13 @@ _EVIDENCE = 1e-5
 class Lumped:
     """Two robots with the same links, as far as that can be; `into` are the links that went into others by name."""
 
-    a: Robot
-    b: Robot
+    a: ComparedRobot
+    b: ComparedRobot
     from_a: Mapping[str, str]
     from_b: Mapping[str, str]
 
 
-def lump(a: Robot, b: Robot) -> Lumped:
+def lump(a: ComparedRobot, b: ComparedRobot) -> Lumped:
     """Both robots after links that only one of them has went into those that they are fixed to."""
     groups_a, groups_b = _groups(a, b), _groups(b, a)
     into_a: dict[str, str] = {}
@@ -39,7 +39,7 @@ def lump(a: Robot, b: Robot) -> Lumped:
     return Lumped(_lumped(a, into_a), _lumped(b, into_b), into_a, into_b)
 
 
-def _groups(robot: Robot, other: Robot) -> dict[str, list[str]]:
+def _groups(robot: ComparedRobot, other: ComparedRobot) -> dict[str, list[str]]:
     """The links that the other robot does not have, by the nearest link above that both have."""
     hung, found = spanning_tree(robot.joints.values()), defaultdict[str, list[str]](list)
     for name in robot.bodies:
@@ -51,7 +51,7 @@ def _groups(robot: Robot, other: Robot) -> dict[str, list[str]]:
     return found
 
 
-def _is_one_body(a: Robot, b: Robot, name: str, mine: list[str], theirs: list[str]) -> bool:
+def _is_one_body(a: ComparedRobot, b: ComparedRobot, name: str, mine: list[str], theirs: list[str]) -> bool:
     """Whether the masses say so; of links without mass, only a frame of the same name can tell.
 
     Where each of the robots has links that the other lacks, they may as well be called otherwise.
@@ -67,14 +67,14 @@ def _is_one_body(a: Robot, b: Robot, name: str, mine: list[str], theirs: list[st
     return heavy or (all(each in b.frames for each in mine) and all(each in a.frames for each in theirs))
 
 
-def _total(robot: Robot, names: Iterable[str]) -> float:
+def _total(robot: ComparedRobot, names: Iterable[str]) -> float:
     return sum(robot.bodies[name].mass.solid.mass for name in names)
 
 
-def _lumped(robot: Robot, into: Mapping[str, str]) -> Robot:
+def _lumped(robot: ComparedRobot, into: Mapping[str, str]) -> ComparedRobot:
     if not into:
         return robot
-    hung, guests = spanning_tree(robot.joints.values()), defaultdict[str, list[Body]](list)
+    hung, guests = spanning_tree(robot.joints.values()), defaultdict[str, list[ComparedBody]](list)
     for name, host in into.items():
         guests[host].append(robot.bodies[name])
     bodies = {
@@ -100,7 +100,7 @@ def _attached(frame: NamedFrame, into: Mapping[str, str]) -> NamedFrame:
     return replace(frame, body=into[frame.body]) if frame.body in into else frame
 
 
-def _host(body: Body, guests: list[Body]) -> Body:
+def _host(body: ComparedBody, guests: list[ComparedBody]) -> ComparedBody:
     parts = (*body.parts, *(part for guest in guests for part in guest.parts))
     return replace(body, parts=parts, mass=together([body.mass, *(guest.mass for guest in guests)]))
 

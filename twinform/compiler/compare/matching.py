@@ -6,8 +6,8 @@ from dataclasses import replace
 from functools import partial
 from operator import attrgetter
 
-from twinform.compiler.compare.findings import UNKNOWN, Base, Findings, Places, Subject, Terms
-from twinform.compiler.compare.robot import Leaf, Leaves, Part
+from twinform.compiler.compare.findings import UNKNOWN, Base, ComparedSubject, ComparisonFindings, Places, Terms
+from twinform.compiler.compare.robot import Leaf, Leaves, LinkPart
 from twinform.compiler.compare.values import PoseValue, Text, show
 from twinform.ir.transform import Transform
 
@@ -23,13 +23,13 @@ _WATCHED = "contact/collision"
 _MOST_PAIRS = 100
 """Of more shapes, not each is held against each: a link may have thousands."""
 
-Pair = tuple[Part, Part]
-Fits = Callable[[Part, Part], bool]
+Pair = tuple[LinkPart, LinkPart]
+Fits = Callable[[LinkPart, LinkPart], bool]
 
 
 def compare_leaves(
-    findings: Findings,
-    subject: Subject,
+    findings: ComparisonFindings,
+    subject: ComparedSubject,
     a: Leaves,
     b: Leaves,
     base: Base,
@@ -62,7 +62,9 @@ def _is_absent_pose(pair: tuple[Leaf | None, Leaf | None]) -> bool:
     return None in pair and one is not None and isinstance(one.value, PoseValue)
 
 
-def compare_parts(findings: Findings, subject: Subject, a: Iterable[Part], b: Iterable[Part], base: Base) -> None:
+def compare_parts(
+    findings: ComparisonFindings, subject: ComparedSubject, a: Iterable[LinkPart], b: Iterable[LinkPart], base: Base
+) -> None:
     """Compare the parts of two links, joints or models."""
     groups_a, groups_b = _by_kind(a), _by_kind(b)
     renamed: dict[str, str] = {}
@@ -94,21 +96,23 @@ def _with_names(sensor: Leaves, renamed: Mapping[str, str]) -> Leaves:
     return found
 
 
-def _note_renamed(findings: Findings, subject: Subject, a: Part, b: Part) -> None:
+def _note_renamed(findings: ComparisonFindings, subject: ComparedSubject, a: LinkPart, b: LinkPart) -> None:
     terms = findings.terms
     if a.name != b.name and terms.format_a is terms.format_b:
         message = f"{a.kind} {a.name!r} of {subject} is called {b.name!r} in {terms.b}"
         findings.note(subject, f"{a.kind} {a.name!r}/name", message, (a.where, b.where))
 
 
-def _by_kind(parts: Iterable[Part]) -> dict[str, list[Part]]:
-    found = defaultdict[str, list[Part]](list)
+def _by_kind(parts: Iterable[LinkPart]) -> dict[str, list[LinkPart]]:
+    found = defaultdict[str, list[LinkPart]](list)
     for part in parts:
         found[part.kind].append(part)
     return found
 
 
-def match(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
+def match(
+    a: list[LinkPart], b: list[LinkPart], terms: Terms, base: Base
+) -> tuple[list[Pair], list[LinkPart], list[LinkPart]]:
     """Pairs of parts of one kind, and those of each robot that are left over."""
     if not any(part.kind in _BY_CONTENT for part in (*a, *b)):
         return _pair_by_name(a, b, base)
@@ -127,7 +131,9 @@ def match(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[
     return [*pairs, *named, *placed, *alike], left_a, left_b
 
 
-def _pair_by_name(a: list[Part], b: list[Part], base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
+def _pair_by_name(
+    a: list[LinkPart], b: list[LinkPart], base: Base
+) -> tuple[list[Pair], list[LinkPart], list[LinkPart]]:
     """Pairs of parts that have one name; where several have it, in whatever order, those that are equal come first."""
     equal: list[Pair] = []
     if len({part.name for part in a}) < len(a):
@@ -137,7 +143,9 @@ def _pair_by_name(a: list[Part], b: list[Part], base: Base) -> tuple[list[Pair],
     return [*equal, *named], a, b
 
 
-def _pair_equal(a: list[Part], b: list[Part], terms: Terms, base: Base) -> tuple[list[Pair], list[Part], list[Part]]:
+def _pair_equal(
+    a: list[LinkPart], b: list[LinkPart], terms: Terms, base: Base
+) -> tuple[list[Pair], list[LinkPart], list[LinkPart]]:
     """Pairs of shapes that are equal, those of one name first, and the shapes that are left over.
 
     Of many shapes, those of one content are paired at once, and the rest is looked through where that leaves few.
@@ -159,24 +167,24 @@ def _are_few(a: Sized, b: Sized) -> bool:
     return len(a) * len(b) <= _MOST_PAIRS
 
 
-def _content(part: Part, base: Transform) -> Hashable:
+def _content(part: LinkPart, base: Transform) -> Hashable:
     """What a shape is but for its name and rounding, seen from a frame."""
     written = ((path, leaf) for path, leaf in part.leaves.items() if leaf.value != leaf.default)
     return frozenset((path, show(leaf.value.seen_from(base))) for path, leaf in written)
 
 
 def _paired_by(
-    a: list[Part], b: list[Part], key_a: Callable[[Part], Hashable], key_b: Callable[[Part], Hashable]
-) -> tuple[list[Pair], list[Part], list[Part]]:
+    a: list[LinkPart], b: list[LinkPart], key_a: Callable[[LinkPart], Hashable], key_b: Callable[[LinkPart], Hashable]
+) -> tuple[list[Pair], list[LinkPart], list[LinkPart]]:
     """Each part with the first one of its key that is still free."""
-    free = defaultdict[Hashable, deque[Part]](deque)
+    free = defaultdict[Hashable, deque[LinkPart]](deque)
     for other in b:
         free[key_b(other)].append(other)
     pairs = [(one, same.popleft()) for one in a if (same := free.get(key_a(one)))]
     return pairs, _without_taken(a, (one for one, _ in pairs)), _without_taken(b, (other for _, other in pairs))
 
 
-def _paired(a: list[Part], b: list[Part], fits: Fits) -> tuple[list[Pair], list[Part], list[Part]]:
+def _paired(a: list[LinkPart], b: list[LinkPart], fits: Fits) -> tuple[list[Pair], list[LinkPart], list[LinkPart]]:
     """Each part with the first one that fits it and is still free."""
     pairs: list[Pair] = []
     free = list(b)
@@ -187,16 +195,16 @@ def _paired(a: list[Part], b: list[Part], fits: Fits) -> tuple[list[Pair], list[
     return pairs, _without_taken(a, (one for one, _ in pairs)), free
 
 
-def _without_taken(parts: list[Part], taken: Iterable[Part]) -> list[Part]:
+def _without_taken(parts: list[LinkPart], taken: Iterable[LinkPart]) -> list[LinkPart]:
     gone = {id(part) for part in taken}
     return [part for part in parts if id(part) not in gone]
 
 
-def _has_name(a: Part, b: Part) -> bool:
+def _has_name(a: LinkPart, b: LinkPart) -> bool:
     return a.name == b.name
 
 
-def _most_alike(a: list[Part], b: list[Part], terms: Terms, base: Base) -> list[Pair]:
+def _most_alike(a: list[LinkPart], b: list[LinkPart], terms: Terms, base: Base) -> list[Pair]:
     """Shapes that differ, the nearest first; two kinds of shape are the same one only where they have one name."""
     near = [
         (_distance(one, other, terms, base), i, j)
@@ -211,16 +219,16 @@ def _most_alike(a: list[Part], b: list[Part], terms: Terms, base: Base) -> list[
     return [(a[i], b[j]) for i, j in sorted(pairs.items())]
 
 
-def _distance(a: Part, b: Part, terms: Terms, base: Base) -> int:
+def _distance(a: LinkPart, b: LinkPart, terms: Terms, base: Base) -> int:
     """How many of the values differ; another name weighs as much as two of them."""
-    found = Findings(terms)
-    compare_leaves(found, Subject("", ""), a.leaves, b.leaves, base, carried=a.carried or b.carried)
+    found = ComparisonFindings(terms)
+    compare_leaves(found, ComparedSubject("", ""), a.leaves, b.leaves, base, carried=a.carried or b.carried)
     # A name means little for a shape (Gazebo and conversions rename both), so a shape that moved
     # and kept its name may still be another one.
     return len(found.items) + (0 if _has_name(a, b) else 2)
 
 
-def _placed_shape(part: Part, base: Transform) -> Hashable:
+def _placed_shape(part: LinkPart, base: Transform) -> Hashable:
     """What a shape is and where, to a micrometer, as one with another material is too."""
     leaf = part.leaves.get("pose")
     place = leaf.value.seen_from(base) if leaf else None
@@ -228,19 +236,19 @@ def _placed_shape(part: Part, base: Transform) -> Hashable:
     return _shape(part), tuple(where)
 
 
-def _shape(part: Part) -> object:
+def _shape(part: LinkPart) -> object:
     leaf = part.leaves.get("geometry")
     return leaf.value if leaf else None
 
 
-def is_same(a: Part, b: Part, terms: Terms, base: Base) -> bool:
+def is_same(a: LinkPart, b: LinkPart, terms: Terms, base: Base) -> bool:
     """Whether two parts are equal but for their names."""
-    found, nothing = Findings(terms), Subject("", "")
+    found, nothing = ComparisonFindings(terms), ComparedSubject("", "")
     pairs = _pairs_of_leaves(a.leaves, b.leaves, carried=a.carried or b.carried)
     return not any(found.leaf(nothing, path, pair, base, UNKNOWN) for path, pair in pairs)
 
 
-def unmatched(a: Iterable[Part], b: Iterable[Part], terms: Terms, base: Base) -> Iterator[Part]:
+def unmatched(a: Iterable[LinkPart], b: Iterable[LinkPart], terms: Terms, base: Base) -> Iterator[LinkPart]:
     """The parts for which the other robot has none that is the same."""
     groups_b = _by_kind(b)
     for kind, parts in _by_kind(a).items():

@@ -7,8 +7,8 @@ from functools import cache
 from lxml import etree
 
 from twinform.compiler.compare.carried import CARRIER_OF_URDF, definition, unpack_sdf, urdf_pieces
-from twinform.compiler.compare.leaves import CARRIED, Resolve, Walk, numbered, urdf_row
-from twinform.compiler.compare.robot import Leaf, Leaves, Part
+from twinform.compiler.compare.leaves import CARRIED, LeafWalk, Resolve, numbered, urdf_row
+from twinform.compiler.compare.robot import Leaf, Leaves, LinkPart
 from twinform.compiler.compare.values import Text
 from twinform.diagnostics import Source
 from twinform.ir import Document, Element, Format, Frame, Joint, Link, Model, Node, Sensor, World, node_fields
@@ -87,7 +87,9 @@ class PartReader:
         """Tags of `<gazebo>` without effect count in the file that has them, and mean nothing in a carrier."""
         return _NOT_OF_THE_ROBOT if self.format is Format.URDF else _NOT_OF_THE_ROBOT | {_IDLE}
 
-    def parts(self, node: Link | Joint | Model | World | Document, frame: Transform) -> tuple[Leaves, tuple[Part, ...]]:
+    def parts(
+        self, node: Link | Joint | Model | World | Document, frame: Transform
+    ) -> tuple[Leaves, tuple[LinkPart, ...]]:
         """The values of a node itself, and the parts in it; poses are relative to its frame."""
         fields = _PARTS[type(node)]
         tag = definition_of(node) or ""
@@ -98,26 +100,26 @@ class PartReader:
         expressed, carried = self._of_urdf(xml, node)
         return {**leaves, **expressed}, (*parts, *inner, *carried)
 
-    def element(self, xml: XmlElement, tag: str, where: Source | None, frame: Transform) -> Part:
+    def element(self, xml: XmlElement, tag: str, where: Source | None, frame: Transform) -> LinkPart:
         """A part that is an element without a typed form."""
         unpack_sdf(xml, definition(tag))
         skipped = _RESOLVED[Model] if tag == "model" else frozenset[str]()
         leaves = self._leaves(xml, tag, lambda _: where, frame, skipped)
-        return Part(tag, _name(xml), leaves, where, carried=xml.get(CARRIED) is not None)
+        return LinkPart(tag, _name(xml), leaves, where, carried=xml.get(CARRIED) is not None)
 
-    def part(self, node: Node, tag: str, frame: Transform) -> Part:
+    def part(self, node: Node, tag: str, frame: Transform) -> LinkPart:
         """A part with a typed form; a pose in it that names no frame is relative to `frame`."""
         xml, places = _xml(node, tag), _places(node)
         unpack_sdf(xml, definition(tag))
         leaves = self._leaves(xml, tag, places, frame)
         expressed, _ = self._of_urdf(xml, node)
-        return Part(tag, _name(xml), {**leaves, **expressed}, places(""))
+        return LinkPart(tag, _name(xml), {**leaves, **expressed}, places(""))
 
     def _leaves(
         self, xml: XmlElement, tag: str, places: Places, frame: Transform, skipped: frozenset[str] = frozenset()
     ) -> dict[str, Leaf]:
         """The values of an element without its name, which is that of the part."""
-        walk = Walk(self.resolve, places, skipped | {"@name"})
+        walk = LeafWalk(self.resolve, places, skipped | {"@name"})
         if definition(tag).any:
             walk.enter_free(xml, "")
             walk.found.pop("@name", None)
@@ -128,17 +130,17 @@ class PartReader:
     def _free_leaves(
         self, xml: XmlElement, path: str, where: Source | None, fact: Fact | None = None
     ) -> dict[str, Leaf]:
-        walk = Walk(self.resolve, lambda _: where)
+        walk = LeafWalk(self.resolve, lambda _: where)
         walk.enter_free(xml, path, fact=fact)
         return walk.found
 
     def _own(
         self, xml: XmlElement, tag: str, places: Places, frame: Transform, *, skipped: frozenset[str]
-    ) -> tuple[Leaves, list[Part]]:
+    ) -> tuple[Leaves, list[LinkPart]]:
         """The leaves of an element itself, and its named children as parts."""
         unpack_sdf(xml, definition(tag))
         rows = _child_rows(tag)
-        inner: list[Part] = []
+        inner: list[LinkPart] = []
         for child in [one for one in xml if isinstance(one.tag, str)]:
             row = rows.get(str(child.tag))
             if row is not None and row.repeats and row.reference and row.name not in skipped | {"frame"}:
@@ -147,10 +149,10 @@ class PartReader:
                 inner.append(replace(part, carried=True) if part.kind in _ALWAYS_TYPED else part)
         return self._leaves(xml, tag, places, frame, skipped), inner
 
-    def _of_urdf(self, xml: XmlElement, node: Node) -> tuple[dict[str, Leaf], list[Part]]:
+    def _of_urdf(self, xml: XmlElement, node: Node) -> tuple[dict[str, Leaf], list[LinkPart]]:
         """What only URDF has elements for, which SDF holds in carriers: leaves, and named parts of the model."""
         leaves: dict[str, Leaf] = {}
-        parts: list[Part] = []
+        parts: list[LinkPart] = []
         seen: dict[str, int] = {}
         pieces = [*urdf_pieces(xml)]
         known = _names_of_joints(node) if pieces and isinstance(node, Model) else frozenset[str | None]()
@@ -170,7 +172,7 @@ class PartReader:
                 found = self._free_leaves(piece, "", node.source, row)
                 found.pop("@name", None)
                 name = piece.get("name") or piece.get("reference") or ""
-                parts.append(Part(tag, name, found, node.source, only=Format.URDF))
+                parts.append(LinkPart(tag, name, found, node.source, only=Format.URDF))
             else:
                 leaves |= self._free_leaves(piece, numbered(tag, seen), node.source, row)
         floating = find_annotation(node, FLOATING) if isinstance(node, Link) else None

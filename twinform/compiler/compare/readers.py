@@ -8,12 +8,12 @@ from collections.abc import Iterable
 from dataclasses import replace
 from enum import StrEnum
 
-from twinform.compiler.compare.comparison import Difference, Severity
+from twinform.compiler.compare.comparison import Difference, DifferenceSeverity
 from twinform.ir import Document
 from twinform.passes.carriers.removal import without_bodies_for_gazebo, without_ours
 
 
-class Reader(StrEnum):
+class ComparingReader(StrEnum):
     """Who reads a file. Each one sees what the ones before it see, and more."""
 
     ANY = "any"
@@ -21,22 +21,26 @@ class Reader(StrEnum):
     TWINFORM = "twinform"
 
 
-_ALONE = {Reader.GAZEBO: "only Gazebo and twinform read", Reader.TWINFORM: "only twinform reads"}
+_ALONE = {ComparingReader.GAZEBO: "only Gazebo and twinform read", ComparingReader.TWINFORM: "only twinform reads"}
 
 
-def as_read_by(document: Document, readers: Iterable[Reader]) -> dict[Reader, Document]:
+def as_read_by(document: Document, readers: Iterable[ComparingReader]) -> dict[ComparingReader, Document]:
     """The document without what each reader skips; one object for readers that skip the same."""
-    if (wanted := [*readers]) == [Reader.TWINFORM]:
-        return {Reader.TWINFORM: document}
+    if (wanted := [*readers]) == [ComparingReader.TWINFORM]:
+        return {ComparingReader.TWINFORM: document}
     # A capsule that a URDF holds in a carrier is there for twinform alone: RViz, Drake and MuJoCo
     # see no collision. What a reader skips is taken away here, before anything is compared.
     bare = without_ours(document)
-    seen = {Reader.ANY: without_bodies_for_gazebo(bare), Reader.GAZEBO: bare, Reader.TWINFORM: document}
+    seen = {
+        ComparingReader.ANY: without_bodies_for_gazebo(bare),
+        ComparingReader.GAZEBO: bare,
+        ComparingReader.TWINFORM: document,
+    }
     return {reader: seen[reader] for reader in wanted}
 
 
 def reconcile(
-    found: Iterable[Difference], seen: Iterable[Difference], reader: Reader, files: tuple[str, str]
+    found: Iterable[Difference], seen: Iterable[Difference], reader: ComparingReader, files: tuple[str, str]
 ) -> list[Difference]:
     """What readers found, after one that sees more has compared the two files too.
 
@@ -51,7 +55,7 @@ def reconcile(
 
 
 def _counts(item: Difference) -> bool:
-    return item.severity is not Severity.NOTE
+    return item.severity is not DifferenceSeverity.NOTE
 
 
 def _heading(item: Difference) -> tuple[str, ...]:
@@ -64,17 +68,17 @@ def _key(item: Difference) -> tuple[str, ...]:
     return item.model, item.group, name, item.aspect
 
 
-def _seen_as_same(item: Difference, reader: Reader, files: tuple[str, str]) -> Difference:
-    if item.severity is not Severity.DIFFERENCE:
+def _seen_as_same(item: Difference, reader: ComparingReader, files: tuple[str, str]) -> Difference:
+    if item.severity is not DifferenceSeverity.DIFFERENCE:
         return item
     in_one = (item.a.text is None) != (item.b.text is None)
     what = f"it in {files[item.a.text is not None]}" if in_one else "them as the same"
     return _carried(item, reader, f"{item.message}: {_ALONE[reader]} {what}")
 
 
-def _seen_by_one(item: Difference, reader: Reader) -> Difference:
+def _seen_by_one(item: Difference, reader: ComparingReader) -> Difference:
     return _carried(item, reader, f"{item.message}: {_ALONE[reader]} this")
 
 
-def _carried(item: Difference, reader: Reader, message: str) -> Difference:
-    return replace(item, severity=Severity.CARRIED, reader=str(reader), message=message)
+def _carried(item: Difference, reader: ComparingReader, message: str) -> Difference:
+    return replace(item, severity=DifferenceSeverity.CARRIED, reader=str(reader), message=message)

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import groupby
 from types import MappingProxyType
 
-from twinform.compiler.compare.comparison import Comparison, Difference, Severity, Side
+from twinform.compiler.compare.comparison import Comparison, Difference, DifferenceSeverity, Side
 from twinform.diagnostics import Location
 from twinform.diagnostics.reporters import printable
 
-Paint = Callable[[str, Severity], str]
+Paint = Callable[[str, DifferenceSeverity], str]
 """Gives a word the color of a severity."""
 Reporter = Callable[[Comparison], str]
 
@@ -72,7 +72,7 @@ def _line(item: Difference, comparison: Comparison, paint: Paint) -> str:
 
 def what_differs(item: Difference) -> str:
     """What differs, without what the heading has."""
-    short = item.severity is Severity.DIFFERENCE and item.group != "kinematics"
+    short = item.severity is DifferenceSeverity.DIFFERENCE and item.group != "kinematics"
     if short and item.a.text is not None and item.b.text is not None:
         return f"{item.aspect} is {item.a.text}, and {item.b.text}"
     return item.message

@@ -34,7 +34,7 @@ Leaves = Mapping[str, Leaf]
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class LinkPart:
     """A thing that a link, joint or model has: a visual, a sensor, a plugin."""
 
     kind: str
@@ -55,14 +55,14 @@ class Mass:
 
 
 @dataclass(frozen=True, slots=True)
-class Body:
+class ComparedBody:
     """A link; `frame` is its own frame."""
 
     name: str
     frame: Transform
     mass: Mass
     leaves: Leaves = field(default_factory=dict[str, Leaf])
-    parts: tuple[Part, ...] = ()
+    parts: tuple[LinkPart, ...] = ()
     where: Source | None = None
 
 
@@ -71,7 +71,7 @@ class JointView(PlacedJoint):
     """A joint between two bodies, or the world."""
 
     leaves: Leaves = field(default_factory=dict[str, Leaf])
-    parts: tuple[Part, ...] = ()
+    parts: tuple[LinkPart, ...] = ()
     where: Source | None = None
 
     @property
@@ -98,16 +98,16 @@ class NamedFrame:
 
 
 @dataclass(frozen=True, slots=True)
-class Robot:
+class ComparedRobot:
     """A model; `world` is the frame of the world in the model's, and `models` are the names of nested ones."""
 
     name: str
     format: Format
     world: Transform
-    bodies: Mapping[str, Body]
+    bodies: Mapping[str, ComparedBody]
     joints: Mapping[str, JointView]
     frames: Mapping[str, NamedFrame]
     models: frozenset[str] = frozenset()
     leaves: Leaves = field(default_factory=dict[str, Leaf])
-    parts: tuple[Part, ...] = ()
+    parts: tuple[LinkPart, ...] = ()
     where: Source | None = None

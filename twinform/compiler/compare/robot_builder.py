@@ -7,7 +7,7 @@ from twinform.compiler.compare.joint_values import joint_leaves
 from twinform.compiler.compare.leaves import THERE
 from twinform.compiler.compare.memo import Memo
 from twinform.compiler.compare.part_reader import PartReader
-from twinform.compiler.compare.robot import Body, JointView, Leaf, Mass, NamedFrame, Part, Robot
+from twinform.compiler.compare.robot import ComparedBody, ComparedRobot, JointView, Leaf, LinkPart, Mass, NamedFrame
 from twinform.compiler.kinematics import Degree, degrees_of
 from twinform.ir import Axis, Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
@@ -19,10 +19,10 @@ from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.transforms.flattening import flatten
 from twinform.schemas import element_xml
 
-View = TypeVar("View", Body, JointView)
+View = TypeVar("View", ComparedBody, JointView)
 
 
-def build_robot(model: Model, source: Model, format: Format, memo: Memo) -> Robot:
+def build_robot(model: Model, source: Model, format: Format, memo: Memo) -> ComparedRobot:
     """The robot of a model; `source` is the model as the file has it.
 
     `memo` has what another reader of the file has seen: what both see alike is one object.
@@ -30,10 +30,10 @@ def build_robot(model: Model, source: Model, format: Format, memo: Memo) -> Robo
     return memo.once("robot", (model, source), lambda: _built(model, source, format, memo))
 
 
-def _built(model: Model, source: Model, format: Format, memo: Memo) -> Robot:
+def _built(model: Model, source: Model, format: Format, memo: Memo) -> ComparedRobot:
     shells: list[tuple[Frame, Model]] = []
     flat = _without_made_root(flatten(model, lambda frame, shell: _noted(shells, frame, shell)))
-    return _Reading(_without_useless_mimics(flat), format, memo).robot(source, shells)
+    return _RobotReading(_without_useless_mimics(flat), format, memo).robot(source, shells)
 
 
 def _noted(shells: list[tuple[Frame, Model]], frame: Frame, shell: Model) -> Frame:
@@ -65,7 +65,7 @@ def _without_useless_mimics(model: Model) -> Model:
     return model.copy(joints=tuple(joints))
 
 
-class _Poses:
+class _PosePlacer:
     """Places poses in the model. `named_frame` is whether one of them was in a frame of another name.
 
     Then more than its node says where it is. A reading holds this and not the other way around: no circle is left.
@@ -83,7 +83,7 @@ class _Poses:
         return holder.compose(Transform.from_pose(pose))
 
 
-class _Reading:
+class _RobotReading:
     """The robot of one model, as one reader sees it."""
 
     def __init__(self, model: Model, format: Format, memo: Memo) -> None:
@@ -91,17 +91,17 @@ class _Reading:
         self.format = format
         self.memo = memo
         self.graph = FrameGraph(model)
-        self.poses = _Poses(self.graph)
+        self.poses = _PosePlacer(self.graph)
         self.reader = PartReader(self.poses.resolve, format)
 
-    def robot(self, source: Model, shells: Iterable[tuple[Frame, Model]]) -> Robot:
+    def robot(self, source: Model, shells: Iterable[tuple[Frame, Model]]) -> ComparedRobot:
         """All of it."""
         model, identity = self.model, Transform()
         leaves, parts = self.reader.parts(model, identity)
         inner = [*(self._shell(shell, frame.name) for frame, shell in shells), *self._carried_shells()]
         of_urdf = source if self.format is Format.URDF else Model(name="")
         links, joints = ({part.name for part in parts} for parts in (of_urdf.links, of_urdf.joints))
-        return Robot(
+        return ComparedRobot(
             name=model.name,
             format=self.format,
             world=self.graph.place(WORLD, kind="world"),
@@ -114,7 +114,7 @@ class _Reading:
             where=model.source,
         )
 
-    def _known_body(self, link: Link) -> Body:
+    def _known_body(self, link: Link) -> ComparedBody:
         frame = self.graph.place(link.name)
         return self._once("link", link.name, (link, frame), lambda: self._body(link, frame))
 
@@ -128,10 +128,10 @@ class _Reading:
         self.poses.named_frame = False
         return self.memo.once((group, name), given, make, lambda _: not self.poses.named_frame)
 
-    def _body(self, link: Link, frame: Transform) -> Body:
+    def _body(self, link: Link, frame: Transform) -> ComparedBody:
         leaves, parts = self.reader.parts(link, frame)
         mass = self._mass(link.inertial, frame)
-        return Body(link.name, frame, mass, leaves, parts, link.source)
+        return ComparedBody(link.name, frame, mass, leaves, parts, link.source)
 
     def _mass(self, inertial: Inertial | None, frame: Transform) -> Mass:
         inertial = inertial or Inertial()
@@ -159,20 +159,20 @@ class _Reading:
             where=frame.source,
         )
 
-    def _shell(self, shell: Model, name: str) -> Part:
+    def _shell(self, shell: Model, name: str) -> LinkPart:
         """A nested model without its links, joints and frames."""
         leaves, parts = self.reader.parts(shell, Transform())
         inside = {f"{part.kind}[{part.name}]": Leaf(THERE, where=part.where) for part in parts}
         inside |= {f"{part.kind}[{part.name}]/{path}": leaf for part in parts for path, leaf in part.leaves.items()}
-        return Part("model", name, {**leaves, **inside}, shell.source)
+        return LinkPart("model", name, {**leaves, **inside}, shell.source)
 
-    def _carried_shells(self) -> Iterator[Part]:
+    def _carried_shells(self) -> Iterator[LinkPart]:
         """Yield the settings of nested models that travel in URDF, as parts of the robot."""
         for frame in self.model.frames:
             for element in _carried(frame):
                 if element.name == "model":
                     part = self.reader.element(element_xml(element), "model", frame.source, Transform())
-                    yield Part("model", frame.name, part.leaves, part.where, carried=True)
+                    yield LinkPart("model", frame.name, part.leaves, part.where, carried=True)
 
 
 def _carried(node: Node) -> Iterator[Element]:

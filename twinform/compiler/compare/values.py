@@ -87,14 +87,14 @@ class Point(Value):
 
 
 @dataclass(frozen=True, slots=True)
-class Direction(Value):
+class UnitVector(Value):
     """A unit vector in the model's frame."""
 
     xyz: Vector3
 
-    def seen_from(self, base: Transform) -> "Direction":
+    def seen_from(self, base: Transform) -> "UnitVector":
         """The direction in another frame."""
-        return Direction(base.inverse().rotate(self.xyz))
+        return UnitVector(base.inverse().rotate(self.xyz))
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +132,7 @@ def gaps(a: Value, b: Value) -> Iterator[Delta]:
             yield from _places(a.pose, b.pose)
         case Point(), Point():
             yield _distance(a.xyz, b.xyz)
-        case Direction(), Direction():
+        case UnitVector(), UnitVector():
             yield Delta(_angle_between(a.xyz, b.xyz), 1.0, _row(a.xyz), _row(b.xyz), "rad")
         case Tensor(), Tensor():
             yield from _tensors(a, b)
@@ -153,7 +153,7 @@ def show(value: Value) -> str:
             return format_value(value.on)
         case Numbers():
             return _row(value.values) + (f" {value.unit}" if value.unit else "")
-        case Point() | Direction():
+        case Point() | UnitVector():
             return _row(value.xyz)
         case PoseValue():
             return f"{_row(value.pose.translation)} m, {_row(value.pose.rpy())} rad"

@@ -2,6 +2,6 @@
 
 from twinform.compiler.fixing.fix_rounds import FixResult, Refused, apply_fixes, apply_fixes_by
 from twinform.compiler.fixing.offering import with_fixes
-from twinform.compiler.fixing.site import Fixer, Site
+from twinform.compiler.fixing.site import FindingSite, Fixer
 
-__all__ = ["FixResult", "Fixer", "Refused", "Site", "apply_fixes", "apply_fixes_by", "with_fixes"]
+__all__ = ["FindingSite", "FixResult", "Fixer", "Refused", "apply_fixes", "apply_fixes_by", "with_fixes"]

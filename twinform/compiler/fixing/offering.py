@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from twinform.compiler.fixing.registry import fixer_of, text_fixer_of
-from twinform.compiler.fixing.site import FixableFile, Site, touches_expressions
+from twinform.compiler.fixing.site import FindingSite, FixableFile, touches_expressions
 from twinform.compiler.input.loading import LoadResult
 from twinform.diagnostics import Diagnostic, Fix, rules
 
@@ -63,4 +63,4 @@ def _make_fix(finding: Diagnostic, file: FixableFile) -> Fix | None:
     if element is None or fixer is None:
         return None
     name = where.path.rpartition("/@")[2] if _ATTRIBUTE.search(where.path) else None
-    return fixer(Site(finding, file, element, name, missing))
+    return fixer(FindingSite(finding, file, element, name, missing))

@@ -12,7 +12,7 @@ from twinform.compiler.input.loading import LoadResult, read_tree_again
 from twinform.compiler.input.parsing import UnreadableError
 from twinform.diagnostics import Diagnostic, Fix, Location, Safety, TextEdit
 from twinform.schemas import Fact, Version, XmlElement, rows_by_name, table
-from twinform.text import Editor, Lines, SourceText, Surroundings, UndecodableError, UnplacedError, masked, spans
+from twinform.text import Editor, Lines, SourceText, TextSurroundings, UndecodableError, UnplacedError, masked, spans
 
 _EXPRESSION = re.compile(r"\$[{(]")
 _BETWEEN_WORDS = re.compile(r"\s+|::|,")
@@ -26,7 +26,7 @@ class FixableFile:
     loaded: LoadResult
     source: SourceText
     parts: PartFinder | None = None
-    edit: Editor = field(default_factory=lambda: Editor(Surroundings("", "\n", ""), {}))
+    edit: Editor = field(default_factory=lambda: Editor(TextSurroundings("", "\n", ""), {}))
 
     @classmethod
     def of(cls, loaded: LoadResult) -> "FixableFile | None":
@@ -43,7 +43,7 @@ class FixableFile:
             places = dict(zip(root.iter("*"), place.walk(), strict=True))
         except (UnreadableError, UnplacedError, ValueError):
             return cls(loaded, source)
-        return cls(loaded, source, PartFinder(root), Editor(Surroundings.of(source, place), places))
+        return cls(loaded, source, PartFinder(root), Editor(TextSurroundings.of(source, place), places))
 
     @property
     def root(self) -> XmlElement:
@@ -120,7 +120,7 @@ class FixableFile:
 
 
 @dataclass(frozen=True)
-class Site:
+class FindingSite:
     """A finding, and the element that it is about; `attribute` is the one that its path names, written or not.
 
     Where the path leads to an element that is not written, `missing` is the last step, and `element` the one around it.
@@ -153,7 +153,7 @@ class Site:
         return self.file.parts.find(where) if self.file.parts else None
 
 
-Fixer = Callable[[Site], Fix | None]
+Fixer = Callable[[FindingSite], Fix | None]
 """Makes the fix of a finding; None where there is none."""
 Fixers = Mapping[str, Fixer]
 """Fixers by the names of their rules."""

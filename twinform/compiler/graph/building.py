@@ -44,7 +44,7 @@ def _with_extensions(document: Document) -> Document:
 
 
 @dataclass(frozen=True, slots=True)
-class _Place:
+class _GraphPlace:
     """A model or world that is walked: the number of its graph, its prefix there, and its cluster."""
 
     graph: FrameGraph
@@ -68,16 +68,16 @@ class _GraphBuilder:
 
     def add_holder(self, holder: World | Model) -> None:
         """A world, or a model that is in none, with all that is nested in it."""
-        top = _Place(FrameGraph(holder), len(self.clusters), "", f"c{len(self.clusters)}")
+        top = _GraphPlace(FrameGraph(holder), len(self.clusters), "", f"c{len(self.clusters)}")
         kind = "world" if isinstance(holder, World) else "model"
         self.clusters.append(Cluster(top.cluster, kind, holder.name))
-        places: list[tuple[World | Model, _Place]] = [(holder, top)]
+        places: list[tuple[World | Model, _GraphPlace]] = [(holder, top)]
         for one, place in places:  # grows while it is walked
             self._add_nodes(one, place)
             for inner in one.models:
                 cluster = f"c{len(self.clusters)}"
                 self.clusters.append(Cluster(cluster, "model", inner.name, place.cluster))
-                places.append((inner, _Place(top.graph, top.number, f"{place.prefix}{inner.name}::", cluster)))
+                places.append((inner, _GraphPlace(top.graph, top.number, f"{place.prefix}{inner.name}::", cluster)))
         for one, place in places:
             for joint in one.joints:
                 self._add_joint(joint, place)
@@ -87,7 +87,7 @@ class _GraphBuilder:
             for one, place in places:
                 self._add_followers(one.joints, place)
 
-    def _add_nodes(self, holder: World | Model, place: _Place) -> None:
+    def _add_nodes(self, holder: World | Model, place: _GraphPlace) -> None:
         for link in holder.links if isinstance(holder, Model) else ():
             self._add("link", link.name, place, link.location)
         for include in holder.includes:
@@ -96,7 +96,7 @@ class _GraphBuilder:
         for frame in holder.frames if self.with_frames else ():
             self._add("frame", frame.name, place, frame.location)
 
-    def _add(self, kind: NodeKind, label: str, place: _Place, where: Location = NOWHERE) -> str:
+    def _add(self, kind: NodeKind, label: str, place: _GraphPlace, where: Location = NOWHERE) -> str:
         """A node; of several of one name the first is what others mean by it."""
         node = f"n{len(self.nodes)}"
         name = place.prefix + label
@@ -106,7 +106,7 @@ class _GraphBuilder:
         self._known.setdefault((place.number, kind, name), node)
         return node
 
-    def _add_joint(self, joint: Joint, place: _Place) -> None:
+    def _add_joint(self, joint: Joint, place: _GraphPlace) -> None:
         found = GraphJoint(
             f"j{len(self.joints)}",
             place.prefix + joint.name,
@@ -121,7 +121,7 @@ class _GraphBuilder:
         self.joints.append(found)
         self._known.setdefault((place.number, "joint", found.name), found.id)
 
-    def _end(self, name: str | None, place: _Place) -> str:
+    def _end(self, name: str | None, place: _GraphPlace) -> str:
         """The node that an end of a joint is: a frame where those are shown, else the link that it moves with."""
         if not name:
             return self._once("missing", "(not written)", place, prefix="")
@@ -141,7 +141,7 @@ class _GraphBuilder:
             return self._once("world", WORLD, place, prefix="")
         return self._known.get((place.number, "link", body)) or self._once("missing", name, place, prefix=place.prefix)
 
-    def _include(self, scoped: str, place: _Place) -> str | None:
+    def _include(self, scoped: str, place: _GraphPlace) -> str | None:
         """The include that a name leads into."""
         while "::" in scoped:
             scoped = scoped.rpartition("::")[0]
@@ -150,23 +150,23 @@ class _GraphBuilder:
                 return found
         return None
 
-    def _once(self, kind: NodeKind, label: str, place: _Place, *, prefix: str) -> str:
+    def _once(self, kind: NodeKind, label: str, place: _GraphPlace, *, prefix: str) -> str:
         """A node that is there because something names it."""
         found = self._known.get((place.number, kind, prefix + label))
         if found:
             return found
         top = f"c{place.number}"
-        inside = place if prefix else _Place(place.graph, place.number, "", top)
+        inside = place if prefix else _GraphPlace(place.graph, place.number, "", top)
         return self._add(kind, label, inside)
 
-    def _attach(self, frames: Iterable[Frame], place: _Place) -> None:
+    def _attach(self, frames: Iterable[Frame], place: _GraphPlace) -> None:
         for frame in frames:
             own = self._known[place.number, "frame", place.prefix + frame.name]
             holder = self._end(frame.attached_to or self._default(frame, place), place)
             if holder != own:
                 self.attachments.append(Attachment(own, holder))
 
-    def _default(self, frame: Frame, place: _Place) -> str | None:
+    def _default(self, frame: Frame, place: _GraphPlace) -> str | None:
         """The link that a frame without `attached_to` moves with, as a name in its model."""
         try:
             body = place.graph.body(place.prefix + frame.name, kind="frame")
@@ -174,7 +174,7 @@ class _GraphBuilder:
             return None
         return WORLD if body in {WORLD, MODEL} else body.removeprefix(place.prefix)
 
-    def _add_followers(self, joints: Iterable[Joint], place: _Place) -> None:
+    def _add_followers(self, joints: Iterable[Joint], place: _GraphPlace) -> None:
         for joint in joints:
             for axis in (joint.axis, joint.axis2):
                 mimic = axis.mimic if axis else None

@@ -28,7 +28,7 @@ _LETTER = 7.6
 _PADDING = 24
 
 
-class Box(NamedTuple):
+class LayoutBox(NamedTuple):
     """Where a node or cluster is."""
 
     x: float
@@ -51,9 +51,9 @@ class Box(NamedTuple):
         """Its lower side."""
         return self.y + self.height
 
-    def grown(self, by: float, above: float = 0) -> "Box":
+    def grown(self, by: float, above: float = 0) -> "LayoutBox":
         """Return the box with a margin on all sides, and more above."""
-        return Box(self.x - by, self.y - by - above, self.width + 2 * by, self.height + 2 * by + above)
+        return LayoutBox(self.x - by, self.y - by - above, self.width + 2 * by, self.height + 2 * by + above)
 
 
 class Hold(NamedTuple):
@@ -66,11 +66,11 @@ class Hold(NamedTuple):
 
 
 @dataclass(slots=True)
-class Layout:
+class GraphLayout:
     """Boxes by the ids of nodes and clusters, edges of the trees, and other joints, which are drawn across."""
 
-    boxes: dict[str, Box] = field(default_factory=dict[str, Box])
-    clusters: dict[str, Box] = field(default_factory=dict[str, Box])
+    boxes: dict[str, LayoutBox] = field(default_factory=dict[str, LayoutBox])
+    clusters: dict[str, LayoutBox] = field(default_factory=dict[str, LayoutBox])
     holds: list[Hold] = field(default_factory=list[Hold])
     across: list[GraphJoint] = field(default_factory=list[GraphJoint])
     width: float = 0
@@ -89,7 +89,7 @@ def _following(leader: str, detail: str) -> tuple[str]:
 # Graphviz is no Python package (its wheels are builds of others or need a compiler), and a drawing
 # must not depend on what is installed. A robot is a tree with few other edges: tidy and linear in
 # 200 lines.
-def layout(graph: Graph) -> Layout:
+def layout(graph: Graph) -> GraphLayout:
     """Where everything of a graph is."""
     holds, across = _holds(graph)
     children: dict[str, list[str]] = defaultdict(list)
@@ -100,7 +100,7 @@ def layout(graph: Graph) -> Layout:
     for below in children.values():
         below.sort(key=lambda each: _place_of(nodes[each].cluster))
     order = depth_first([node.id for node in graph.nodes if node.id not in holds], children)
-    made = Layout(holds=[holds[each] for each, _ in order if each in holds], across=across)
+    made = GraphLayout(holds=[holds[each] for each, _ in order if each in holds], across=across)
     _place(made, order, nodes, holds, children, _depths(graph))
     made.clusters = _frames(graph, made.boxes)
     _fit(made)
@@ -144,7 +144,7 @@ def depth_first(roots: Iterable[str], children: Mapping[str, Sequence[str]]) -> 
 
 
 def _place(
-    made: Layout,
+    made: GraphLayout,
     order: Sequence[tuple[str, int]],
     nodes: Mapping[str, GraphNode],
     holds: Mapping[str, Hold],
@@ -176,7 +176,7 @@ def _place(
         if below := children.get(node):
             rows[node] = (rows[below[0]] + rows[below[-1]]) / 2
     for node, level in order:
-        made.boxes[node] = Box(columns[level], rows[node], box_width(nodes[node].label), BOX)
+        made.boxes[node] = LayoutBox(columns[level], rows[node], box_width(nodes[node].label), BOX)
 
 
 def _depths(graph: Graph) -> dict[str | None, int]:
@@ -187,18 +187,18 @@ def _depths(graph: Graph) -> dict[str | None, int]:
     return found
 
 
-def _frames(graph: Graph, boxes: Mapping[str, Box]) -> dict[str, Box]:
+def _frames(graph: Graph, boxes: Mapping[str, LayoutBox]) -> dict[str, LayoutBox]:
     """A frame for each cluster that can have one with nothing of others in it; a single model needs none."""
     tops = [cluster for cluster in graph.clusters if cluster.inside is None]
     bare = tops[0].id if len(tops) == 1 and tops[0].kind == "model" else None
     above = {cluster.id: cluster.inside for cluster in graph.clusters}
-    inner: dict[str, list[Box]] = defaultdict(list)
+    inner: dict[str, list[LayoutBox]] = defaultdict(list)
     own: dict[str, set[str]] = defaultdict(set)
     for node in graph.nodes:
         if node.cluster:
             inner[node.cluster].append(boxes[node.id])
             own[node.cluster].add(node.id)
-    found: dict[str, Box] = {}
+    found: dict[str, LayoutBox] = {}
     for cluster in reversed(graph.clusters):  # those that are nested come after what they are in
         if inside := inner[cluster.id]:
             around = _around(inside).grown(10, 16)
@@ -210,12 +210,12 @@ def _frames(graph: Graph, boxes: Mapping[str, Box]) -> dict[str, Box]:
     return {cluster.id: found[cluster.id] for cluster in graph.clusters if cluster.id in found}
 
 
-def _around(boxes: Sequence[Box]) -> Box:
+def _around(boxes: Sequence[LayoutBox]) -> LayoutBox:
     x, y = min(box.x for box in boxes), min(box.y for box in boxes)
-    return Box(x, y, max(box.right for box in boxes) - x, max(box.bottom for box in boxes) - y)
+    return LayoutBox(x, y, max(box.right for box in boxes) - x, max(box.bottom for box in boxes) - y)
 
 
-def _holds_others(around: Box, own: set[str], boxes: Mapping[str, Box]) -> bool:
+def _holds_others(around: LayoutBox, own: set[str], boxes: Mapping[str, LayoutBox]) -> bool:
     return any(
         node not in own
         and box.x < around.right
@@ -226,7 +226,7 @@ def _holds_others(around: Box, own: set[str], boxes: Mapping[str, Box]) -> bool:
     )
 
 
-def _fit(made: Layout) -> None:
+def _fit(made: GraphLayout) -> None:
     """Move everything so that it begins at the margin."""
     every = [*made.boxes.values(), *made.clusters.values()]
     if not every:
@@ -235,7 +235,7 @@ def _fit(made: Layout) -> None:
     right, down = MARGIN - whole.x, MARGIN - whole.y
     for known in (made.boxes, made.clusters):
         for key, box in known.items():
-            known[key] = Box(box.x + right, box.y + down, box.width, box.height)
+            known[key] = LayoutBox(box.x + right, box.y + down, box.width, box.height)
     made.width, made.height = whole.width + 2 * MARGIN, whole.height + 2 * MARGIN
 
 

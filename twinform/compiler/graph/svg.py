@@ -5,7 +5,7 @@ from xml.sax.saxutils import escape
 
 from twinform.compiler.graph.graph import Graph, GraphNode
 from twinform.compiler.graph.labels import shortened
-from twinform.compiler.graph.layout import BEND, BOX, MARGIN, Box, Hold, Layout, layout, text_width, words_of
+from twinform.compiler.graph.layout import BEND, BOX, MARGIN, GraphLayout, Hold, LayoutBox, layout, text_width, words_of
 
 _TITLE = 34
 """Room above the drawing for its title."""
@@ -68,14 +68,14 @@ def _sentences(graph: Graph) -> Iterator[str]:
         yield f"{shortened(joint.label)}, {joint.type}, from {names[joint.parent]} to {names[joint.child]}."
 
 
-def _clusters(graph: Graph, places: Layout) -> Iterator[str]:
+def _clusters(graph: Graph, places: GraphLayout) -> Iterator[str]:
     for cluster in graph.clusters:
         if box := places.clusters.get(cluster.id):
             yield f'<rect class="cluster" {_at(box)} rx="8"/>'
             yield f'<text class="small" x="{box.x + 8:.1f}" y="{box.y + 13:.1f}">{_text(cluster.name)}</text>'
 
 
-def _node(node: GraphNode, places: Layout) -> str:
+def _node(node: GraphNode, places: GraphLayout) -> str:
     box = places.boxes[node.id]
     corner = BOX / 2 if node.kind == "frame" else 4
     framed = node.cluster in places.clusters or "::" not in node.name
@@ -90,7 +90,7 @@ def _node(node: GraphNode, places: Layout) -> str:
     )
 
 
-def _edges(graph: Graph, places: Layout) -> Iterator[str]:
+def _edges(graph: Graph, places: GraphLayout) -> Iterator[str]:
     anchors: dict[str, tuple[float, float]] = {}
     for hold in places.holds:
         yield _hold(hold, places)
@@ -110,7 +110,7 @@ def _edges(graph: Graph, places: Layout) -> Iterator[str]:
         yield f'<path class="edge follows" d="{_arc(start, end)}"/>'
 
 
-def _hold(hold: Hold, places: Layout) -> str:
+def _hold(hold: Hold, places: GraphLayout) -> str:
     """The line to a node from what it hangs from, with the words above and below its last part."""
     parent, child = places.boxes[hold.parent], places.boxes[hold.child]
     x, y = parent.right, child.middle
@@ -142,7 +142,7 @@ def _arc(start: tuple[float, float], end: tuple[float, float]) -> str:
     return f"M{start[0]:.1f} {start[1]:.1f}C{far:.1f} {start[1]:.1f} {far:.1f} {end[1]:.1f} {end[0]:.1f} {end[1]:.1f}"
 
 
-def _at(box: Box) -> str:
+def _at(box: LayoutBox) -> str:
     return f'x="{box.x:.1f}" y="{box.y:.1f}" width="{box.width:.1f}" height="{box.height:.1f}"'
 
 

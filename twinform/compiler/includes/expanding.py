@@ -31,7 +31,7 @@ Wanted = Callable[[Include], bool]
 """Which of a document's includes are to be expanded."""
 
 
-class _File(NamedTuple):
+class _IncludedFile(NamedTuple):
     """A file with all its includes expanded.
 
     How many files it is made of, how large these are together, and how deep its models are nested. `frame` is that of
@@ -103,7 +103,7 @@ class _Total:
     files: int = 1
     size: int = 0
 
-    def add(self, file: _File) -> str | None:
+    def add(self, file: _IncludedFile) -> str | None:
         """Count a file; gives what there is too much of."""
         self.files += file.files
         self.size += file.size
@@ -123,11 +123,11 @@ class _Reader:
     sink: DiagnosticSink
     carriers: bool
     full: bool = False
-    files: dict[tuple[Path, str | None], _File | None] = field(
-        default_factory=dict[tuple[Path, str | None], "_File | None"]
+    files: dict[tuple[Path, str | None], _IncludedFile | None] = field(
+        default_factory=dict[tuple[Path, str | None], "_IncludedFile | None"]
     )
 
-    def expanded(self, document: Document, file: Path, above: tuple[Path, ...], wanted: Wanted | None) -> _File:
+    def expanded(self, document: Document, file: Path, above: tuple[Path, ...], wanted: Wanted | None) -> _IncludedFile:
         """A document with its includes expanded; `above` are the files that are being read already."""
         total = _Total(_nesting(document), self.load_options.limits.tags)
 
@@ -146,7 +146,7 @@ class _Reader:
             return Included(found.document, _folder(include, path), found.frame)
 
         whole = expand_includes(document, resolve, self.sink, carriers=self.carriers)
-        return _File(whole, total.files, total.size, max(total.own_depth, total.depth))
+        return _IncludedFile(whole, total.files, total.size, max(total.own_depth, total.depth))
 
     def _find(self, include: Include, file: Path, document: Document) -> Path | None:
         """The file that an include names."""
@@ -172,7 +172,7 @@ class _Reader:
         self.sink.report(rule, message, include.location.at("uri"), found=include.uri)
         return usual if usual.is_file() else None
 
-    def _file(self, include: Include, path: Path, around: Document, above: tuple[Path, ...]) -> _File | None:
+    def _file(self, include: Include, path: Path, around: Document, above: tuple[Path, ...]) -> _IncludedFile | None:
         """An included file, expanded; None where it cannot be, which the diagnostics then report."""
         real = path.resolve()
         if not path.is_file():
@@ -193,7 +193,7 @@ class _Reader:
             self.files[key] = self._read(path, around, above)
         return self.files[key]
 
-    def _read(self, path: Path, around: Document, above: tuple[Path, ...]) -> _File | None:
+    def _read(self, path: Path, around: Document, above: tuple[Path, ...]) -> _IncludedFile | None:
         loaded = read(path, self.load_options)
         self.sink.origins.update(loaded.origins)
         known = set(self.sink.diagnostics)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from twinform.compiler.input.limits import Limits
-from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Origins, Rule
+from twinform.diagnostics import Diagnostic, DiagnosticSink, LineOrigins, Location, Rule
 from twinform.diagnostics.rules import MALFORMED_SUPPRESSION
 from twinform.diagnostics.suppressions import NO_SUPPRESSIONS, Suppressions
 from twinform.file_access import Readable
@@ -33,7 +33,7 @@ class Allowances:
     rules: frozenset[str]
     limits: Limits
     tolerant: bool = False
-    origins: Mapping[str, Origins] = field(default_factory=dict[str, Origins])
+    origins: Mapping[str, LineOrigins] = field(default_factory=dict[str, LineOrigins])
     files: dict[str, Suppressions] = field(default_factory=dict[str, Suppressions])
     known: set[tuple[str, str, str]] = field(default_factory=set[tuple[str, str, str]])
     checked: bool = False

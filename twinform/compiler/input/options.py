@@ -10,7 +10,7 @@ from twinform.compiler.input.limits import LARGEST, MOST_TAGS, USUAL_LIMITS, Lim
 from twinform.compiler.options import Option, given
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.search.uris import SearchPath
-from twinform.diagnostics import Diagnostic, Entry, Origins
+from twinform.diagnostics import Diagnostic, LedgerEntry, LineOrigins
 from twinform.ir import Document, count_parts
 from twinform.schemas import DEFAULT_SDF_VERSION, Engine, XmlElement
 
@@ -143,7 +143,7 @@ class LoadOptions:
         """The options for files that a reader of this version of SDF reads; the same ones where none is asked for."""
         return self if sdf_version is None else replace(self, sdf_version=sdf_version)
 
-    def allowances(self, file: str, origins: Mapping[str, Origins] | None = None) -> Allowances:
+    def allowances(self, file: str, origins: Mapping[str, LineOrigins] | None = None) -> Allowances:
         """What may be left out of the findings about a file."""
         return Allowances(file, self.allow, self.limits, self.tolerant, origins or {})
 
@@ -173,9 +173,9 @@ class LoadResult:
     tree: XmlElement | None = None
     content: bytes | None = field(default=None, repr=False)
     tree_size: int | None = None
-    origins: Mapping[str, Origins] = field(default_factory=dict[str, Origins])
+    origins: Mapping[str, LineOrigins] = field(default_factory=dict[str, LineOrigins])
     included: int = 0
-    entries: tuple[Entry, ...] = ()
+    entries: tuple[LedgerEntry, ...] = ()
     mixed: bool = False
     allowed: tuple[Diagnostic, ...] = ()
     allowances: Allowances | None = field(default=None, repr=False, compare=False)

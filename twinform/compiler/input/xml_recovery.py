@@ -53,7 +53,7 @@ _MOST_LOGGED = 100
 _MISMATCH = re.compile(r"Opening and ending tag mismatch: (?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)")
 
 
-class Entry(Protocol):
+class LogEntry(Protocol):
     """An entry of libxml2's error log."""
 
     @property
@@ -103,7 +103,7 @@ def with_single_colons(text: bytes) -> tuple[bytes, list[XmlError]]:
     return b"".join((*pieces, text[copied:])), flaws
 
 
-def is_full(log: Iterable[Entry]) -> bool:
+def is_full(log: Iterable[LogEntry]) -> bool:
     """Whether there may be more that is not XML than libxml2 lists."""
     # A hundred harmless errors may hide the one that leaves doubt about the tree.
     return sum(entry.level == etree.ErrorLevels.FATAL for entry in log) >= _MOST_LOGGED
@@ -118,7 +118,7 @@ def _blanked(content: bytes) -> bytes:
     return b"<!--" + content.replace(b"-", b" ") + b"-->"
 
 
-def first_fatal(log: Iterable[Entry], text: bytes) -> XmlError | None:
+def first_fatal(log: Iterable[LogEntry], text: bytes) -> XmlError | None:
     """The first entry that leaves doubt about the tree."""
     entries = list(log)
     fixed = {(entry.line, entry.column) for entry in entries if entry.type_name == "ERR_VERSION_MISSING"}
@@ -134,7 +134,7 @@ def first_fatal(log: Iterable[Entry], text: bytes) -> XmlError | None:
     return None
 
 
-def repaired(log: Iterable[Entry]) -> list[XmlError]:
+def repaired(log: Iterable[LogEntry]) -> list[XmlError]:
     """The entries that do not."""
     return [
         XmlError(entry.line, entry.column, entry.message.strip(), REPAIRS[entry.type_name], entry.type_name)
@@ -143,7 +143,7 @@ def repaired(log: Iterable[Entry]) -> list[XmlError]:
     ]
 
 
-def _help(entry: Entry, text: bytes) -> str | None:
+def _help(entry: LogEntry, text: bytes) -> str | None:
     if _is_at_the_end(entry, text) and entry.type_name in {"ERR_ATTRIBUTE_WITHOUT_VALUE", "ERR_GT_REQUIRED"}:
         return "the file ends in the middle of a tag: it was cut off"
     match entry.type_name:
@@ -163,7 +163,7 @@ def _help(entry: Entry, text: bytes) -> str | None:
             return _HELP.get(entry.type_name)
 
 
-def _is_at_the_end(entry: Entry, text: bytes) -> bool:
+def _is_at_the_end(entry: LogEntry, text: bytes) -> bool:
     return entry.line >= text.rstrip().count(b"\n") + 1 and not text.rstrip().endswith(b">")
 
 

@@ -8,18 +8,20 @@ from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location
 from twinform.diagnostics.rules import UNREAD_FORMAT
 from twinform.ir import Format
-from twinform.profiles import Profile, Subject, assess, findings
+from twinform.profiles import Profile, ProfiledFile, assess, findings
 
 _FORMATS = {"robot": Format.URDF, "sdf": Format.SDF, "gazebo": Format.SDF}
 """The formats by the roots of their files."""
 
 
-def subject_of(loaded: LoadResult, load_options: LoadOptions, found: Sequence[Diagnostic] | None = None) -> Subject:
+def subject_of(
+    loaded: LoadResult, load_options: LoadOptions, found: Sequence[Diagnostic] | None = None
+) -> ProfiledFile:
     """A file that was read and inspected, as profiles see it. What comments in it allow is there for consumers too."""
     found = (*loaded.diagnostics, *loaded.allowed) if found is None else found
     assets = LocalAssets(load_options.search, Path(loaded.path))
     format_ = _format(loaded)
-    return Subject(loaded.text_name, format_, loaded.document, loaded.tree, loaded.content, tuple(found), assets)
+    return ProfiledFile(loaded.text_name, format_, loaded.document, loaded.tree, loaded.content, tuple(found), assets)
 
 
 def report_for_consumers(loaded: LoadResult, load_options: LoadOptions, sink: DiagnosticSink) -> None:

@@ -25,7 +25,7 @@ What counts, and what does not:
 * Comments, processing instructions and the prefixes of namespaces do not count.
 """
 
-from twinform.compiler.normal_form.comparing import Discrepancy, Kind
+from twinform.compiler.normal_form.comparing import DifferenceKind, Discrepancy
 from twinform.compiler.normal_form.form import NormalForm, normal_form
 
-__all__ = ["Discrepancy", "Kind", "NormalForm", "normal_form"]
+__all__ = ["DifferenceKind", "Discrepancy", "NormalForm", "normal_form"]

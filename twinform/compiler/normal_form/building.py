@@ -4,7 +4,7 @@ from functools import cache
 
 from twinform.compiler.compare.values import Numbers, PoseValue, Text, Value
 from twinform.compiler.normal_form.gazebo import POOLED, Path, extension_rows, tag_paths, tag_value
-from twinform.compiler.normal_form.part import TEXT, Key, Part, add_once, pool, tag_part, text_of
+from twinform.compiler.normal_form.part import TEXT, Key, NormalPart, add_once, pool, tag_part, text_of
 from twinform.compiler.normal_form.values import (
     NOWHERE_ELSE,
     literally,
@@ -53,14 +53,14 @@ class Builder:
         self._rows: dict[int, Rows] = {}
         self._defaults: dict[int, Value] = {}
 
-    def root(self, element: XmlElement) -> Part:
+    def root(self, element: XmlElement) -> NormalPart:
         """The whole file."""
         return self.part(element, self.table.definitions[self.table.root])
 
-    def part(self, element: XmlElement, row: Fact | None) -> Part:
+    def part(self, element: XmlElement, row: Fact | None) -> NormalPart:
         """An element; without a row it is one that the format does not know."""
         fact = self.table.resolve(row) if row else None
-        made = Part(element)
+        made = NormalPart(element)
         if fact is None or (fact.any and fact.name != _EXTENSION):
             _fill_freely(made, element)
         elif fact.name == _EXTENSION:
@@ -69,7 +69,7 @@ class Builder:
             self._fill(made, element, fact)
         return made
 
-    def _fill(self, made: Part, element: XmlElement, fact: Fact) -> None:
+    def _fill(self, made: NormalPart, element: XmlElement, fact: Fact) -> None:
         rows = self._rows_of(fact)
         self._attributes(made, element, fact, rows)
         if fact.name == _MODEL and (first := element.find("link")) is not None:
@@ -89,7 +89,7 @@ class Builder:
             found = self._rows[id(fact)] = rows_by_name(fact.rows, self.version)
         return found
 
-    def _attributes(self, made: Part, element: XmlElement, fact: Fact, rows: Rows) -> None:
+    def _attributes(self, made: NormalPart, element: XmlElement, fact: Fact, rows: Rows) -> None:
         for name, text in element.items():
             if fact.type == _POSE and name == "frame" and not text:
                 continue  # which meant nothing in the versions that had it
@@ -98,7 +98,7 @@ class Builder:
             if value is not None and not (text == MODEL and _is_in_model(element, fact, f"@{name}")):
                 made.values[f"@{name}"] = value
 
-    def _text(self, made: Part, element: XmlElement, fact: Fact) -> None:
+    def _text(self, made: NormalPart, element: XmlElement, fact: Fact) -> None:
         text = _frame(text_of(element), str(element.tag))
         value = self._value(text, fact) if fact.type else literally(text)
         if text and value is not None:
@@ -123,7 +123,7 @@ class Builder:
             found = self._defaults[id(row)] = value_of(row.default, row, self.format)
         return found
 
-    def child(self, made: Part, child: XmlElement, row: Fact | None) -> None:
+    def child(self, made: NormalPart, child: XmlElement, row: Fact | None) -> None:
         """Take in a child; without a row it is one that the format does not know."""
         tag = str(child.tag)
         if row is not None and self.table.resolve(row).name == _EXTENSION:
@@ -145,7 +145,7 @@ class Builder:
         read = row.place is not None or row.reference == _ORIGIN
         return read and row.name not in _MEANINGFUL_WHEN_EMPTY[self.format]
 
-    def _pool(self, made: Part, child: XmlElement, row: Fact) -> None:
+    def _pool(self, made: NormalPart, child: XmlElement, row: Fact) -> None:
         """Take in an extension of URDF; those of one reference are read as one, and one without content as none."""
         reference = child.get("reference") or ""
         # Extensions of one reference are pooled: a conversion cannot know how many there were, and
@@ -159,7 +159,7 @@ class Builder:
             return
         made.children[key] = part
 
-    def _extend(self, made: Part, element: XmlElement) -> None:
+    def _extend(self, made: NormalPart, element: XmlElement) -> None:
         """Take in the content of an extension, which is SDF but for some tags of its own."""
         for name, text in element.items():
             if text:
@@ -182,7 +182,7 @@ class Builder:
             else:
                 sdf.child(made, child, extension_rows().get(str(child.tag)))
 
-    def say(self, made: Part, path: Path, tag: XmlElement, value: Value) -> None:
+    def say(self, made: NormalPart, path: Path, tag: XmlElement, value: Value) -> None:
         """Take in a tag of an extension as what it means: a value at a path of what SDF has there."""
         rows, row = extension_rows(), None
         for step in path:
@@ -192,7 +192,7 @@ class Builder:
         if part.is_empty:
             return
         for step in path[:-1]:
-            made = made.children.setdefault(Key(step, "", 1), Part(tag))
+            made = made.children.setdefault(Key(step, "", 1), NormalPart(tag))
         add_once(made, path[-1], part)
 
 
@@ -215,7 +215,7 @@ def builder(format: str, version: Version) -> Builder:
     return Builder(format, version)
 
 
-def _fill_freely(made: Part, element: XmlElement) -> None:
+def _fill_freely(made: NormalPart, element: XmlElement) -> None:
     """Take in what only other programs know: all of it, in its order."""
     made.ordered = True
     for name, text in element.items():
@@ -223,7 +223,7 @@ def _fill_freely(made: Part, element: XmlElement) -> None:
     if text := text_of(element):
         made.values[TEXT] = literally(text)
     for child in element:
-        part = Part(child)
+        part = NormalPart(child)
         _fill_freely(part, child)
         made.children[made.next_key(str(child.tag), child.get("name") or "")] = part
 
@@ -236,7 +236,7 @@ def _is_endless(value: Value, like: Value) -> bool:
     return not more and min(abs(one), abs(other)) >= UNLIMITED and (one > 0) == (other > 0)
 
 
-def _place(made: Part, where: Transform | None) -> None:
+def _place(made: NormalPart, where: Transform | None) -> None:
     """Take in a pose as the place that it means; what is none stays as it is written."""
     if where is None:
         return

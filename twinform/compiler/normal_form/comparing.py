@@ -6,7 +6,7 @@ from enum import StrEnum
 
 from twinform.compiler.compare.comparison import Side
 from twinform.compiler.compare.values import show
-from twinform.compiler.normal_form.part import TEXT, Key, Part, text_of
+from twinform.compiler.normal_form.part import TEXT, Key, NormalPart, text_of
 from twinform.compiler.normal_form.values import same
 from twinform.diagnostics import Location
 from twinform.passes.carriers.carriers import NAMESPACE
@@ -17,7 +17,7 @@ _ITSELF = "."
 """The step from an element to what is no value of its own."""
 
 
-class Kind(StrEnum):
+class DifferenceKind(StrEnum):
     """In what way two normal forms differ at a place."""
 
     MISSING = "missing"
@@ -32,7 +32,7 @@ class Kind(StrEnum):
 class Discrepancy:
     """A value that the source has and the file from the round trip has not, or the other way round."""
 
-    kind: Kind
+    kind: DifferenceKind
     source: Side
     back: Side
 
@@ -46,9 +46,9 @@ class Discrepancy:
         """The discrepancy as text."""
         where = self.location
         place = f"{where.file}:{where.line}: {where.path}"
-        if self.kind is Kind.MISSING:
+        if self.kind is DifferenceKind.MISSING:
             return f"{place}: {self.source.text} is not back"
-        if self.kind in {Kind.ADDED, Kind.LEFT_OVER}:
+        if self.kind in {DifferenceKind.ADDED, DifferenceKind.LEFT_OVER}:
             return f"{place}: {self.back.text} was not in the source"
         return f"{place}: {self.source.text} became {self.back.text}"
 
@@ -61,14 +61,14 @@ class Comparing:
     back: str
     _places: dict[XmlElement, int] = field(default_factory=dict[XmlElement, int])
 
-    def files(self, source: Part, back: Part) -> Iterator[Discrepancy]:
+    def files(self, source: NormalPart, back: NormalPart) -> Iterator[Discrepancy]:
         """The discrepancies of two whole files."""
         if source.element.tag == back.element.tag:
             yield from self.parts(source, back)
         else:
-            yield Discrepancy(Kind.CHANGED, self._in_source(source), self._in_back(back))
+            yield Discrepancy(DifferenceKind.CHANGED, self._in_source(source), self._in_back(back))
 
-    def parts(self, source: Part, back: Part) -> Iterator[Discrepancy]:
+    def parts(self, source: NormalPart, back: NormalPart) -> Iterator[Discrepancy]:
         """The discrepancies of two parts of one key."""
         yield from self._values(source, back)
         pairs = _paired(source, back)
@@ -77,24 +77,24 @@ class Comparing:
             if key in pairs:
                 yield from self.parts(child, back.children[pairs[key]])
             else:
-                yield Discrepancy(Kind.MISSING, self._in_source(child), Side())
+                yield Discrepancy(DifferenceKind.MISSING, self._in_source(child), Side())
         for key, child in back.children.items():
             if key not in found:
                 yield Discrepancy(_kind_of_new(key.tag), Side(), self._in_back(child))
         yield from self._orders(source, back)
 
-    def _values(self, source: Part, back: Part) -> Iterator[Discrepancy]:
+    def _values(self, source: NormalPart, back: NormalPart) -> Iterator[Discrepancy]:
         for step, value in source.values.items():
             other = back.values.get(step)
             if other is None:
-                yield Discrepancy(Kind.MISSING, self._in_source(source, step), Side())
+                yield Discrepancy(DifferenceKind.MISSING, self._in_source(source, step), Side())
             elif not same(value, other):
-                yield Discrepancy(Kind.CHANGED, self._in_source(source, step), self._in_back(back, step))
+                yield Discrepancy(DifferenceKind.CHANGED, self._in_source(source, step), self._in_back(back, step))
         for step in back.values:
             if step not in source.values:
                 yield Discrepancy(_kind_of_new(step.removeprefix("@")), Side(), self._in_back(back, step))
 
-    def _orders(self, source: Part, back: Part) -> Iterator[Discrepancy]:
+    def _orders(self, source: NormalPart, back: NormalPart) -> Iterator[Discrepancy]:
         """The first place where the order is another one, where order counts."""
         if not (source.ordered or back.ordered):
             return
@@ -103,15 +103,15 @@ class Comparing:
         at = next((n for n, (one, other) in enumerate(zip(mine, theirs, strict=True)) if one != other), None)
         if at is not None:
             one, other = source.children[mine[at]], back.children[theirs[at]]
-            yield Discrepancy(Kind.ORDER, self._in_source(one), self._in_back(other))
+            yield Discrepancy(DifferenceKind.ORDER, self._in_source(one), self._in_back(other))
 
-    def _in_source(self, part: Part, step: str = _ITSELF) -> Side:
+    def _in_source(self, part: NormalPart, step: str = _ITSELF) -> Side:
         return self._side_of(self.source, part, step)
 
-    def _in_back(self, part: Part, step: str = _ITSELF) -> Side:
+    def _in_back(self, part: NormalPart, step: str = _ITSELF) -> Side:
         return self._side_of(self.back, part, step)
 
-    def _side_of(self, file: str, part: Part, step: str) -> Side:
+    def _side_of(self, file: str, part: NormalPart, step: str) -> Side:
         where = Location(file, part.element.sourceline or 0, path_of(part.element, self._places))
         if step.startswith("@"):
             text = part.element.get(step[1:])
@@ -119,7 +119,7 @@ class Comparing:
         return Side(repr(_short(text_of(part.element))) if step == TEXT else _spelled(part.element), where)
 
 
-def _paired(source: Part, back: Part) -> dict[Key, Key]:
+def _paired(source: NormalPart, back: NormalPart) -> dict[Key, Key]:
     """The children that are the same ones: of one key, or, where one of them has lost or got a name, the next ones."""
     pairs = {key: key for key in source.children if key in back.children}
     left: dict[str, list[Key]] = {}
@@ -135,8 +135,8 @@ def _paired(source: Part, back: Part) -> dict[Key, Key]:
     return pairs
 
 
-def _kind_of_new(name: str) -> Kind:
-    return Kind.LEFT_OVER if name.startswith(f"{{{NAMESPACE}}}") else Kind.ADDED
+def _kind_of_new(name: str) -> DifferenceKind:
+    return DifferenceKind.LEFT_OVER if name.startswith(f"{{{NAMESPACE}}}") else DifferenceKind.ADDED
 
 
 def _spelled(element: XmlElement) -> str:

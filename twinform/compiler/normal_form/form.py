@@ -8,7 +8,7 @@ from twinform.compiler.input.loading import LoadOptions, declared_version, read,
 from twinform.compiler.input.parsing import UnreadableError
 from twinform.compiler.normal_form.building import builder
 from twinform.compiler.normal_form.comparing import Comparing, Discrepancy
-from twinform.compiler.normal_form.part import Part
+from twinform.compiler.normal_form.part import NormalPart
 from twinform.diagnostics import DiagnosticSink
 from twinform.schemas import XmlElement
 
@@ -19,7 +19,7 @@ _FORMATS = {"robot": "urdf", "sdf": "sdf"}
 class NormalForm:
     """The content of a file as a tree of parts; `file` is its name."""
 
-    root: Part
+    root: NormalPart
     file: str = ""
 
     @classmethod

@@ -21,7 +21,7 @@ class Key(NamedTuple):
 
 
 @dataclass(slots=True)
-class Part:
+class NormalPart:
     """An element with its values that are not the default.
 
     `values` are those of its attributes (`@name`), its text (`TEXT`) and its pose (`pose`). Where it is
@@ -31,7 +31,7 @@ class Part:
     element: XmlElement
     ordered: bool = False
     values: dict[str, Value] = field(default_factory=dict[str, Value])
-    children: dict[Key, "Part"] = field(default_factory=dict[Key, "Part"])
+    children: dict[Key, "NormalPart"] = field(default_factory=dict[Key, "NormalPart"])
     _counts: dict[tuple[str, str], int] = field(default_factory=dict[tuple[str, str], int])
 
     @property
@@ -56,19 +56,19 @@ def _pieces(element: XmlElement) -> Iterator[str]:
         yield (child.tail or "").strip()
 
 
-def tag_part(tag: XmlElement, value: Value | None) -> Part:
+def tag_part(tag: XmlElement, value: Value | None) -> NormalPart:
     """A tag of an extension: its value, and attributes that mean nothing."""
     values = {f"@{name}": literally(str(text)) for name, text in tag.items() if name != "value"}
-    return Part(tag, values=values if value is None else {**values, TEXT: value})
+    return NormalPart(tag, values=values if value is None else {**values, TEXT: value})
 
 
-def add_once(made: Part, tag: str, part: Part) -> None:
+def add_once(made: NormalPart, tag: str, part: NormalPart) -> None:
     """Add a part unless an equal one is there: repetitions of some tags mean nothing."""
     if not any(one.values == part.values for key, one in made.children.items() if key.tag == tag):
         made.children[_free_key(made, tag, "")] = part
 
 
-def pool(made: Part, tag: str, part: Part) -> None:
+def pool(made: NormalPart, tag: str, part: NormalPart) -> None:
     """Take in one of several elements that add to one thing, such as two `<collision>`."""
     key = Key(tag, "", 1)
     mine = made.children.get(key)
@@ -86,5 +86,5 @@ def pool(made: Part, tag: str, part: Part) -> None:
             add_once(mine, inner.tag, child)
 
 
-def _free_key(made: Part, tag: str, name: str) -> Key:
+def _free_key(made: NormalPart, tag: str, name: str) -> Key:
     return Key(tag, name, 1 + sum(1 for key in made.children if (key.tag, key.name) == (tag, name)))

@@ -63,12 +63,12 @@ def place_comments(
     comments: Comments, text: str, parts: WrittenParts, namespaces: Iterable[tuple[str, str]]
 ) -> tuple[str, list[SourceComment]]:
     """The text of the document that a file has become with the file's comments, and those that have no place in it."""
-    placing = _Placing(comments, text, parts, {uri: prefix for prefix, uri in namespaces})
+    placing = _CommentPlacing(comments, text, parts, {uri: prefix for prefix, uri in namespaces})
     placing.run()
     return placing.with_comments(), placing.left
 
 
-class _Placing:
+class _CommentPlacing:
     """One run over the comments of a file."""
 
     def __init__(self, comments: Comments, text: str, parts: WrittenParts, prefixes: dict[str, str]) -> None:

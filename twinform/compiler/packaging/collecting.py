@@ -10,8 +10,8 @@ from posixpath import dirname as folder_of
 from urllib.parse import unquote
 
 from twinform.compiler.packaging.file_kinds import FileKind, kind_of, suffix_of
-from twinform.compiler.packaging.layout import Layout, Places
-from twinform.compiler.packaging.origins import Origins
+from twinform.compiler.packaging.layout import PackageLayout, PackagePlaces
+from twinform.compiler.packaging.origins import FileOrigins
 from twinform.compiler.packaging.package import Content
 from twinform.compiler.search.uris import LocalAssets
 from twinform.diagnostics import Rule
@@ -56,12 +56,12 @@ class Collection:
     mesh names and is not there is left out of the package, and noted in `problems`.
     """
 
-    layout: Layout
+    layout: PackageLayout
     lenient: bool = False
     files: dict[str, Content] = field(default_factory=dict[str, Content])
     sources: dict[str, Path] = field(default_factory=dict[str, Path])
     problems: list[UncollectedError] = field(default_factory=list[UncollectedError])
-    _places: Places = field(default_factory=Places)
+    _places: PackagePlaces = field(default_factory=PackagePlaces)
     _reserved: set[str] = field(default_factory=set[str])
     _by_source: dict[Path, str] = field(default_factory=dict[Path, str])
     _by_content: dict[tuple[object, ...], str] = field(default_factory=dict[tuple[object, ...], str])
@@ -81,7 +81,7 @@ class Collection:
         Raises:
             UncollectedError: it does not belong there, or cannot be read.
         """
-        origins = Origins(assets)
+        origins = FileOrigins(assets)
         try:
             real = found.resolve()
             if real in self._by_source:
@@ -110,7 +110,7 @@ class Collection:
             raise UncollectedError(f"a pass makes {path!r}, and another file of the package is there")
         self.files[path] = data
 
-    def _folder(self, folder: Path, origins: Origins) -> str:
+    def _folder(self, folder: Path, origins: FileOrigins) -> str:
         """The scripts or images in a folder, which are found by their names, so that they stay together."""
         inside = sorted(each for each in folder.iterdir() if kind_of(each) in {"image", "script"} and each.is_file())
         if len(inside) > _MOST_IN_FOLDER:
@@ -127,7 +127,7 @@ class Collection:
             self._by_source.setdefault(each.resolve(), own)
         return place
 
-    def _file(self, found: Path, origins: Origins) -> str:
+    def _file(self, found: Path, origins: FileOrigins) -> str:
         kind = kind_of(found) or "data"
         content = self._checked(found, origins)
         format_ = FORMATS.get(suffix_of(found))
@@ -144,7 +144,9 @@ class Collection:
             self.files[place] = format_.rewritten(data, names)
         return place
 
-    def _place_of(self, found: Path, kind: FileKind, content: Path, key: tuple[object, ...], origins: Origins) -> str:
+    def _place_of(
+        self, found: Path, kind: FileKind, content: Path, key: tuple[object, ...], origins: FileOrigins
+    ) -> str:
         """The place of a file: that of one of the same content, or a new one."""
         # Files of one content and one ending are one file. The ending counts, since readers tell
         # the format of a mesh by it.
@@ -155,12 +157,12 @@ class Collection:
             self.files[place] = self.sources[place] = content
         return self._by_content[key]
 
-    def _wanted_places(self, found: Path, kind: FileKind, origins: Origins) -> Iterator[str]:
+    def _wanted_places(self, found: Path, kind: FileKind, origins: FileOrigins) -> Iterator[str]:
         """Where a file would go: as it lies in its package, or else below the name of that."""
         holder, parts = origins.place(found)
         return self.layout.places(parts, kind, holder)
 
-    def _checked(self, path: Path, origins: Origins) -> Path:
+    def _checked(self, path: Path, origins: FileOrigins) -> Path:
         """The file itself, wherever links lead.
 
         Raises:
@@ -182,7 +184,7 @@ class Collection:
         return real
 
     def _places_of_references(
-        self, found: Path, kind: FileKind, data: bytes, format_: ReferenceFormat, origins: Origins
+        self, found: Path, kind: FileKind, data: bytes, format_: ReferenceFormat, origins: FileOrigins
     ) -> dict[str, str]:
         """The places of the files that a file names."""
         try:
@@ -199,7 +201,7 @@ class Collection:
                 self.problems.append(error)
         return places
 
-    def _companion(self, name: str, by: Path, kind: FileKind, origins: Origins) -> str:
+    def _companion(self, name: str, by: Path, kind: FileKind, origins: FileOrigins) -> str:
         path = _companion_path(name, by, origins)
         if path is None:
             raise UncollectedError(f"{str(by)!r} names {name!r}, which is not there", _advice(name))
@@ -216,7 +218,7 @@ class Collection:
         return self._by_source[real]
 
 
-def _companion_path(name: str, by: Path, origins: Origins) -> Path | None:
+def _companion_path(name: str, by: Path, origins: FileOrigins) -> Path | None:
     """The file that another one names: by a URI, a path from its own folder, or a bare name."""
     for written in dict.fromkeys((name, unquote(name), unquote(name).replace("\\", "/"))):
         if "://" in written and not written.startswith("file://"):

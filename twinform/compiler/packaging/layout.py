@@ -23,7 +23,7 @@ _ROLES: Mapping[FileKind, str] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class PackageLayout:
     """The folders of a package, and how its files are named from outside: `model://arm/meshes/base.stl`.
 
     `names` has what the package is called in URIs of each scheme; without one, files are named by
@@ -75,7 +75,7 @@ def safe_name(name: str) -> str:
 
 
 @dataclass(slots=True)
-class Places:
+class PackagePlaces:
     """The places in a package that are taken, where capitals do not count: no file is where a folder is."""
 
     files: set[str] = field(default_factory=set[str])

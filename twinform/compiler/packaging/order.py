@@ -10,7 +10,7 @@ from twinform.compiler.errors import CompileError
 from twinform.compiler.input.loading import Input, LoadOptions
 from twinform.compiler.packaging.collect_files import CollectFiles
 from twinform.compiler.packaging.collecting import Collection, UncollectedError
-from twinform.compiler.packaging.layout import Layout
+from twinform.compiler.packaging.layout import PackageLayout
 from twinform.compiler.packaging.made_files import MadeFiles
 from twinform.compiler.packaging.package import Package
 from twinform.compiler.request import ConversionRequest
@@ -31,7 +31,7 @@ _FIRST_VERSION = "0.1.0"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Details:
+class PackageDetails:
     """What a package says about itself; empty where nobody has said it."""
 
     description: str = ""
@@ -75,7 +75,7 @@ class Order:
     conversion: ConversionRequest
     load_options: LoadOptions
     sdf_versions: tuple[str, ...] = ()
-    details: Details = field(default_factory=Details)
+    details: PackageDetails = field(default_factory=PackageDetails)
     allow_missing: bool = False
     thumbnail: bool = True
     release: ReleaseName = "harmonic"
@@ -83,7 +83,7 @@ class Order:
 
     def collection(self) -> Collection:
         """An empty collection of files."""
-        return Collection(Layout({"model": self.folder, "package": self.name}), self.allow_missing)
+        return Collection(PackageLayout({"model": self.folder, "package": self.name}), self.allow_missing)
 
     def convert(
         self,

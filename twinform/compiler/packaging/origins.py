@@ -10,7 +10,7 @@ HIGHEST = 8
 
 
 @dataclass(frozen=True, slots=True)
-class Origins:
+class FileOrigins:
     """The packages and models around files that a document names."""
 
     assets: LocalAssets

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from twinform.compiler.packaging.order import PLACEHOLDERS, Details
+from twinform.compiler.packaging.order import PLACEHOLDERS, PackageDetails
 from twinform.compiler.packaging.origins import HIGHEST
 from twinform.compiler.search.packages import MANIFEST, MODEL_CONFIG, read_manifest
 from twinform.schemas import XmlElement
@@ -16,7 +16,7 @@ _UNSAID = frozenset(PLACEHOLDERS.values())
 _VERSION = re.compile(r"(\d+\.\d+)(\.\d+)?")
 
 
-def details_around(file: Path) -> Details:
+def details_around(file: Path) -> PackageDetails:
     """What the nearest package.xml or model.config says, of the folder of a file and those around it.
 
     Empty are those fields that it does not have. Several maintainers are the first of them, several licenses stand in a
@@ -27,12 +27,12 @@ def details_around(file: Path) -> Details:
             return _of_package(package)
         if (model := read_manifest(folder / MODEL_CONFIG)) is not None:
             return _of_model(model)
-    return Details()
+    return PackageDetails()
 
 
-def _of_package(root: XmlElement) -> Details:
+def _of_package(root: XmlElement) -> PackageDetails:
     maintainer = root.find("maintainer")
-    return Details(
+    return PackageDetails(
         description=_text(root.find("description")),
         version=_version(root),
         author=_text(root.find("author")),
@@ -42,9 +42,9 @@ def _of_package(root: XmlElement) -> Details:
     )
 
 
-def _of_model(root: XmlElement) -> Details:
+def _of_model(root: XmlElement) -> PackageDetails:
     name = _text(root.find("author/name"))
-    return Details(
+    return PackageDetails(
         description=_text(root.find("description")),
         version=_version(root),
         maintainer=name,

@@ -8,7 +8,7 @@ from typing import TypeVar
 from twinform.compiler.kinematics import degrees_of
 from twinform.compiler.scene.colors import color_of
 from twinform.compiler.scene.scene import Role, Scene, SceneFrame, SceneJoint, SceneLink, SceneSensor, SceneShape
-from twinform.compiler.scene.scope import Scope
+from twinform.compiler.scene.scope import SceneScope
 from twinform.compiler.scene.sensors import frustums_of, rays_of
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Collision, Document, Empty, Format, Frame, Joint, Link, Model, Sensor, Visual
@@ -32,8 +32,8 @@ def build_scene(document: Document) -> Scene:
         graph = FrameGraph(world)
         for model in world.models:
             work.add_model(model, f"{model.name}::", graph)
-        work.add_joints(world.joints, Scope(graph))
-        work.add_frames(world.frames, Scope(graph))
+        work.add_joints(world.joints, SceneScope(graph))
+        work.add_frames(world.frames, SceneScope(graph))
     for model in document.models:
         work.add_model(model, f"{model.name}::" if len(document.models) > 1 else "", None)
     return Scene(tuple(work.links), tuple(work.joints), tuple(work.frames), tuple(work.sensors), tuple(work.left_out))
@@ -68,7 +68,7 @@ class _SceneBuilder:
             flat = flatten(model, lambda frame, _: frame)
             graph = FrameGraph(flat)
             name, base = (MODEL, graph) if around is None else (model.name, around)
-            scope = Scope(graph, base.pose(name, WORLD, kind="model", base="world"), prefix)
+            scope = SceneScope(graph, base.pose(name, WORLD, kind="model", base="world"), prefix)
         except FrameError as error:
             self.left_out.append(error.message)
             return
@@ -77,37 +77,37 @@ class _SceneBuilder:
         self.add_joints(flat.joints, scope)
         self.add_frames(flat.frames, scope)
 
-    def add_joints(self, joints: Iterable[Joint], scope: Scope) -> None:
+    def add_joints(self, joints: Iterable[Joint], scope: SceneScope) -> None:
         """Joints, and the sensors in them."""
         for joint in joints:
             self._try(self._add_joint, joint, scope)
 
-    def add_frames(self, frames: Iterable[Frame], scope: Scope) -> None:
+    def add_frames(self, frames: Iterable[Frame], scope: SceneScope) -> None:
         """Named frames."""
         for frame in frames:
             self._try(self._add_frame, frame, scope)
 
-    def _try(self, add: Callable[[Part, Scope], None], part: Part, scope: Scope) -> None:
+    def _try(self, add: Callable[[Part, SceneScope], None], part: Part, scope: SceneScope) -> None:
         try:
             add(part, scope)
         except FrameError as error:
             self.left_out.append(f"{part.name}: {error.message}")
 
-    def _add_link(self, link: Link, scope: Scope) -> None:
+    def _add_link(self, link: Link, scope: SceneScope) -> None:
         name = scope.name(link.name)
         shapes, mass = tuple(_shapes(link, scope)), self._mass(link, scope)
         self.links.append(SceneLink(name, scope.frame(link.name, "link"), shapes, mass, link.location))
         for sensor in link.sensors:
             self._add_sensor(sensor, name, scope.pose_in_link(sensor.pose, link.name))
 
-    def _mass(self, link: Link, scope: Scope) -> Solid | None:
+    def _mass(self, link: Link, scope: SceneScope) -> Solid | None:
         if link.inertial is None and self.format is Format.URDF:
             return None
         solid = written_solid(link.inertial, self.format)
         pose = scope.pose_in_link(link.inertial.pose if link.inertial else None, link.name)
         return placed(solid, pose) if solid.mass > 0 and math.isfinite(solid.mass) else None
 
-    def _add_joint(self, joint: Joint, scope: Scope) -> None:
+    def _add_joint(self, joint: Joint, scope: SceneScope) -> None:
         parent, child = scope.body(joint.parent), scope.body(joint.child)
         frame = scope.frame(joint.name, "joint")
         degrees = tuple(degrees_of(joint, frame, self.format, scope.frame, scope.prefix))
@@ -120,13 +120,13 @@ class _SceneBuilder:
         seen = tuple(frustums_of(sensor)), tuple(rays_of(sensor))
         self.sensors.append(SceneSensor(sensor.name or "", sensor.type or "", link, pose, *seen, sensor.location))
 
-    def _add_frame(self, frame: Frame, scope: Scope) -> None:
+    def _add_frame(self, frame: Frame, scope: SceneScope) -> None:
         link = scope.body(frame.name, "frame")
         pose = scope.graph.pose(frame.name, link, kind="frame")
         self.frames.append(SceneFrame(scope.name(frame.name), scope.name(link), pose, frame.location))
 
 
-def _shapes(link: Link, scope: Scope) -> Iterator[SceneShape]:
+def _shapes(link: Link, scope: SceneScope) -> Iterator[SceneShape]:
     for each in (*link.visuals, *link.collisions):
         shape = each.geometry.shape if each.geometry else None
         if shape is not None and not isinstance(shape, Empty):

@@ -8,7 +8,7 @@ from twinform.ir.transform import Transform
 
 
 @dataclass(frozen=True, slots=True)
-class Scope:
+class SceneScope:
     """The frames of a graph; `place` puts its root in the world, and `prefix` stands before the names of its parts."""
 
     graph: FrameGraph

@@ -23,7 +23,7 @@ class UriError(AssetError):
     """A URI that leads nowhere, or where it must not lead."""
 
 
-class Surroundings(NamedTuple):
+class SearchFolders(NamedTuple):
     """The folders that are searched because of where a file lies: those around it, and one beside them."""
 
     folders: tuple[Path, ...]
@@ -49,7 +49,7 @@ class SearchPath:
     seen: set[Path] = field(default_factory=set[Path], compare=False, repr=False)
     unsaved: Mapping[str, bytes] = field(default_factory=dict[str, bytes], compare=False, repr=False)
     _readable: dict[Path, Readable] = field(default_factory=dict[Path, Readable], compare=False, repr=False)
-    _around: dict[Path, Surroundings] = field(default_factory=dict[Path, Surroundings], compare=False, repr=False)
+    _around: dict[Path, SearchFolders] = field(default_factory=dict[Path, SearchFolders], compare=False, repr=False)
 
     @classmethod
     def of(cls, own: Iterable[str | Path] = (), environment: Mapping[str, str] = os.environ) -> Self:
@@ -93,10 +93,10 @@ class SearchPath:
             self._readable[file] = Readable.of(file, (*self._roots(), *self.fuel), self._of_environment())
         return self._readable[file]
 
-    def _surroundings(self, file: Path) -> Surroundings:
+    def _surroundings(self, file: Path) -> SearchFolders:
         """The folders around a file, asked for once: a world may have a URI in each of its lines."""
         if file not in self._around:
-            self._around[file] = Surroundings(folders_around(file), neighborhood(find_root(file)))
+            self._around[file] = SearchFolders(folders_around(file), neighborhood(find_root(file)))
         return self._around[file]
 
     def unsaved_of(self, path: str | Path) -> bytes | None:

@@ -26,52 +26,56 @@ _SHARED = frozenset({"fixed", "revolute", "continuous", "prismatic"})
 """Joints that are one joint in both formats."""
 
 
-class Change(NamedTuple):
+class GazeboChange(NamedTuple):
     """What Gazebo would make of a part of the robot, as text, and where that part is in the source."""
 
     what: str
     location: Location
 
 
-def changes(original: Model, made: Model, named: AbstractSet[str] = frozenset()) -> Iterator[Change]:
+def changes(original: Model, made: Model, named: AbstractSet[str] = frozenset()) -> Iterator[GazeboChange]:
     """What would be another robot if Gazebo read the URDF `made` in the place of the SDF `original`.
 
     `named` are the links that something outside of the model names.
     """
     for inner in original.models:
-        yield Change(f"the parts of the model {inner.name!r} in it would have other names", inner.location)
+        yield GazeboChange(f"the parts of the model {inner.name!r} in it would have other names", inner.location)
     for include in original.includes:
-        yield Change(f"it includes {include.uri!r}, which cannot be put in its place", include.location)
+        yield GazeboChange(f"it includes {include.uri!r}, which cannot be put in its place", include.location)
     for part in (*original.links, *original.joints):
         if SCOPE in part.name:
-            yield Change(f"URDF cannot have the name {part.name!r}", part.location)
+            yield GazeboChange(f"URDF cannot have the name {part.name!r}", part.location)
     yield from _of_shapes(made)
     yield from _of_names(made)
     for joint in original.joints:
         if joint.type not in _SHARED:
-            yield Change(f"{joint.type} joint {joint.name!r} would not be one for Gazebo", joint.location)
+            yield GazeboChange(f"{joint.type} joint {joint.name!r} would not be one for Gazebo", joint.location)
     frames = {frame.get("name") for frame in _in_extensions(made, "frame")}
     for joint in made.joints:
         if joint.type == "planar" or (joint.type == "floating" and joint.name not in frames):
-            yield Change(f"Gazebo refuses URDF with a {joint.type} joint, which holds {joint.child!r}", joint.location)
+            yield GazeboChange(
+                f"Gazebo refuses URDF with a {joint.type} joint, which holds {joint.child!r}", joint.location
+            )
     yield from _of_mass(made, named)
 
 
-def _of_shapes(made: Model) -> Iterator[Change]:
+def _of_shapes(made: Model) -> Iterator[GazeboChange]:
     for link in made.links:
         for shape in (*link.visuals, *link.collisions):
             if shape.geometry and isinstance(shape.geometry.shape, Capsule):
-                yield Change(f"Gazebo reads no capsule from URDF, as link {link.name!r} has it", shape.location)
+                yield GazeboChange(f"Gazebo reads no capsule from URDF, as link {link.name!r} has it", shape.location)
 
 
-def _of_names(made: Model) -> Iterator[Change]:
+def _of_names(made: Model) -> Iterator[GazeboChange]:
     links = {link.name for link in made.links}
     for joint in made.joints:
         if joint.name in links:
-            yield Change(f"a joint and a link are called {joint.name!r}, which Gazebo refuses in URDF", joint.location)
+            yield GazeboChange(
+                f"a joint and a link are called {joint.name!r}, which Gazebo refuses in URDF", joint.location
+            )
 
 
-def _of_mass(made: Model, named: AbstractSet[str]) -> Iterator[Change]:
+def _of_mass(made: Model, named: AbstractSet[str]) -> Iterator[GazeboChange]:
     """What is left out because it has no mass, and what is named but goes into another link."""
     hosts = lumped_links(made)
     weights: dict[str, float] = defaultdict(float)
@@ -80,12 +84,12 @@ def _of_mass(made: Model, named: AbstractSet[str]) -> Iterator[Change]:
     for link in made.links:
         if hosts[link.name] == link.name != WORLD and weights[link.name] <= NO_MASS:
             what = f"Gazebo leaves link {link.name!r}, which has no mass, out of URDF, with all that hangs from it"
-            yield Change(what, link.location)
+            yield GazeboChange(what, link.location)
     outside = {*named, *_named_in_extensions(made)}
     for link in made.links:
         if hosts[link.name] != link.name and link.name in outside:
             what = f"link {link.name!r}, which a joint names, would go into {hosts[link.name]!r}"
-            yield Change(what, link.location)
+            yield GazeboChange(what, link.location)
 
 
 def _named_in_extensions(made: Model) -> Iterator[str]:

@@ -41,7 +41,7 @@ _OF_LIBSDFORMAT = frozenset(f"{name}.sdf" for name in ("root", "urdf", *table("s
 
 
 @dataclass(frozen=True, slots=True)
-class Split:
+class SplitWorld:
     """The text of each file by its name, what was found and lost on the way, and the files that passes made beside.
 
     The last file is the one that includes the others.
@@ -74,7 +74,7 @@ def split(
     instrumentation: PassInstrumentation | None = None,
     folder: Path | None = None,
     placement: Placement = _BESIDE,
-) -> Split:
+) -> SplitWorld:
     """Every model of an SDF file in a file of its own, and the file with includes in their place under its own name.
 
     Models become URDF where Gazebo reads that as the same robot, or stay SDF if the order is for SDF. `folder` is where
@@ -123,7 +123,7 @@ def split(
             raise CompileError(tuple(sink.diagnostics))
         lost = sum(entry.weight for entry in sink.entries)
         ledger = Ledger(max(0, checked.size - lost), tuple(sink.entries))
-        return Split(files.texts, tuple(sink.diagnostics), ledger, tuple(sink.side_files))
+        return SplitWorld(files.texts, tuple(sink.diagnostics), ledger, tuple(sink.side_files))
 
 
 def _inside_models(document: Document | None) -> Callable[[Include], bool]:

@@ -10,7 +10,7 @@ from twinform.passes.analyses.sensor_costs import sensor_cost, sensors_in
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Advice:
+class CostAdvice:
     """A pipeline that lowers the cost of a category, and why it is worth a try."""
 
     category: str
@@ -35,7 +35,7 @@ class Cost:
     rays_per_second: float
     rates_assumed: int
     plugins: int
-    advice: tuple[Advice, ...] = field(default=())
+    advice: tuple[CostAdvice, ...] = field(default=())
 
 
 class _Threshold(NamedTuple):
@@ -75,8 +75,8 @@ def cost_of(model: Model, meshes: Sequence[MeshCost]) -> Cost:
     return replace(cost, advice=tuple(_advice(cost)))
 
 
-def _advice(cost: Cost) -> Iterator[Advice]:
+def _advice(cost: Cost) -> Iterator[CostAdvice]:
     for row in _ADVICE:
         number: float = getattr(cost, row.field)
         if number > row.most:
-            yield Advice(category=row.category, reason=f"{number:,.0f} {row.unit}", passes=row.passes)
+            yield CostAdvice(category=row.category, reason=f"{number:,.0f} {row.unit}", passes=row.passes)

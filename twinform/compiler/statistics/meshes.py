@@ -11,7 +11,7 @@ from typing import NamedTuple, cast
 
 from twinform.compiler.search.uris import SearchPath, UriError
 from twinform.ir import Collision, Mesh, Model, Visual, walk
-from twinform.passes.mesh_jobs.job import Job
+from twinform.passes.mesh_jobs.job import MeshJob
 from twinform.passes.mesh_jobs.mesh_files import EXTRA, READ, RefusedMeshError, content_of, kind_of
 
 
@@ -30,7 +30,7 @@ class MeshCost:
     problem: str = ""
 
 
-class _File(NamedTuple):
+class _MeshFile(NamedTuple):
     bytes: int | None = None
     triangles: int | None = None
     problem: str = ""
@@ -43,7 +43,7 @@ class MeshFiles:
     search: SearchPath
     beside: Path
     look: bool = True
-    _known: dict[Path, _File] = field(default_factory=dict[Path, _File])
+    _known: dict[Path, _MeshFile] = field(default_factory=dict[Path, _MeshFile])
 
     def costs(self, model: Model) -> tuple[MeshCost, ...]:
         """The mesh files of a model, in the order of their URIs."""
@@ -51,14 +51,14 @@ class MeshFiles:
         return tuple(self._cost(uri, drawn[uri], touched[uri]) for uri in sorted({*drawn, *touched}))
 
     def _cost(self, uri: str, visuals: int, collisions: int) -> MeshCost:
-        found = self._file(uri) if self.look else _File()
+        found = self._file(uri) if self.look else _MeshFile()
         return MeshCost(uri=uri, visuals=visuals, collisions=collisions, **found._asdict())
 
-    def _file(self, uri: str) -> _File:
+    def _file(self, uri: str) -> _MeshFile:
         try:
             path = self.search.find(uri, self.beside)
         except UriError as error:
-            return _File(problem=error.message)
+            return _MeshFile(problem=error.message)
         if path not in self._known:
             self._known[path] = _looked_at(path)
         return self._known[path]
@@ -74,28 +74,28 @@ def _meshes(model: Model, kind: type[Visual] | type[Collision]) -> Iterator[str]
             yield (node.geometry.shape.uri or "").strip()
 
 
-def _looked_at(path: Path) -> _File:
+def _looked_at(path: Path) -> _MeshFile:
     try:
         size = path.stat().st_size
         if not path.is_file():
-            return _File(problem="it is no file")
+            return _MeshFile(problem="it is no file")
         if kind_of(path) not in READ:
-            return _File(size, problem=f"triangles are counted in {', '.join(sorted(READ))}")
+            return _MeshFile(size, problem=f"triangles are counted in {', '.join(sorted(READ))}")
         return _counted(path, size)
     except OSError as error:
-        return _File(problem=f"it cannot be read: {error.strerror}")
+        return _MeshFile(problem=f"it cannot be read: {error.strerror}")
 
 
-def _counted(path: Path, size: int) -> _File:
+def _counted(path: Path, size: int) -> _MeshFile:
     from twinform.passes.mesh_jobs.child_process import do  # noqa: PLC0415 - most models have no meshes to read
 
     try:
-        result = do(Job("count", {}, kind_of(path), content_of(path)))
+        result = do(MeshJob("count", {}, kind_of(path), content_of(path)))
     except RefusedMeshError as error:
-        return _File(size, problem=str(error))
+        return _MeshFile(size, problem=str(error))
     if result.trouble == "missing":
-        return _File(size, problem=f"{result.message} is not installed: {EXTRA}")
+        return _MeshFile(size, problem=f"{result.message} is not installed: {EXTRA}")
     if result.trouble:
-        return _File(size, problem=result.message)
+        return _MeshFile(size, problem=result.message)
     triangles = cast("int", result.facts["triangles"])
-    return _File(size, triangles, "" if triangles else "it has no triangles")
+    return _MeshFile(size, triangles, "" if triangles else "it has no triangles")

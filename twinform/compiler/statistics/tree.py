@@ -15,7 +15,7 @@ FREEDOMS = {
 """How many ways a joint lets its child go; a gearbox takes one away from the joints that it couples."""
 
 
-class Shape(NamedTuple):
+class TreeShape(NamedTuple):
     """`depth` is the most joints between a root and a link; `loops` are joints that no tree needs."""
 
     depth: int
@@ -33,7 +33,7 @@ def freedom(joint: Joint) -> int:
     return max(0, FREEDOMS[joint.type] - followed)
 
 
-def shape(model: Model) -> Shape:
+def shape(model: Model) -> TreeShape:
     """How deep the tree of a model is, and how many joints close loops in it."""
     parents: dict[str, str] = {}
     groups, loops = Groups(), 0
@@ -42,7 +42,7 @@ def shape(model: Model) -> Shape:
             parents.setdefault(child, parent)
         else:
             loops += 1
-    return Shape(_depth(parents), loops)
+    return TreeShape(_depth(parents), loops)
 
 
 def _ends(model: Model) -> Iterator[tuple[str, str]]:

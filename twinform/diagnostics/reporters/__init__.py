@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from twinform.diagnostics.reporters.findings import NO_TEXTS, Findings, Reporter, Texts
+from twinform.diagnostics.reporters.findings import NO_TEXTS, FileFindings, FileTexts, Reporter
 from twinform.diagnostics.reporters.github import github
 from twinform.diagnostics.reporters.json import json
 from twinform.diagnostics.reporters.junit import junit
@@ -16,4 +16,4 @@ REPORTERS: Mapping[str, Reporter] = MappingProxyType(
 )
 """Every output format by its name on the command line."""
 
-__all__ = ["NO_TEXTS", "REPORTERS", "Findings", "Paint", "Reporter", "Texts", "concise", "printable", "text"]
+__all__ = ["NO_TEXTS", "REPORTERS", "FileFindings", "FileTexts", "Paint", "Reporter", "concise", "printable", "text"]

@@ -6,7 +6,7 @@ from typing import NamedTuple, Protocol
 from twinform.diagnostics.diagnostic import Diagnostic
 
 
-class Texts(Protocol):
+class FileTexts(Protocol):
     """The texts of the files that findings are about, by their names in locations."""
 
     def line(self, file: str, number: int, /) -> str | None:
@@ -28,21 +28,21 @@ class _NoTexts:
         """Nothing is known."""
 
 
-NO_TEXTS: Texts = _NoTexts()
+NO_TEXTS: FileTexts = _NoTexts()
 
 
-class Findings(NamedTuple):
+class FileFindings(NamedTuple):
     """The diagnostics of one file, in the order in which they were found, and the texts that they are about."""
 
     path: str
     diagnostics: tuple[Diagnostic, ...] = ()
-    texts: Texts = NO_TEXTS
+    texts: FileTexts = NO_TEXTS
 
 
 class Reporter(Protocol):
     """A pure function from the findings of some files to the text of a report, line ends included."""
 
-    def __call__(self, files: Sequence[Findings], /) -> str:
+    def __call__(self, files: Sequence[FileFindings], /) -> str:
         """The report."""
         ...
 
@@ -55,7 +55,7 @@ class PlacedEdit(NamedTuple):
     new: str
 
 
-def placed_edits(diagnostic: Diagnostic, file: str, texts: Texts) -> list[PlacedEdit] | None:
+def placed_edits(diagnostic: Diagnostic, file: str, texts: FileTexts) -> list[PlacedEdit] | None:
     """The edits of the fix of a finding about a file; None where it has none, or their places are not known."""
     if diagnostic.fix is None:
         return None

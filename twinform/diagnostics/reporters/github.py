@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.location import Location
-from twinform.diagnostics.reporters.findings import Findings
+from twinform.diagnostics.reporters.findings import FileFindings
 from twinform.diagnostics.reporters.printable import printable
 from twinform.diagnostics.rule import Severity
 
@@ -15,7 +15,7 @@ _IN_DATA = (("%", "%25"), ("\r", "%0D"), ("\n", "%0A"))
 _IN_PROPERTIES = (*_IN_DATA, (":", "%3A"), (",", "%2C"))
 
 
-def github(files: Sequence[Findings]) -> str:
+def github(files: Sequence[FileFindings]) -> str:
     """`::error file=,line=,col=,endLine=,endColumn=,title=::message`, a line for each finding; empty without any."""
     return "".join(f"{_command(each, file.path)}\n" for file in files for each in file.diagnostics)
 

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.location import Location
-from twinform.diagnostics.reporters.findings import NO_TEXTS, Findings, Texts, placed_edits
+from twinform.diagnostics.reporters.findings import NO_TEXTS, FileFindings, FileTexts, placed_edits
 
 
-def json(files: Sequence[Findings]) -> str:
+def json(files: Sequence[FileFindings]) -> str:
     """`{"files": [{"path", "diagnostics": [...]}]}`; every key is always there, and 0 means an unknown line or column.
 
     Columns count characters from 1, and ends are behind the piece. Only a finding in another file than the one that was
@@ -22,7 +22,7 @@ def json(files: Sequence[Findings]) -> str:
     return jsonlib.dumps({"files": rows}, indent=2) + "\n"
 
 
-def row(diagnostic: Diagnostic, file: str, texts: Texts = NO_TEXTS) -> dict[str, object]:
+def row(diagnostic: Diagnostic, file: str, texts: FileTexts = NO_TEXTS) -> dict[str, object]:
     """One finding about a file."""
     return {
         "rule": diagnostic.rule.name,
@@ -48,7 +48,7 @@ def _place(location: Location, file: str) -> dict[str, object]:
     return place if location.file in {"", file} else {**place, "file": location.file}
 
 
-def _fix(diagnostic: Diagnostic, file: str, texts: Texts) -> dict[str, object] | None:
+def _fix(diagnostic: Diagnostic, file: str, texts: FileTexts) -> dict[str, object] | None:
     replacements = placed_edits(diagnostic, file, texts)
     if diagnostic.fix is None or replacements is None:
         return None

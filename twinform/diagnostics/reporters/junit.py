@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 
 from twinform.diagnostics.diagnostic import Diagnostic
-from twinform.diagnostics.reporters.findings import Findings
+from twinform.diagnostics.reporters.findings import FileFindings
 from twinform.diagnostics.reporters.printable import printable
 from twinform.diagnostics.rule import Severity
 
 _ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})
 
 
-def junit(files: Sequence[Findings]) -> str:
+def junit(files: Sequence[FileFindings]) -> str:
     """A suite for each file, and in it a test for each finding, or one that passed.
 
     An error is a failure. A warning or a note is a skipped test, so that it is seen and fails nothing: `check` ends
@@ -21,7 +21,7 @@ def junit(files: Sequence[Findings]) -> str:
     return f'<?xml version="1.0" encoding="UTF-8"?>\n<testsuites name="twinform"{counts}>\n{suites}</testsuites>\n'
 
 
-def _suite(file: Findings) -> str:
+def _suite(file: FileFindings) -> str:
     tests = "".join(_test(each, file.path) for each in file.diagnostics)
     tests = (
         tests or f"    <testcase{_attributes(name='no findings', classname=file.path, file=file.path, time='0')}/>\n"

@@ -9,7 +9,7 @@ from twinform.diagnostics.addresses import HOME, rule_address
 from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.location import Location
-from twinform.diagnostics.reporters.findings import Findings, placed_edits
+from twinform.diagnostics.reporters.findings import FileFindings, placed_edits
 from twinform.diagnostics.rule import Rule, Severity
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -17,7 +17,7 @@ _FINGERPRINT = "finding/v1"
 _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
 
-def sarif(files: Sequence[Findings]) -> str:
+def sarif(files: Sequence[FileFindings]) -> str:
     """A log of one run: the rules that were found, and a result for each finding."""
     import json  # noqa: PLC0415 - few runs write it
     from importlib.metadata import version  # noqa: PLC0415 - see above
@@ -53,7 +53,7 @@ def _rule(rule: Rule) -> dict[str, object]:
     }
 
 
-def _result(diagnostic: Diagnostic, file: Findings, order: dict[str, int], seen: Counter[str]) -> dict[str, object]:
+def _result(diagnostic: Diagnostic, file: FileFindings, order: dict[str, int], seen: Counter[str]) -> dict[str, object]:
     message = f"{diagnostic.message}\n{diagnostic.help}" if diagnostic.help else diagnostic.message
     related = [{"id": number, **_location(each, file.path)} for number, each in enumerate(diagnostic.related)]
     fixes = _fixes(diagnostic, file)
@@ -95,7 +95,7 @@ def _region(location: Location) -> dict[str, int]:
     return {**begin, "startColumn": location.column, **end}
 
 
-def _fixes(diagnostic: Diagnostic, file: Findings) -> list[dict[str, object]]:
+def _fixes(diagnostic: Diagnostic, file: FileFindings) -> list[dict[str, object]]:
     edits = placed_edits(diagnostic, file.path, file.texts)
     if diagnostic.fix is None or not edits:
         return []

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.location import Location
 from twinform.diagnostics.reporters.excerpt import excerpt
-from twinform.diagnostics.reporters.findings import Findings
+from twinform.diagnostics.reporters.findings import FileFindings
 from twinform.diagnostics.reporters.grouping import Group, grouped
 from twinform.diagnostics.reporters.printable import printable
 from twinform.diagnostics.rule import Severity
@@ -20,7 +20,7 @@ def _plain(word: str, _: Severity) -> str:
     return word
 
 
-def text(files: Sequence[Findings], paint: Paint = _plain, *, every: bool = False) -> str:
+def text(files: Sequence[FileFindings], paint: Paint = _plain, *, every: bool = False) -> str:
     """`file:line:column: severity: headline [rule]`, then XML path, source line, related places, help and fix.
 
     Findings of one cause are one, with a count, unless `every` one is wanted. Empty without findings.
@@ -33,12 +33,12 @@ def text(files: Sequence[Findings], paint: Paint = _plain, *, every: bool = Fals
     )
 
 
-def concise(files: Sequence[Findings], paint: Paint = _plain) -> str:
+def concise(files: Sequence[FileFindings], paint: Paint = _plain) -> str:
     """One line for each finding: `file:line:column: severity: headline [rule]`."""
     return "".join(f"{_headline(each, file.path, paint)}\n" for file in files for each in file.diagnostics)
 
 
-def _lines_of_group(group: Group, file: Findings, paint: Paint) -> Iterator[str]:
+def _lines_of_group(group: Group, file: FileFindings, paint: Paint) -> Iterator[str]:
     diagnostic, others = group
     where, severity = diagnostic.location, diagnostic.severity
     count = f", {len(others) + 1} x" if others else ""

@@ -11,7 +11,7 @@ from twinform.ir.pose import Frame, Pose
 from twinform.ir.sensor import Sensor
 from twinform.ir.sourced import Sourced
 from twinform.ir.verify.poses import verify_rotation
-from twinform.ir.verify.scope import Scope
+from twinform.ir.verify.scope import VerifiedScope
 from twinform.ir.visual import Collision, Visual
 from twinform.ir.world import World
 
@@ -30,7 +30,7 @@ class References:
 
     def __init__(self, holder: Model | World, sink: DiagnosticSink, *, one_scope: bool) -> None:
         self.one_scope = one_scope
-        self.scope = Scope(holder)
+        self.scope = VerifiedScope(holder)
         self.own = MODEL if isinstance(holder, Model) else WORLD
         self.sink = sink
         self._holder = holder

@@ -12,7 +12,7 @@ Found = Literal["link", "joint", "frame", "model", "unread", "twice"]
 """What a name stands for; `unread` where only the file of an include knows, `twice` where it means two things."""
 
 
-class Scope:
+class VerifiedScope:
     """One model or world. Names of what is in a nested model are written `model::name`, and so on inwards."""
 
     def __init__(self, holder: Model | World) -> None:
@@ -23,7 +23,7 @@ class Scope:
         self._add("frame", holder.frames)
         self._add("model", holder.models)
         self._models = {model.name: model for model in holder.models}
-        self._inner: dict[str, Scope] = {}
+        self._inner: dict[str, VerifiedScope] = {}
         self._unread = self._include(holder.includes)
         self._longest = max((len(name or "") for name in self._kinds), default=0)
 
@@ -66,5 +66,5 @@ class Scope:
         if inner == "__model__":
             return "model"
         if outer not in self._inner:
-            self._inner[outer] = Scope(self._models[outer])
+            self._inner[outer] = VerifiedScope(self._models[outer])
         return self._inner[outer].find(inner)

@@ -8,7 +8,7 @@ from twinform.ir.scopes import nested_includes
 
 
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class ModelCandidate:
     """A model of the root or of a world, or an include that stands for one."""
 
     model: Model | Include
@@ -25,13 +25,13 @@ class Candidate:
         return name is None or name in (self.model.name, self.full_name)
 
 
-def candidates(document: Document) -> Iterator[Candidate]:
+def candidates(document: Document) -> Iterator[ModelCandidate]:
     """All of them, those of the root first."""
     for one in (*document.models, *document.includes):
-        yield Candidate(one)
+        yield ModelCandidate(one)
     for world in document.worlds:
         for one in (*world.models, *world.includes):
-            yield Candidate(one, world)
+            yield ModelCandidate(one, world)
 
 
 def name_once_expanded(before: Document | None, after: Document | None, name: str | None) -> str | None:

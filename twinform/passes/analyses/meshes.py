@@ -11,7 +11,7 @@ from twinform.ir.principal_moments import times_each
 from twinform.ir.scaling import times_power
 from twinform.ir.solids import Solid
 from twinform.passes.framework.asset_access import AssetError, Assets
-from twinform.passes.mesh_jobs.job import Job, Options, Result
+from twinform.passes.mesh_jobs.job import MeshJob, MeshResult, Options
 from twinform.passes.mesh_jobs.mesh_files import EXTRA, READ, RefusedMeshError, content_of, kind_of
 
 
@@ -42,7 +42,9 @@ class Meshes:
 
     assets: Assets
     hull: bool = False
-    _known: dict[tuple[object, ...], Result] = field(default_factory=dict[tuple[object, ...], Result], repr=False)
+    _known: dict[tuple[object, ...], MeshResult] = field(
+        default_factory=dict[tuple[object, ...], MeshResult], repr=False
+    )
 
     def solid(self, mesh: Mesh, density: float) -> Solid:
         """The mesh filled with a density in kg/m^3, in the frame of its shape.
@@ -80,7 +82,7 @@ class Meshes:
         files = self._result("surface", mesh, {}).files
         return MeshTriangles(files["points"], files["faces"])
 
-    def _result(self, name: str, mesh: Mesh, options: Options) -> Result:
+    def _result(self, name: str, mesh: Mesh, options: Options) -> MeshResult:
         """What comes of a job on the file of a mesh."""
         uri = mesh.uri or ""
         try:
@@ -103,7 +105,7 @@ def _vector(found: object) -> Vector3:
     return x, y, z
 
 
-def _done(name: str, path: Path, uri: str, options: Options) -> Result:
+def _done(name: str, path: Path, uri: str, options: Options) -> MeshResult:
     # A FIFO or a device under the name of a mesh would block the reader or never end.
     if not path.is_file():
         raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} is no file")
@@ -113,7 +115,7 @@ def _done(name: str, path: Path, uri: str, options: Options) -> Result:
     from twinform.passes.mesh_jobs.child_process import do  # noqa: PLC0415 - most runs read no mesh
 
     try:
-        result = do(Job(name, options, kind_of(path), content_of(path)))
+        result = do(MeshJob(name, options, kind_of(path), content_of(path)))
     except OSError as error:
         raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be read: {error.strerror}") from error
     except RefusedMeshError as error:

@@ -15,7 +15,7 @@ Body = tuple[Link, ...]
 """The links that fixed joints hold together, in document order."""
 
 
-class Neighbors(NamedTuple):
+class ConnectedBodies(NamedTuple):
     """A joint that moves, and the two bodies that it connects."""
 
     joint: Joint
@@ -38,7 +38,7 @@ def moving_bodies(document: Document) -> list[Body]:
     return [tuple(body) for root, body in bodies.items() if root != ground]
 
 
-def neighbors(document: Document) -> Iterator[Neighbors]:
+def neighbors(document: Document) -> Iterator[ConnectedBodies]:
     """The joints that move a body, in document order; the parent is empty where the world holds it."""
     grouped, ground, groups = _grouped(document)
     bodies: dict[str, Body] = {root: tuple(body) for root, body in grouped.items()}
@@ -47,7 +47,7 @@ def neighbors(document: Document) -> Iterator[Neighbors]:
             continue
         parent, child = (groups.find(_key(scope, name)) for name in (joint.parent, joint.child))
         if child != ground and child in bodies and (parent == ground or parent in bodies):
-            yield Neighbors(joint, () if parent == ground else bodies[parent], bodies[child])
+            yield ConnectedBodies(joint, () if parent == ground else bodies[parent], bodies[child])
 
 
 def _grouped(document: Document) -> tuple[dict[str, list[Link]], str, Groups]:

@@ -50,7 +50,7 @@ class PlacedShape(NamedTuple):
         return f"{kind} {self.holder.name!r}" if self.holder.name else f"a {kind}"
 
 
-class Places:
+class ShapePlaces:
     """Where the shapes of a model's links are; its frames are only looked at where a pose names one."""
 
     def __init__(self, model: Model) -> None:

@@ -53,7 +53,7 @@ class VersionCondition:
 
 
 @dataclass(frozen=True, slots=True)
-class Keeper:
+class VersionKeeper:
     """Where parts go that the version asked for does not have; after an error there is nothing left to do."""
 
     sink: DiagnosticSink

@@ -19,7 +19,7 @@ from twinform.ir import (
 )
 from twinform.ir.element import Element
 from twinform.passes.plugins.editing import add_sensor, add_world_plugin
-from twinform.passes.plugins.sites import Site
+from twinform.passes.plugins.sites import PluginSite
 
 Path = tuple[str, ...]
 """The names of the world, or nothing, and of the models on the way to one."""
@@ -34,15 +34,15 @@ class DeferredEdits:
     models: dict[Path, list[Change]] = field(default_factory=lambda: defaultdict(list))
     worlds: dict[str, list[Plugin]] = field(default_factory=lambda: defaultdict(list))
 
-    def sensor(self, site: Site, holder: str, sensor: Sensor) -> None:
+    def sensor(self, site: PluginSite, holder: str, sensor: Sensor) -> None:
         """Put a sensor on a link or joint."""
         self.models[path_of(site)].append(lambda model: _with_sensor(model, holder, sensor, self.format))
 
-    def mimic(self, site: Site, follower: str, mimic: Mimic) -> None:
+    def mimic(self, site: PluginSite, follower: str, mimic: Mimic) -> None:
         """Let a joint follow another."""
         self.models[path_of(site)].append(lambda model: _with_mimic(model, follower, mimic))
 
-    def change(self, site: Site, change: Change) -> None:
+    def change(self, site: PluginSite, change: Change) -> None:
         """Do something else to a model."""
         self.models[path_of(site)].append(change)
 
@@ -71,7 +71,7 @@ class DeferredEdits:
         return model
 
 
-def path_of(site: Site) -> Path:
+def path_of(site: PluginSite) -> Path:
     """The path of the model that a place is in."""
     return (site.world.name if site.world else "", *(model.name for model in site.models))
 

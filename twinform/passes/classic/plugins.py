@@ -11,7 +11,7 @@ from twinform.passes.classic.ignition import modern_plugin
 from twinform.passes.classic.link_pose import OtherQuantityError, offset_of
 from twinform.passes.classic.moving import DroppedParameter, Moved
 from twinform.passes.classic.reading import as_read
-from twinform.passes.classic.reporting import Report, accept, reasons_to_look, scratch
+from twinform.passes.classic.reporting import MigrationReport, accept, reasons_to_look, scratch
 from twinform.passes.classic.sensors import SensorMigration, in_frame
 from twinform.passes.classic.systems import made_systems, unused
 from twinform.passes.classic.tables import MakeRow, Migration, migration_of
@@ -19,7 +19,7 @@ from twinform.passes.classic.topics import RosNames
 from twinform.passes.plugins.catalog import systems_of_file
 from twinform.passes.plugins.elements import sensor_of
 from twinform.passes.plugins.parts import Release
-from twinform.passes.plugins.sites import Site
+from twinform.passes.plugins.sites import PluginSite
 from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
 from twinform.schemas import format_value
 
@@ -39,9 +39,9 @@ class PluginMigration:
     controllers: str | None
     control: Callable[[Model], Model]
 
-    def __call__(self, plugin: Plugin, site: Site) -> Iterable[Plugin]:
+    def __call__(self, plugin: Plugin, site: PluginSite) -> Iterable[Plugin]:
         """The plugins that take the place of one."""
-        read, report = as_read(plugin), Report(self.sink, plugin, site)
+        read, report = as_read(plugin), MigrationReport(self.sink, plugin, site)
         migration = migration_of(plugin.filename or "", read.content)
         if migration is None:
             return self._of_no_table(plugin, site, report)
@@ -62,7 +62,7 @@ class PluginMigration:
             return self._without(plugin, report, f"it has to be in a sensor of its kind, and is in {where}")
         return self._systems(plugin, site, migration, report)
 
-    def _of_no_table(self, plugin: Plugin, site: Site, report: Report) -> Iterable[Plugin]:
+    def _of_no_table(self, plugin: Plugin, site: PluginSite, report: MigrationReport) -> Iterable[Plugin]:
         modern = modern_plugin(plugin, self.release)
         if modern is not plugin:
             report.renamed(modern)
@@ -75,11 +75,13 @@ class PluginMigration:
             return self._without(plugin, report, "the GUI of gz-sim has plugins of its own")
         return (modern,)
 
-    def _without(self, plugin: Plugin, report: Report, reason: str) -> Iterable[Plugin]:
+    def _without(self, plugin: Plugin, report: MigrationReport, reason: str) -> Iterable[Plugin]:
         report.without(reason, keeps=self.keep)
         return (plugin,) if self.keep else ()
 
-    def _systems(self, plugin: Plugin, site: Site, migration: Migration, report: Report) -> Iterable[Plugin]:
+    def _systems(
+        self, plugin: Plugin, site: PluginSite, migration: Migration, report: MigrationReport
+    ) -> Iterable[Plugin]:
         try:
             offset = offset_of(as_read(plugin), migration.body, site.model, self.format) if migration.body else ()
             made, lost = made_systems(plugin, migration, site, self.release.name)
@@ -106,7 +108,7 @@ class PluginMigration:
                 here.append(self._controlled(placed, site, report) if migration.control else placed)
         return here
 
-    def _controlled(self, plugin: Plugin, site: Site, report: Report) -> Plugin:
+    def _controlled(self, plugin: Plugin, site: PluginSite, report: MigrationReport) -> Plugin:
         """A controller manager with its parameters, in a model whose joints are in `<ros2_control>`."""
         self.edits.change(site, self.control)
         if any(child.name == "parameters" for child in plugin.content):
@@ -117,7 +119,9 @@ class PluginMigration:
         report.missing("it needs <parameters>, the file of its controllers; the option `controllers` writes it")
         return plugin
 
-    def _make(self, plugin: Plugin, site: Site, migration: Migration, report: Report) -> Iterable[Plugin]:
+    def _make(
+        self, plugin: Plugin, site: PluginSite, migration: Migration, report: MigrationReport
+    ) -> Iterable[Plugin]:
         """A sensor on the link or joint that the plugin names."""
         make = migration.make or MakeRow(type="", on="link", of=())
         holder = _scoped(next((child.text or "" for child in as_read(plugin).content if child.name in make.of), ""))
@@ -137,7 +141,9 @@ class PluginMigration:
         self.edits.sensor(site, holder, sensor)
         return ()
 
-    def _mimic(self, plugin: Plugin, site: Site, migration: Migration, report: Report) -> Iterable[Plugin]:
+    def _mimic(
+        self, plugin: Plugin, site: PluginSite, migration: Migration, report: MigrationReport
+    ) -> Iterable[Plugin]:
         moved = Moved(Element(name="mimic"))
         moved.apply(plugin.content, {**migration.shared, **migration.moves})
         parameters = {child.name: child.text or "" for child in moved.element.children}

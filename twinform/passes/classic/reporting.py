@@ -8,7 +8,7 @@ from twinform.ir import Element, Plugin
 from twinform.passes.classic.moving import DroppedParameter, truth_of
 from twinform.passes.classic.tables import Caveat, Migration
 from twinform.passes.plugins.elements import plugin_element
-from twinform.passes.plugins.sites import Site
+from twinform.passes.plugins.sites import PluginSite
 
 
 def scratch(sink: DiagnosticSink) -> DiagnosticSink:
@@ -24,12 +24,12 @@ def accept(sink: DiagnosticSink, tried: DiagnosticSink) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class Report:
+class MigrationReport:
     """Writes into the diagnostics where a plugin stands."""
 
     sink: DiagnosticSink
     plugin: Plugin
-    site: Site
+    site: PluginSite
 
     @property
     def where(self) -> Location:

@@ -17,14 +17,14 @@ from twinform.passes.classic.moving import (
     truth_of,
 )
 from twinform.passes.classic.reading import as_read, ros2_kind
-from twinform.passes.classic.reporting import Report, accept, reasons_to_look, scratch
+from twinform.passes.classic.reporting import MigrationReport, accept, reasons_to_look, scratch
 from twinform.passes.classic.systems import unused
-from twinform.passes.classic.tables import Migration, SensorRow, migration_of, unread_parts
+from twinform.passes.classic.tables import ClassicSensorRow, Migration, migration_of, unread_parts
 from twinform.passes.classic.topics import RosNames
 from twinform.passes.plugins.catalog import sensors
 from twinform.passes.plugins.elements import sensor_element, sensor_of
 from twinform.passes.plugins.parts import Release
-from twinform.passes.plugins.sites import Site
+from twinform.passes.plugins.sites import PluginSite
 from twinform.schemas import format_value
 
 _FRAMES = ("frame_id", "gz_frame_id", "ignition_frame_id")
@@ -40,7 +40,7 @@ class SensorMigration:
     release: Release
     sink: DiagnosticSink
 
-    def __call__(self, sensor: Sensor, site: Site) -> Iterable[Sensor]:
+    def __call__(self, sensor: Sensor, site: PluginSite) -> Iterable[Sensor]:
         """The sensors that take the place of one."""
         found = [(plugin, migration) for plugin in sensor.plugins if (migration := self._migration_for(plugin))]
         if sensor.type == _MANY:
@@ -52,7 +52,7 @@ class SensorMigration:
         migration = migration_of(plugin.filename or "", plugin.content)
         return migration if migration and migration.sensor is not None else None
 
-    def _migrate_one(self, sensor: Sensor, site: Site, found: list[tuple[Plugin, Migration]]) -> Sensor:
+    def _migrate_one(self, sensor: Sensor, site: PluginSite, found: list[tuple[Plugin, Migration]]) -> Sensor:
         type_ = self._type(sensor, found)
         element = with_frame(_bare(sensor, type_), self.release)
         trial = SensorMigration(self.release, scratch(self.sink))
@@ -70,16 +70,16 @@ class SensorMigration:
     def _type(self, sensor: Sensor, found: list[tuple[Plugin, Migration]]) -> str:
         """What the type of a sensor is called, or has to be for its plugin."""
         for _, migration in found:
-            row = migration.sensor or SensorRow()
+            row = migration.sensor or ClassicSensorRow()
             if sensor.type is not None and sensor.type in row.types:
                 return row.types[sensor.type]
         return modern_types().get(sensor.type or "", sensor.type or "")
 
     def move(
-        self, plugin: Plugin, migration: Migration, element: Element, site: Site, camera: str | None = None
+        self, plugin: Plugin, migration: Migration, element: Element, site: PluginSite, camera: str | None = None
     ) -> Element:
         """The sensor with the parameters of a plugin in it; `camera` is the name of one of several."""
-        row, read = migration.sensor or SensorRow(), as_read(plugin)
+        row, read = migration.sensor or ClassicSensorRow(), as_read(plugin)
         names = RosNames(read, sensor=element.get("name") if camera is None else site.holder, camera=camera)
         moved = Moved(element, is_valid=_is_sensor)
         moved.apply(read.content, {**migration.shared, **row.moves})
@@ -91,7 +91,7 @@ class SensorMigration:
                 element = with_text(element, path, topic)
         taken = moved.moved | set(migration.make.of if migration.make else ())
         lost: list[DroppedParameter] = [*moved.lost, *unused(plugin, taken, names)]
-        report = Report(self.sink, plugin, site)
+        report = MigrationReport(self.sink, plugin, site)
         if migration.nothing is not None:
             report.needless(migration.nothing, lost)
         else:
@@ -100,7 +100,7 @@ class SensorMigration:
                 report.missing(reason)
         return element
 
-    def say_type(self, sensor: Sensor, type_: str, site: Site) -> None:
+    def say_type(self, sensor: Sensor, type_: str, site: PluginSite) -> None:
         """Report a type that has another name now, or that nothing simulates."""
         where = sensor.location
         reason = unread_parts()["sensors"].get(type_)
@@ -118,7 +118,7 @@ class SensorMigration:
         self.sink.report(rules.MIGRATED_SENSOR, message, where, found=found)
         self.sink.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, where.at("@type"))
 
-    def _split(self, sensor: Sensor, site: Site, found: list[tuple[Plugin, Migration]]) -> Iterator[Sensor]:
+    def _split(self, sensor: Sensor, site: PluginSite, found: list[tuple[Plugin, Migration]]) -> Iterator[Sensor]:
         """One sensor for each camera of several."""
         whole = _bare(sensor, "camera")
         cameras = [child for child in whole.children if child.name == "camera"]
@@ -149,12 +149,12 @@ class SensorMigration:
                 self.sink.account(Fate.APPROXIMATED, rules.MIGRATED_SENSOR, message, part.location.at("@name"))
 
 
-def _inside(sensor: Sensor, site: Site) -> Site:
+def _inside(sensor: Sensor, site: PluginSite) -> PluginSite:
     """Where a plugin of a sensor is."""
     return replace(site, scope="sensor", holder=sensor.name or "", sensor=sensor)
 
 
-def _topics(row: SensorRow, element: Element) -> Iterator[tuple[str, str]]:
+def _topics(row: ClassicSensorRow, element: Element) -> Iterator[tuple[str, str]]:
     """The paths of the topics that a sensor needs, and their patterns."""
     yield from row.topics_of.get(element.get("type") or "", row.topics).items()
     for path, topics in row.topics_where.items():
@@ -162,7 +162,7 @@ def _topics(row: SensorRow, element: Element) -> Iterator[tuple[str, str]]:
             yield from topics.items()
 
 
-def _usual_frame(plugin: Plugin, site: Site) -> str | None:
+def _usual_frame(plugin: Plugin, site: PluginSite) -> str | None:
     """The frame of a plugin for ROS 2 that names none: the link of its sensor (utils.cpp, SensorFrameID)."""
     kind = ros2_kind(plugin)
     reads_one = kind is not None and kind.parameter("frame_name") is not None and site.scope == "sensor"
@@ -239,7 +239,7 @@ def _with_frame_and_pose(moved: Moved, release: Release) -> Element:
     return element
 
 
-def _with_sets(element: Element, migration: Migration, row: SensorRow, moved: set[str]) -> Element:
+def _with_sets(element: Element, migration: Migration, row: ClassicSensorRow, moved: set[str]) -> Element:
     """The sensor with what the plugin took for granted, where no parameter has chosen it."""
     moves = {**migration.shared, **row.moves}
     chosen = {path for name in moved for texts in (moves[name].choose or {}).values() for path in texts}

@@ -10,7 +10,7 @@ from twinform.passes.classic.tables import Migration, SystemRow
 from twinform.passes.classic.topics import RosNames, is_namespace
 from twinform.passes.plugins.catalog import system
 from twinform.passes.plugins.parts import PluginKind
-from twinform.passes.plugins.sites import Site
+from twinform.passes.plugins.sites import PluginSite
 
 _ON, _OFF = "{=/tf}", "=odom_transform"
 """The topics of transforms that ROS is to have, and of those that it is not: the bridge takes the first for `/tf`."""
@@ -19,7 +19,7 @@ _UNREAD_BY_ROS2 = "the plugin for ROS 2 does not read it either"
 
 
 def made_systems(
-    plugin: Plugin, migration: Migration, site: Site, release: str
+    plugin: Plugin, migration: Migration, site: PluginSite, release: str
 ) -> tuple[list[tuple[Plugin, SystemRow]], list[DroppedParameter]]:
     """The systems that take a plugin's place, with their rows, and the parameters that went nowhere.
 
@@ -81,7 +81,7 @@ def _kind(row: SystemRow, release: str) -> PluginKind:
     raise LookupError(f"gz-sim of {release} has no {system(row.system).class_name}")
 
 
-def _sets(row: SystemRow, site: Site, element: Element) -> Iterator[Element]:
+def _sets(row: SystemRow, site: PluginSite, element: Element) -> Iterator[Element]:
     """What is written where no parameter sets it."""
     for name, value in row.sets.items():
         if element.find(name) is None:

@@ -28,13 +28,13 @@ from twinform.passes.plugins.catalog import modern_file
 _FILES = ("driving.toml", "sensing.toml", "states.toml", "control.toml")
 
 
-class _Row(BaseModel):
+class _TableRow(BaseModel):
     model_config = ConfigDict(
         frozen=True, extra="forbid", alias_generator=lambda name: name.replace("_", "-"), populate_by_name=True
     )
 
 
-class Move(_Row):
+class Move(_TableRow):
     """Where a parameter goes.
 
     `to` is a path of elements, and `@name` at its end an attribute; `@frame`, `@xyz` and `@rpy` are the frame of a
@@ -70,7 +70,7 @@ class Move(_Row):
 Moves = Mapping[str, Move]
 
 
-class Caveat(_Row):
+class Caveat(_TableRow):
     """What is otherwise afterwards, and the author has to know.
 
     The `text` is reported, unless one of the parameters in `unless` is written: then the table has a place or a reason
@@ -83,7 +83,7 @@ class Caveat(_Row):
     type: str | None = None
 
 
-class SystemRow(_Row):
+class SystemRow(_TableRow):
     """A system that takes a plugin's place; `before` is the one that did so in releases that lack it.
 
     `sets` is what is written where no parameter sets it: mostly what went without saying in the plugin and does not in
@@ -102,7 +102,7 @@ class SystemRow(_Row):
     topics: Mapping[str, str] = Field(default_factory=dict[str, str])
 
 
-class SensorRow(_Row):
+class ClassicSensorRow(_TableRow):
     """What becomes of the sensor that a plugin stands in.
 
     `topics_of` are the topics of one type alone, and `topics_where` further ones where an element of the sensor is
@@ -119,7 +119,7 @@ class SensorRow(_Row):
     topics_where: Mapping[str, Mapping[str, str]] = Field(default_factory=dict[str, Mapping[str, str]])
 
 
-class MakeRow(_Row):
+class MakeRow(_TableRow):
     """A sensor that has to be made: its type, what it stands on, and the parameters that name it."""
 
     type: str
@@ -127,7 +127,7 @@ class MakeRow(_Row):
     of: tuple[str, ...]
 
 
-class Migration(_Row):
+class Migration(_TableRow):
     """What becomes of one plugin."""
 
     files: tuple[str, ...] = ()
@@ -138,7 +138,7 @@ class Migration(_Row):
     caveats: tuple[Caveat, ...] = ()
     body: tuple[str, ...] = ()
     systems: tuple[SystemRow, ...] = ()
-    sensor: SensorRow | None = None
+    sensor: ClassicSensorRow | None = None
     make: MakeRow | None = None
     mimic: bool = False
     control: bool = False

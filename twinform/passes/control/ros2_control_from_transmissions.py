@@ -58,7 +58,7 @@ class Ros2ControlFromTransmissions(Pass):
     def convert(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
         """One model with a system in place of its transmissions."""
         found = [(part, read_transmission(element)) for part, element in elements(model, format_, "transmission")]
-        work = _Work(model, format_, sink)
+        work = _ModelRun(model, format_, sink)
         taken = [(part, each) for part, each in found if work.takes(part, each)]
         if not taken:
             return model
@@ -84,7 +84,7 @@ class Ros2ControlFromTransmissions(Pass):
 
 
 @dataclass
-class _Work:
+class _ModelRun:
     """One run over one model."""
 
     model: Model

@@ -31,7 +31,7 @@ class UnknownPassError(LookupError):
     """No installed pass has this name."""
 
 
-class Entry(Protocol):
+class EntryPointLike(Protocol):
     """What an entry point says: `value` is the module of a class, a colon, and its name."""
 
     @property
@@ -61,7 +61,7 @@ class Registered:
 
     name: str
     owner: str
-    entry: Entry
+    entry: EntryPointLike
 
     def load(self) -> type[Pass]:
         """Import the pass.

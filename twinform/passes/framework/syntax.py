@@ -55,7 +55,7 @@ class PipelineError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Option:
+class PipelineOption:
     """`name=value`; `position` is the name's, `value_position` the value's."""
 
     name: str
@@ -69,19 +69,19 @@ class Call:
     """A pass and its options as they are written."""
 
     name: str
-    options: tuple[Option, ...]
+    options: tuple[PipelineOption, ...]
     position: int
 
 
 @dataclass(frozen=True, slots=True)
-class Reference:
+class PipelineReference:
     """`@name`, which stands for a pipeline; `position` is that of the `@`."""
 
     name: str
     position: int
 
 
-def parse_calls(text: str) -> tuple[Call | Reference, ...]:
+def parse_calls(text: str) -> tuple[Call | PipelineReference, ...]:
     """The passes and pipelines that a text names.
 
     Raises:
@@ -124,7 +124,7 @@ class _Scanner:
     def __init__(self, text: str) -> None:
         self.text, self.at = text, 0
 
-    def pipeline(self) -> Iterator[Call | Reference]:
+    def pipeline(self) -> Iterator[Call | PipelineReference]:
         self.take(_BLANKS)
         if self.at == len(self.text):
             return
@@ -134,7 +134,7 @@ class _Scanner:
         if self.at < len(self.text):
             raise self.expected("',' or the end")
 
-    def part(self) -> Call | Reference:
+    def part(self) -> Call | PipelineReference:
         position = self.at
         if not self.skip("@", blanks=False):
             return self.call()
@@ -142,7 +142,7 @@ class _Scanner:
         if not key:
             raise self.expected("the name of a pipeline")
         self.take(_BLANKS)
-        return Reference(key, position)
+        return PipelineReference(key, position)
 
     def call(self) -> Call:
         position, name = self.at, self.name("a pass")
@@ -150,7 +150,7 @@ class _Scanner:
         self.take(_BLANKS)
         return Call(name, options, position)
 
-    def options(self) -> Iterator[Option]:
+    def options(self) -> Iterator[PipelineOption]:
         seen = set[str]()
         self.skip("{")
         while not self.skip("}"):
@@ -167,13 +167,13 @@ class _Scanner:
         if not self.skip(",") and not self.text[self.at - 1].isspace():
             raise self.expected("',', a blank or '}'")
 
-    def option(self) -> Option:
+    def option(self) -> PipelineOption:
         position, name = self.at, self.name("an option")
         if not self.skip("=", blanks=False):
             raise self.expected("'='")
         start, value = self.at, self.value()
         self.take(_BLANKS)
-        return Option(name, value, position, start)
+        return PipelineOption(name, value, position, start)
 
     def value(self) -> Value:
         if not self.skip("["):

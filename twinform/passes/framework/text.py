@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.options import OptionError, build
 from twinform.passes.framework.pipeline import Pipeline
-from twinform.passes.framework.syntax import Call, PipelineError, Reference, parse_calls
+from twinform.passes.framework.syntax import Call, PipelineError, PipelineReference, parse_calls
 
 
 class UnknownPipelineError(LookupError):
@@ -34,13 +34,13 @@ def parse_pipeline(text: str, *, names: Names = no_names, kinds: Mapping[str, ty
 
 def _passes(text: str, names: Names, kinds: Mapping[str, type[Pass]] | None) -> Iterator[Pass]:
     for part in parse_calls(text):
-        if isinstance(part, Reference):
+        if isinstance(part, PipelineReference):
             yield from _named(part, text, names)
         else:
             yield _build(part, text, kinds)
 
 
-def _named(reference: Reference, text: str, names: Names) -> Pipeline:
+def _named(reference: PipelineReference, text: str, names: Names) -> Pipeline:
     try:
         return names(reference.name)
     except UnknownPipelineError as error:

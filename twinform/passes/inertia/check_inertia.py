@@ -11,8 +11,8 @@ from twinform.ir import Document, Format, Inertial, Link
 from twinform.ir.defaults import MOMENT
 from twinform.ir.verify.inertia import inertia_matrix, report_moments
 from twinform.passes.analyses.meshes import Meshes
-from twinform.passes.analyses.moving_bodies import Body, Neighbors, movable_models, moving_bodies, neighbors
-from twinform.passes.analyses.shapes import Places
+from twinform.passes.analyses.moving_bodies import Body, ConnectedBodies, movable_models, moving_bodies, neighbors
+from twinform.passes.analyses.shapes import ShapePlaces
 from twinform.passes.framework.assets import AssetPass
 from twinform.passes.inertia.physical_consistency import DIGITS, ROUNDING
 from twinform.passes.inertia.plausible import Plausible
@@ -87,7 +87,7 @@ class CheckInertia(AssetPass):
         meshes = Meshes(self._assets) if self.meshes else None
         densities = (self.least_density, self.greatest_density)
         for model in movable_models(document):
-            check = Plausible(Places(model), meshes, densities, MOMENT[document.format], sink)
+            check = Plausible(ShapePlaces(model), meshes, densities, MOMENT[document.format], sink)
             for link in model.links:
                 if id(link) in moving and link.inertial and not link.inertial.auto:
                     check.link(link, link.inertial)
@@ -117,7 +117,7 @@ def _check_inertial(link: Link, inertial: Inertial, format_: Format, eps: float,
         report_moments(link, inertial, matrix, eps, sink, least=ROUNDING)
 
 
-def _check_ratio(each: Neighbors, masses: Mapping[int, float], limit: float, sink: DiagnosticSink) -> None:
+def _check_ratio(each: ConnectedBodies, masses: Mapping[int, float], limit: float, sink: DiagnosticSink) -> None:
     """Compare two bodies by their masses, which are known by the identity of their first links."""
     weights = [masses.get(id(body[0]), 0.0) if body else 0.0 for body in (each.parent, each.child)]
     light, heavy = sorted(weights)

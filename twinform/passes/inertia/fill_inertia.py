@@ -14,7 +14,7 @@ from twinform.ir.scaling import common_exponent, times_power
 from twinform.ir.solids import Solid, combined, with_mass
 from twinform.passes.analyses.meshes import Meshes
 from twinform.passes.analyses.moving_bodies import movable_models, moving_bodies
-from twinform.passes.analyses.shapes import Kind, NoSolidError, PlacedShape, Places, inertial_of, solid_of
+from twinform.passes.analyses.shapes import Kind, NoSolidError, PlacedShape, ShapePlaces, inertial_of, solid_of
 from twinform.passes.framework.assets import AssetPass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.inertia.physical_consistency import has_mass, is_possible
@@ -104,7 +104,7 @@ class FillInertia(AssetPass):
         """What each link is to get, by its identity: equal links are still two."""
         meshes, found = Meshes(self._assets, self.open_meshes == "hull"), dict[int, _Filling]()
         for model in movable_models(document):
-            places = Places(model)
+            places = ShapePlaces(model)
             for link in model.links:
                 if not matches(link.name, self.links) or not self._is_wanted(link.inertial, document.format):
                     continue
@@ -122,7 +122,7 @@ class FillInertia(AssetPass):
             return True
         return self.replace == "impossible" and not is_possible(inertial, format_)
 
-    def _filling(self, link: Link, places: Places, meshes: Meshes, sink: DiagnosticSink) -> _Filling | None:
+    def _filling(self, link: Link, places: ShapePlaces, meshes: Meshes, sink: DiagnosticSink) -> _Filling | None:
         """The solid of a link; None where it has no shape, or one that cannot be used."""
         try:
             shapes = tuple(places.shapes(link, self.shapes))

@@ -13,7 +13,7 @@ from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import ORIGIN, Solid, combined, placed
 from twinform.ir.verify.inertia import inertia_matrix
 from twinform.passes.analyses.meshes import Meshes
-from twinform.passes.analyses.shapes import NoSolidError, PlacedShape, Places, bounds_of, solid_of, united_bounds
+from twinform.passes.analyses.shapes import NoSolidError, PlacedShape, ShapePlaces, bounds_of, solid_of, united_bounds
 from twinform.passes.framework.asset_access import NO_ASSETS
 from twinform.passes.inertia.physical_consistency import has_mass
 
@@ -27,7 +27,7 @@ _NO_MESHES = Meshes(NO_ASSETS)
 class Plausible:
     """The checks for the links of one model. Without `meshes`, links that have a mesh are left out."""
 
-    places: Places
+    places: ShapePlaces
     meshes: Meshes | None
     densities: tuple[float, float]
     default_moment: float | None

@@ -9,7 +9,7 @@ from twinform.diagnostics.rules import SPLIT_MASS, TOKEN_MASS
 from twinform.ir import Document, Format, Joint, Link, Sphere, rewrite
 from twinform.ir.frames import FrameError
 from twinform.ir.solids import NOTHING, solid, with_mass
-from twinform.passes.analyses.moving_bodies import Body, Neighbors, moving_bodies, neighbors
+from twinform.passes.analyses.moving_bodies import Body, ConnectedBodies, moving_bodies, neighbors
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.inertia.masses import Masses
@@ -50,7 +50,7 @@ class SplitMassless(Pass):
         light = [body for body in bodies if self._is_meant(body) and not _weighs(body, document.format)]
         if not light:
             return document
-        tree, masses, fixed = _Tree(document), Masses(document), set[int]()
+        tree, masses, fixed = _BodyTree(document), Masses(document), set[int]()
         for body in light:
             donor = tree.nearest_carried(body, masses)
             taker = tree.carrier(body)
@@ -86,11 +86,11 @@ class SplitMassless(Pass):
         sink.report(TOKEN_MASS, message, link.location, found="0 kg")
 
 
-class _Tree:
+class _BodyTree:
     """Which body carries which, and by which joints. A body is known by the identity of its first link."""
 
     def __init__(self, document: Document) -> None:
-        self._carried: dict[int, list[Neighbors]] = {}
+        self._carried: dict[int, list[ConnectedBodies]] = {}
         self._moving: dict[int, list[Joint]] = {}
         self._leaders: set[str] = set()
         for each in neighbors(document):

@@ -36,7 +36,7 @@ _SOURCE = "../.."
 """From the page to the folder that the package is in."""
 
 
-class Direction(NamedTuple):
+class ConversionDirection(NamedTuple):
     """From one format and version to another."""
 
     title: str
@@ -46,18 +46,18 @@ class Direction(NamedTuple):
     remark: str
 
 
-def directions() -> Iterator[Direction]:
+def directions() -> Iterator[ConversionDirection]:
     """Yield the directions of conversion on the page; together they have every pass."""
     versions = versions_of("sdf")
     oldest, newest = versions[0], versions[-1]
     older = "An older version takes some of the passes of the last chapter, before the last one of these."
     usual = Target(Format.SDF)
-    yield Direction(f"From URDF to SDF {usual.sdf_version}", Format.URDF, None, usual, older)
+    yield ConversionDirection(f"From URDF to SDF {usual.sdf_version}", Format.URDF, None, usual, older)
     remark = "A document of another version is upgraded to the newest one first."
-    yield Direction("From SDF to URDF", Format.SDF, newest, Target(Format.URDF), remark)
+    yield ConversionDirection("From SDF to URDF", Format.SDF, newest, Target(Format.URDF), remark)
     remark = "Of these, those run that lie between the two versions."
-    yield Direction("From older SDF to newer", Format.SDF, oldest, Target(Format.SDF, newest), remark)
-    yield Direction("From newer SDF to older", Format.SDF, newest, Target(Format.SDF, oldest), remark)
+    yield ConversionDirection("From older SDF to newer", Format.SDF, oldest, Target(Format.SDF, newest), remark)
+    yield ConversionDirection("From newer SDF to older", Format.SDF, newest, Target(Format.SDF, oldest), remark)
 
 
 def pipeline_page() -> str:
@@ -65,7 +65,7 @@ def pipeline_page() -> str:
     return "\n".join([_INTRODUCTION, "## Legalisation", "", _CARRIERS, *map(_chapter, directions())])
 
 
-def _chapter(direction: Direction) -> str:
+def _chapter(direction: ConversionDirection) -> str:
     passes = legalisation(direction.source, direction.version, direction.target)
     return "\n".join([f"### {direction.title}", "", direction.remark, "", *_items(passes), ""])
 

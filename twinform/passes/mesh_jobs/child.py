@@ -15,7 +15,7 @@ from importlib import import_module
 from typing import BinaryIO
 
 from twinform.confinement import confine
-from twinform.passes.mesh_jobs.job import Job, Result
+from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 from twinform.passes.mesh_jobs.limits import limit_reading, reading_seconds
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError
 
@@ -34,7 +34,7 @@ _NEEDED_LATER = (
 )  # fmt: skip
 
 
-def done(job: Job) -> Result:
+def done(job: MeshJob) -> MeshResult:
     """What comes of a job; no fault of a mesh or of a library gets out."""
     try:
         # the libraries may not be installed, and only some jobs need all of them
@@ -43,15 +43,15 @@ def done(job: Job) -> Result:
     except ImportError as error:
         library = (error.name or "").partition(".")[0]
         if library not in _LIBRARIES:  # one that a reader would like to have for files as odd as this
-            return Result({}, trouble="unreadable", message=f"no reader takes it ({error})")
-        return Result({}, trouble="missing", message=library)
+            return MeshResult({}, trouble="unreadable", message=f"no reader takes it ({error})")
+        return MeshResult({}, trouble="missing", message=library)
     except MemoryError:
-        return Result({}, trouble="unreadable", message="it needs more memory than it may have")
+        return MeshResult({}, trouble="unreadable", message="it needs more memory than it may have")
     except RefusedMeshError as error:
-        return Result({}, trouble="unreadable", message=str(error))
+        return MeshResult({}, trouble="unreadable", message=str(error))
     except Exception as error:  # noqa: BLE001 - readers of six formats raise whatever they like
         message = f"its reader stops at it ({type(error).__name__}: {str(error)[:_LONGEST]})"
-        return Result({}, trouble="unreadable", message=message)
+        return MeshResult({}, trouble="unreadable", message=message)
 
 
 _LONGEST = 500
@@ -78,7 +78,7 @@ def _import_libraries() -> None:
         image.init()  # the readers of all formats
 
 
-def _done_in_fork(job: Job, memory: int, replies: BinaryIO) -> None:
+def _done_in_fork(job: MeshJob, memory: int, replies: BinaryIO) -> None:
     """Do a job in a confined process of its own, which answers; where it dies, say so in its place."""
     # A COLLADA file of 2 kB whose nodes stand for each other twice took 2.6 GB in the compiler's
     # process. In a fork, the libraries are imported already (that takes a second), and nothing that
@@ -98,7 +98,7 @@ def _done_in_fork(job: Job, memory: int, replies: BinaryIO) -> None:
             os._exit(not answered)
     _, status = os.waitpid(child, 0)
     if status:
-        replies.write(Result({}, trouble="unreadable", message=_death(status, job)).to_bytes())
+        replies.write(MeshResult({}, trouble="unreadable", message=_death(status, job)).to_bytes())
         replies.flush()
 
 
@@ -112,7 +112,7 @@ def _end_with_server() -> None:
 _SET_DEATH_SIGNAL = 1
 
 
-def _death(status: int, job: Job) -> str:
+def _death(status: int, job: MeshJob) -> str:
     """Why a fork did not answer."""
     if os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGXCPU:
         return f"reading it takes more than {reading_seconds(job.size)} seconds of the processor"
@@ -135,7 +135,7 @@ def main() -> None:
     forks = sys.platform.startswith("linux")
     if forks:
         _import_libraries()
-    while (job := Job.read(sys.stdin.buffer)) is not None:
+    while (job := MeshJob.read(sys.stdin.buffer)) is not None:
         if forks:
             _done_in_fork(job, memory, replies)
         else:

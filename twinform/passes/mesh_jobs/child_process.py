@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import BinaryIO, cast
 
 from twinform.child_python import python_command
-from twinform.passes.mesh_jobs.job import BadMessageError, Job, Result
+from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult
 from twinform.passes.mesh_jobs.limits import MEMORY
 
 # Seconds of the wall clock, on a busy machine, after which a job is given up; its limit of
@@ -27,7 +27,7 @@ class MeshProcess:
     _child: "subprocess.Popen[bytes] | None" = None
     _lock: threading.Lock = field(default_factory=threading.Lock)
 
-    def do(self, job: Job) -> Result:
+    def do(self, job: MeshJob) -> MeshResult:
         """What comes of a job."""
         with self._lock:
             late = threading.Event()
@@ -36,13 +36,13 @@ class MeshProcess:
                 timer = _started_timer(self.seconds, child, late)
             except (OSError, RuntimeError) as error:  # RuntimeError: the machine refuses another thread
                 why = f"the process that looks into it cannot be started ({getattr(error, 'strerror', error)})"
-                return Result({}, trouble="unreadable", message=why)
+                return MeshResult({}, trouble="unreadable", message=why)
             try:
                 return _asked(child, job)
             except (OSError, BadMessageError):
                 self.end()
                 why = f"it takes longer than {self.seconds:g} seconds" if late.is_set() else _DEATH
-                return Result({}, trouble="unreadable", message=why)
+                return MeshResult({}, trouble="unreadable", message=why)
             except BaseException:  # interrupted: what it would still answer is for nobody
                 self.end()
                 raise
@@ -87,12 +87,12 @@ def _give_up(child: "subprocess.Popen[bytes]", late: threading.Event) -> None:
     child.kill()
 
 
-def _asked(child: "subprocess.Popen[bytes]", job: Job) -> Result:
+def _asked(child: "subprocess.Popen[bytes]", job: MeshJob) -> MeshResult:
     if child.stdin is None or child.stdout is None:
         raise OSError("it has no pipes")
     child.stdin.write(job.to_bytes())
     child.stdin.flush()
-    return Result.read(cast("BinaryIO", child.stdout))
+    return MeshResult.read(cast("BinaryIO", child.stdout))
 
 
 _usual = MeshProcess()
@@ -104,6 +104,6 @@ def shared() -> MeshProcess:
     return _usual
 
 
-def do(job: Job) -> Result:
+def do(job: MeshJob) -> MeshResult:
     """What comes of a job, by that process."""
     return _usual.do(job)

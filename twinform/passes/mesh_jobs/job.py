@@ -25,7 +25,7 @@ class BadMessageError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Job:
+class MeshJob:
     """What is to be done with a mesh file: the `kind` is its format, `companions` the files that it names itself."""
 
     name: str
@@ -45,7 +45,7 @@ class Job:
         return packed(head, [self.content, *self.companions.values()])
 
     @classmethod
-    def read(cls, stream: BinaryIO) -> "Job | None":
+    def read(cls, stream: BinaryIO) -> "MeshJob | None":
         """The next one of a stream; None at its end.
 
         Raises:
@@ -67,7 +67,7 @@ class Job:
 
 
 @dataclass(frozen=True, slots=True)
-class Result:
+class MeshResult:
     """What came of a job: numbers and words about it, and files, by what their names end in."""
 
     facts: Mapping[str, object]
@@ -81,7 +81,7 @@ class Result:
         return packed(head, [*self.files.values()])
 
     @classmethod
-    def read(cls, stream: BinaryIO) -> "Result":
+    def read(cls, stream: BinaryIO) -> "MeshResult":
         """The next one of a stream.
 
         Raises:

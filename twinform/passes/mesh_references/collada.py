@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Mapping
 from xml.sax.saxutils import escape, unescape
 
-from twinform.passes.mesh_references.spans import Span, names, replaced
+from twinform.passes.mesh_references.spans import NamedSpan, names, replaced
 
 _TOKEN = re.compile(
     rb"(?P<comment><!--)|(?P<after>-->)|(?P<image><(?:\w+:)?image[\s>])|(?P<close></(?:\w+:)?image\s*>)"
@@ -23,7 +23,7 @@ def rewritten(data: bytes, images: Mapping[str, str]) -> bytes:
     return replaced(data, [(span, escape(images.get(span.name, span.name)).encode()) for span in _spans(data)])
 
 
-def _spans(data: bytes) -> Iterator[Span]:
+def _spans(data: bytes) -> Iterator[NamedSpan]:
     in_comment = in_image = False
     for token in _TOKEN.finditer(data):
         if in_comment or token["comment"]:
@@ -34,4 +34,4 @@ def _spans(data: bytes) -> Iterator[Span]:
             written = token["name"].strip()
             start = token.start("name") + token["name"].find(written)
             name = unescape(written.decode("utf-8", "replace"), _QUOTES)
-            yield Span(name, start, start + len(written))
+            yield NamedSpan(name, start, start + len(written))

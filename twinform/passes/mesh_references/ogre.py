@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping
 
-from twinform.passes.mesh_references.spans import Span, encoded, names, replaced, text
+from twinform.passes.mesh_references.spans import NamedSpan, encoded, names, replaced, text
 
 _TEXTURE = re.compile(rb"^[ \t]*(?:texture|cubic_texture|anim_texture)[ \t]+(\"[^\"\r\n]*\"|[^\s\"{}]+)", re.MULTILINE)
 
@@ -18,8 +18,8 @@ def rewritten(data: bytes, images: Mapping[str, str]) -> bytes:
     return replaced(data, [(span, encoded(images.get(span.name, span.name))) for span in _spans(data)])
 
 
-def _spans(data: bytes) -> Iterator[Span]:
+def _spans(data: bytes) -> Iterator[NamedSpan]:
     for line in _TEXTURE.finditer(data):
         quoted = line[1].startswith(b'"')
         start, end = line.start(1) + quoted, line.end(1) - quoted
-        yield Span(text(data[start:end]), start, end)
+        yield NamedSpan(text(data[start:end]), start, end)

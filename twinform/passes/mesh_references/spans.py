@@ -5,7 +5,7 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 
-class Span(NamedTuple):
+class NamedSpan(NamedTuple):
     """A name as it is meant, and where it is written."""
 
     name: str
@@ -13,12 +13,12 @@ class Span(NamedTuple):
     end: int
 
 
-def names(spans: Iterable[Span]) -> list[str]:
+def names(spans: Iterable[NamedSpan]) -> list[str]:
     """Each name once, in the order of the file."""
     return list(dict.fromkeys(span.name for span in spans))
 
 
-def replaced(data: bytes, pieces: Iterable[tuple[Span, bytes]]) -> bytes:
+def replaced(data: bytes, pieces: Iterable[tuple[NamedSpan, bytes]]) -> bytes:
     """The bytes with other pieces in the place of spans, which are in order and do not overlap."""
     parts: list[bytes] = []
     end = 0

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterator, Mapping
 
-from twinform.passes.mesh_references.spans import Span, encoded, names, replaced, text
+from twinform.passes.mesh_references.spans import NamedSpan, encoded, names, replaced, text
 
 _LIBRARY = re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]*)", re.MULTILINE)
 _TEXTURE = re.compile(rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]*)", re.MULTILINE | re.IGNORECASE)
@@ -38,19 +38,19 @@ def with_textures(data: bytes, textures: Mapping[str, str]) -> bytes:
     return replaced(data, [(span, encoded(textures.get(span.name, span.name))) for span in _textures(data)])
 
 
-def _libraries(data: bytes) -> Iterator[Span]:
+def _libraries(data: bytes) -> Iterator[NamedSpan]:
     """A line may name several files, or one whose name has blanks in it, which is what programs write."""
     for line in _LIBRARY.finditer(data):
         words = [word for word in _WORD.finditer(line[1]) if word[0].lower().endswith(b".mtl")]
         several = len(words) > 1 and len(words) == len(_WORD.findall(line[1]))
         if several:
             at = line.start(1)
-            yield from (Span(text(word[0]), at + word.start(), at + word.end()) for word in words)
+            yield from (NamedSpan(text(word[0]), at + word.start(), at + word.end()) for word in words)
         else:
             yield from _rest_of_line(line, 0)
 
 
-def _textures(data: bytes) -> Iterator[Span]:
+def _textures(data: bytes) -> Iterator[NamedSpan]:
     for line in _TEXTURE.finditer(data):
         yield from _rest_of_line(line, _after_options(line[1]))
 
@@ -68,8 +68,8 @@ def _after_options(line: bytes) -> int:
     return at
 
 
-def _rest_of_line(line: re.Match[bytes], start: int) -> Iterator[Span]:
+def _rest_of_line(line: re.Match[bytes], start: int) -> Iterator[NamedSpan]:
     written = line[1][start:].strip()
     if written:
         at = line.start(1) + line[1].index(written, start)
-        yield Span(text(written), at, at + len(written))
+        yield NamedSpan(text(written), at, at + len(written))

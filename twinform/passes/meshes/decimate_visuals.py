@@ -11,7 +11,7 @@ from twinform.ir import Document, Geometry, Link, Mesh, Visual, rewrite
 from twinform.passes.analyses.meshes import MeshError
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.mesh_jobs.job import Options
-from twinform.passes.meshes.mesh_pass import MeshPass, Outcome, Workbench, length, number, stays
+from twinform.passes.meshes.mesh_pass import MeshOutcome, MeshPass, Workbench, length, number, stays
 from twinform.passes.meshes.mesh_shapes import without_submesh
 
 _MADE = re.compile(r"_lod\d+$")
@@ -96,7 +96,7 @@ class DecimateVisuals(MeshPass):
             "scale": list(mesh.scale or (1.0, 1.0, 1.0)),
         }  # fmt: skip
 
-    def _changed(self, visual: Visual, mesh: Mesh, what: str, outcome: Outcome, bench: Workbench) -> Visual:
+    def _changed(self, visual: Visual, mesh: Mesh, what: str, outcome: MeshOutcome, bench: Workbench) -> Visual:
         facts, before = outcome.result.facts, number(outcome.result.facts["before"])
         if "kept" in facts:
             message = f"{what} stays as it is: {facts['kept']}"

@@ -15,7 +15,7 @@ from twinform.passes.framework.assets import AssetPass
 from twinform.passes.framework.side_files import CompanionPath, FilesPass
 from twinform.passes.mesh_jobs.child_process import do
 from twinform.passes.mesh_jobs.formats import MARK
-from twinform.passes.mesh_jobs.job import Job, Options, Result
+from twinform.passes.mesh_jobs.job import MeshJob, MeshResult, Options
 from twinform.passes.mesh_jobs.mesh_files import EXTRA
 from twinform.passes.meshes.mesh_source import MeshSource, MeshSources
 from twinform.passes.meshes.progress import working_on
@@ -25,10 +25,10 @@ _UNUSUAL = re.compile(r"[^\w.-]+")
 _UNMARKED = (".png", ".jpg", ".jpeg", ".bin")
 
 
-class Outcome(NamedTuple):
+class MeshOutcome(NamedTuple):
     """What came of a mesh, and the file that it was made of."""
 
-    result: Result
+    result: MeshResult
     source: MeshSource
     stem: str
 
@@ -45,7 +45,7 @@ class Workbench:
     _stems: dict[str, str] = field(default_factory=dict[str, str])
     """Digests of jobs by what their files are called, in lower case."""
 
-    def outcome(self, name: str, mesh: Mesh, options: Options) -> Outcome:
+    def outcome(self, name: str, mesh: Mesh, options: Options) -> MeshOutcome:
         """What comes of the mesh of a shape.
 
         Raises:
@@ -54,7 +54,7 @@ class Workbench:
         uri = (mesh.uri or "").strip()
         source = self.sources.find(uri)
         submesh, center = submesh_of(mesh)
-        job = Job(
+        job = MeshJob(
             name, {**options, "submesh": submesh, "center": center}, source.kind, source.content, source.companions
         )
         stem = self._stem(job, source.stem if submesh is None else f"{source.stem}_{submesh}")
@@ -69,9 +69,9 @@ class Workbench:
             raise MeshError(rules.MESH_READER_MISSING, message, EXTRA)
         if result.trouble:
             raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be used: {result.message}")
-        return Outcome(result, source, stem)
+        return MeshOutcome(result, source, stem)
 
-    def _stem(self, job: Job, words: str) -> str:
+    def _stem(self, job: MeshJob, words: str) -> str:
         """What files made of a mesh are called, before what tells them apart; those of another mesh, otherwise."""
         # `NAME_hull.obj` can be read and reviewed; a digest in the name cannot.
         usual = _UNUSUAL.sub("_", words).lstrip("._") or "mesh"

@@ -13,7 +13,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Self
 
-from twinform.passes.mesh_jobs.job import BadMessageError, Job, Result
+from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult
 from twinform.storage.writing import write_atomically
 
 VARIABLE = "TWINFORM_MESH_CACHE"
@@ -46,7 +46,7 @@ class ResultsCache:
             return cls(None)
         return cls(home / "twinform" / "meshes")
 
-    def get(self, job: Job) -> Result | None:
+    def get(self, job: MeshJob) -> MeshResult | None:
         """What came of a job before; None where it is not known, or what is there is damaged."""
         path = self._path(job)
         if path is None:
@@ -55,10 +55,10 @@ class ResultsCache:
             data = path.read_bytes()
             if hashlib.sha256(data[_DIGEST:]).digest() == data[:_DIGEST]:
                 os.utime(path)
-                return Result.read(io.BytesIO(data[_DIGEST:]))
+                return MeshResult.read(io.BytesIO(data[_DIGEST:]))
         return None
 
-    def put(self, job: Job, result: Result) -> None:
+    def put(self, job: MeshJob, result: MeshResult) -> None:
         """Keep a result; a folder that cannot be written to is no reason to fail."""
         path = self._path(job)
         if path is None or result.trouble:
@@ -68,7 +68,7 @@ class ResultsCache:
             write_atomically(path, hashlib.sha256(data).digest() + data, durably=False)  # half a result has no digest
             _prune(path.parent)
 
-    def _path(self, job: Job) -> Path | None:
+    def _path(self, job: MeshJob) -> Path | None:
         if self.folder is not None:
             with suppress(OSError):  # which versions are installed cannot be read
                 return self.folder / f"{job.digest(_versions())}.result"

@@ -14,7 +14,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.analyses.meshes import MeshError
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.mesh_jobs.job import Options
-from twinform.passes.meshes.mesh_pass import MeshPass, Outcome, Workbench, length, number, stays
+from twinform.passes.meshes.mesh_pass import MeshOutcome, MeshPass, Workbench, length, number, stays
 
 Way = Literal["primitive", "hull", "parts"]
 Kind = Literal["box", "sphere", "cylinder", "capsule"]
@@ -141,7 +141,7 @@ def _convex(made: Sequence[Collision], triangles: float) -> str:
     return f"{what} of {triangles:.0f}"
 
 
-def _primitive(collision: Collision, outcome: Outcome) -> list[Collision]:
+def _primitive(collision: Collision, outcome: MeshOutcome) -> list[Collision]:
     facts = outcome.result.facts
     sizes, center, rows = (cast("list[float]", facts[key]) for key in ("sizes", "center", "rotation"))
     a, b, c, d, e, f, g, h, i = rows
@@ -161,7 +161,7 @@ def _shape(kind: str, sizes: Sequence[float]) -> Shape:
     return made(radius=sizes[0], length=sizes[1])
 
 
-def _parts(collision: Collision, outcome: Outcome, bench: Workbench, taken: set[str]) -> list[Collision]:
+def _parts(collision: Collision, outcome: MeshOutcome, bench: Workbench, taken: set[str]) -> list[Collision]:
     """A collision for each file; the first keeps the name."""
     files = [*outcome.result.files.values()]
     found: list[Collision] = []

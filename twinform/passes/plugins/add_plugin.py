@@ -15,7 +15,7 @@ from twinform.passes.plugins.parameters import names_in
 from twinform.passes.plugins.parts import PluginKind
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.selecting import Fields, SelectingPass
-from twinform.passes.plugins.sites import Site, map_sensors
+from twinform.passes.plugins.sites import PluginSite, map_sensors
 from twinform.passes.plugins.targets import find_model, find_world, missing, world_of
 from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
 from twinform.passes.plugins.worlds import as_xml, lacking_for, system_plugin, with_defaults, with_systems
@@ -130,7 +130,7 @@ class AddPlugin(SelectingPass):
     def _on_sensor(self, document: Document, sink: DiagnosticSink) -> Document:
         plugin, seen = self._plugin({}), list[str]()
 
-        def change(sensor: Sensor, _: Site) -> Iterable[Sensor]:
+        def change(sensor: Sensor, _: PluginSite) -> Iterable[Sensor]:
             seen.append(sensor.name or "")
             if sensor.name != self.on or plugin in sensor.plugins:
                 return (sensor,)

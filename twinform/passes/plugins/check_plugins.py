@@ -19,10 +19,10 @@ from twinform.passes.plugins.catalog import (
     systems,
     systems_of_file,
 )
-from twinform.passes.plugins.parameters import Names, ParameterContext, check_parameters
+from twinform.passes.plugins.parameters import ModelNames, ParameterContext, check_parameters
 from twinform.passes.plugins.parts import PluginKind, SensorKind
 from twinform.passes.plugins.release_names import ReleaseName
-from twinform.passes.plugins.sites import Site, plugins_of, sensors_of
+from twinform.passes.plugins.sites import PluginSite, plugins_of, sensors_of
 from twinform.passes.plugins.worlds import (
     as_xml,
     has_element,
@@ -61,7 +61,7 @@ class CheckPlugins(Pass):
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The same document."""
-        names = Names()
+        names = ModelNames()
         for plugin, site in plugins_of(document):
             if site.scope != "gui":
                 # Over 461 files of the corpus with plugins, this finds 48 parameters that nobody
@@ -76,7 +76,7 @@ class CheckPlugins(Pass):
         return document
 
 
-def _check_plugin(plugin: Plugin, site: Site, release: str, names: Names, sink: DiagnosticSink) -> None:
+def _check_plugin(plugin: Plugin, site: PluginSite, release: str, names: ModelNames, sink: DiagnosticSink) -> None:
     kinds = systems_of_file(plugin.filename or "")
     # A file that is in no table is somebody's own plugin and is left alone, unless its name or
     # class shows that a system of Gazebo was meant.
@@ -107,7 +107,7 @@ def _check_plugin(plugin: Plugin, site: Site, release: str, names: Names, sink: 
     check_parameters(plugin, ParameterContext(kind, release, model, names, sink))
 
 
-def _check_needs(plugin: Plugin, kind: PluginKind, site: Site, sink: DiagnosticSink) -> None:
+def _check_needs(plugin: Plugin, kind: PluginKind, site: PluginSite, sink: DiagnosticSink) -> None:
     """Whether the world has one of the systems without which this one does nothing, or not what is meant."""
     choice = [system(name) for name in kind.needs]
     if not choice or (site.world is not None and any(has_system(site.world, each) for each in choice)):
@@ -169,7 +169,7 @@ def _check_defaults(world: World, sink: DiagnosticSink) -> None:
         sink.report(rules.DEFAULT_SYSTEMS_OFF, message, ours[0].location, help=help_)
 
 
-def _check_sensor(sensor: Sensor, site: Site, release: str, noted: set[str], sink: DiagnosticSink) -> None:
+def _check_sensor(sensor: Sensor, site: PluginSite, release: str, noted: set[str], sink: DiagnosticSink) -> None:
     kind = kind_of_sensor(sensor, release)
     if kind is None:
         if sensor.type not in {None, "custom"}:

@@ -26,26 +26,28 @@ from typing import Literal, NamedTuple, cast, get_args
 
 from twinform.passes.plugins.parts import (
     Alternative,
-    Channel,
     Count,
-    Parameter,
     ParameterType,
     PluginKind,
+    PluginParameter,
     Scope,
     Spelling,
+    TopicChannel,
 )
 
 _DIRECTIONS = ("<", ">")
 
 
-class _Line(NamedTuple):
+class _CatalogLine(NamedTuple):
     depth: int
     words: list[str]
 
 
 def read_plugins(text: str, releases: Sequence[str]) -> Iterator[PluginKind]:
     """The plugins of a table; `releases` are the names of all releases, oldest first."""
-    lines = [_Line((len(line) - len(line.lstrip())) // 2, _words(line)) for line in text.splitlines() if _words(line)]
+    lines = [
+        _CatalogLine((len(line) - len(line.lstrip())) // 2, _words(line)) for line in text.splitlines() if _words(line)
+    ]
     starts = [index for index, line in enumerate(lines) if line.depth == 0]
     for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):
         yield _plugin(lines[start].words, lines[start + 1 : end], releases)
@@ -55,7 +57,7 @@ def _words(line: str) -> list[str]:
     return [] if line.startswith("#") else shlex.split(line)
 
 
-def _plugin(head: list[str], lines: list[_Line], releases: Sequence[str]) -> PluginKind:
+def _plugin(head: list[str], lines: list[_CatalogLine], releases: Sequence[str]) -> PluginKind:
     options = _options(head[2:])
     own = _span(options, releases)
     channels = tuple(_channel(line.words, own, releases) for line in lines if line.words[0] in _DIRECTIONS)
@@ -74,7 +76,9 @@ def _plugin(head: list[str], lines: list[_Line], releases: Sequence[str]) -> Plu
     )
 
 
-def _rows(lines: list[_Line], depth: int, above: frozenset[str], releases: Sequence[str]) -> tuple[Parameter, ...]:
+def _rows(
+    lines: list[_CatalogLine], depth: int, above: frozenset[str], releases: Sequence[str]
+) -> tuple[PluginParameter, ...]:
     """The rows at a depth, each with those further in that follow it."""
     starts = [index for index, line in enumerate(lines) if line.depth == depth]
     ends = [*starts[1:], len(lines)] if starts else []
@@ -85,13 +89,13 @@ def _rows(lines: list[_Line], depth: int, above: frozenset[str], releases: Seque
 
 
 def _row(
-    words: list[str], inside: list[_Line], depth: int, above: frozenset[str], releases: Sequence[str]
-) -> Parameter:
+    words: list[str], inside: list[_CatalogLine], depth: int, above: frozenset[str], releases: Sequence[str]
+) -> PluginParameter:
     name, count, type_, *rest = words
     options = _options(rest)
     own = _span(options, releases) & above
     choices = options.get("enum")
-    return Parameter(
+    return PluginParameter(
         name=name,
         count=cast("Count", count),
         type=cast("ParameterType", type_),
@@ -106,11 +110,11 @@ def _row(
     )
 
 
-def _channel(words: list[str], above: frozenset[str], releases: Sequence[str]) -> Channel:
+def _channel(words: list[str], above: frozenset[str], releases: Sequence[str]) -> TopicChannel:
     direction, parameter, message, pattern, *rest = words
     alternatives = [word.removeprefix("alt=").split(":") for word in rest if word.startswith("alt=")]
     options = _options(rest)
-    return Channel(
+    return TopicChannel(
         direction=cast('Literal["<", ">", "!"]', direction),
         parameter=None if parameter == "-" else parameter,
         message=message,

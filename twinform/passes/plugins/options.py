@@ -16,7 +16,7 @@ from pydantic.fields import FieldInfo
 
 from twinform.ir import Element
 from twinform.passes.carriers.carriers import from_xml
-from twinform.passes.plugins.parts import Parameter, ParameterType, PluginKind
+from twinform.passes.plugins.parts import ParameterType, PluginKind, PluginParameter
 from twinform.passes.plugins.values import problem_of
 from twinform.schemas import format_value
 
@@ -40,18 +40,18 @@ Path = tuple[str, ...]
 
 
 @cache
-def options_of(kind: PluginKind) -> dict[str, tuple[Path, Parameter]]:
+def options_of(kind: PluginKind) -> dict[str, tuple[Path, PluginParameter]]:
     """The options of a system, each with the path of its parameter.
 
     What may be written as an attribute or as an element has one option, which writes what the table has first.
     """
-    found: dict[str, tuple[Path, Parameter]] = {}
+    found: dict[str, tuple[Path, PluginParameter]] = {}
     for path, row in _leaves((), kind.parameters):
         found.setdefault(_option(path), (path, row))
     return found
 
 
-def _leaves(above: Path, rows: tuple[Parameter, ...]) -> Iterator[tuple[Path, Parameter]]:
+def _leaves(above: Path, rows: tuple[PluginParameter, ...]) -> Iterator[tuple[Path, PluginParameter]]:
     """The parameters that have a value of their own; families of names are spelt out."""
     for row in rows:
         for name in _names(row.name):
@@ -77,7 +77,7 @@ def _word(name: str) -> str:
     return plain.lower() if plain[:1].isupper() or plain[1:2].isupper() else _HUMP.sub("-", plain).lower()
 
 
-def field_of(path: Path, row: Parameter, kind: PluginKind) -> tuple[Any, FieldInfo]:
+def field_of(path: Path, row: PluginParameter, kind: PluginKind) -> tuple[Any, FieldInfo]:
     """The type and field of an option, for a model of Pydantic."""
     many = _may_repeat(path, kind)
     one = str if many and row.type in _LISTS else _type(row)
@@ -101,7 +101,7 @@ def _may_repeat(path: Path, kind: PluginKind) -> bool:
     return any(row is not None and row.is_many for row in rows)
 
 
-def _type(row: Parameter) -> Any:
+def _type(row: PluginParameter) -> Any:
     if row.choices and row.type == "text":
         return Literal[row.choices]
     return _TYPES.get(row.type, str)
@@ -111,7 +111,7 @@ def _listed(value: object) -> object:
     return [value] if isinstance(value, str | int | float) else value
 
 
-def _checker(row: Parameter) -> Any:
+def _checker(row: PluginParameter) -> Any:
     def check(value: object) -> object:
         problem = _xml_problem(str(value)) if row.type == "element" else problem_of(row, format_value(value))
         if problem:
@@ -156,7 +156,7 @@ def content_of(kind: PluginKind, values: Mapping[str, object]) -> tuple[Element,
 
 
 def _elements(
-    above: Path, rows: tuple[Parameter, ...], chosen: Mapping[Path, object], turn: int | None
+    above: Path, rows: tuple[PluginParameter, ...], chosen: Mapping[Path, object], turn: int | None
 ) -> Iterator[Element]:
     for row in rows:
         if row.is_attribute:
@@ -180,7 +180,7 @@ def _length(value: object) -> int:
     return len(cast("tuple[object, ...]", value)) if isinstance(value, tuple) else 1
 
 
-def _element(path: Path, row: Parameter, chosen: Mapping[Path, object], turn: int | None) -> Element:
+def _element(path: Path, row: PluginParameter, chosen: Mapping[Path, object], turn: int | None) -> Element:
     attributes: list[tuple[str, str]] = []
     for each in row.children:
         value = _text(chosen.get((*path, each.name)), turn)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from twinform.diagnostics.generated_files import main
 from twinform.passes.plugins.catalog import releases, ros_message, sensors, systems
 from twinform.passes.plugins.options import options_of
-from twinform.passes.plugins.parts import Parameter, PluginKind, SensorKind
+from twinform.passes.plugins.parts import PluginKind, PluginParameter, SensorKind
 from twinform.passes.plugins.sensor_settings import addable, settings_of
 from twinform.passes.plugins.topic_patterns import without_parentheses
 
@@ -85,7 +85,7 @@ def _system(kind: PluginKind) -> str:
     return "\n".join(lines)
 
 
-def _families(kind: PluginKind) -> Iterator[tuple[str, tuple[tuple[str, ...], Parameter]]]:
+def _families(kind: PluginKind) -> Iterator[tuple[str, tuple[tuple[str, ...], PluginParameter]]]:
     """The options; of a family of names only the first."""
     seen: set[str] = set()
     for option, (path, row) in options_of(kind).items():
@@ -94,7 +94,7 @@ def _families(kind: PluginKind) -> Iterator[tuple[str, tuple[tuple[str, ...], Pa
         seen.add(row.name)
 
 
-def _row(option: str, path: tuple[str, ...], row: Parameter, kind: PluginKind) -> str:
+def _row(option: str, path: tuple[str, ...], row: PluginParameter, kind: PluginKind) -> str:
     shown = "/".join((*path[:-1], row.name))
     choices = f": {', '.join(row.choices)}" if row.choices else ""
     default = f"`{row.default}`" if row.default is not None else ""
@@ -105,7 +105,7 @@ def _row(option: str, path: tuple[str, ...], row: Parameter, kind: PluginKind) -
     return f"| `{option}`{dots} | `{shown}` | {row.type}{choices}{unit} | {default} | {more} |"
 
 
-def _needed(row: Parameter) -> str:
+def _needed(row: PluginParameter) -> str:
     """The releases that do not work without."""
     listed = ", ".join(each for each in releases() if each in row.needed)
     return f"needed in {listed}" if listed else ""

@@ -8,11 +8,11 @@ from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Element, Model, Plugin
 from twinform.ir.scopes import scoped_models
 from twinform.passes.plugins.catalog import nearest
-from twinform.passes.plugins.parts import Parameter, PluginKind
+from twinform.passes.plugins.parts import PluginKind, PluginParameter
 from twinform.passes.plugins.values import problem_of
 
 
-class Names:
+class ModelNames:
     """The joints and links of models by name, each looked up once."""
 
     def __init__(self) -> None:
@@ -32,7 +32,7 @@ class ParameterContext(NamedTuple):
     kind: PluginKind
     release: str
     model: Model | None
-    names: Names
+    names: ModelNames
     sink: DiagnosticSink
 
 
@@ -55,7 +55,7 @@ def names_in(model: Model, kind: str) -> set[str] | None:
 
 
 def _check_inside(
-    elements: Sequence[Element], rows: tuple[Parameter, ...], context: ParameterContext, where: Location
+    elements: Sequence[Element], rows: tuple[PluginParameter, ...], context: ParameterContext, where: Location
 ) -> None:
     counts = Counter[str]()
     for element in elements:
@@ -89,7 +89,7 @@ def _is_foreign(name: str) -> bool:
     return name.startswith("{") or ":" in name
 
 
-def _check_element(element: Element, row: Parameter, context: ParameterContext, at: Location) -> None:
+def _check_element(element: Element, row: PluginParameter, context: ParameterContext, at: Location) -> None:
     if row.free:
         return
     _check_attributes(element, row, context, at)
@@ -99,7 +99,7 @@ def _check_element(element: Element, row: Parameter, context: ParameterContext, 
         _check_value(row, element.text or "", f"<{element.name}>", context, at)
 
 
-def _check_attributes(element: Element, row: Parameter, context: ParameterContext, at: Location) -> None:
+def _check_attributes(element: Element, row: PluginParameter, context: ParameterContext, at: Location) -> None:
     rows = {each.name[1:]: each for each in row.children if each.is_attribute}
     for name, value in element.attributes:
         if _is_foreign(name):
@@ -115,7 +115,7 @@ def _check_attributes(element: Element, row: Parameter, context: ParameterContex
             context.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, at, expected=name)
 
 
-def _check_value(row: Parameter, text: str, what: str, context: ParameterContext, at: Location) -> None:
+def _check_value(row: PluginParameter, text: str, what: str, context: ParameterContext, at: Location) -> None:
     problem = problem_of(row, text)
     if problem:
         message = f"{what} of {_called(context.kind)} is {text!r}, and has to be {problem}"
@@ -135,7 +135,7 @@ def _check_reference(kind: str, name: str, what: str, context: ParameterContext,
 
 
 def _unknown(
-    name: str, row: Parameter | None, rows: Sequence[Parameter], context: ParameterContext, at: Location
+    name: str, row: PluginParameter | None, rows: Sequence[PluginParameter], context: ParameterContext, at: Location
 ) -> None:
     called = f"<{name}>" if not name.startswith("@") else f"the attribute {name[1:]!r}"
     if row is not None:
@@ -146,7 +146,7 @@ def _unknown(
     context.sink.report(rules.UNKNOWN_PLUGIN_PARAMETER, message, at, found=name.lstrip("@"), help=_meant(near))
 
 
-def _readable(rows: Sequence[Parameter], release: str) -> Iterator[str]:
+def _readable(rows: Sequence[PluginParameter], release: str) -> Iterator[str]:
     return (row.name for row in rows if release in row.releases and "[" not in row.name)
 
 

@@ -38,7 +38,7 @@ class Release:
 
 
 @dataclass(frozen=True, slots=True)
-class Parameter:
+class PluginParameter:
     """An element or attribute that a plugin reads. Names such as `[xyz][UVW]` stand for all that match them.
 
     `free` means that what stands inside is not known. `releases` are those whose plugin reads it, `needed` those that
@@ -54,7 +54,7 @@ class Parameter:
     free: bool
     releases: frozenset[str]
     is_attribute: bool
-    children: tuple["Parameter", ...]
+    children: tuple["PluginParameter", ...]
     unit: str | None = None
     needed: frozenset[str] = frozenset()
 
@@ -87,7 +87,7 @@ class Alternative:
 
 
 @dataclass(frozen=True, slots=True)
-class Channel:
+class TopicChannel:
     """A topic of gz-transport that a plugin reads (`>`) or writes (`<`), or a text that it only checks (`!`).
 
     `parameter` sets it; else it follows the pattern, in which `{model}`, `{world}` and names of parameters stand for
@@ -128,13 +128,13 @@ class PluginKind:
     class_name: str
     scopes: tuple[Scope, ...]
     releases: frozenset[str]
-    parameters: tuple[Parameter, ...]
-    channels: tuple[Channel, ...]
+    parameters: tuple[PluginParameter, ...]
+    channels: tuple[TopicChannel, ...]
     free: bool
     needs: tuple[str, ...] = ()
-    checks: tuple[Channel, ...] = ()
+    checks: tuple[TopicChannel, ...] = ()
 
-    def parameter(self, *path: str) -> Parameter | None:
+    def parameter(self, *path: str) -> PluginParameter | None:
         """The parameter at a path of names, such as `left_track`, `link`; attributes begin with `@`."""
         rows, found = self.parameters, None
         for name in path:
@@ -144,12 +144,14 @@ class PluginKind:
             rows = found.children
         return found
 
-    def walk(self) -> Iterator[tuple[tuple[str, ...], Parameter]]:
+    def walk(self) -> Iterator[tuple[tuple[str, ...], PluginParameter]]:
         """Every parameter with its path, from the outside in."""
         yield from _walk((), self.parameters)
 
 
-def _walk(above: tuple[str, ...], rows: tuple[Parameter, ...]) -> Iterator[tuple[tuple[str, ...], Parameter]]:
+def _walk(
+    above: tuple[str, ...], rows: tuple[PluginParameter, ...]
+) -> Iterator[tuple[tuple[str, ...], PluginParameter]]:
     for row in rows:
         path = (*above, row.name)
         yield path, row

@@ -46,7 +46,7 @@ class NoiseSetting:
 
 
 @dataclass(frozen=True, slots=True)
-class Settings:
+class SensorSettings:
     """What `add-sensor` knows of a kind of sensor: its name and rate in Hz, and the options that it has."""
 
     name: str
@@ -56,7 +56,7 @@ class Settings:
 
 
 @cache
-def settings_of(type_: str) -> Settings:
+def settings_of(type_: str) -> SensorSettings:
     """The settings of a kind of sensor, by any of its names; one that cannot be added has none.
 
     Raises:
@@ -64,7 +64,7 @@ def settings_of(type_: str) -> Settings:
     """
     kind = sensor(type_)
     row = _table().get(kind.type, {})
-    return Settings(
+    return SensorSettings(
         name=row.get("name", kind.type),
         rate=row.get("rate", 0),
         values={option: Setting(*each) for option, each in row.get("settings", {}).items()},

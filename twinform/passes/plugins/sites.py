@@ -35,7 +35,7 @@ _SCOPES = frozenset({"world", "model", "include", "link", "joint", "sensor", "vi
 
 
 @dataclass(frozen=True, slots=True)
-class Site:
+class PluginSite:
     """Where a plugin or sensor stands: in a `scope` (`model`, `link`, `sensor`, ...) called `holder`.
 
     `models` are those around it, the innermost last; `link_or_joint` is the name of the one around it. What is
@@ -60,25 +60,25 @@ class Site:
 _LEAVES = frozenset({"plugins", "sensors"})
 """Fields whose nodes are what is looked for."""
 
-PluginChange = Callable[[Plugin, Site], Iterable[Plugin]]
-SensorChange = Callable[[Sensor, Site], Iterable[Sensor]]
+PluginChange = Callable[[Plugin, PluginSite], Iterable[Plugin]]
+SensorChange = Callable[[Sensor, PluginSite], Iterable[Sensor]]
 
 
 def map_plugins(document: Document, change: PluginChange) -> Document:
     """The document with each plugin replaced by those that `change` makes of it; the same one where nothing changes."""
-    return _Walk(plugin=change).node(document, Site())
+    return _Walk(plugin=change).node(document, PluginSite())
 
 
 def map_sensors(document: Document, change: SensorChange) -> Document:
     """The document with each sensor of a link or joint replaced by those that `change` makes of it."""
-    return _Walk(sensor=change).node(document, Site())
+    return _Walk(sensor=change).node(document, PluginSite())
 
 
-def plugins_of(document: Document) -> list[tuple[Plugin, Site]]:
+def plugins_of(document: Document) -> list[tuple[Plugin, PluginSite]]:
     """Every plugin with its place, from the outside in."""
-    found: list[tuple[Plugin, Site]] = []
+    found: list[tuple[Plugin, PluginSite]] = []
 
-    def see(plugin: Plugin, site: Site) -> Iterable[Plugin]:
+    def see(plugin: Plugin, site: PluginSite) -> Iterable[Plugin]:
         found.append((plugin, site))
         return (plugin,)
 
@@ -86,11 +86,11 @@ def plugins_of(document: Document) -> list[tuple[Plugin, Site]]:
     return found
 
 
-def sensors_of(document: Document) -> list[tuple[Sensor, Site]]:
+def sensors_of(document: Document) -> list[tuple[Sensor, PluginSite]]:
     """Every sensor of a link or joint with its place."""
-    found: list[tuple[Sensor, Site]] = []
+    found: list[tuple[Sensor, PluginSite]] = []
 
-    def see(sensor: Sensor, site: Site) -> Iterable[Sensor]:
+    def see(sensor: Sensor, site: PluginSite) -> Iterable[Sensor]:
         found.append((sensor, site))
         return (sensor,)
 
@@ -98,11 +98,11 @@ def sensors_of(document: Document) -> list[tuple[Sensor, Site]]:
     return found
 
 
-def _site_in(node: Node, site: Site) -> Site:
+def _site_in(node: Node, site: PluginSite) -> PluginSite:
     """The place of what stands directly in a node."""
     match node:
         case World():
-            return Site("world", node.name, node)
+            return PluginSite("world", node.name, node)
         case Model():
             return replace(site, scope="model", holder=node.name, models=(*site.models, node))
         case Include():
@@ -121,7 +121,7 @@ def _site_in(node: Node, site: Site) -> Site:
             return site
 
 
-def _site_of_reference(extension: GazeboExtension, site: Site) -> Site:
+def _site_of_reference(extension: GazeboExtension, site: PluginSite) -> PluginSite:
     name, model = extension.reference, site.model
     if not name or model is None:
         return site
@@ -137,7 +137,7 @@ class _Walk:
         self._plugin = plugin
         self._sensor = sensor
 
-    def node(self, node: AnyNode, site: Site) -> AnyNode:
+    def node(self, node: AnyNode, site: PluginSite) -> AnyNode:
         """The node with what is in it changed. Models may be nested deeply, so there is one call for each level."""
         site = _site_in(node, site)
         update: dict[str, Any] = {}
@@ -155,21 +155,21 @@ class _Walk:
             update["content"] = self._elements(node.content, site)
         return replace_fields(node, opaque=self._opaque(node.opaque, site), **update)
 
-    def _leaves(self, field: str, old: Any, site: Site) -> Any:
+    def _leaves(self, field: str, old: Any, site: PluginSite) -> Any:
         if field == "plugins":
             return _replaced(old, lambda plugin: self._plugins(plugin, site))
         return _replaced(old, lambda sensor: self._sensors(sensor, site))
 
-    def _plugins(self, plugin: Plugin, site: Site) -> Iterable[Plugin]:
+    def _plugins(self, plugin: Plugin, site: PluginSite) -> Iterable[Plugin]:
         return self._plugin(plugin, site) if self._plugin else (plugin,)
 
-    def _sensors(self, sensor: Sensor, site: Site) -> Iterable[Sensor]:
+    def _sensors(self, sensor: Sensor, site: PluginSite) -> Iterable[Sensor]:
         return self._sensor(sensor, site) if self._sensor else (self.node(sensor, site),)
 
-    def _opaque(self, parts: tuple[Opaque, ...], site: Site) -> tuple[Opaque, ...]:
+    def _opaque(self, parts: tuple[Opaque, ...], site: PluginSite) -> tuple[Opaque, ...]:
         return _replaced(parts, lambda part: self._part(part, site))
 
-    def _part(self, part: Opaque, site: Site) -> Iterable[Opaque]:
+    def _part(self, part: Opaque, site: PluginSite) -> Iterable[Opaque]:
         element = part.element
         if element is None or element.name.startswith("{"):  # what is in a carrier belongs to another language
             return (part,)
@@ -182,10 +182,10 @@ class _Walk:
             return (part,)
         return tuple(part.copy(element=each) for each in made)
 
-    def _elements(self, elements: tuple[Element, ...], site: Site) -> tuple[Element, ...]:
+    def _elements(self, elements: tuple[Element, ...], site: PluginSite) -> tuple[Element, ...]:
         return _replaced(elements, lambda element: self._element(element, site))
 
-    def _element(self, element: Element, site: Site) -> Iterable[Element]:
+    def _element(self, element: Element, site: PluginSite) -> Iterable[Element]:
         if element.name == "plugin" and site.scope in _SCOPES:
             return self._plugin_element(element, site)
         if element.name == "sensor" and self._sensor:
@@ -197,13 +197,13 @@ class _Walk:
         # elements that have no class here.
         return (replace_fields(element, children=self._elements(element.children, inside)),)
 
-    def _plugin_element(self, element: Element, site: Site) -> Iterable[Element]:
+    def _plugin_element(self, element: Element, site: PluginSite) -> Iterable[Element]:
         if self._plugin is None:
             return (element,)
         plugin = plugin_of(element)
         return [element if each is plugin else plugin_element(each) for each in self._plugin(plugin, site)]
 
-    def _sensor_element(self, element: Element, site: Site) -> Iterable[Element]:
+    def _sensor_element(self, element: Element, site: PluginSite) -> Iterable[Element]:
         sensor = sensor_of(element)
         if sensor is None or self._sensor is None:
             return (element,)

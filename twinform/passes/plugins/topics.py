@@ -8,8 +8,8 @@ from typing import Literal
 from twinform.ir import Document, Element, Format, Model, Plugin, Sensor
 from twinform.ir.node import Node
 from twinform.passes.plugins.catalog import modern_class, systems_of_file
-from twinform.passes.plugins.parts import Channel, PluginKind, Published, SensorKind
-from twinform.passes.plugins.sites import Site, plugins_of, sensors_of
+from twinform.passes.plugins.parts import PluginKind, Published, SensorKind, TopicChannel
+from twinform.passes.plugins.sites import PluginSite, plugins_of, sensors_of
 from twinform.passes.plugins.topic_patterns import (
     as_valid_topic,
     is_valid_topic,
@@ -81,11 +81,11 @@ def topics_of(document: Document, release: str, world: str | None = None) -> Ite
     for sensor, site in sensors_of(document):
         kind = kind_of_sensor(sensor, release)
         if kind is not None:
-            yield from _of_sensor(sensor, kind, _Place(site, release, world, urdf), lumped)
+            yield from _of_sensor(sensor, kind, _TopicPlace(site, release, world, urdf), lumped)
     for plugin, site in plugins_of(document):
         kind = _kind_of(plugin, release)
         if kind is not None:
-            yield from _of_plugin(plugin, kind, _Place(site, release, world, urdf))
+            yield from _of_plugin(plugin, kind, _TopicPlace(site, release, world, urdf))
 
 
 def _kind_of(plugin: Plugin, release: str) -> PluginKind | None:
@@ -108,10 +108,10 @@ class _Lumped:
 
 
 @dataclass(frozen=True, slots=True)
-class _Place:
+class _TopicPlace:
     """Where a plugin or sensor is; `given_world` is that of a model without one, into which it may be `spawned`."""
 
-    site: Site
+    site: PluginSite
     release: str
     given_world: str | None
     spawned: bool
@@ -166,7 +166,7 @@ def _without_world(scope: str) -> str:
     return scope
 
 
-def _of_sensor(sensor: Sensor, kind: SensorKind, place: _Place, lumped: "_Lumped") -> Iterator[Topic]:
+def _of_sensor(sensor: Sensor, kind: SensorKind, place: _TopicPlace, lumped: "_Lumped") -> Iterator[Topic]:
     site = place.site
     # A sensor of URDF publishes below the link that its own is lumped into: the launch file spawns
     # the URDF. To write a <topic> into the user's file would be a change that nobody asked for.
@@ -264,7 +264,7 @@ def _message(published: Published, sensor: Sensor) -> str:
     return published.instead if path and _text_at(sensor, *path.split("/")) == value else published.message
 
 
-def _of_plugin(plugin: Plugin, kind: PluginKind, place: _Place) -> Iterator[Topic]:
+def _of_plugin(plugin: Plugin, kind: PluginKind, place: _TopicPlace) -> Iterator[Topic]:
     model = place.site.model.name if place.site.model else ""
     defaults = {row.name: row.default for row in kind.parameters if row.default is not None}
     world = _ANY_WORLD if place.world is None else place.world
@@ -294,7 +294,7 @@ def _of_plugin(plugin: Plugin, kind: PluginKind, place: _Place) -> Iterator[Topi
                 yield Topic(shown, short, message, channel.direction, place.outer, plugin, needs_world, missing)
 
 
-def _read(plugin: Plugin, kind: PluginKind, channel: Channel, release: str) -> dict[str, str]:
+def _read(plugin: Plugin, kind: PluginKind, channel: TopicChannel, release: str) -> dict[str, str]:
     """The parameters that the plugin of a release reads, the first of each name, as far as it takes them."""
     written: dict[str, str] = {}
     for element in plugin.content:
@@ -308,7 +308,7 @@ def _read(plugin: Plugin, kind: PluginKind, channel: Channel, release: str) -> d
     return written
 
 
-def _taken(text: str, channel: Channel) -> str | None:
+def _taken(text: str, channel: TopicChannel) -> str | None:
     """What a plugin takes of the text of a topic; None where it takes the default."""
     match channel.spelling:
         # What each spelling in the catalog stands for: the plugin takes any text that is not empty;
@@ -324,7 +324,7 @@ def _taken(text: str, channel: Channel) -> str | None:
             return text
 
 
-def _is_there(channel: Channel, kind: PluginKind, written: Mapping[str, str]) -> bool:
+def _is_there(channel: TopicChannel, kind: PluginKind, written: Mapping[str, str]) -> bool:
     if any(_hold(each, kind, written) for each in channel.unless):
         return False
     return not channel.when or any(_hold(each, kind, written) for each in channel.when)
@@ -369,7 +369,7 @@ def _inside(name: str, *around: str) -> str:
     return name.lstrip("/")
 
 
-def _choose(channel: Channel, plugin: Plugin, kind: PluginKind, written: Mapping[str, str]) -> tuple[str, str]:
+def _choose(channel: TopicChannel, plugin: Plugin, kind: PluginKind, written: Mapping[str, str]) -> tuple[str, str]:
     """The pattern and message of a channel: those of the parameter, of the last alternative, or the usual ones.
 
     A parameter that is written and not taken keeps alternatives for the topic away (DetachableJoint.cc, Configure).

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from twinform.passes.plugins.parts import Parameter
+from twinform.passes.plugins.parts import PluginParameter
 from twinform.schemas import parse_value
 
 # Characters that gz-transport accepts in no topic.
@@ -11,7 +11,7 @@ _NOT_IN_TOPICS = ("@", ":=", "//", "~")
 _TRUTHS = frozenset({"true", "false", "0", "1"})
 
 
-def problem_of(row: Parameter, text: str) -> str | None:
+def problem_of(row: PluginParameter, text: str) -> str | None:
     """What is wrong with the text of a parameter, as the end of a sentence; None where nothing is."""
     value = text.strip()
     if row.choices and value not in row.choices:

@@ -8,7 +8,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import DANGLING_FRAME, INCLUDE_NOT_EXPANDED
 from twinform.ir import Document, Element, Node, replace_fields
 from twinform.ir.frames import FrameError
-from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.framework.base import Pass
 from twinform.passes.transforms.nodes import map_elements
 from twinform.schemas import Version, parse_version, versions_of
@@ -30,13 +30,13 @@ class VersionPass(Pass):
         if sink.has_errors:
             return document
         try:
-            return self.change(document, Keeper(sink, self.carriers))
+            return self.change(document, VersionKeeper(sink, self.carriers))
         except FrameError as error:
             _report(error, document, self.version, sink)
             return document
 
     @abstractmethod
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document after the pass."""
 
     @property

@@ -7,7 +7,7 @@ from typing import ClassVar
 from twinform.diagnostics import rules
 from twinform.ir import Axis, Document, Joint, Opaque, rewrite
 from twinform.ir.defaults import UNLIMITED, UNLIMITED_STRENGTH
-from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
+from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.transforms.nodes import text_piece
 from twinform.schemas import format_value
@@ -29,12 +29,12 @@ class BoundLimits(VersionPass):
 
     name: ClassVar[str] = "bound-limits"
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with finite limits."""
         return rewrite(document, Joint, partial(_joint, keeper))
 
 
-def _joint(keeper: Keeper, joint: Joint) -> Joint:
+def _joint(keeper: VersionKeeper, joint: Joint) -> Joint:
     for field in ("axis", "axis2"):
         axis: Axis | None = getattr(joint, field)
         if axis is not None and axis.limit is not None:
@@ -42,7 +42,7 @@ def _joint(keeper: Keeper, joint: Joint) -> Joint:
     return joint
 
 
-def _bound(keeper: Keeper, joint: Joint, field: str, axis: Axis) -> Joint:
+def _bound(keeper: VersionKeeper, joint: Joint, field: str, axis: Axis) -> Joint:
     limit = axis.limit
     infinite = {name: getattr(limit, name) for name in _UNLIMITED if _is_infinite(getattr(limit, name))}
     if limit is None or not infinite:

@@ -6,7 +6,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Frame, Joint, Link, Model, ReferenceKind, World, map_references, rewrite
-from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.transforms.nodes import unique_name
 
@@ -26,14 +26,14 @@ class ClearNames(VersionPass):
 
     name: ClassVar[str] = "clear-names"
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with one name for each thing."""
         document = rewrite(document, Model, lambda model: _clear(model, keeper.sink))
         return rewrite(document, World, lambda world: _clear_world(world, keeper.sink))
 
 
 @dataclass(frozen=True, slots=True)
-class _Scope:
+class _NewNames:
     """One model's new names."""
 
     links: dict[str, str]
@@ -71,7 +71,7 @@ def _clear(model: Model, sink: DiagnosticSink) -> Model:
     frames = _clashes(model.frames, "frame", owned, taken)
     if not links and not joints and not frames:
         return model
-    scope = _Scope(links, joints, frames, sink)
+    scope = _NewNames(links, joints, frames, sink)
     followed = map_references(model, scope.follow)
     update = {
         "links": tuple(scope.rename(link, links) for link in followed.links),
@@ -86,7 +86,7 @@ def _clear_world(world: World, sink: DiagnosticSink) -> World:
     joints = _clashes(world.joints, "joint", {model.name for model in world.models}, taken)
     if not joints:
         return world
-    scope = _Scope({}, joints, {}, sink)
+    scope = _NewNames({}, joints, {}, sink)
     return world.copy(joints=tuple(scope.rename(joint, joints) for joint in world.joints))
 
 

@@ -7,7 +7,7 @@ from twinform.diagnostics import rules
 from twinform.diagnostics.rules import DANGLING_FRAME
 from twinform.ir import Document, Joint, Model, Opaque, World, count_parts, rewrite
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
-from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
+from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.transforms.joint_ends import named_ends, report_self_joint, resolve_ends
 from twinform.passes.transforms.nodes import pose_piece
@@ -29,26 +29,26 @@ class ConnectLinks(VersionPass):
 
     name: ClassVar[str] = "connect-links"
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with joints between links."""
         document = rewrite(document, Model, partial(_in_model, keeper, self.number >= _FRAMES))
         return rewrite(document, World, partial(_in_world, keeper, self.number >= _FRAMES))
 
 
-def _in_model(keeper: Keeper, frames: bool, model: Model) -> Model:
+def _in_model(keeper: VersionKeeper, frames: bool, model: Model) -> Model:
     links = {WORLD, *(link.name for link in model.links)}
     if all(joint.parent in links and joint.child in links for joint in model.joints):
         return model
     return model.copy(joints=_connect(model, links, keeper, frames=frames))
 
 
-def _in_world(keeper: Keeper, frames: bool, world: World) -> World:
+def _in_world(keeper: VersionKeeper, frames: bool, world: World) -> World:
     if not world.joints:
         return world
     return world.copy(joints=_connect(world, {WORLD}, keeper, frames=frames))
 
 
-def _connect(holder: Model | World, links: set[str], keeper: Keeper, *, frames: bool) -> tuple[Joint, ...]:
+def _connect(holder: Model | World, links: set[str], keeper: VersionKeeper, *, frames: bool) -> tuple[Joint, ...]:
     graph = FrameGraph(holder)
     if holder.includes:  # names that only their files know may be links
         ends = {end for joint in holder.joints for end in (joint.parent, joint.child) if end}
@@ -56,7 +56,7 @@ def _connect(holder: Model | World, links: set[str], keeper: Keeper, *, frames: 
     return tuple(_resolve(joint, links, graph, keeper, frames=frames) for joint in holder.joints)
 
 
-def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper, *, frames: bool) -> Joint:
+def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: VersionKeeper, *, frames: bool) -> Joint:
     resolved, pieces = resolve_ends(joint, links, graph)
     if not pieces:
         return joint

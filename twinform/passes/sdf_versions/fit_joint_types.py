@@ -7,7 +7,7 @@ from twinform.diagnostics import rules
 from twinform.ir import Axis, Document, Format, Joint, Limit, Opaque, rewrite
 from twinform.ir.defaults import AXIS
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
+from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.transforms.nodes import text_piece
 from twinform.schemas import Version, format_value, print_version
@@ -27,12 +27,12 @@ class FitJointTypes(VersionPass):
 
     name: ClassVar[str] = "fit-joint-types"
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with joints of the version."""
         return rewrite(document, Joint, partial(_joint, keeper, self.number))
 
 
-def _joint(keeper: Keeper, version: Version, joint: Joint) -> Joint:
+def _joint(keeper: VersionKeeper, version: Version, joint: Joint) -> Joint:
     since, until = _NEWER.get(joint.type, (0, 0)), _OLDER.get(joint.type, (99, 99))
     if since <= version <= until:
         return joint
@@ -45,7 +45,7 @@ def _joint(keeper: Keeper, version: Version, joint: Joint) -> Joint:
     return joint
 
 
-def _continuous(keeper: Keeper, joint: Joint) -> Joint:
+def _continuous(keeper: VersionKeeper, joint: Joint) -> Joint:
     pieces = [_type(joint)]
     changed = joint.copy(type="revolute")
     # A range counts in a revolute joint and not in a continuous one, so it has to go before the
@@ -59,7 +59,7 @@ def _continuous(keeper: Keeper, joint: Joint) -> Joint:
     return _keep(keeper, changed, joint, pieces, VersionCondition(since=_NEWER["continuous"]))
 
 
-def _fixed(keeper: Keeper, joint: Joint) -> Joint:
+def _fixed(keeper: VersionKeeper, joint: Joint) -> Joint:
     pieces = [_type(joint)]
     if joint.axis is not None:
         written = to_element(Joint(name="", type="fixed", axis=joint.axis), "joint", "sdf").find("axis")
@@ -73,6 +73,8 @@ def _type(joint: Joint) -> Opaque:
     return Opaque.unchecked(attribute=("type", joint.type))
 
 
-def _keep(keeper: Keeper, changed: Joint, joint: Joint, pieces: list[Opaque], condition: VersionCondition) -> Joint:
+def _keep(
+    keeper: VersionKeeper, changed: Joint, joint: Joint, pieces: list[Opaque], condition: VersionCondition
+) -> Joint:
     message = f"joint {joint.name!r} is {joint.type}, which the version calls {changed.type}"
     return keeper.keep(changed, pieces, condition, rules.OTHER_WORDS, message, joint.location, len(pieces))

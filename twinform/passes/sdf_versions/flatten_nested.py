@@ -6,7 +6,7 @@ from typing import ClassVar
 from twinform.diagnostics import rules
 from twinform.ir import Document, Model, World, count_parts, rewrite
 from twinform.passes.carriers.annotations import without_synthesized
-from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
+from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.nodes import piece
@@ -23,15 +23,15 @@ class FlattenNested(VersionPass):
     name: ClassVar[str] = "flatten-nested"
     source: str
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document without models in models."""
         models = tuple(self._flat(model, keeper) for model in document.models)
         return rewrite(document.copy(models=models), World, partial(self._world, keeper))
 
-    def _world(self, keeper: Keeper, world: World) -> World:
+    def _world(self, keeper: VersionKeeper, world: World) -> World:
         return world.copy(models=tuple(self._flat(model, keeper) for model in world.models))
 
-    def _flat(self, model: Model, keeper: Keeper) -> Model:
+    def _flat(self, model: Model, keeper: VersionKeeper) -> Model:
         if not model.models:
             return model
         flat = without_synthesized(flatten(model, lambda frame, shell: frame))

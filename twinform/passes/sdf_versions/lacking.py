@@ -7,7 +7,7 @@ from twinform.ir import PLAIN, Document, Node, Pose, bits_of
 from twinform.ir.census import RARE, union_of
 from twinform.ir.record import fields_of
 from twinform.ir.tree import classes_in
-from twinform.passes.sdf_versions.spans import Shape, Span, shape
+from twinform.passes.sdf_versions.spans import ElementContent, VersionSpan, shape
 from twinform.schemas import Version, table
 
 _Kinds = frozenset[type[Node]]
@@ -19,10 +19,10 @@ def bits_lacking(version: Version) -> int:
     return PLAIN | union_of(bit for kinds, form in _shapes(version) for bit in _bits(kinds, form, version))
 
 
-def _shapes(version: Version) -> Iterator[tuple[_Kinds, Shape]]:
+def _shapes(version: Version) -> Iterator[tuple[_Kinds, ElementContent]]:
     """The shape of each element of a version that has a node, and of which classes that may be."""
     seen: set[tuple[_Kinds, int]] = set()
-    queue: list[tuple[_Kinds, Shape]] = [(frozenset({Document}), shape(table("sdf").root))]
+    queue: list[tuple[_Kinds, ElementContent]] = [(frozenset({Document}), shape(table("sdf").root))]
     for kinds, form in queue:  # grows while it is walked
         yield kinds, form
         for inner, span in _inner(kinds, form):
@@ -32,7 +32,7 @@ def _shapes(version: Version) -> Iterator[tuple[_Kinds, Shape]]:
                 queue.append((inner, span.shape(row)))
 
 
-def _inner(kinds: _Kinds, form: Shape) -> Iterator[tuple[_Kinds, Span]]:
+def _inner(kinds: _Kinds, form: ElementContent) -> Iterator[tuple[_Kinds, VersionSpan]]:
     for place, span in form.fields.items():
         if not any(_is_pose_of_its_own(kind, place) for kind in kinds):
             yield _classes_in(_holders(kinds, place), _field(place)), span
@@ -40,7 +40,7 @@ def _inner(kinds: _Kinds, form: Shape) -> Iterator[tuple[_Kinds, Span]]:
         yield _of_kind(kinds, span, kind), span
 
 
-def _bits(kinds: _Kinds, form: Shape, version: Version) -> Iterator[int]:
+def _bits(kinds: _Kinds, form: ElementContent, version: Version) -> Iterator[int]:
     for place, span in form.fields.items():
         holders, field = _holders(kinds, place), _field(place)
         if span.row(version) is None:
@@ -73,7 +73,7 @@ def _classes_in(kinds: Iterable[type[Node]], field: str) -> _Kinds:
     return frozenset(inner for kind in kinds if field in fields_of(kind) for inner in classes_in(kind, field))
 
 
-def _of_kind(kinds: _Kinds, span: Span, kind: str) -> _Kinds:
+def _of_kind(kinds: _Kinds, span: VersionSpan, kind: str) -> _Kinds:
     """The classes of one of the kinds that a field may hold."""
     every = _classes_in(kinds, span.rows[0][2].place or "")
     return frozenset(each for each in every if fields_of(each)["kind"].default == kind)

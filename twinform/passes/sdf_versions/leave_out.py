@@ -6,11 +6,11 @@ from twinform.diagnostics import Location, rules
 from twinform.ir import Collision, Document, Element, Node, Opaque, Pose, Visual, census_of, node_fields, replace_fields
 from twinform.ir.record import fields_of
 from twinform.passes.carriers.definitions import definition_of
-from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition, is_version_carrier
+from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper, is_version_carrier
 from twinform.passes.sdf_versions.base import VersionPass, is_foreign
 from twinform.passes.sdf_versions.lacking import bits_lacking
 from twinform.passes.sdf_versions.leftovers import Leftover, node_pieces
-from twinform.passes.sdf_versions.spans import Shape, Span, shape, shape_of, whole
+from twinform.passes.sdf_versions.spans import ElementContent, VersionSpan, shape, shape_of, whole
 from twinform.schemas import Fact, Version, print_version
 
 _OF_KINDS = "shape"
@@ -28,7 +28,7 @@ class LeaveOut(VersionPass):
 
     name: ClassVar[str] = "leave-out"
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with what the version has."""
         return _UndefinedRemover(keeper, self.number).whole_node(document, shape("sdf"))
 
@@ -36,14 +36,14 @@ class LeaveOut(VersionPass):
 class _UndefinedRemover:
     """One run."""
 
-    def __init__(self, keeper: Keeper, version: Version) -> None:
+    def __init__(self, keeper: VersionKeeper, version: Version) -> None:
         self.keeper = keeper
         self.version = version
         self.whole = whole(version)
         self.lacking = bits_lacking(version)
         self.elements = _Elements(keeper, version)
 
-    def whole_node(self, node: Any, form: Shape) -> Any:
+    def whole_node(self, node: Any, form: ElementContent) -> Any:
         """A node whose element can hold carriers, with all that was left over in it."""
         # Nearly all subtrees have nothing that the version lacks; a bit test skips them.
         if not census_of(node) & self.lacking:
@@ -53,7 +53,7 @@ class _UndefinedRemover:
             changed = self._carry(changed, node_pieces(node, each), each)
         return changed
 
-    def node(self, node: Any, form: Shape) -> tuple[Any, list[Leftover]]:
+    def node(self, node: Any, form: ElementContent) -> tuple[Any, list[Leftover]]:
         """The node without what the version lacks, and that; the last of several comes first."""
         update: dict[str, Any] = {}
         left: list[Leftover] = []
@@ -69,7 +69,7 @@ class _UndefinedRemover:
             left += over
         return replace_fields(node, **update), left
 
-    def _field(self, node: Node, field: str, value: Any, span: Span) -> tuple[Any, list[Leftover]]:
+    def _field(self, node: Node, field: str, value: Any, span: VersionSpan) -> tuple[Any, list[Leftover]]:
         row = span.row(self.version)
         if field in node_fields(type(node)) and not isinstance(value, Node):
             return self._many(field, value, span, row)
@@ -79,7 +79,7 @@ class _UndefinedRemover:
             return self._inner(field, value, span, row)
         return value, []
 
-    def _inner(self, field: str, value: Any, span: Span, row: Fact) -> tuple[Any, list[Leftover]]:
+    def _inner(self, field: str, value: Any, span: VersionSpan, row: Fact) -> tuple[Any, list[Leftover]]:
         form = span.shape(row)
         if definition_of(value) is not None and form.fact.type is None:
             return self.whole_node(value, form), []
@@ -88,7 +88,7 @@ class _UndefinedRemover:
             changed = None
         return changed, [each.inside(field, row.name) for each in left]
 
-    def _many(self, field: str, values: Any, span: Span, row: Fact | None) -> tuple[Any, list[Leftover]]:
+    def _many(self, field: str, values: Any, span: VersionSpan, row: Fact | None) -> tuple[Any, list[Leftover]]:
         repetition = span.repetition(self.version)
         kept: list[Any] = []
         left: list[Leftover] = []
@@ -106,7 +106,7 @@ class _UndefinedRemover:
                 kept.append(value)
         return tuple(kept), left
 
-    def _condition(self, value: Any, span: Span, row: Fact | None, index: int) -> VersionCondition | None:
+    def _condition(self, value: Any, span: VersionSpan, row: Fact | None, index: int) -> VersionCondition | None:
         """When there is such a thing, if not in this version."""
         if row is None:
             return span.condition(self.version, index)
@@ -134,12 +134,12 @@ class _UndefinedRemover:
 class _Elements:
     """The same for untyped parts."""
 
-    def __init__(self, keeper: Keeper, version: Version) -> None:
+    def __init__(self, keeper: VersionKeeper, version: Version) -> None:
         self.keeper = keeper
         self.version = version
         self.whole = whole(version)
 
-    def parts(self, node: Node, form: Shape) -> tuple[tuple[Opaque, ...], list[Leftover]]:
+    def parts(self, node: Node, form: ElementContent) -> tuple[tuple[Opaque, ...], list[Leftover]]:
         kept: list[Opaque] = []
         left: list[Leftover] = []
         seen: dict[tuple[str, str], int] = {}
@@ -154,14 +154,14 @@ class _Elements:
         return tuple(kept), left
 
     def _part(
-        self, node: Node, part: Opaque, form: Shape, seen: dict[tuple[str, str], int]
+        self, node: Node, part: Opaque, form: ElementContent, seen: dict[tuple[str, str], int]
     ) -> VersionCondition | tuple[Opaque, list[Leftover]]:
         """The part as the version has it, or when there is such a thing."""
         name = part.element.name if part.element else f"@{part.attribute[0]}" if part.attribute else ""
         if not name or name.lstrip("@")[0] == "{" or is_version_carrier(part):
             return part, []
         steps = [*filter(None, part.at.split("/")), name]
-        span: Span | None = None
+        span: VersionSpan | None = None
         row: Fact | None = None
         for step in steps:
             span = form.names.get(step)
@@ -193,7 +193,7 @@ class _Elements:
         return bool(row and row.place and getattr(node, row.place, None))
 
     def _element(
-        self, element: Element, row: Fact, form: Shape, where: Location
+        self, element: Element, row: Fact, form: ElementContent, where: Location
     ) -> tuple[Element, list[tuple[tuple[str, str], VersionCondition]]]:
         """The element as the version has it; the attributes that a leaf loses have to be carried beside it."""
         if form.fact.any or (row.reference in self.whole and form is shape_of(row)):
@@ -211,7 +211,7 @@ class _Elements:
         attributes = tuple(pair for pair in element.attributes if pair not in gone)
         return replace_fields(element, attributes=attributes, children=tuple(children)), lost
 
-    def _child(self, child: Element, form: Shape, where: Location) -> list[Element]:
+    def _child(self, child: Element, form: ElementContent, where: Location) -> list[Element]:
         span = None if is_foreign(child) else form.names.get(child.name)
         if span is None:
             return [child]
@@ -233,7 +233,7 @@ class _Elements:
         ]
         return [inner, *beside]
 
-    def _missing(self, name: str, form: Shape) -> VersionCondition | None:
+    def _missing(self, name: str, form: ElementContent) -> VersionCondition | None:
         span = form.names.get(name)
         return span.condition(self.version) if span and span.row(self.version) is None else None
 

@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from twinform.ir import Document, Element, World, rewrite
-from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass, map_own_elements
 from twinform.passes.sdf_versions.element_paths import has, put, take
 
@@ -23,7 +23,7 @@ class MoveTimeSteps(VersionPass):
     name: ClassVar[str] = "move-time-steps"
     back: bool = False
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with its steps in the syntax of the version."""
         move = _back if self.back else _forth
 

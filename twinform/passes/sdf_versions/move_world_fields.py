@@ -4,7 +4,7 @@ from functools import partial
 from typing import ClassVar
 
 from twinform.ir import Document, Element, Opaque, World, rewrite
-from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition, version_carriers
+from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper, version_carriers
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.sdf_versions.element_paths import put, take
 from twinform.schemas import format_value, parse_value
@@ -24,7 +24,7 @@ class MoveWorldFields(VersionPass):
     name: ClassVar[str] = "move-world-fields"
     back: bool = False
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with the fields in their places."""
         return rewrite(
             document, World, partial(_back, self.carriers, self.number >= _FIELD_SINCE) if self.back else _forth

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 from twinform.ir import Axis, Document, Joint, World, rewrite
 from twinform.ir.frames import MODEL, WORLD
-from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass
 
 _BY_NAME = (1, 7)
@@ -25,7 +25,7 @@ class NameAxisFrames(VersionPass):
     source_before_1_5: bool = False
     both: bool = False
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with axes in the syntax of the version."""
         change = partial(_joint, always=self.source_before_1_5, named=self.number >= _BY_NAME, both=self.both)
 

@@ -3,7 +3,7 @@
 from typing import ClassVar, TypeVar
 
 from twinform.ir import OPAQUE, Document, Element, Model, Node, Opaque, Pose, map_children, replace_fields, rewrite
-from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass, is_foreign, map_own_elements
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -22,7 +22,7 @@ class NamePoseFrames(VersionPass):
 
     name: ClassVar[str] = "name-pose-frames"
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with poses in the syntax of 1.7."""
         models = tuple(map(_renamed_model, document.models))
         rest = map_children(document.copy(models=()), _all_renamed)

@@ -5,7 +5,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Light, Plugin, rewrite
-from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.transforms.nodes import unique_name
 
@@ -26,7 +26,7 @@ class NameTheNameless(VersionPass):
 
     name: ClassVar[str] = "name-the-nameless"
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with names."""
         taken: set[str] = set()
         if self.number >= _LIGHTS:

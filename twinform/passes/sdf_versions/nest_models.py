@@ -22,7 +22,7 @@ from twinform.ir import (
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.scopes import SCOPE
-from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass
 
 Part = TypeVar("Part", Link, Joint, Frame)
@@ -39,7 +39,7 @@ class NestModels(VersionPass):
 
     name: ClassVar[str] = "nest-models"
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document without scoped names."""
         return rewrite(document, Model, lambda model: nest(model, keeper.sink))
 

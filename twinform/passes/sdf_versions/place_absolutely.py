@@ -25,7 +25,7 @@ from twinform.ir import (
 from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition, version_carriers
+from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper, version_carriers
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.sdf_versions.early_frames import NAMED_FRAMES
 from twinform.passes.transforms.element_poses import ElementPoses
@@ -55,7 +55,7 @@ class PlaceAbsolutely(VersionPass):
 
     name: ClassVar[str] = "place-absolutely"
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document without named frames."""
         named = self.number >= NAMED_FRAMES
         place = _Placer(keeper, named=named)
@@ -68,12 +68,12 @@ class PlaceAbsolutely(VersionPass):
 class _Placer:
     """Works from the outside in, because an outer pose may be in a frame of an inner model."""
 
-    keeper: Keeper
+    keeper: VersionKeeper
     named: bool
 
     def world(self, world: World) -> World:
         graph = FrameGraph(world)
-        place = _Poses(graph, WORLD, "world", self)
+        place = _HolderPoses(graph, WORLD, "world", self)
         update = self._members(world, place)
         if not self.named:
             update["lights"] = tuple(map(place.resolved, world.lights))
@@ -88,19 +88,23 @@ class _Placer:
     def model(self, model: Model) -> Model:
         if self.named and not model.models:
             return model
-        place = _Poses(FrameGraph(model), MODEL, "model", self)
+        place = _HolderPoses(FrameGraph(model), MODEL, "model", self)
         update = self._members(model, place)
         if not self.named:
-            update["links"] = tuple(_Poses(place.graph, link.name, "link", self).link(link) for link in model.links)
+            update["links"] = tuple(
+                _HolderPoses(place.graph, link.name, "link", self).link(link) for link in model.links
+            )
         return self._without_frames(model.copy(**update))
 
-    def _members(self, holder: Holder, place: "_Poses") -> dict[str, Any]:
+    def _members(self, holder: Holder, place: "_HolderPoses") -> dict[str, Any]:
         """The parts that models and worlds have both."""
         update: dict[str, Any] = {"models": tuple(self.model(place.model(model)) for model in holder.models)}
         if self.named:
             return update
         update["includes"] = tuple(map(place.resolved, holder.includes))
-        update["joints"] = tuple(_Poses(place.graph, joint.name, "joint", self).joint(joint) for joint in holder.joints)
+        update["joints"] = tuple(
+            _HolderPoses(place.graph, joint.name, "joint", self).joint(joint) for joint in holder.joints
+        )
         update["opaque"] = place.elements().parts(holder.opaque, still=True)
         return update
 
@@ -135,7 +139,7 @@ class _Placer:
 
 
 @dataclass(frozen=True, slots=True)
-class _Poses:
+class _HolderPoses:
     """The poses in one holder's frame, which the version takes for granted there."""
 
     graph: FrameGraph

@@ -5,7 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Link, Model, rewrite
 from twinform.ir.frames import FrameGraph
-from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass
 
 
@@ -19,12 +19,12 @@ class PlaceInertials(VersionPass):
 
     name: ClassVar[str] = "place-inertials"
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with inertials in their links."""
         return rewrite(document, Model, lambda model: _place_all(model, keeper))
 
 
-def _place_all(model: Model, keeper: Keeper) -> Model:
+def _place_all(model: Model, keeper: VersionKeeper) -> Model:
     poses = [link.inertial.pose for link in model.links if link.inertial and link.inertial.pose]
     if all(pose.relative_to is None for pose in poses):
         return model

@@ -19,7 +19,7 @@ from twinform.ir import (
 from twinform.ir.verify.joints import verify_mimics
 from twinform.passes.carriers.absorb import CarrierError, absorb, is_already_there
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours
-from twinform.passes.carriers.sdf_versions import DIALECT, Keeper, carried, condition_of, is_version_carrier
+from twinform.passes.carriers.sdf_versions import DIALECT, VersionKeeper, carried, condition_of, is_version_carrier
 from twinform.passes.sdf_versions.base import VersionPass, is_foreign
 from twinform.passes.sdf_versions.comparison import same, without_carriers
 from twinform.passes.sdf_versions.steps import backward
@@ -42,7 +42,7 @@ class PutBack(VersionPass):
     name: ClassVar[str] = "put-back"
     source: str
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with its parts."""
         if not _has_carriers(document):
             return document
@@ -53,7 +53,7 @@ class PutBack(VersionPass):
             own = document
         return map_children(own, partial(self._child, keeper))
 
-    def _child(self, keeper: Keeper, node: AnyNode) -> AnyNode:
+    def _child(self, keeper: VersionKeeper, node: AnyNode) -> AnyNode:
         called = f"{type(node).__name__.lower()} {getattr(node, 'name', '')!r}"
         try:
             made = restored(node, self.number)

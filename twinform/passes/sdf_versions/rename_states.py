@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from twinform.ir import Document, Element, World, rewrite
-from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass, is_foreign, map_own_elements
 from twinform.schemas import Fact, Version, table
 
@@ -28,7 +28,7 @@ class RenameStates(VersionPass):
     name: ClassVar[str] = "rename-states"
     back: bool = False
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with states in the syntax of the version."""
         renaming = _Renaming(self.number, self.back)
 

@@ -12,7 +12,7 @@ _LAST: Version = (99, 99)
 
 
 @dataclass(slots=True)
-class Span:
+class VersionSpan:
     """When one part exists: every row of the table that describes it, and from when to when."""
 
     rows: list[tuple[Version, Version, Fact]] = field(default_factory=list[tuple[Version, Version, Fact]])
@@ -31,45 +31,45 @@ class Span:
         earlier = [until for _, until, _ in self.rows if until < version]
         return VersionCondition(since=min(later, default=None), until=max(earlier, default=None), index=index)
 
-    def repetition(self, version: Version) -> "Span | None":
+    def repetition(self, version: Version) -> "VersionSpan | None":
         """When it may stand more than once, if that is in other versions alone."""
         row = self.row(version)
         if row is None or row.repeats:
             return None
         repeating = [each for each in self.rows if each[2].repeats]
-        return Span(repeating) if repeating else None
+        return VersionSpan(repeating) if repeating else None
 
-    def containers(self) -> "Span":
+    def containers(self) -> "VersionSpan":
         """When it has children, which in other versions may be a value."""
-        return Span([each for each in self.rows if each[2].type is None])
+        return VersionSpan([each for each in self.rows if each[2].type is None])
 
     @property
     def is_split(self) -> bool:
         """Whether it is one thing in some versions and another one in others."""
         return len({row.reference for _, _, row in self.rows}) > 1
 
-    def shape(self, row: Fact) -> "Shape":
+    def shape(self, row: Fact) -> "ElementContent":
         """What it may hold by the row of a version, and by those of others where it is another thing there."""
         if not self.is_split:
             return shape_of(row)
-        merged = Shape(shape_of(row).fact)
+        merged = ElementContent(shape_of(row).fact)
         for since, until, each in self.rows:
             for mine, theirs in _pairs_of_spans(merged, shape_of(each)):
                 for name, span in theirs.items():
                     # The inner parts of a row exist no longer than the row itself.
                     clipped = [(max(since, first), min(until, last), inner) for first, last, inner in span.rows]
-                    mine.setdefault(name, Span()).rows.extend(clipped)
+                    mine.setdefault(name, VersionSpan()).rows.extend(clipped)
         return merged
 
 
 @dataclass(slots=True)
-class Shape:
+class ElementContent:
     """What an element may hold: by name (`@` for attributes), by field of the IR, and by kind for one of several."""
 
     fact: Fact
-    names: dict[str, Span] = field(default_factory=dict[str, Span])
-    fields: dict[str, Span] = field(default_factory=dict[str, Span])
-    kinds: dict[str, Span] = field(default_factory=dict[str, Span])
+    names: dict[str, VersionSpan] = field(default_factory=dict[str, VersionSpan])
+    fields: dict[str, VersionSpan] = field(default_factory=dict[str, VersionSpan])
+    kinds: dict[str, VersionSpan] = field(default_factory=dict[str, VersionSpan])
     _lacking: dict[Version, tuple[str, ...]] = field(default_factory=dict[Version, tuple[str, ...]])
 
     def lacking(self, version: Version) -> tuple[str, ...]:
@@ -82,20 +82,22 @@ class Shape:
         return self._lacking[version]
 
 
-def _pairs_of_spans(mine: Shape, theirs: Shape) -> list[tuple[dict[str, Span], dict[str, Span]]]:
+def _pairs_of_spans(
+    mine: ElementContent, theirs: ElementContent
+) -> list[tuple[dict[str, VersionSpan], dict[str, VersionSpan]]]:
     return [(mine.names, theirs.names), (mine.fields, theirs.fields)]
 
 
 @cache
-def shape(definition: str) -> Shape:
+def shape(definition: str) -> ElementContent:
     """The shape of a definition of SDF."""
     return _shape(table("sdf").definitions[definition])
 
 
-_inner: dict[int, Shape] = {}
+_inner: dict[int, ElementContent] = {}
 
 
-def shape_of(row: Fact) -> Shape:
+def shape_of(row: Fact) -> ElementContent:
     """The shape of a row, which may refer to a definition."""
     if row.reference:
         return shape(row.reference)
@@ -104,15 +106,15 @@ def shape_of(row: Fact) -> Shape:
     return _inner[id(row)]
 
 
-def _shape(fact: Fact) -> Shape:
-    made = Shape(fact)
+def _shape(fact: Fact) -> ElementContent:
+    made = ElementContent(fact)
     for row in fact.rows:
-        made.names.setdefault(row.name, Span()).rows.append((row.since, row.until, row))
+        made.names.setdefault(row.name, VersionSpan()).rows.append((row.since, row.until, row))
     _collect(fact, made, _FIRST, _LAST)
     return made
 
 
-def _collect(fact: Fact, made: Shape, since: Version, until: Version) -> None:
+def _collect(fact: Fact, made: ElementContent, since: Version, until: Version) -> None:
     """Enter the fields that rows fill; a container without a node passes on to its rows when it exists."""
     for row in fact.rows:
         first, last = max(since, row.since), min(until, row.until)
@@ -120,7 +122,7 @@ def _collect(fact: Fact, made: Shape, since: Version, until: Version) -> None:
             _collect(table("sdf").resolve(row), made, first, last)
         elif row.place and not row.place.startswith("/"):
             spans, key = (made.kinds, row.kind) if row.kind else (made.fields, row.place)
-            spans.setdefault(key, Span()).rows.append((first, last, row))
+            spans.setdefault(key, VersionSpan()).rows.append((first, last, row))
             if row.type:  # the attributes of a leaf are fields of the node around it
                 _collect(row, made, first, last)
 
@@ -137,11 +139,11 @@ def whole(version: Version) -> frozenset[str]:
     return frozenset(found)
 
 
-def _is_whole(form: Shape, found: Container[str], version: Version) -> bool:
+def _is_whole(form: ElementContent, found: Container[str], version: Version) -> bool:
     return all(_has_all(span, found, version) for span in form.names.values())
 
 
-def _has_all(span: Span, found: Container[str], version: Version) -> bool:
+def _has_all(span: VersionSpan, found: Container[str], version: Version) -> bool:
     """Whether a version has a part and, by the definitions that were found to be whole, everything in it."""
     row = span.row(version)
     if row is None or span.is_split or span.repetition(version):

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 from twinform.ir import PLAIN, Document, Element, Sensor, rewrite
 from twinform.passes.carriers.carriers import NAMESPACE
-from twinform.passes.carriers.sdf_versions import Keeper
+from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass, map_own_elements
 from twinform.passes.sdf_versions.element_paths import has, put, take
 
@@ -28,7 +28,7 @@ class SpreadImuNoise(VersionPass):
     name: ClassVar[str] = "spread-imu-noise"
     annotate: bool = False
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with noise on axes."""
         return rewrite(document, Sensor, partial(_sensor, self.annotate), having=PLAIN)
 
@@ -44,7 +44,7 @@ class GatherImuNoise(VersionPass):
     name: ClassVar[str] = "gather-imu-noise"
     annotated: bool = False
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with noise once for each IMU."""
 
         def gather(element: Element) -> Element:

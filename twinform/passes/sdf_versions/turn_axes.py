@@ -7,7 +7,7 @@ from twinform.diagnostics import rules
 from twinform.ir import Axis, Document, Element, Format, Joint, Model, Opaque, rewrite
 from twinform.ir.defaults import AXIS, direction
 from twinform.ir.frames import MODEL, FrameGraph
-from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
+from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.schemas import Version, format_value
 
@@ -26,12 +26,12 @@ class TurnAxes(VersionPass):
 
     name: ClassVar[str] = "turn-axes"
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with axes in the syntax of the version."""
         return rewrite(document, Model, partial(_model, keeper, self.number >= _SINCE))
 
 
-def _model(keeper: Keeper, has_attribute: bool, model: Model) -> Model:
+def _model(keeper: VersionKeeper, has_attribute: bool, model: Model) -> Model:
     axes = [axis for joint in model.joints for axis in (joint.axis, joint.axis2) if axis]
     if all(axis.expressed_in is None and has_attribute for axis in axes):
         return model
@@ -42,7 +42,7 @@ def _model(keeper: Keeper, has_attribute: bool, model: Model) -> Model:
 class _Turner:
     """Turns the axes of one model."""
 
-    def __init__(self, keeper: Keeper, graph: FrameGraph, *, has_attribute: bool) -> None:
+    def __init__(self, keeper: VersionKeeper, graph: FrameGraph, *, has_attribute: bool) -> None:
         self.keeper = keeper
         self.graph = graph
         self.has_attribute = has_attribute

@@ -8,7 +8,7 @@ from twinform.ir import Document, Inertial, Link, Model, rewrite
 from twinform.ir.frames import FrameGraph
 from twinform.passes.analyses.automatic_inertias import NoInertiaError, automatic, map_automatic, written_out
 from twinform.passes.analyses.meshes import Meshes
-from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
+from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.framework.assets import AssetPass
 from twinform.passes.sdf_versions.base import VersionPass
 
@@ -26,13 +26,13 @@ class WriteInertias(VersionPass, AssetPass):
 
     name: ClassVar[str] = "write-inertias"
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with every inertia written out."""
         write = partial(_write, keeper, Meshes(self._assets))
         return rewrite(document, Model, lambda model: map_automatic(model, write))
 
 
-def _write(keeper: Keeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
+def _write(keeper: VersionKeeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
     try:
         found = automatic(link, inertial, link.collisions, graph, meshes)
     except NoInertiaError:

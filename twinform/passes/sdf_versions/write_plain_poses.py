@@ -7,7 +7,7 @@ from twinform.diagnostics import NOWHERE, rules
 from twinform.ir import PLAIN, Document, Element, Node, Opaque, Pose, bits_of, count_parts, map_children, rewrite
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition, version_carriers
+from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper, version_carriers
 from twinform.passes.sdf_versions.base import VersionPass, map_inside, map_own_elements
 from twinform.passes.sdf_versions.element_paths import replace
 from twinform.passes.transforms.element_poses import read_pose
@@ -29,12 +29,12 @@ class WritePlainPoses(VersionPass):
 
     name: ClassVar[str] = "write-plain-poses"
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with plain poses."""
         return map_children(document, lambda child: rewrite(child, Node, partial(_plain, keeper), having=_HAVING))
 
 
-def _plain(keeper: Keeper, node: Node) -> Node:
+def _plain(keeper: VersionKeeper, node: Node) -> Node:
     node = map_own_elements(node, partial(map_inside, change=partial(_element, keeper)))
     pose: Pose | None = getattr(node, "pose", None)
     if pose is None or not (pose.quat_xyzw or pose.degrees is not None or pose.rotation_format is not None):
@@ -48,7 +48,7 @@ def _plain(keeper: Keeper, node: Node) -> Node:
     return keeper.keep(changed, [pose_piece(pose)], condition, rules.OTHER_WORDS, message, pose.location, weight)
 
 
-def _element(keeper: Keeper, element: Element) -> Element:
+def _element(keeper: VersionKeeper, element: Element) -> Element:
     pose = element.find("pose")
     if pose is None or all(pose.get(word) is None for word in _ATTRIBUTES):
         return element

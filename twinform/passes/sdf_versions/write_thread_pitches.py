@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import rules
 from twinform.ir import Document, Joint, rewrite
-from twinform.passes.carriers.sdf_versions import Keeper, VersionCondition
+from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.transforms.nodes import text_piece
 from twinform.schemas import format_value
@@ -28,7 +28,7 @@ class WriteThreadPitches(VersionPass):
     name: ClassVar[str] = "write-thread-pitches"
     back: bool = False
 
-    def change(self, document: Document, keeper: Keeper) -> Document:
+    def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with screws in the syntax of the version."""
         return rewrite(document, Joint, partial(_back, keeper) if self.back else _forth)
 
@@ -41,7 +41,7 @@ def _forth(joint: Joint) -> Joint:
     return joint.copy(thread_pitch=_DEFAULT)
 
 
-def _back(keeper: Keeper, joint: Joint) -> Joint:
+def _back(keeper: VersionKeeper, joint: Joint) -> Joint:
     written = joint.screw_thread_pitch
     if joint.type != "screw" or (written is None and joint.thread_pitch is not None):
         return joint

@@ -13,7 +13,7 @@ from twinform.ir.scopes import SCOPE, nested_models, nested_names, scoped_models
 from twinform.passes.carriers.annotations import without_synthesized
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
 from twinform.passes.structure.renaming import renamed_in_world, renamed_model, with_followed
-from twinform.passes.structure.scopes import Part, Scope, report_clashes, scope_of
+from twinform.passes.structure.scopes import Part, RenamedScope, report_clashes, scope_of
 from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.joint_ends import report_self_joint, resolve_ends
 from twinform.passes.transforms.nested_settings import differing_rests, settle_links
@@ -68,7 +68,7 @@ class FlattenModels(ModelEdit):
             return model
         return renamed_model(flat, scope, place.format, place.sink)
 
-    def _scope(self, flat: Model, model: Model) -> Scope:
+    def _scope(self, flat: Model, model: Model) -> RenamedScope:
         """The names of a flat model after the pass; it was made of this one."""
         stand_ins = set(nested_names(model))  # so are the frames called that stand for them
 
@@ -82,7 +82,7 @@ class FlattenModels(ModelEdit):
     def in_world(self, before: World, after: World) -> World:
         """The world, whose joints and frames follow."""
 
-        def scope(model: Model) -> Scope:
+        def scope(model: Model) -> RenamedScope:
             return self._scope(flatten(model, _plain) if model.models else model, model)
 
         return renamed_in_world(before, after, scope, self.model)
@@ -132,7 +132,7 @@ def _with_rest(flat: Model, model: Model, place: EditContext) -> Model:
     return flat.copy(plugins=tuple(plugins), opaque=tuple(opaque))
 
 
-def _prefixed(model: Model, prefix: str) -> Scope:
+def _prefixed(model: Model, prefix: str) -> RenamedScope:
     def choose(part: Part, name: str) -> str:
         del part
         return prefix + name

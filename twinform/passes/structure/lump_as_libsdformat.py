@@ -38,7 +38,7 @@ from twinform.passes.structure.gazebo_blocks import (
     posed_names,
     turns_by_nothing,
 )
-from twinform.passes.structure.lumping_plan import Plan, plan
+from twinform.passes.structure.lumping_plan import LumpingPlan, plan
 from twinform.passes.structure.mentions import mentions
 from twinform.passes.structure.model_edit import EditContext
 from twinform.passes.structure.moved_plugins import moved_plugin
@@ -64,7 +64,7 @@ def lump_as_libsdformat(model: Model, keep: tuple[str, ...], place: EditContext)
 
     joints = tuple(sorted(model.joints, key=lambda joint: joint.name))  # urdfdom keeps them by name
     planned = plan(model.copy(joints=joints), graph, keep, why, place)
-    made = _Lumping(model, graph, there, planned, place).run() if planned.joints else model
+    made = _LibsdformatLumping(model, graph, there, planned, place).run() if planned.joints else model
     links = tuple(_named(link) for link in made.links)
     joints = tuple(_turning(joint) if _stays(joint, there) else joint for joint in made.joints)
     if links == made.links and joints == made.joints:
@@ -96,10 +96,12 @@ def _named(link: Link) -> Link:
     return link.copy(**update) if update else link
 
 
-class _Lumping:
+class _LibsdformatLumping:
     """One run over one model."""
 
-    def __init__(self, model: Model, graph: FrameGraph, there: Blocks, planned: Plan, place: EditContext) -> None:
+    def __init__(
+        self, model: Model, graph: FrameGraph, there: Blocks, planned: LumpingPlan, place: EditContext
+    ) -> None:
         self.model, self.graph, self.there, self.planned, self.place = model, graph, there, planned, place
         self.links = {link.name: link for link in model.links}
         self.guests = planned.guests()

@@ -26,7 +26,7 @@ from twinform.passes.analyses.automatic_inertias import NoInertiaError
 from twinform.passes.analyses.meshes import Meshes
 from twinform.passes.carriers.carriers import is_ours
 from twinform.passes.structure.bodies import body_of, with_guests
-from twinform.passes.structure.lumping_plan import Plan, plan
+from twinform.passes.structure.lumping_plan import LumpingPlan, plan
 from twinform.passes.structure.mentions import Mentions, mentions
 from twinform.passes.structure.model_edit import EditContext
 from twinform.passes.transforms.element_poses import link_elements
@@ -48,11 +48,11 @@ def lump_sdf(
     if not any(joint.type == "fixed" for joint in model.joints):
         return model
     graph = FrameGraph(model)
-    planned = plan(model, graph, keep, _Obstacles(graph, named, meshes).why, place)
+    planned = plan(model, graph, keep, _SdfObstacles(graph, named, meshes).why, place)
     return _lumped(model, graph, planned, meshes, place.sink) if planned.joints else model
 
 
-class _Obstacles:
+class _SdfObstacles:
     """Why a link cannot be lumped."""
 
     def __init__(self, graph: FrameGraph, named: Mentions, meshes: Meshes) -> None:
@@ -114,7 +114,7 @@ def _name(part: Opaque) -> str:
     return part.element.name if part.element else part.name
 
 
-def _lumped(model: Model, graph: FrameGraph, planned: Plan, meshes: Meshes, sink: DiagnosticSink) -> Model:
+def _lumped(model: Model, graph: FrameGraph, planned: LumpingPlan, meshes: Meshes, sink: DiagnosticSink) -> Model:
     links = {link.name: link for link in model.links}
     guests = planned.guests()
     gone = {joint.name for joint in planned.joints.values()}
@@ -231,7 +231,7 @@ def _element_in_frame(part: Opaque, frame: str) -> Opaque:
     return part.copy(element=element.copy(children=children))
 
 
-def _same_canonical_link(model: Model, graph: FrameGraph, planned: Plan) -> Model:
+def _same_canonical_link(model: Model, graph: FrameGraph, planned: LumpingPlan) -> Model:
     """The model, whose own frame moves with the body that it moved with before."""
     before = graph.body(MODEL, kind="model")
     body = planned.hosts.get(before, before)

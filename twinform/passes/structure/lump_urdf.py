@@ -19,7 +19,7 @@ from twinform.passes.structure.gazebo_blocks import (
     of_shapes,
     posed_names,
 )
-from twinform.passes.structure.lumping_plan import Plan, plan
+from twinform.passes.structure.lumping_plan import LumpingPlan, plan
 from twinform.passes.structure.mentions import Mentions, mentions
 from twinform.passes.structure.model_edit import EditContext
 from twinform.passes.transforms.lumped_links import is_preserved
@@ -35,11 +35,11 @@ def lump_urdf(model: Model, keep: tuple[str, ...], place: EditContext) -> Model:
     if not any(joint.type == "fixed" for joint in model.joints):
         return model
     graph, there = FrameGraph(model), blocks(model.extensions)
-    planned = plan(model, graph, keep, _Obstacles(there, mentions(model)).why, place)
-    return _Lumping(model, graph, there, planned, place).run() if planned.joints else model
+    planned = plan(model, graph, keep, _UrdfObstacles(there, mentions(model)).why, place)
+    return _UrdfLumping(model, graph, there, planned, place).run() if planned.joints else model
 
 
-class _Obstacles:
+class _UrdfObstacles:
     """Why a link cannot be lumped; an empty text for one that has nothing to give, or is to stay."""
 
     def __init__(self, there: Blocks, named: Mentions) -> None:
@@ -66,10 +66,12 @@ def _mass(link: Link) -> float:
     return (link.inertial.mass or 0.0) if link.inertial else 0.0
 
 
-class _Lumping:
+class _UrdfLumping:
     """One run over one model."""
 
-    def __init__(self, model: Model, graph: FrameGraph, there: Blocks, planned: Plan, place: EditContext) -> None:
+    def __init__(
+        self, model: Model, graph: FrameGraph, there: Blocks, planned: LumpingPlan, place: EditContext
+    ) -> None:
         self.model, self.graph, self.there, self.place = model, graph, there, place
         self.planned, self.guests = planned, planned.guests()
         self.links = {link.name: link for link in model.links}

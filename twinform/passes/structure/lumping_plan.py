@@ -15,7 +15,7 @@ Obstacle = Callable[[Joint, Link, Link], str | None]
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class LumpingPlan:
     """The joints that go, by the names of their children; `hosts` has the link that each of these goes into."""
 
     joints: Mapping[str, Joint]
@@ -38,7 +38,7 @@ def _below(name: str, below: Mapping[str, list[str]]) -> Iterator[str]:
 
 
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class LumpingCandidate:
     """A fixed joint between two links; `parent` and `child` are the links that its ends move with."""
 
     joint: Joint
@@ -46,15 +46,16 @@ class Candidate:
     child: str
 
 
-def plan(model: Model, graph: FrameGraph, keep: tuple[str, ...], obstacle: Obstacle, place: EditContext) -> Plan:
+def plan(model: Model, graph: FrameGraph, keep: tuple[str, ...], obstacle: Obstacle, place: EditContext) -> LumpingPlan:
     """What can go, with a diagnostic for each link that cannot."""
     links = {link.name: link for link in model.links}
     ends = [
-        Candidate(joint, _body(joint.parent, links, graph), _body(joint.child, links, graph)) for joint in model.joints
+        LumpingCandidate(joint, _body(joint.parent, links, graph), _body(joint.child, links, graph))
+        for joint in model.joints
     ]
     # A gearbox couples two joints and holds no link.
     carried = Counter(each.child for each in ends if each.joint.type != "gearbox")
-    going: dict[str, Candidate] = {}
+    going: dict[str, LumpingCandidate] = {}
     for each in ends:
         if each.joint.type != "fixed" or each.child not in links or each.parent == WORLD or _kept(each, keep):
             continue
@@ -66,7 +67,7 @@ def plan(model: Model, graph: FrameGraph, keep: tuple[str, ...], obstacle: Obsta
     for name in _circles(going):
         _report(going.pop(name), "fixed joints go round in a circle there", place)
     _leave_what_others_hold(going, ends, place)
-    return Plan(
+    return LumpingPlan(
         {name: each.joint.copy(parent=each.parent) for name, each in going.items()},
         {name: _host(name, going) for name in going},
     )
@@ -81,11 +82,13 @@ def _body(name: str | None, links: Mapping[str, Link], graph: FrameGraph) -> str
         return name
 
 
-def _kept(each: Candidate, keep: tuple[str, ...]) -> bool:
+def _kept(each: LumpingCandidate, keep: tuple[str, ...]) -> bool:
     return matches(each.child, keep) or matches(each.joint.name, keep)
 
 
-def _why_not(each: Candidate, links: Mapping[str, Link], carried: Counter[str], obstacle: Obstacle) -> str | None:
+def _why_not(
+    each: LumpingCandidate, links: Mapping[str, Link], carried: Counter[str], obstacle: Obstacle
+) -> str | None:
     if each.parent not in links:
         return f"{each.parent!r}, which it is fixed to, is in another model"
     if carried[each.child] > 1:
@@ -93,7 +96,7 @@ def _why_not(each: Candidate, links: Mapping[str, Link], carried: Counter[str], 
     return obstacle(each.joint, links[each.parent], links[each.child])
 
 
-def _circles(going: Mapping[str, Candidate]) -> list[str]:
+def _circles(going: Mapping[str, LumpingCandidate]) -> list[str]:
     """The links from which the way up never ends."""
     good: set[str] = set()
     bad: list[str] = []
@@ -110,7 +113,9 @@ def _circles(going: Mapping[str, Candidate]) -> list[str]:
     return list(dict.fromkeys(bad))
 
 
-def _leave_what_others_hold(going: dict[str, Candidate], ends: list[Candidate], place: EditContext) -> None:
+def _leave_what_others_hold(
+    going: dict[str, LumpingCandidate], ends: list[LumpingCandidate], place: EditContext
+) -> None:
     """A joint must not end up with both of its ends in one link."""
     while True:
         same = next((each for each in ends if _joins_itself(each, going)), None)
@@ -121,13 +126,13 @@ def _leave_what_others_hold(going: dict[str, Candidate], ends: list[Candidate], 
             _report(going.pop(name), why, place)
 
 
-def _joins_itself(each: Candidate, going: Mapping[str, Candidate]) -> bool:
+def _joins_itself(each: LumpingCandidate, going: Mapping[str, LumpingCandidate]) -> bool:
     if each.child in going and going[each.child] is each:
         return False
     return each.parent != each.child and _host(each.parent, going) == _host(each.child, going)
 
 
-def _way_up(name: str, going: Mapping[str, Candidate]) -> list[str]:
+def _way_up(name: str, going: Mapping[str, LumpingCandidate]) -> list[str]:
     """The links that go, from a link up to the one that stays."""
     way: list[str] = []
     while name in going:
@@ -136,12 +141,12 @@ def _way_up(name: str, going: Mapping[str, Candidate]) -> list[str]:
     return way
 
 
-def _host(name: str, going: Mapping[str, Candidate]) -> str:
+def _host(name: str, going: Mapping[str, LumpingCandidate]) -> str:
     while name in going:
         name = going[name].parent
     return name
 
 
-def _report(each: Candidate, why: str, place: EditContext) -> None:
+def _report(each: LumpingCandidate, why: str, place: EditContext) -> None:
     message = f"link {each.child!r} is not lumped into {each.parent!r}: {why}"
     place.sink.report(rules.LINK_NOT_LUMPED, message, each.joint.location, found=each.child)

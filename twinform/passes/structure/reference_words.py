@@ -21,7 +21,7 @@ _PARTS: dict[str, ReferenceKind] = {"joint": "joint", "link": "link", "body": "l
 _NOT_NAMES = frozenset({"frames", "framerate", "frame_rate", "update_frame", "joint_state_topic", "visualize_frame"})
 
 
-class Reference(NamedTuple):
+class WordReference(NamedTuple):
     """A text or attribute of an element; `attribute` is empty for its text."""
 
     element: Element

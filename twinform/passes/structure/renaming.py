@@ -9,7 +9,7 @@ from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Element, Format, GazeboExtension, Model, Node, Plugin, World, map_children, map_references
 from twinform.ir.sourced import Sourced
 from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text
-from twinform.passes.structure.scopes import PARTS, Part, Scope
+from twinform.passes.structure.scopes import PARTS, Part, RenamedScope
 from twinform.passes.transforms.nodes import map_elements
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -21,12 +21,12 @@ _DEFAULT_SHAPE = ("_collision", "_visual", "_fixed_joint_lump__")
 """What readers of URDF put behind a link's name to call its shapes."""
 
 
-def renamed_model(model: Model, scope: Scope, format_: Format, sink: DiagnosticSink) -> Model:
+def renamed_model(model: Model, scope: RenamedScope, format_: Format, sink: DiagnosticSink) -> Model:
     """The model with the names of the scope, wherever they stand in it."""
     return _Renamer(scope, format_, sink).model(model)
 
 
-def with_followed(holder: Holder, scope: Scope, format_: Format, sink: DiagnosticSink) -> Holder:
+def with_followed(holder: Holder, scope: RenamedScope, format_: Format, sink: DiagnosticSink) -> Holder:
     """The model or world with the names of the scope in its references, but not those of its parts."""
     return _Renamer(scope, format_, sink).followed(holder)
 
@@ -35,7 +35,7 @@ def with_followed(holder: Holder, scope: Scope, format_: Format, sink: Diagnosti
 class _Renamer:
     """The names in one model."""
 
-    scope: Scope
+    scope: RenamedScope
     format: Format
     sink: DiagnosticSink
 
@@ -90,7 +90,7 @@ class _Renamer:
         }
         return _changed(element, update)
 
-    def state_of_model(self, element: Element, scope: Scope, where: Location) -> Element:
+    def state_of_model(self, element: Element, scope: RenamedScope, where: Location) -> Element:
         """What the state of a world has of a model, whose parts have names of their own."""
         new = self.scope.own["model"]
         attributes = tuple(
@@ -149,11 +149,11 @@ def _changed(node: Changed, update: dict[str, object]) -> Changed:
     return node.copy(**different) if different else node
 
 
-def renamed_in_world(before: World, after: World, scope: Callable[[Model], Scope], only: str | None) -> World:
+def renamed_in_world(before: World, after: World, scope: Callable[[Model], RenamedScope], only: str | None) -> World:
     """The world after its models were renamed, with its own joints, frames and the like following them.
 
     `before` has the models by their old names; `only` names the one model that was renamed, if it is one alone.
     """
     inner = {model.name: scope(model) for model in before.models if only in (None, model.name)}
     own: dict[str, dict[str, str]] = {part: {} for part in ("link", "joint", "frame", "model")}
-    return with_followed(after, Scope("", own, inner), Format.SDF, DiagnosticSink())
+    return with_followed(after, RenamedScope("", own, inner), Format.SDF, DiagnosticSink())

@@ -21,12 +21,12 @@ RESERVED = frozenset({WORLD, MODEL, "__root__"})
 
 
 @dataclass(frozen=True, slots=True)
-class Scope:
+class RenamedScope:
     """The names in a model: `own` has the new ones by kind, `inner` the scopes of nested models by their old names."""
 
     name: str
     own: Mapping[Part, Mapping[str, str]]
-    inner: Mapping[str, "Scope"] = field(default_factory=dict[str, "Scope"])
+    inner: Mapping[str, "RenamedScope"] = field(default_factory=dict[str, "RenamedScope"])
 
     @property
     def changes(self) -> bool:
@@ -68,7 +68,7 @@ LOOKUP_ORDER: dict[ReferenceKind, tuple[Part, ...]] = {
 """Which parts a name may mean, the likeliest first."""
 
 
-def scope_of(model: Model, choose: Choose, *, deep: bool = True) -> Scope:
+def scope_of(model: Model, choose: Choose, *, deep: bool = True) -> RenamedScope:
     """The scope of a model whose parts get new names; those in nested models only with `deep`."""
     own: dict[Part, dict[str, str]] = {part: {} for part, _ in PARTS}
     for part, field_name in PARTS:
@@ -76,14 +76,14 @@ def scope_of(model: Model, choose: Choose, *, deep: bool = True) -> Scope:
             if node.name and node.name not in RESERVED:
                 own[part].setdefault(node.name, choose(part, node.name))
     inner = {nested.name: scope_of(nested, choose if deep else _same, deep=deep) for nested in model.models}
-    return Scope(model.name, own, inner)
+    return RenamedScope(model.name, own, inner)
 
 
 def _same(_: Part, name: str) -> str:
     return name
 
 
-def report_clashes(model: Model, scope: Scope, format_: Format, sink: DiagnosticSink) -> bool:
+def report_clashes(model: Model, scope: RenamedScope, format_: Format, sink: DiagnosticSink) -> bool:
     """Report parts that would share a name, in the model and the models in it; whether there are any."""
     seen: dict[tuple[str, str], tuple[str, Location]] = {}
     clash = False

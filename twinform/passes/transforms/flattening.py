@@ -20,10 +20,10 @@ def flatten(model: Model, keep: Callable[[Frame, Model], Frame]) -> Model:
     graph = FrameGraph(model)
     links, joints, frames = list(model.links), list(model.joints), list(model.frames)
     # A stack, not recursion: models may be nested as deeply as the reader allows.
-    stack = [(nested, _Scope("")) for nested in reversed(model.models)]
+    stack = [(nested, _FlattenedNames("")) for nested in reversed(model.models)]
     while stack:
         nested, around = stack.pop()
-        scope = _Scope(f"{around.prefix}{nested.name}::")
+        scope = _FlattenedNames(f"{around.prefix}{nested.name}::")
         emptied = {"links": (), "joints": (), "frames": (), "models": ()}
         # A frame for each nested model: what is posed in the model's own frame needs one, and the
         # conversion back makes the model of it again.
@@ -37,7 +37,7 @@ def flatten(model: Model, keep: Callable[[Frame, Model], Frame]) -> Model:
 
 
 @dataclass(frozen=True, slots=True)
-class _Scope:
+class _FlattenedNames:
     """The names of one model, as they are called in the outermost one."""
 
     prefix: str
@@ -67,7 +67,7 @@ class _Scope:
         return map_frames(placed, self.rename)
 
 
-def _own_frame(model: Model, around: _Scope, scope: _Scope, graph: FrameGraph) -> Frame:
+def _own_frame(model: Model, around: _FlattenedNames, scope: _FlattenedNames, graph: FrameGraph) -> Frame:
     """The frame that stands for a nested model."""
     name = scope.frame_name
     body = graph.body(name, kind="model")

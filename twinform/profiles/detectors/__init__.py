@@ -8,7 +8,7 @@ from twinform.profiles.detectors.attributes import find_empty_attributes
 from twinform.profiles.detectors.engines import find_engine_faults
 from twinform.profiles.detectors.meshes import find_mesh_formats
 from twinform.profiles.detectors.tags import find_lost_tags
-from twinform.profiles.subject import Subject
+from twinform.profiles.subject import ProfiledFile
 
 __all__ = ["DETECTORS", "Detector"]
 
@@ -16,7 +16,7 @@ __all__ = ["DETECTORS", "Detector"]
 class Detector(NamedTuple):
     """A function that looks for something, and the rules that it reports."""
 
-    find: Callable[[Subject, DiagnosticSink], None]
+    find: Callable[[ProfiledFile, DiagnosticSink], None]
     rules: tuple[Rule, ...]
 
 

@@ -2,11 +2,11 @@
 
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import EMPTY_ATTRIBUTE
-from twinform.profiles.subject import Subject
+from twinform.profiles.subject import ProfiledFile
 from twinform.schemas import XmlElement, path_of
 
 
-def find_empty_attributes(subject: Subject, sink: DiagnosticSink) -> None:
+def find_empty_attributes(subject: ProfiledFile, sink: DiagnosticSink) -> None:
     """Report attributes of other namespaces without a value; elements of others, and plugins, are only copied."""
     waiting = [subject.tree] if subject.tree is not None and subject.tree.tag == "sdf" else []
     while waiting:

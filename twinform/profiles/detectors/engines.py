@@ -27,7 +27,7 @@ from twinform.passes.appearance.drop_bare_scripts import is_bare
 from twinform.passes.inertia.physical_consistency import is_doubtful
 from twinform.passes.limits.order_limits import is_usable
 from twinform.profiles.reading.forms import number_in
-from twinform.profiles.subject import Subject
+from twinform.profiles.subject import ProfiledFile
 
 _LATE_SENSORS = frozenset({"air_speed"})
 """What SDF 1.9 has no sensor of."""
@@ -37,7 +37,7 @@ _COMMON = frozenset({"revolute", "fixed"})
 """The types of joints that every engine has."""
 
 
-def find_engine_faults(subject: Subject, sink: DiagnosticSink) -> None:
+def find_engine_faults(subject: ProfiledFile, sink: DiagnosticSink) -> None:
     """Report what some engine of Gazebo does not take; URDF becomes SDF before engines see it."""
     document = subject.document
     # DART aborts the whole simulation with an assertion where a sphere has no radius, limits are

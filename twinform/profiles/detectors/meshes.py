@@ -3,10 +3,10 @@
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import COLLADA_MESH
 from twinform.ir import Mesh, walk
-from twinform.profiles.subject import Subject
+from twinform.profiles.subject import ProfiledFile
 
 
-def find_mesh_formats(subject: Subject, sink: DiagnosticSink) -> None:
+def find_mesh_formats(subject: ProfiledFile, sink: DiagnosticSink) -> None:
     """Report every mesh that is COLLADA, and whether the file is there: only then something can be done about it."""
     for node in walk(subject.document) if subject.document else ():
         uri = node.uri or "" if isinstance(node, Mesh) else ""

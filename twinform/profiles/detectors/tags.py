@@ -7,10 +7,10 @@ from twinform.diagnostics.rules import RENAMED_COLLISION, UNTAGGED_SHAPE
 from twinform.ir import Element, Format, Model
 from twinform.passes.structure.tag_shapes import wrongly_tagged
 from twinform.passes.structure.tagged_shapes import KINDS, seen_shapes
-from twinform.profiles.subject import Subject
+from twinform.profiles.subject import ProfiledFile
 
 
-def find_lost_tags(subject: Subject, sink: DiagnosticSink) -> None:
+def find_lost_tags(subject: ProfiledFile, sink: DiagnosticSink) -> None:
     """Report shapes that Gazebo tags otherwise than the file does, and names in contact sensors that it changes."""
     document = subject.document
     for model in document.models if document is not None and document.format is Format.URDF else ():

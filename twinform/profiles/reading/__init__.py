@@ -8,7 +8,7 @@ parsed here as the consumer does it (`tinyxml.py`, `python_xml.py`), and held ag
 import re
 from collections.abc import Iterator
 
-from twinform.profiles.reading.nodes import Node, UnparsedError
+from twinform.profiles.reading.nodes import RawNode, UnparsedError
 from twinform.profiles.reading.notation import reads
 from twinform.profiles.reading.python_xml import parse_with_expat, parse_with_lxml
 from twinform.profiles.reading.tinyxml import TINYXML, TINYXML_2, in_lines, parse
@@ -45,7 +45,7 @@ def read_as(consumer: str, content: bytes, is_there: IsThere = lambda _: True) -
     yield from shortfalls(root, table, is_there)
 
 
-def _parsed(parser: str, content: bytes) -> tuple[list[Node], str]:
+def _parsed(parser: str, content: bytes) -> tuple[list[RawNode], str]:
     if parser == "expat":
         return parse_with_expat(content), ""
     if parser == "sax":

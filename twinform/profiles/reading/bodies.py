@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 from twinform.ir.principal_moments import principal_moments
 from twinform.profiles.reading.forms import number_in
-from twinform.profiles.reading.nodes import Node
+from twinform.profiles.reading.nodes import RawNode
 
-Fact = Iterator[tuple[Node, str]]
+Fact = Iterator[tuple[RawNode, str]]
 # mjMINVAL, at or below which MuJoCo counts a mass (kg) or a moment (kg m2) as none.
 _LIGHTEST = 1e-15
 # In kg m2: MuJoCo counts smaller principal moments as none.
@@ -20,10 +20,10 @@ _ROUNDING = 1e-14
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
-class Body(NamedTuple):
+class RawBody(NamedTuple):
     """The mass and the moments of a link, and the principal ones; None where they are no numbers."""
 
-    node: Node
+    node: RawNode
     mass: float | None
     moments: tuple[float, ...]
     principal: tuple[float, ...] | None
@@ -48,7 +48,7 @@ class Body(NamedTuple):
         return _ROUNDING * self.principal[2] if self.principal is not None and (xy or xz or yz) else 0.0
 
 
-def bodies(root: Node) -> Iterator[Body]:
+def bodies(root: RawNode) -> Iterator[RawBody]:
     """The links with an inertial."""
     for link in root.all("link"):
         inertial = link.first("inertial")
@@ -59,7 +59,7 @@ def bodies(root: Node) -> Iterator[Body]:
         found = [number_in(text) for text in texts]
         mass = number_in(inertial.value("mass", "value") or "0")
         moments = tuple(0.0 if number is None else number for number in found)
-        yield Body(link, mass, moments, _principal(moments))
+        yield RawBody(link, mass, moments, _principal(moments))
 
 
 def _principal(moments: tuple[float, ...]) -> tuple[float, ...] | None:
@@ -69,28 +69,28 @@ def _principal(moments: tuple[float, ...]) -> tuple[float, ...] | None:
     return tuple(sorted(principal_moments((xx, yy, zz, xy, xz, yz))))
 
 
-def indefinite(root: Node) -> Fact:
+def indefinite(root: RawNode) -> Fact:
     """Inertias with a moment that is not positive, where there is one at all."""
     for body in bodies(root):
         if not body.is_empty and body.principal is not None and body.principal[0] < _SMALLEST:
             yield body.node, f"link {_name(body.node)!r} has a moment that is not positive, or next to nothing"
 
 
-def unbalanced(root: Node) -> Fact:
+def unbalanced(root: RawNode) -> Fact:
     """Inertias of which the largest moment is more than the other two together; the world has none."""
     for body in bodies(root):
         if (excess := body.excess) is not None and excess > body.lost:
             yield body.node, f"link {_name(body.node)!r} has a moment above the sum of the other two"
 
 
-def uncertain(root: Node) -> Fact:
+def uncertain(root: RawNode) -> Fact:
     """Inertias of which the largest moment is the sum of the other two, but for what rounding does with it."""
     for body in bodies(root):
         if (excess := body.excess) is not None and -body.lost < excess <= body.lost:
             yield body.node, f"link {_name(body.node)!r} has a moment next to the sum of the other two"
 
 
-def unphysical(root: Node) -> Fact:
+def unphysical(root: RawNode) -> Fact:
     """Inertias that no body has: with a moment above the sum of the others, a negative one, or without a mass."""
     for body in bodies(root):
         principal, mass = body.principal, body.mass or 0.0
@@ -104,7 +104,7 @@ def _is_unbalanced(principal: tuple[float, ...]) -> bool:
     return low + middle < high * (1 - _SLACK)
 
 
-def weightless(root: Node) -> Fact:
+def weightless(root: RawNode) -> Fact:
     """Links that move, with nothing that has a mass and an inertia in what is fixed to them."""
     heavy = {_name(body.node) for body in bodies(root) if _weighs(body)}
     # Without <inertial>, MuJoCo computes the mass from the collision shapes.
@@ -120,7 +120,7 @@ def weightless(root: Node) -> Fact:
             yield links[child], f"link {child!r} moves and has no mass or no inertia, nor has what is fixed to it"
 
 
-def _weighs(body: Body) -> bool:
+def _weighs(body: RawBody) -> bool:
     mass = body.mass or 0.0
     return mass > _LIGHTEST and body.principal is not None and body.principal[2] > _LIGHTEST
 
@@ -135,5 +135,5 @@ def _together(name: str, fixed: dict[str, list[str]]) -> set[str]:
     return found
 
 
-def _name(node: Node) -> str:
+def _name(node: RawNode) -> str:
     return node.attributes.get("name", "")

@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterator, Mapping
 
 from twinform.profiles.reading.forms import number_in
 from twinform.profiles.reading.lumping import Fact
-from twinform.profiles.reading.nodes import Node
+from twinform.profiles.reading.nodes import RawNode
 
 
-def _name(node: Node) -> str:
+def _name(node: RawNode) -> str:
     return node.attributes.get("name", "")
 
 
@@ -15,7 +15,7 @@ def _is_reserved(name: str) -> bool:
     return name == "world" or (len(name) >= 4 and name.startswith("__") and name.endswith("__"))
 
 
-def _kept_links(root: Node) -> Iterator[Node]:
+def _kept_links(root: RawNode) -> Iterator[RawNode]:
     """Links that libsdformat does not lump into others, nor takes for the world."""
     joints = {joint.value("child", "link") or "": joint for joint in root.all("joint")}
     for link in root.all("link"):
@@ -27,7 +27,7 @@ def _kept_links(root: Node) -> Iterator[Node]:
             yield link
 
 
-def _reserved(root: Node) -> Fact:
+def _reserved(root: RawNode) -> Fact:
     """Names that SDF keeps for itself."""
     moving = (joint for joint in root.all("joint") if joint.attributes.get("type") != "fixed")
     for node in (root, *_kept_links(root), *moving):
@@ -35,7 +35,7 @@ def _reserved(root: Node) -> Fact:
             yield node, f"<{node.tag}> has the name {_name(node)!r}"
 
 
-def _shared(root: Node) -> Fact:
+def _shared(root: RawNode) -> Fact:
     """Joints with the name of a link."""
     links = set(map(_name, _kept_links(root)))
     for joint in root.all("joint"):
@@ -43,7 +43,7 @@ def _shared(root: Node) -> Fact:
             yield joint, f"joint {_name(joint)!r} has the name of a link"
 
 
-def _placeless(root: Node) -> Fact:
+def _placeless(root: RawNode) -> Fact:
     """Joints that libsdformat leaves out while it poses their links relative to them; a frame may have their names."""
     blocks = (block for block in root.all("gazebo") if not block.attributes.get("reference"))
     frames = {_name(frame) for block in blocks for frame in block.all("frame")}
@@ -53,13 +53,13 @@ def _placeless(root: Node) -> Fact:
             yield joint, f"joint {_name(joint)!r} is {type_}, and no <frame> in <gazebo> has its name"
 
 
-def _weighing_world(root: Node) -> Fact:
+def _weighing_world(root: RawNode) -> Fact:
     for link in root.all("link"):
         if _name(link) == "world" and link.first("inertial") is not None:
             yield link, "link 'world' has an <inertial>"
 
 
-def _swapped_limits(root: Node) -> Fact:
+def _swapped_limits(root: RawNode) -> Fact:
     """Limits where the lower one is above the upper one; one that is not written is zero."""
     for joint in root.all("joint"):
         limit = joint.first("limit")
@@ -69,14 +69,14 @@ def _swapped_limits(root: Node) -> Fact:
                 yield limit, f"the limits of joint {_name(joint)!r} are {lower:g} and {upper:g}"
 
 
-def _empty_names(root: Node) -> Fact:
+def _empty_names(root: RawNode) -> Fact:
     for link in root.all("link"):
         for shape in (*link.all("visual"), *link.all("collision")):
             if shape.attributes.get("name") == "":
                 yield shape, f"a <{shape.tag}> of link {_name(link)!r} has an empty name"
 
 
-def _forked_world(root: Node) -> Fact:
+def _forked_world(root: RawNode) -> Fact:
     """A link called world, at the root, that carries several others."""
     ends = [(joint.value("parent", "link"), joint.value("child", "link")) for joint in root.all("joint")]
     carried = sum(parent == "world" for parent, _ in ends)
@@ -85,7 +85,7 @@ def _forked_world(root: Node) -> Fact:
         yield link, f"the link 'world' carries {carried} links"
 
 
-FACTS: Mapping[str, Callable[[Node], Fact]] = {
+FACTS: Mapping[str, Callable[[RawNode], Fact]] = {
     "reserved-name": _reserved,
     "swapped-limits": _swapped_limits,
     "empty-name": _empty_names,

@@ -3,22 +3,22 @@
 from collections.abc import Callable, Iterator, Mapping
 
 from twinform.profiles.reading.forms import FORMS, fits_bytes
-from twinform.profiles.reading.nodes import Node
+from twinform.profiles.reading.nodes import RawNode
 
-Fact = Iterator[tuple[Node, str]]
+Fact = Iterator[tuple[RawNode, str]]
 _EQUAL_COLORS = 1e-10
 
 
-def _names(nodes: Iterator[Node]) -> list[str]:
+def _names(nodes: Iterator[RawNode]) -> list[str]:
     return [node.attributes.get("name", "") for node in nodes]
 
 
-def _visual_materials(root: Node) -> Iterator[Node]:
+def _visual_materials(root: RawNode) -> Iterator[RawNode]:
     materials = (visual.first("material") for link in root.all("link") for visual in link.all("visual"))
     return (material for material in materials if material is not None)
 
 
-def _uncolored(root: Node) -> Fact:
+def _uncolored(root: RawNode) -> Fact:
     """Materials with a name and nothing else, where nothing before has that name."""
     known = set[str]()
     for material in (*root.all("material"), *_visual_materials(root)):
@@ -29,7 +29,7 @@ def _uncolored(root: Node) -> Fact:
         known.add(name)
 
 
-def _recolored(root: Node) -> Fact:
+def _recolored(root: RawNode) -> Fact:
     known: dict[str, str | None] = {}
     for material in (*root.all("material"), *_visual_materials(root)):
         name, color = material.attributes.get("name", ""), material.value("color", "rgba")
@@ -40,7 +40,7 @@ def _recolored(root: Node) -> Fact:
             yield material, f"material {name!r} has another color before"
 
 
-def _strange_used_colors(root: Node) -> Fact:
+def _strange_used_colors(root: RawNode) -> Fact:
     """Colors at the top that are not from 0 to 1, which a visual uses by their names."""
     colors = {node.attributes.get("name", ""): node.value("color", "rgba") for node in root.all("material")}
     for material in _visual_materials(root):
@@ -49,7 +49,7 @@ def _strange_used_colors(root: Node) -> Fact:
             yield material, f"the color of a visual is {rgba!r}"
 
 
-def _unread_colors(root: Node) -> Fact:
+def _unread_colors(root: RawNode) -> Fact:
     """Colors that are not four numbers, of materials anywhere with a name that none before them has with a color."""
     known, waiting = set[str](), [root]
     while waiting:
@@ -72,13 +72,13 @@ def _same_color(one: str, other: str) -> bool:
         return True
 
 
-def _nameless_colors(root: Node) -> Fact:
+def _nameless_colors(root: RawNode) -> Fact:
     for material in _visual_materials(root):
         if material.first("color") is None and "name" not in material.attributes:
             yield material, "a <material> has no name and no color"
 
 
-def _undefined_materials(root: Node) -> Fact:
+def _undefined_materials(root: RawNode) -> Fact:
     known = set(_names(root.all("material")))
     for visual in (visual for link in root.all("link") for visual in link.all("visual")):
         material = visual.first("material")
@@ -91,7 +91,7 @@ def _undefined_materials(root: Node) -> Fact:
             known.add(name)
 
 
-def _nowhere_materials(root: Node) -> Fact:
+def _nowhere_materials(root: RawNode) -> Fact:
     """Materials with a name alone that are defined neither before nor behind."""
     named = [*root.all("material"), *(each for each in _visual_materials(root) if _says_something(each))]
     known = set(_names(iter(named)))
@@ -101,17 +101,17 @@ def _nowhere_materials(root: Node) -> Fact:
             yield material, f"material {name!r} is defined nowhere"
 
 
-def _says_something(material: Node) -> bool:
+def _says_something(material: RawNode) -> bool:
     return material.first("color") is not None or material.first("texture") is not None
 
 
-def _plain_materials(root: Node) -> Fact:
+def _plain_materials(root: RawNode) -> Fact:
     for material in root.all("material"):
         if material.value("color", "rgba") is None and material.value("texture", "filename") is None:
             yield material, f"material {material.attributes.get('name', '')!r} has no color and no texture"
 
 
-def _unpaintable(root: Node) -> Fact:
+def _unpaintable(root: RawNode) -> Fact:
     """Visuals with a color, of their own or by name, that makes no bytes."""
     known = {node.attributes.get("name", ""): node for node in root.all("material")}
     for visual in (visual for link in root.all("link") for visual in link.all("visual")):
@@ -123,7 +123,7 @@ def _unpaintable(root: Node) -> Fact:
             yield color, f"the color of a visual is {rgba!r}"
 
 
-def _flat_painted_boxes(root: Node) -> Fact:
+def _flat_painted_boxes(root: RawNode) -> Fact:
     """Boxes without three numbers that have a color, of their own or by name."""
     known = {_name(node) for node in root.all("material") if node.first("color") is not None}
     for visual in (visual for link in root.all("link") for visual in link.all("visual")):
@@ -135,11 +135,11 @@ def _flat_painted_boxes(root: Node) -> Fact:
             yield box, f"the size of a box with a color is {box.attributes.get('size', '')!r}"
 
 
-def _name(node: Node) -> str:
+def _name(node: RawNode) -> str:
     return node.attributes.get("name", "")
 
 
-FACTS: Mapping[str, Callable[[Node], Fact]] = {
+FACTS: Mapping[str, Callable[[RawNode], Fact]] = {
     "strange-used-color": _strange_used_colors,
     "unread-color": _unread_colors,
     "uncolored": _uncolored,

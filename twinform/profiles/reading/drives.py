@@ -4,9 +4,9 @@ import math
 from collections.abc import Iterator
 
 from twinform.profiles.reading.forms import number_in
-from twinform.profiles.reading.nodes import Node
+from twinform.profiles.reading.nodes import RawNode
 
-Fact = Iterator[tuple[Node, str]]
+Fact = Iterator[tuple[RawNode, str]]
 _ONE_WAY = frozenset({"revolute", "continuous", "prismatic"})
 _READ = {
     "mass": ("value",),
@@ -25,18 +25,18 @@ _READ = {
 """The numbers that MuJoCo reads."""
 
 
-def _name(node: Node) -> str:
+def _name(node: RawNode) -> str:
     return node.attributes.get("name", "")
 
 
-def _limits(joint: Node) -> tuple[Node | None, float, float]:
+def _limits(joint: RawNode) -> tuple[RawNode | None, float, float]:
     limit = joint.first("limit")
     lower = number_in(limit.attributes.get("lower", "")) if limit else None
     upper = number_in(limit.attributes.get("upper", "")) if limit else None
     return limit, -math.inf if lower is None else lower, math.inf if upper is None else upper
 
 
-def reversed_limits(root: Node) -> Fact:
+def reversed_limits(root: RawNode) -> Fact:
     """Lower limits above the upper ones."""
     for joint in root.all("joint"):
         limit, lower, upper = _limits(joint)
@@ -44,7 +44,7 @@ def reversed_limits(root: Node) -> Fact:
             yield limit, f"joint {_name(joint)!r} has the lower limit {lower:g} above the upper one, {upper:g}"
 
 
-def equal_limits(root: Node) -> Fact:
+def equal_limits(root: RawNode) -> Fact:
     """Limits that leave no room; one that is not written is 0."""
     for joint in root.all("joint"):
         limit = joint.first("limit")
@@ -61,18 +61,18 @@ def equal_limits(root: Node) -> Fact:
             yield limit, f"joint {_name(joint)!r} has limits of 0"
 
 
-def _is_written(limit: Node) -> bool:
+def _is_written(limit: RawNode) -> bool:
     return all(limit.attributes[end].strip() for end in ("lower", "upper"))
 
 
-def self_mimics(root: Node) -> Fact:
+def self_mimics(root: RawNode) -> Fact:
     """Joints that follow themselves."""
     for joint in root.all("joint"):
         if joint.value("mimic", "joint") == _name(joint) and joint.attributes.get("type") in _ONE_WAY:
             yield joint, f"joint {_name(joint)!r} follows itself"
 
 
-def idle_mimics(root: Node) -> Fact:
+def idle_mimics(root: RawNode) -> Fact:
     """Joints that follow one that is not there, or that does not turn or slide."""
     moving = {_name(joint) for joint in root.all("joint") if joint.attributes.get("type") in _ONE_WAY}
     for joint in root.all("joint"):
@@ -81,7 +81,7 @@ def idle_mimics(root: Node) -> Fact:
             yield joint, f"joint {_name(joint)!r} follows {leader!r}, which does not turn or slide"
 
 
-def unknown_numbers(root: Node) -> Fact:
+def unknown_numbers(root: RawNode) -> Fact:
     """NaN, in what an engine reads."""
     waiting = [*root.all("link"), *root.all("joint")]
     while waiting:
@@ -98,7 +98,7 @@ def _is_nan(piece: str) -> bool:
     return number is not None and math.isnan(number)
 
 
-def foreign_transmissions(root: Node) -> Fact:
+def foreign_transmissions(root: RawNode) -> Fact:
     """Simple transmissions without an actuator or a joint with a name that is there, and those without a type."""
     joints = {_name(joint) for joint in root.all("joint")}
     for node in root.all("transmission"):
@@ -111,25 +111,25 @@ def foreign_transmissions(root: Node) -> Fact:
             yield node, "<transmission> has no actuator with a name, or no joint that is there"
 
 
-def _kind(node: Node) -> str | None:
+def _kind(node: RawNode) -> str | None:
     type_ = node.first("type")
     return node.attributes.get("type") if type_ is None else type_.text
 
 
-def _driven(root: Node) -> Iterator[tuple[Node, Node | None]]:
+def _driven(root: RawNode) -> Iterator[tuple[RawNode, RawNode | None]]:
     joints = {_name(joint): joint for joint in root.all("joint")}
     for node in root.all("transmission"):
         if "SimpleTransmission" in (_kind(node) or ""):
             yield node, joints.get(node.value("joint", "name") or "")
 
 
-def _effort(joint: Node) -> float:
+def _effort(joint: RawNode) -> float:
     text = joint.value("limit", "effort")
     number = None if text is None else number_in(text)
     return math.inf if number is None else number
 
 
-def repeated_actuators(root: Node) -> Fact:
+def repeated_actuators(root: RawNode) -> Fact:
     """Actuators of two transmissions, and efforts below 0 of joints that have one."""
     met = set[str]()
     for node, joint in _driven(root):
@@ -141,7 +141,7 @@ def repeated_actuators(root: Node) -> Fact:
         met.add(name)
 
 
-def idle_transmissions(root: Node) -> Fact:
+def idle_transmissions(root: RawNode) -> Fact:
     """Transmissions of another kind, of a fixed joint, or of one without an effort."""
     for node in root.all("transmission"):
         if "SimpleTransmission" not in (_kind(node) or "SimpleTransmission"):

@@ -3,9 +3,9 @@
 import re
 from collections.abc import Callable, Iterator, Mapping
 
-from twinform.profiles.reading.nodes import Node
+from twinform.profiles.reading.nodes import RawNode
 
-Fact = Iterator[tuple[Node, str]]
+Fact = Iterator[tuple[RawNode, str]]
 _TRUE = frozenset({"true", "yes", "1"})
 _LUMPING = frozenset({"disableFixedJointLumping", "preserveFixedJoint"})
 _NUMBERS = frozenset(
@@ -23,7 +23,7 @@ _INTEGER = re.compile(r"\s*[-+]?\d{1,9}", re.ASCII)
 _LARGE = re.compile(r"\s*[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
 
 
-def fixed_joints(root: Node) -> frozenset[str]:
+def fixed_joints(root: RawNode) -> frozenset[str]:
     """The fixed joints that stay, because an extension says so."""
     return frozenset(
         reference
@@ -32,14 +32,14 @@ def fixed_joints(root: Node) -> frozenset[str]:
     )
 
 
-def is_static(root: Node) -> bool:
+def is_static(root: RawNode) -> bool:
     """Whether the model does not move: the last extension without a reference decides, also by its silence."""
     found = [gazebo for gazebo in root.all("gazebo") if "reference" not in gazebo.attributes]
     statics = list(found[-1].all("static")) if found else []
     return bool(statics) and _text(statics[-1]).lower() in _TRUE
 
 
-def foreign_ends(root: Node, links: frozenset[str]) -> Fact:
+def foreign_ends(root: RawNode, links: frozenset[str]) -> Fact:
     """Joints in extensions that end at a link which is not among these."""
     for gazebo in root.all("gazebo"):
         if "reference" in gazebo.attributes:
@@ -50,21 +50,21 @@ def foreign_ends(root: Node, links: frozenset[str]) -> Fact:
                 yield end, f"the <{end.tag}> of a joint in an extension is {name!r}, but no link of that name is left"
 
 
-def _settings(root: Node, tags: frozenset[str]) -> Iterator[tuple[Node, Node]]:
+def _settings(root: RawNode, tags: frozenset[str]) -> Iterator[tuple[RawNode, RawNode]]:
     return ((gazebo, each) for gazebo in root.all("gazebo") for each in gazebo.children if each.tag in tags)
 
 
-def _text(node: Node) -> str:
+def _text(node: RawNode) -> str:
     return node.attributes.get("value", "" if _is_unset(node) else node.text).strip()
 
 
-def _is_unset(node: Node) -> bool:
+def _is_unset(node: RawNode) -> bool:
     """Whether something else stands where it looks for the text."""
     is_first = node.begins_with_comment or (bool(node.children) and not node.text.strip())
     return is_first and "value" not in node.attributes
 
 
-def _unread_numbers(root: Node) -> Fact:
+def _unread_numbers(root: RawNode) -> Fact:
     for _, node in _settings(root, _NUMBERS):
         if not _is_number(_text(node)):
             yield node, f"<{node.tag}> is {_text(node)!r}"
@@ -84,13 +84,13 @@ def _is_number(text: str) -> bool:
     return abs(number) != float("inf") and (number != 0 or not re.search(r"[1-9]", plain[0].lower().split("e")[0]))
 
 
-def _unset(root: Node) -> Fact:
+def _unset(root: RawNode) -> Fact:
     for _, node in _settings(root, _READ):
         if _is_unset(node):
             yield node, f"<{node.tag}> does not begin with its text"
 
 
-FACTS: Mapping[str, Callable[[Node], Fact]] = {
+FACTS: Mapping[str, Callable[[RawNode], Fact]] = {
     "unread-extension": _unread_numbers,
     "unset-extension": _unset,
 }

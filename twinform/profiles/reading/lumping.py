@@ -13,9 +13,9 @@ from twinform.ir.transform import Transform
 from twinform.passes.inertia.physical_consistency import clearances, doubt, is_doubtful
 from twinform.profiles.reading.extensions import fixed_joints, foreign_ends, is_static
 from twinform.profiles.reading.forms import FORMS
-from twinform.profiles.reading.nodes import Node
+from twinform.profiles.reading.nodes import RawNode
 
-Fact = Iterator[tuple[Node, str]]
+Fact = Iterator[tuple[RawNode, str]]
 """Elements that it is about, and what is so."""
 
 _NUMBER = re.compile(
@@ -30,7 +30,7 @@ _ROUNDING = 1e-12
 _DROPPED = 1e-6
 
 
-_Head = tuple[int | None, Node | None, str]
+_Head = tuple[int | None, RawNode | None, str]
 """Where a body begins: the number of the one above, the joint to it, and the name of its first link."""
 
 
@@ -39,14 +39,14 @@ class _Body:
     """A link with what fixed joints hang on it, and the joint that moves it; none above a root."""
 
     parent: "_Body | None"
-    joint: Node | None
-    links: tuple[Node, ...]
+    joint: RawNode | None
+    links: tuple[RawNode, ...]
     places: tuple[Transform, ...]
     above: tuple[int, ...]
     """The number of the link that each is fixed to."""
 
     @property
-    def link(self) -> Node:
+    def link(self) -> RawNode:
         return self.links[0]
 
     @property
@@ -91,7 +91,7 @@ def _finite(numbers: tuple[float, ...]) -> tuple[float, ...]:
     return numbers if all(map(math.isfinite, numbers)) else (0.0,) * len(numbers)
 
 
-def _place(node: Node | None) -> Transform:
+def _place(node: RawNode | None) -> Transform:
     origin = node.first("origin") if node is not None else None
     if origin is None:
         return Transform.from_pose(None)
@@ -100,7 +100,7 @@ def _place(node: Node | None) -> Transform:
     return Transform.from_pose(Pose(xyz=(x, y, z), rpy=(roll, pitch, yaw)))
 
 
-def _solid(link: Node) -> Solid:
+def _solid(link: RawNode) -> Solid:
     """What urdfdom, which reads it first, has of an inertial when it gives it up: it begins with the origin."""
     inertial = link.first("inertial")
     mass = inertial.value("mass", "value") if inertial is not None else None
@@ -115,7 +115,7 @@ def _solid(link: Node) -> Solid:
     return placed(Solid(float(mass), ORIGIN, _inertia(inertial.first("inertia"))), _place(inertial))
 
 
-def _inertia(inertia: Node | None) -> Symmetric:
+def _inertia(inertia: RawNode | None) -> Symmetric:
     texts = [inertia.attributes.get(name, "") for name in _ELEMENTS] if inertia is not None else []
     if not texts or not all(map(_STREAM, texts)):
         return _NOTHING
@@ -123,7 +123,7 @@ def _inertia(inertia: Node | None) -> Symmetric:
     return xx, yy, zz, xy, xz, yz
 
 
-def _is_place(origin: Node | None) -> bool:
+def _is_place(origin: RawNode | None) -> bool:
     return origin is None or all(
         _STREAMS(origin.attributes[name]) for name in ("xyz", "rpy") if name in origin.attributes
     )
@@ -134,10 +134,10 @@ def _is_finite(one: Solid) -> bool:
 
 
 @lru_cache(maxsize=4)
-def _bodies(root: Node) -> tuple[_Body, ...]:
+def _bodies(root: RawNode) -> tuple[_Body, ...]:
     """The bodies from the roots to the leaves, without what is in a circle."""
     links = {link.attributes.get("name", ""): link for link in reversed(list(root.all("link")))}
-    below: dict[str, list[Node]] = {}
+    below: dict[str, list[RawNode]] = {}
     children, staying = set[str](), fixed_joints(root)
     # urdfdom (`ModelInterface::initTree`) walks a `std::map` of joints and overwrites the parent of a
     # link: of two joints to one child, the last by name counts.
@@ -165,12 +165,12 @@ def _bodies(root: Node) -> tuple[_Body, ...]:
     return tuple(found)
 
 
-def _is_lumped(joint: Node, staying: frozenset[str]) -> bool:
+def _is_lumped(joint: RawNode, staying: frozenset[str]) -> bool:
     return joint.attributes.get("type") == "fixed" and joint.attributes.get("name", "") not in staying
 
 
 @lru_cache(maxsize=4)
-def _kept_bodies(root: Node) -> tuple[_Body, ...]:
+def _kept_bodies(root: RawNode) -> tuple[_Body, ...]:
     """The bodies that it does not leave out."""
     # Links are lumped first: what is dropped for its mass is a whole body with everything that
     # fixed joints hold.
@@ -185,7 +185,7 @@ def _is_possible(inertia: Symmetric) -> bool:
     return min(clearances(inertia)) >= -max(_ROUNDING, doubt(inertia))
 
 
-def _impossible_when_lumped(root: Node) -> Fact:
+def _impossible_when_lumped(root: RawNode) -> Fact:
     """Bodies with an impossible inertia after what is fixed to them became a part of them."""
     for body in _kept_bodies(root):
         one = body.solid()
@@ -195,38 +195,38 @@ def _impossible_when_lumped(root: Node) -> Fact:
             yield body.link, f"the inertia of link {body.name!r} with what is fixed to it is physically impossible"
 
 
-def _uncertain_when_lumped(root: Node) -> Fact:
+def _uncertain_when_lumped(root: RawNode) -> Fact:
     """Bodies of which one reader finds that their inertia is possible, and another one does not."""
     for body in _kept_bodies(root):
         if _is_finite(body.solid()) and is_doubtful(body.solid().inertia):
             yield body.link, f"whether a body has the inertia of link {body.name!r} is a matter of rounding"
 
 
-def _placeless(root: Node) -> Fact:
+def _placeless(root: RawNode) -> Fact:
     """Bodies of which parts without mass are put together, whose place it divides by their mass."""
     for body in _kept_bodies(root):
         if body.is_placeless():
             yield body.link, f"links without mass are fixed to each other in what is fixed to link {body.name!r}"
 
 
-def _dropped(root: Node) -> Fact:
+def _dropped(root: RawNode) -> Fact:
     for body in _bodies(root):
         if body.name != "world" and body.is_dropped:
             yield body.link, f"link {body.name!r} weighs no more than {_DROPPED:g} kg with what is fixed to it"
 
 
-def _nothing_left(root: Node) -> Fact:
+def _nothing_left(root: RawNode) -> Fact:
     """Models without a link: all are left out, or there is only the world."""
     bodies = _bodies(root)
     if bodies and not _kept_bodies(root) and not is_static(root):
         yield bodies[0].link, f"below link {bodies[0].name!r} no link is left, without the world and what has no mass"
 
 
-def _foreign_ends(root: Node) -> Fact:
+def _foreign_ends(root: RawNode) -> Fact:
     return foreign_ends(root, frozenset(body.name for body in _kept_bodies(root)))
 
 
-FACTS: Mapping[str, Callable[[Node], Fact]] = {
+FACTS: Mapping[str, Callable[[RawNode], Fact]] = {
     "impossible-lumped-inertia": _impossible_when_lumped,
     "uncertain-lumped-inertia": _uncertain_when_lumped,
     "placeless-lump": _placeless,

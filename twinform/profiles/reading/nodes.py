@@ -14,28 +14,28 @@ class UnparsedError(Exception):
 
 
 @dataclass(slots=True, eq=False)
-class Node:
+class RawNode:
     """An element with its raw attributes: what the parser at hand leaves of blanks and references in them."""
 
     tag: str
     line: int
     attributes: dict[str, str] = field(default_factory=dict[str, str])
-    children: list["Node"] = field(default_factory=list["Node"])
+    children: list["RawNode"] = field(default_factory=list["RawNode"])
     text: str = ""
     begins_with_comment: bool = False
     """Whether a comment stands before its text and its children; TinyXML's parsers alone tell."""
 
-    def all(self, tag: str) -> Iterator["Node"]:
+    def all(self, tag: str) -> Iterator["RawNode"]:
         """The children with a tag."""
         return (child for child in self.children if child.tag == tag)
 
-    def first(self, tag: str) -> "Node | None":
+    def first(self, tag: str) -> "RawNode | None":
         """The first child with a tag."""
         return next(self.all(tag), None)
 
     def value(self, *path: str) -> str | None:
         """The value of an attribute, the last of the names, of the first child of the first child, and so on."""
-        node: Node | None = self
+        node: RawNode | None = self
         for tag in path[:-1]:
             node = None if node is None else node.first(tag)
         return None if node is None else node.attributes.get(path[-1])
@@ -44,11 +44,11 @@ class Node:
 class Paths:
     """XPaths of the elements of a tree, as findings have them: `/robot[@name='r']/link[@name='b']/visual[2]`."""
 
-    def __init__(self, root: Node) -> None:
+    def __init__(self, root: RawNode) -> None:
         self._root = root
         self._paths: dict[int, str] = {}
 
-    def of(self, node: Node) -> str:
+    def of(self, node: RawNode) -> str:
         """The path of an element; all are counted when the first is asked for."""
         if not self._paths:
             self._count()
@@ -65,7 +65,7 @@ class Paths:
                 waiting.append((child, f"{path}/{_step(child, met[child.tag], totals[child.tag])}"))
 
 
-def _step(node: Node, place: int, total: int) -> str:
+def _step(node: RawNode, place: int, total: int) -> str:
     name = node.attributes.get("name")
     if name is not None:
         return f"{node.tag}[@name='{name}']"

@@ -18,7 +18,7 @@ _STEP = re.compile(r"(?P<first>\^?)(?P<tag>[\w:.-]+)(?P<every>\*?)(?:\[(?P<other
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class PlaceStep:
     """One element on the way to a place."""
 
     tag: str
@@ -32,7 +32,7 @@ class Step:
 class Demand:
     """What is read at a place; `needed` is whether it must be there."""
 
-    place: tuple[Step, ...]
+    place: tuple[PlaceStep, ...]
     item: str
     form: str
     needed: bool
@@ -82,7 +82,7 @@ def _demand(columns: list[str]) -> Demand:
     return Demand(_steps(place), item, form.removesuffix("!"), form.endswith("!"), effect, about, pipeline)
 
 
-def _steps(place: str) -> tuple[Step, ...]:
+def _steps(place: str) -> tuple[PlaceStep, ...]:
     if place == "robot":
         return ()
     found = [_STEP.fullmatch(part) for part in place.split("/")]
@@ -91,6 +91,6 @@ def _steps(place: str) -> tuple[Step, ...]:
     return tuple(_step(each) for each in found if each)
 
 
-def _step(found: re.Match[str]) -> Step:
+def _step(found: re.Match[str]) -> PlaceStep:
     types = frozenset(found["types"].split(",")) if found["types"] is not None else frozenset[str]()
-    return Step(found["tag"], bool(found["every"]), bool(found["first"]), types, bool(found["other"]))
+    return PlaceStep(found["tag"], bool(found["every"]), bool(found["first"]), types, bool(found["other"]))

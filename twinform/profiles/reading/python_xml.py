@@ -5,21 +5,21 @@ from xml.parsers import expat
 
 from lxml import etree
 
-from twinform.profiles.reading.nodes import Node, UnparsedError
+from twinform.profiles.reading.nodes import RawNode, UnparsedError
 from twinform.schemas import XmlElement
 
 
-def parse_with_expat(content: bytes) -> list[Node]:
+def parse_with_expat(content: bytes) -> list[RawNode]:
     """The root as `xml.etree.ElementTree` has it: with namespaces, and nothing that is not well-formed.
 
     Raises:
         UnparsedError: the text is not well-formed.
     """
     parser = expat.ParserCreate(namespace_separator="}")
-    top, stack = list[Node](), list[Node]()
+    top, stack = list[RawNode](), list[RawNode]()
 
     def start(tag: str, attributes: dict[str, str]) -> None:
-        node = Node(_qualified(tag), parser.CurrentLineNumber, {_qualified(k): v for k, v in attributes.items()})
+        node = RawNode(_qualified(tag), parser.CurrentLineNumber, {_qualified(k): v for k, v in attributes.items()})
         (stack[-1].children if stack else top).append(node)
         stack.append(node)
 
@@ -45,7 +45,7 @@ def _qualified(name: str) -> str:
     return f"{{{name}" if "}" in name else name
 
 
-def parse_with_lxml(content: bytes) -> tuple[list[Node], str]:
+def parse_with_lxml(content: bytes) -> tuple[list[RawNode], str]:
     """The root as yourdfpy has it, and the error after which it went on; elements with a prefix are gone then.
 
     Raises:
@@ -62,7 +62,7 @@ def parse_with_lxml(content: bytes) -> tuple[list[Node], str]:
         raise UnparsedError(message, line) from None
 
 
-def _recovered(content: bytes) -> Node:
+def _recovered(content: bytes) -> RawNode:
     events = etree.iterparse(io.BytesIO(content), recover=True, events=("start", "end"), no_network=True)
     for action, element in events:
         if isinstance(element.tag, str) and action == "end" and ":" in element.tag:
@@ -72,8 +72,8 @@ def _recovered(content: bytes) -> Node:
     return _converted(events.root)
 
 
-def _converted(element: XmlElement) -> Node:
-    node = Node(str(element.tag), element.sourceline or 0, {str(k): str(v) for k, v in element.attrib.items()})
+def _converted(element: XmlElement) -> RawNode:
+    node = RawNode(str(element.tag), element.sourceline or 0, {str(k): str(v) for k, v in element.attrib.items()})
     node.text = element.text or ""
     node.children = [_converted(child) for child in element if child.tag is not etree.Comment]
     return node

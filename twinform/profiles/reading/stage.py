@@ -5,9 +5,9 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from twinform.profiles.reading.forms import number_in
-from twinform.profiles.reading.nodes import Node
+from twinform.profiles.reading.nodes import RawNode
 
-Fact = Iterator[tuple[Node, str]]
+Fact = Iterator[tuple[RawNode, str]]
 _PLACES: Mapping[str, frozenset[str]] = {
     **dict.fromkeys(("box", "cylinder", "mesh", "sphere"), frozenset({"geometry"})),
     **dict.fromkeys(("inertia", "mass"), frozenset({"inertial"})),
@@ -29,19 +29,19 @@ _DIAGONAL = ("ixx", "iyy", "izz")
 _MOMENTS = (*_DIAGONAL, "ixy", "ixz", "iyz")
 
 
-def _name(node: Node) -> str:
+def _name(node: RawNode) -> str:
     return node.attributes.get("name", "")
 
 
-def _last_child(node: Node, tag: str) -> Node | None:
+def _last_child(node: RawNode, tag: str) -> RawNode | None:
     """Of several children with a tag it takes the last one."""
-    found: Node | None = None
+    found: RawNode | None = None
     for found in node.all(tag):  # noqa: B007  the last one is what is wanted
         pass
     return found
 
 
-def _end(joint: Node, tag: str) -> str:
+def _end(joint: RawNode, tag: str) -> str:
     end = _last_child(joint, tag)
     return "" if end is None else end.attributes.get("link", "")
 
@@ -50,15 +50,15 @@ def _end(joint: Node, tag: str) -> str:
 class _Stage:
     """The links that it comes to from the root, how many joints lead to each, and those joints."""
 
-    links: dict[str, Node]
-    below: dict[str, list[Node]]
+    links: dict[str, RawNode]
+    below: dict[str, list[RawNode]]
     led: frozenset[str]
     """The children of fixed joints that others follow."""
     times: dict[str, int] = field(default_factory=dict[str, int])
-    joints: list[Node] = field(default_factory=list[Node])
+    joints: list[RawNode] = field(default_factory=list[RawNode])
     merged: set[str] = field(default_factory=set[str])
     """Links that become a part of the one above, and what is below them is left out."""
-    loop: Node | None = None
+    loop: RawNode | None = None
 
     def walk(self, root: str) -> None:
         """From a link to all below; a link that is below itself ends it."""
@@ -81,14 +81,14 @@ class _Stage:
                 above.add(child)
                 stack.append((child, self._joints_below(child)))
 
-    def _joints_below(self, name: str) -> Iterator[Node]:
+    def _joints_below(self, name: str) -> Iterator[RawNode]:
         """The joints below a link, without one whose child becomes a part of it."""
         merged = self._merged(name)
         if merged is not None:
             self.merged.add(_end(merged, "child"))
         return iter([j for j in self.below.get(name, ()) if j is not merged and _end(j, "child") in self.links])
 
-    def _merged(self, name: str) -> Node | None:
+    def _merged(self, name: str) -> RawNode | None:
         """The fixed joint whose child is written as the inertial of this link, and is no link then."""
         link = self.links[name]
         if _weighs(link) or not _has_shapes(link):
@@ -102,11 +102,11 @@ class _Stage:
         return None
 
 
-def _has_shapes(link: Node) -> bool:
+def _has_shapes(link: RawNode) -> bool:
     return link.first("visual") is not None or link.first("collision") is not None
 
 
-def _weighs(link: Node) -> bool:
+def _weighs(link: RawNode) -> bool:
     """Whether a link has a mass, or else moments."""
     inertial = _last_child(link, "inertial")
     mass = None if inertial is None else _last_child(inertial, "mass")
@@ -118,11 +118,11 @@ def _weighs(link: Node) -> bool:
     return inertia is not None and any(number_in(inertia.attributes.get(each, "0")) for each in _DIAGONAL)
 
 
-def _stage(root: Node) -> _Stage | None:
+def _stage(root: RawNode) -> _Stage | None:
     """None where no link that carries another one is a root."""
     links = {_name(link): link for link in root.all("link")}
     joints = list(root.all("joint"))
-    below: dict[str, list[Node]] = {}
+    below: dict[str, list[RawNode]] = {}
     for joint in joints:
         below.setdefault(_end(joint, "parent"), []).append(joint)
     children = {_end(joint, "child") for joint in joints}
@@ -136,7 +136,7 @@ def _stage(root: Node) -> _Stage | None:
     return stage
 
 
-def _rootless(root: Node) -> Fact:
+def _rootless(root: RawNode) -> Fact:
     """Joints of which none has a root for its parent, or a loop below the root."""
     stage = _stage(root)
     if stage is None and root.first("link") is not None:
@@ -145,7 +145,7 @@ def _rootless(root: Node) -> Fact:
         yield stage.loop, f"joint {_name(stage.loop)!r} closes a loop"
 
 
-def _unreached(root: Node) -> Fact:
+def _unreached(root: RawNode) -> Fact:
     """Links that are not below the root of the first joint that has one."""
     stage = _stage(root)
     if stage is None or stage.loop is not None:
@@ -158,7 +158,7 @@ def _unreached(root: Node) -> Fact:
             yield link, f"link {name!r} is not below the root that it begins with, or below one that is left out"
 
 
-def _misplaced(root: Node) -> Fact:
+def _misplaced(root: RawNode) -> Fact:
     """Elements that it knows, in others that it knows, where they do not belong."""
     waiting = [root]
     while waiting:
@@ -170,11 +170,11 @@ def _misplaced(root: Node) -> Fact:
                 yield child, f"<{node.tag}> has a <{child.tag}>"
 
 
-def _is_at_home(child: Node, node: Node) -> bool:
+def _is_at_home(child: RawNode, node: RawNode) -> bool:
     return node.tag in _PLACES.get(child.tag, ())
 
 
-def _strange_attributes(root: Node) -> Fact:
+def _strange_attributes(root: RawNode) -> Fact:
     """Attributes that it wants to write by their names, which are no names in USD."""
     stage = _stage(root)
     if stage is None:
@@ -189,12 +189,12 @@ def _strange_attributes(root: Node) -> Fact:
                 yield each, f"<{each.tag.rpartition('}')[2]}> has an attribute {name!r}"
 
 
-def _is_shape(node: Node) -> bool:
+def _is_shape(node: RawNode) -> bool:
     geometry = _last_child(node, "geometry") if node.tag in {"visual", "collision"} else None
     return geometry is not None and any(child.tag in _SHAPES for child in geometry.children)
 
 
-def _unknown_below(node: Node) -> Iterator[Node]:
+def _unknown_below(node: RawNode) -> Iterator[RawNode]:
     """The children that it does not know, and all in them."""
     waiting = [child for child in node.children if not _is_at_home(child, node)]
     while waiting:
@@ -207,7 +207,7 @@ def _is_writable(name: str) -> bool:
     return all(piece.isidentifier() for piece in name.split(":"))
 
 
-def _opacities(root: Node) -> Fact:
+def _opacities(root: RawNode) -> Fact:
     """Colors with a fourth number that is not from 0 to 1, of the first material of each name."""
     met = {_name(material) for material in root.all("material")}
     visuals = (visual for link in root.all("link") for visual in link.all("visual"))
@@ -227,7 +227,7 @@ def _is_share(number: float | None) -> bool:
     return number is None or math.isnan(number) or 0 <= number <= 1
 
 
-def _endless_moments(root: Node) -> Fact:
+def _endless_moments(root: RawNode) -> Fact:
     """Moments that are no numbers, in an inertial with a place, to which it turns them."""
     for inertial in (each for link in root.all("link") if (each := _last_child(link, "inertial")) is not None):
         inertia = _last_child(inertial, "inertia")
@@ -239,7 +239,7 @@ def _endless_moments(root: Node) -> Fact:
                 yield inertia, f"{name!r} of <inertia> is {inertia.attributes[name]!r}"
 
 
-FACTS: Mapping[str, Callable[[Node], Fact]] = {
+FACTS: Mapping[str, Callable[[RawNode], Fact]] = {
     "rootless-stage": _rootless,
     "unreached-link": _unreached,
     "misplaced-element": _misplaced,

@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from twinform.profiles.reading.nodes import Node, UnparsedError
+from twinform.profiles.reading.nodes import RawNode, UnparsedError
 
 _NAME = r"[A-Za-z_:\x80-\U0010ffff][\w.:\x80-\U0010ffff-]*"
 _TAG = re.compile(rf"<({_NAME})")
@@ -42,7 +42,7 @@ TINYXML = Dialect(unquoted=True, late_declarations=True, stops_at_text=True)
 TINYXML_2 = Dialect(unquoted=False, late_declarations=False, stops_at_text=False)
 
 
-def parse(content: bytes, dialect: Dialect) -> list[Node]:
+def parse(content: bytes, dialect: Dialect) -> list[RawNode]:
     """The elements at the top of a text.
 
     Raises:
@@ -66,12 +66,12 @@ class _Parser:
     def __init__(self, text: str, dialect: Dialect) -> None:
         self.text, self.dialect = text, dialect
         self.at, self.line, self.counted = 0, 1, 0
-        self.top: list[Node] = []
-        self.open: list[Node] = []
+        self.top: list[RawNode] = []
+        self.open: list[RawNode] = []
         self.begun = False
         """Whether anything but declarations was there."""
 
-    def document(self) -> list[Node]:
+    def document(self) -> list[RawNode]:
         while self.at < len(self.text) and self._node():
             pass
         if self.open:
@@ -141,7 +141,7 @@ class _Parser:
         found = _TAG.match(self.text, self.at)
         if found is None:
             raise self._error(f"no name follows '<': {self.text[self.at : self.at + 20]!r}")
-        node = Node(found[1], self._line())
+        node = RawNode(found[1], self._line())
         self.at = found.end()
         while (closed := _CLOSE.match(self.text, self.at)) is None:
             name, value = self._attribute(node)
@@ -153,7 +153,7 @@ class _Parser:
         if not closed[1]:
             self.open.append(node)
 
-    def _attribute(self, node: Node) -> tuple[str, str]:
+    def _attribute(self, node: RawNode) -> tuple[str, str]:
         found = _ATTRIBUTE.match(self.text, self.at)
         if found is not None:
             self.at = found.end()
@@ -184,7 +184,7 @@ def _character(found: re.Match[str]) -> str:
     return chr(number) if number <= _LARGEST else found[0]
 
 
-def walk(nodes: list[Node]) -> Iterator[Node]:
+def walk(nodes: list[RawNode]) -> Iterator[RawNode]:
     """All elements, in the order of the text."""
     for node in nodes:
         yield node

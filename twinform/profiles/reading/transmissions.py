@@ -1,15 +1,15 @@
 """The two forms of `<transmission>` that urdf_parser_py knows: that of ros_control, and the older one of the PR2."""
 
-from twinform.profiles.reading.nodes import Node
+from twinform.profiles.reading.nodes import RawNode
 
 
-def objection(node: Node) -> str:
+def objection(node: RawNode) -> str:
     """Why an element is neither of the two; empty where it is one."""
     newer, older = _newer(node), _older(node)
     return newer if newer and older else ""
 
 
-def _newer(node: Node) -> str:
+def _newer(node: RawNode) -> str:
     joints, actuators = list(node.all("joint")), list(node.all("actuator"))
     if "name" not in node.attributes:
         return "<transmission> has no attribute 'name'"
@@ -25,7 +25,7 @@ def _newer(node: Node) -> str:
     return next((f"{each.text!r} is no reduction" for each in reductions if each and not _is_number(each.text)), "")
 
 
-def _older(node: Node) -> str:
+def _older(node: RawNode) -> str:
     named = [node.first("joint"), node.first("actuator")]
     reduction = node.first("mechanicalReduction")
     if not {"name", "type"} <= node.attributes.keys() or reduction is None or not _is_number(reduction.text):

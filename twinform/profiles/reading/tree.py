@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from twinform.ir.groups import Groups
 from twinform.profiles.reading import bodies, clashes, colors, drives, extensions, lumping, stage
 from twinform.profiles.reading.forms import FORMS
-from twinform.profiles.reading.nodes import Node
+from twinform.profiles.reading.nodes import RawNode
 
-Fact = Iterator[tuple[Node, str]]
+Fact = Iterator[tuple[RawNode, str]]
 """Elements that it is about, and what is so."""
 _ONE_WAY = frozenset({"revolute", "continuous", "prismatic"})
 _SIZES = {
@@ -24,19 +24,19 @@ _SIZES = {
 _KNOWN = _ONE_WAY | {"planar", "floating", "fixed"}
 
 
-def _names(nodes: Iterator[Node]) -> list[str]:
+def _names(nodes: Iterator[RawNode]) -> list[str]:
     return [node.attributes.get("name", "") for node in nodes]
 
 
-def _ends(joint: Node) -> tuple[str, str]:
+def _ends(joint: RawNode) -> tuple[str, str]:
     return joint.value("parent", "link") or "", joint.value("child", "link") or ""
 
 
-def _repeated(tag: str) -> Callable[[Node], Fact]:
+def _repeated(tag: str) -> Callable[[RawNode], Fact]:
     return lambda root: _of_one_name(root.all(tag), f"<{tag}> elements")
 
 
-def _of_one_name(nodes: Iterable[Node], what: str) -> Fact:
+def _of_one_name(nodes: Iterable[RawNode], what: str) -> Fact:
     """Those of the elements that have the name of one before them."""
     met = set[str]()
     for node in nodes:
@@ -46,23 +46,23 @@ def _of_one_name(nodes: Iterable[Node], what: str) -> Fact:
         met.add(name)
 
 
-def _repeated_links_but_world(root: Node) -> Fact:
+def _repeated_links_but_world(root: RawNode) -> Fact:
     return (found for found in _repeated("link")(root) if found[0].attributes.get("name") != "world")
 
 
-def _linkless(root: Node) -> Fact:
+def _linkless(root: RawNode) -> Fact:
     if root.first("link") is None:
         yield root, "there is no <link>"
 
 
-def _open_joints(root: Node) -> Fact:
+def _open_joints(root: RawNode) -> Fact:
     for joint in root.all("joint"):
         if not all(_ends(joint)):
             yield joint, f"joint {joint.attributes.get('name', '')!r} has no parent or no child"
 
 
-def _of_nowhere(end: int) -> Callable[[Node], Fact]:
-    def fact(root: Node) -> Fact:
+def _of_nowhere(end: int) -> Callable[[RawNode], Fact]:
+    def fact(root: RawNode) -> Fact:
         links = set(_names(root.all("link")))
         for joint in root.all("joint"):
             if (name := _ends(joint)[end]) not in links:
@@ -75,11 +75,11 @@ def _of_nowhere(end: int) -> Callable[[Node], Fact]:
     return fact
 
 
-def _of_nowhere_but_world(end: int) -> Callable[[Node], Fact]:
+def _of_nowhere_but_world(end: int) -> Callable[[RawNode], Fact]:
     """Joints that have all their names, and one of a link that is not there and not the world."""
     unknown = _of_nowhere(end)
 
-    def fact(root: Node) -> Fact:
+    def fact(root: RawNode) -> Fact:
         for joint, message in unknown(root):
             names = (joint.attributes.get("name"), joint.attributes.get("type"), *_ends(joint))
             if all(names) and _ends(joint)[end] != "world":
@@ -88,7 +88,7 @@ def _of_nowhere_but_world(end: int) -> Callable[[Node], Fact]:
     return fact
 
 
-def _foreign_custom_ends(root: Node) -> Fact:
+def _foreign_custom_ends(root: RawNode) -> Fact:
     """Frames and joints of Drake's own at a link that is not there and not the world."""
     links = {*_names(root.all("link")), "world"}
     for joint in root.all("drake:joint"):
@@ -101,7 +101,7 @@ def _foreign_custom_ends(root: Node) -> Fact:
             yield frame, f"frame {who!r} is at {link!r}, but there is no such link"
 
 
-def _loops(root: Node) -> Fact:
+def _loops(root: RawNode) -> Fact:
     """Joints between links that are joined already, whichever of them is above."""
     groups = Groups()
     for joint in (*root.all("joint"), *root.all("drake:joint")):
@@ -112,19 +112,19 @@ def _loops(root: Node) -> Fact:
             yield joint, f"joint {joint.attributes['name']!r} joins {parent!r} and {child!r}, which are joined already"
 
 
-def _self_joints(root: Node) -> Fact:
+def _self_joints(root: RawNode) -> Fact:
     for joint in root.all("joint"):
         parent, child = _ends(joint)
         if parent == child != "":
             yield joint, f"joint {joint.attributes.get('name', '')!r} joins {parent!r} to itself"
 
 
-def _repeated_moving_joints(root: Node) -> Fact:
+def _repeated_moving_joints(root: RawNode) -> Fact:
     moving = (joint for joint in root.all("joint") if joint.attributes.get("type") != "fixed")
     return _of_one_name(moving, "joints that move")
 
 
-def _repeated_shapes(root: Node) -> Fact:
+def _repeated_shapes(root: RawNode) -> Fact:
     for link in root.all("link"):
         for tag in ("visual", "collision"):
             # a shape without a name takes the empty one, and is no mistake itself
@@ -132,12 +132,12 @@ def _repeated_shapes(root: Node) -> Fact:
             yield from (each for each in found if "name" in each[0].attributes)
 
 
-def _repeated_collisions(root: Node) -> Fact:
+def _repeated_collisions(root: RawNode) -> Fact:
     shapes = (shape for link in root.all("link") for shape in link.all("collision"))
     return _of_one_name((shape for shape in shapes if shape.attributes.get("name")), "<collision> elements")
 
 
-def _held_by_roots(root: Node, joints: list[Node]) -> set[str]:
+def _held_by_roots(root: RawNode, joints: list[RawNode]) -> set[str]:
     """Roots, and what is fixed to them."""
     fixed: dict[str, list[str]] = {}
     for joint in joints:
@@ -153,14 +153,14 @@ def _held_by_roots(root: Node, joints: list[Node]) -> set[str]:
     return held
 
 
-def _shared_names(root: Node) -> Fact:
+def _shared_names(root: RawNode) -> Fact:
     links = set(_names(root.all("link")))
     for joint in root.all("joint"):
         if (name := joint.attributes.get("name", "")) in links and joint.attributes.get("type") != "fixed":
             yield joint, f"a joint and a link are called {name!r}"
 
 
-def _free_below(root: Node) -> Fact:
+def _free_below(root: RawNode) -> Fact:
     joints = list(root.all("joint"))
     held = _held_by_roots(root, joints)
     for joint in joints:
@@ -168,7 +168,7 @@ def _free_below(root: Node) -> Fact:
             yield joint, f"joint {joint.attributes.get('name', '')!r} is floating below a link"
 
 
-def _unknown_leaders(root: Node) -> Fact:
+def _unknown_leaders(root: RawNode) -> Fact:
     names = set(_names(root.all("joint")))
     for joint in root.all("joint"):
         mimic = joint.first("mimic")
@@ -177,7 +177,7 @@ def _unknown_leaders(root: Node) -> Fact:
             yield mimic, f"the joint {leader!r} to follow is not there"
 
 
-def _stiff_mimics(root: Node) -> Fact:
+def _stiff_mimics(root: RawNode) -> Fact:
     """Joints that follow themselves, or one that is not there or has not one degree of freedom, or have not one."""
     moving = set(_names(joint for joint in root.all("joint") if joint.attributes.get("type") in _ONE_WAY))
     for joint in root.all("joint"):
@@ -189,7 +189,7 @@ def _stiff_mimics(root: Node) -> Fact:
             yield mimic, f"joint {name!r} follows {leader!r}, and one of them does not move, or is not another one"
 
 
-def _unread_numbers(root: Node) -> Fact:
+def _unread_numbers(root: RawNode) -> Fact:
     """Numbers of places and sizes, whatever element has them."""
     nodes = [root]
     while nodes:
@@ -200,24 +200,24 @@ def _unread_numbers(root: Node) -> Fact:
                 yield node, f"{name!r} of <{node.tag}> is {node.attributes[name]!r}"
 
 
-def _roots(root: Node) -> list[Node]:
+def _roots(root: RawNode) -> list[RawNode]:
     children = {_ends(joint)[1] for joint in root.all("joint")}
     return [link for link in root.all("link") if link.attributes.get("name", "") not in children]
 
 
-def _several_roots(root: Node) -> Fact:
+def _several_roots(root: RawNode) -> Fact:
     found = _roots(root)
     if len(found) > 1:
         names = ", ".join(repr(link.attributes.get("name", "")) for link in found[:4])
         yield found[1], f"{len(found)} links have no joint above them: {names}"
 
 
-def _no_root(root: Node) -> Fact:
+def _no_root(root: RawNode) -> Fact:
     if root.first("link") is not None and not _roots(root):
         yield root, "every link has a joint above it: there is no root"
 
 
-def _two_parents(root: Node) -> Fact:
+def _two_parents(root: RawNode) -> Fact:
     counts = Counter[str]()
     for joint in root.all("joint"):
         child = _ends(joint)[1]
@@ -226,7 +226,7 @@ def _two_parents(root: Node) -> Fact:
             yield joint, f"two joints have the child {child!r}"
 
 
-def _circular_links(root: Node) -> Fact:
+def _circular_links(root: RawNode) -> Fact:
     """Links in a circle that no root leads to."""
     above = {child: parent for parent, child in map(_ends, root.all("joint"))}
     circular = dict[str, bool]()
@@ -241,13 +241,13 @@ def _circular_links(root: Node) -> Fact:
             yield joint, f"joint {joint.attributes.get('name', '')!r} is in a circle, or below one"
 
 
-def _weightless(root: Node) -> Fact:
+def _weightless(root: RawNode) -> Fact:
     for link in root.all("link"):
         if link.first("inertial") is None and link.attributes.get("name") != "world":
             yield link, f"link {link.attributes.get('name', '')!r} has no <inertial>"
 
 
-def _idle_leaders(root: Node) -> Fact:
+def _idle_leaders(root: RawNode) -> Fact:
     """Joints that follow one that does not move by itself."""
     joints = list(root.all("joint"))
     moving = set(_names(j for j in joints if j.first("mimic") is None and j.attributes.get("type") != "fixed"))
@@ -256,9 +256,9 @@ def _idle_leaders(root: Node) -> Fact:
             yield mimic, f"{mimic.attributes.get('joint', '')!r} is no joint that moves by itself"
 
 
-def _foreign_joints(root: Node) -> Fact:
+def _foreign_joints(root: RawNode) -> Fact:
     """Joints of an unknown kind before one that turns or slides."""
-    foreign: Node | None = None
+    foreign: RawNode | None = None
     for joint in root.all("joint"):
         kind = joint.attributes.get("type")
         if joint.first("mimic") is None and kind not in _KNOWN:
@@ -271,7 +271,7 @@ def _foreign_joints(root: Node) -> Fact:
             return
 
 
-FACTS: Mapping[str, Callable[[Node], Fact]] = {
+FACTS: Mapping[str, Callable[[RawNode], Fact]] = {
     "repeated-link": _repeated("link"),
     "repeated-link-but-world": _repeated_links_but_world,
     "foreign-custom-end": _foreign_custom_ends,

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field, replace
 
 from twinform.profiles.reading import transmissions, tree
 from twinform.profiles.reading.forms import FORMS
-from twinform.profiles.reading.nodes import Node, Paths
-from twinform.profiles.reading.notation import Demand, Reads, Step
+from twinform.profiles.reading.nodes import Paths, RawNode
+from twinform.profiles.reading.notation import Demand, PlaceStep, Reads
 
 IsThere = Callable[[str], bool]
 """Whether a URI leads to a file."""
@@ -31,10 +31,10 @@ class Shortfall:
     expected: str | None = None
     pipeline: str = ""
     fact: str = ""
-    node: Node | None = field(default=None, repr=False, compare=False)
+    node: RawNode | None = field(default=None, repr=False, compare=False)
 
 
-def shortfalls(root: Node, table: Reads, is_there: IsThere) -> Iterator[Shortfall]:
+def shortfalls(root: RawNode, table: Reads, is_there: IsThere) -> Iterator[Shortfall]:
     """All demands that are not met, in the order of the table."""
     paths = Paths(root)
     for each in _unmet(root, table, is_there):
@@ -42,7 +42,7 @@ def shortfalls(root: Node, table: Reads, is_there: IsThere) -> Iterator[Shortfal
         yield replace(each, path=above + each.path)
 
 
-def _unmet(root: Node, table: Reads, is_there: IsThere) -> Iterator[Shortfall]:
+def _unmet(root: RawNode, table: Reads, is_there: IsThere) -> Iterator[Shortfall]:
     for demand in table.demands:
         if demand.item in tree.FACTS:
             for node, message in tree.FACTS[demand.item](root):
@@ -55,14 +55,14 @@ def _unmet(root: Node, table: Reads, is_there: IsThere) -> Iterator[Shortfall]:
                 yield from _held(demand, node)
 
 
-def _file(demand: Demand, node: Node, is_there: IsThere) -> Iterator[Shortfall]:
+def _file(demand: Demand, node: RawNode, is_there: IsThere) -> Iterator[Shortfall]:
     uri = node.attributes.get(demand.item[1:])
     if uri and not is_there(uri):
         message = f"{demand.item[1:]!r} of <{node.tag}> is {uri!r}, which is not there"
         yield _short(demand, "value", message, node, found=uri)
 
 
-def _found(node: Node, place: tuple[Step, ...]) -> Iterator[Node]:
+def _found(node: RawNode, place: tuple[PlaceStep, ...]) -> Iterator[RawNode]:
     if not place:
         yield node
         return
@@ -72,7 +72,7 @@ def _found(node: Node, place: tuple[Step, ...]) -> Iterator[Node]:
             yield from _found(child, tuple(rest))
 
 
-def _children(node: Node, step: Step) -> Iterable[Node]:
+def _children(node: RawNode, step: PlaceStep) -> Iterable[RawNode]:
     if step.first:
         return [child for child in node.children[:1] if child.tag == step.tag]
     # Readers in C++ take the first element of a name (`FirstChildElement`) and never look at a
@@ -81,7 +81,7 @@ def _children(node: Node, step: Step) -> Iterable[Node]:
     return same if step.every else (child for child in (next(same, None),) if child is not None)
 
 
-def _held(demand: Demand, node: Node) -> Iterator[Shortfall]:
+def _held(demand: Demand, node: RawNode) -> Iterator[Shortfall]:
     if demand.form == "known":
         yield from _unknown(demand, node)
     elif demand.form == "transmission":
@@ -95,7 +95,7 @@ def _held(demand: Demand, node: Node) -> Iterator[Shortfall]:
         yield from _element(demand, node)
 
 
-def _attribute(demand: Demand, node: Node) -> Iterator[Shortfall]:
+def _attribute(demand: Demand, node: RawNode) -> Iterator[Shortfall]:
     names = demand.item[1:].split("|")
     given = [name for name in names if name in node.attributes]
     if demand.form == "none":
@@ -108,13 +108,13 @@ def _attribute(demand: Demand, node: Node) -> Iterator[Shortfall]:
         yield from _value(demand, node, f"{name!r} of <{node.tag}>", node.attributes[name], f"/@{name}")
 
 
-def _value(demand: Demand, node: Node, what: str, text: str, below: str = "") -> Iterator[Shortfall]:
+def _value(demand: Demand, node: RawNode, what: str, text: str, below: str = "") -> Iterator[Shortfall]:
     words, reads = FORMS[demand.form] if demand.form in FORMS else _one_of(demand.form)
     if not reads(text):
         yield _short(demand, "value", f"{what} is {text!r}", node, found=text, expected=words, below=below)
 
 
-def _strange(demand: Demand, node: Node, name: str) -> Shortfall:
+def _strange(demand: Demand, node: RawNode, name: str) -> Shortfall:
     return _short(demand, "unread", f"<{node.tag}> has an attribute {name!r}", node, below=f"/@{name}")
 
 
@@ -123,7 +123,7 @@ def _one_of(form: str) -> tuple[str, Callable[[str], bool]]:
     return " or ".join(choice), choice.__contains__
 
 
-def _element(demand: Demand, node: Node) -> Iterator[Shortfall]:
+def _element(demand: Demand, node: RawNode) -> Iterator[Shortfall]:
     names = demand.item.strip("<>").split("|")
     if demand.form == "none":
         yield from (
@@ -147,7 +147,7 @@ def _element(demand: Demand, node: Node) -> Iterator[Shortfall]:
         yield _short(demand, "absent", f"<{node.tag}> has no {wanted}", node, expected=wanted)
 
 
-def _unknown(demand: Demand, node: Node) -> Iterator[Shortfall]:
+def _unknown(demand: Demand, node: RawNode) -> Iterator[Shortfall]:
     """Attributes or children that are not among those that are known, or are there twice and known once."""
     known = _ITEMS.findall(demand.item)
     names = {name.removesuffix("?") for name in known}
@@ -168,7 +168,7 @@ def _short(
     demand: Demand,
     kind: str,
     message: str,
-    node: Node,
+    node: RawNode,
     *,
     found: str | None = None,
     expected: str | None = None,

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
-from twinform.report.content import Report
+from twinform.report.content import ModelReport
 from twinform.report.markup import Markup
 from twinform.report.sections.conversion import conversion
 from twinform.report.sections.differences import differences
@@ -21,7 +21,7 @@ class Section(NamedTuple):
 
     anchor: str
     title: str
-    content: Callable[[Report], Markup | None]
+    content: Callable[[ModelReport], Markup | None]
 
 
 SECTIONS = (

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from twinform.diagnostics import Diagnostic, Fate, Ledger
-from twinform.diagnostics.ledger import Entry
-from twinform.report.content import Converted, Report
+from twinform.diagnostics.ledger import LedgerEntry
+from twinform.report.content import Converted, ModelReport
 from twinform.report.markup import Markup, breakable, element, join
 from twinform.report.parts import Cell, bar, count, folded, place, table
 
@@ -18,7 +18,7 @@ _OPEN = 20
 _HEADS = ("Line", "What became of it", "Parts", "Where", "Rule")
 
 
-def conversion(report: Report) -> Markup | None:
+def conversion(report: ModelReport) -> Markup | None:
     """How many parts met each fate, and each of them, folded."""
     converted = report.converted
     if converted is None:
@@ -57,7 +57,7 @@ def _listed(fate: Fate, ledger: Ledger, path: str) -> Markup | None:
     return folded(title, made, open_=fate is Fate.DROPPED and len(entries) <= _OPEN)
 
 
-def _rows(entries: Sequence[Entry], path: str) -> list[tuple[Cell | Markup | str, ...]]:
+def _rows(entries: Sequence[LedgerEntry], path: str) -> list[tuple[Cell | Markup | str, ...]]:
     return [
         (
             place(entry.location, path).rpartition(":")[2] if entry.location.line else "",

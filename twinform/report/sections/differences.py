@@ -3,16 +3,16 @@
 from collections.abc import Iterator
 from itertools import groupby
 
-from twinform.compiler.compare import Comparison, Difference, Severity
+from twinform.compiler.compare import Comparison, Difference, DifferenceSeverity
 from twinform.compiler.compare.reporters import amounts_of, heading_of, places_of, summary, what_differs
-from twinform.report.content import Report
+from twinform.report.content import ModelReport
 from twinform.report.markup import Markup, Part, breakable, element, join
 from twinform.report.parts import count, folded, table
 
 _HEADS = ("Part", "What", "In A", "In B", "By", "Where")
 
 
-def differences(report: Report) -> Markup | None:
+def differences(report: ModelReport) -> Markup | None:
     """The verdict, what makes the robots different to all readers or to some, and, folded, what is the same."""
     if report.second is None:
         return None
@@ -23,9 +23,9 @@ def differences(report: Report) -> Markup | None:
         "p", element("strong", f"{summary(found)}."), f" Rounding up to {found.tolerance:g} does not count."
     )
     files = element("p", "A is ", element("code", found.a), ", B is ", element("code", found.b), ".")
-    listed = table("What makes the robots different", _HEADS, _rows(found, Severity.DIFFERENCE))
-    carried = table("What only some readers see", _HEADS, _rows(found, Severity.CARRIED))
-    notes = table("What is only written in another way", _HEADS, _rows(found, Severity.NOTE))
+    listed = table("What makes the robots different", _HEADS, _rows(found, DifferenceSeverity.DIFFERENCE))
+    carried = table("What only some readers see", _HEADS, _rows(found, DifferenceSeverity.CARRIED))
+    notes = table("What is only written in another way", _HEADS, _rows(found, DifferenceSeverity.NOTE))
     return join((
         verdict,
         files,
@@ -35,7 +35,7 @@ def differences(report: Report) -> Markup | None:
     ))  # fmt: skip
 
 
-def _rows(found: Comparison, severity: Severity) -> Iterator[tuple[Part, ...]]:
+def _rows(found: Comparison, severity: DifferenceSeverity) -> Iterator[tuple[Part, ...]]:
     chosen = (item for item in found.items if item.severity is severity)
     for heading, items in groupby(chosen, key=heading_of):
         for item in items:
@@ -49,6 +49,11 @@ def _rows(found: Comparison, severity: Severity) -> Iterator[tuple[Part, ...]]:
 
 def _values(item: Difference) -> tuple[str, str, str]:
     """What differs, and both values; a sentence where one side has none."""
-    if item.group == "kinematics" or item.severity is Severity.CARRIED or item.a.text is None or item.b.text is None:
+    if (
+        item.group == "kinematics"
+        or item.severity is DifferenceSeverity.CARRIED
+        or item.a.text is None
+        or item.b.text is None
+    ):
         return what_differs(item), item.a.text or "", item.b.text or ""
     return item.aspect, item.a.text, item.b.text

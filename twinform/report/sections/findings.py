@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from twinform.diagnostics import Diagnostic, Severity
 from twinform.diagnostics.reporters.excerpt import excerpt
 from twinform.diagnostics.reporters.grouping import Group
-from twinform.report.content import Report, Subject
+from twinform.report.content import ModelReport, ReportSubject
 from twinform.report.listed_findings import MOST, WORDS, anchor, groups_of
 from twinform.report.markup import Markup, breakable, element, join
 from twinform.report.parts import count, folded, place
@@ -13,13 +13,13 @@ from twinform.report.parts import count, folded, place
 _SHOWN = 5
 
 
-def findings(report: Report) -> Markup:
+def findings(report: ModelReport) -> Markup:
     """The findings of each file, the worst first; notes are folded."""
     several = report.second is not None
     return join(_findings_of(subject, number, several=several) for number, subject in enumerate(report.subjects))
 
 
-def _findings_of(subject: Subject, number: int, *, several: bool) -> Markup:
+def _findings_of(subject: ReportSubject, number: int, *, several: bool) -> Markup:
     found = subject.findings.diagnostics
     heading = element("h3", subject.name) if several else None
     if not found:
@@ -27,7 +27,7 @@ def _findings_of(subject: Subject, number: int, *, several: bool) -> Markup:
     return join((heading, *(_listed(subject, number, severity) for severity in WORDS)))
 
 
-def _listed(subject: Subject, number: int, severity: Severity) -> Markup | None:
+def _listed(subject: ReportSubject, number: int, severity: Severity) -> Markup | None:
     groups = groups_of(subject, severity)
     if not groups:
         return None
@@ -40,7 +40,7 @@ def _listed(subject: Subject, number: int, severity: Severity) -> Markup | None:
     )
 
 
-def _item(group: Group, subject: Subject, anchor_: str) -> Markup:
+def _item(group: Group, subject: ReportSubject, anchor_: str) -> Markup:
     one, others = group
     where = one.location
     times = element("span", f" {len(others) + 1} times", class_="quiet") if others else None
@@ -75,7 +75,7 @@ def _also(others: tuple[Diagnostic, ...]) -> str:
     return f"{lines} and {more} more" if more > 0 else lines
 
 
-def _excerpt(one: Diagnostic, subject: Subject) -> Markup | None:
+def _excerpt(one: Diagnostic, subject: ReportSubject) -> Markup | None:
     where, texts = one.location, subject.findings.texts
     lines = list(_lines(one, texts.line(where.file or subject.findings.path, where.line)))
     return element("pre", element("code", *lines), tabindex="0") if lines else None

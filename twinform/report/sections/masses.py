@@ -1,7 +1,7 @@
 """Masses, centers of mass and inertias of all links, with a bar for each mass."""
 
 from twinform.compiler.scene import SceneLink
-from twinform.report.content import Report
+from twinform.report.content import ModelReport
 from twinform.report.markup import Markup, Part, element
 from twinform.report.parts import Cell, bar, number, table
 
@@ -12,7 +12,7 @@ _MOMENTS = 6
 _SUMMED = 2
 
 
-def masses(report: Report) -> Markup | None:
+def masses(report: ModelReport) -> Markup | None:
     """A table that can be sorted; the inertias are in kg m^2."""
     links = report.first.scene.links if report.first.scene else ()
     if not any(link.mass for link in links):

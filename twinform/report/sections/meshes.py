@@ -1,14 +1,14 @@
 """Mesh files, and how many triangles they cost."""
 
 from twinform.compiler.statistics import MeshCost
-from twinform.report.content import Report
+from twinform.report.content import ModelReport
 from twinform.report.markup import Markup, Part
 from twinform.report.parts import Cell, bar, table
 
 _HEADS = ("File", "Triangles", "Of the largest", "Bytes", "Visuals", "Collisions", "Remark")
 
 
-def meshes(report: Report) -> Markup | None:
+def meshes(report: ModelReport) -> Markup | None:
     """A table that can be sorted, with a bar for the triangles of each."""
     costs = report.first.meshes
     most = max((each.triangles or 0 for each in costs), default=0)

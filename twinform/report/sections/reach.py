@@ -2,7 +2,7 @@
 
 import math
 
-from twinform.report.content import Report
+from twinform.report.content import ModelReport
 from twinform.report.markup import Markup
 from twinform.report.parts import Cell, bar, number, table
 from twinform.report.reach import reaches
@@ -10,7 +10,7 @@ from twinform.report.reach import reaches
 _HEADS = ("Link", "At zero (m)", "At most (m)", "From 0 to the furthest")
 
 
-def reach(report: Report) -> Markup | None:
+def reach(report: ModelReport) -> Markup | None:
     """A table that can be sorted, with a bar for each link."""
     found = reaches(report.first.scene) if report.first.scene else ()
     most = max((each.most if math.isfinite(each.most) else each.zero for each in found), default=0.0)

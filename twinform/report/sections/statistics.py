@@ -3,12 +3,12 @@
 from collections.abc import Iterator, Mapping
 
 from twinform.compiler.statistics import ModelStatistics
-from twinform.report.content import Report
+from twinform.report.content import ModelReport
 from twinform.report.markup import Markup, Part, breakable, element, join
 from twinform.report.parts import table
 
 
-def statistics(report: Report) -> Markup | None:
+def statistics(report: ModelReport) -> Markup | None:
     """A table with a column for each model, of both files."""
     columns = [(each.name, model) for each in report.subjects for model in each.models]
     if not columns:
@@ -23,7 +23,7 @@ def statistics(report: Report) -> Markup | None:
     return join((_files(report), made, *_advice(columns)))
 
 
-def _files(report: Report) -> Markup:
+def _files(report: ModelReport) -> Markup:
     measured = [each.statistics for each in report.subjects if each.statistics]
     words = (f"{each.path}: {each.format.upper()} {each.version or ''}".strip() for each in measured)
     return element("p", breakable("; ".join(words)))

@@ -9,7 +9,7 @@ from twinform.compiler.graph.layout import depth_first
 from twinform.compiler.graph.svg import svg
 from twinform.diagnostics import Diagnostic
 from twinform.ir.motion import spanning_tree
-from twinform.report.content import Report, Subject
+from twinform.report.content import ModelReport, ReportSubject
 from twinform.report.listed_findings import WORDS, anchors, worst
 from twinform.report.markup import Markup, Part, element, join
 from twinform.report.parts import count, folded
@@ -23,7 +23,7 @@ _DRAWN = 400
 """Larger trees have no drawing."""
 
 
-def tree(report: Report) -> Markup | None:
+def tree(report: ModelReport) -> Markup | None:
     """The tree of the first file, and its drawing, folded."""
     graph = report.first.graph
     if graph is None or not graph.nodes:
@@ -41,7 +41,7 @@ def _drawing(graph: Graph) -> Markup | None:
     return folded("Drawing", scroller)
 
 
-def _rows(subject: Subject, graph: Graph) -> Iterator[Markup]:
+def _rows(subject: ReportSubject, graph: Graph) -> Iterator[Markup]:
     """An item for each root, made from the leaves up so that nothing recurses."""
     held = spanning_tree(joint for joint in graph.joints if joint.type != "gearbox")
     across: dict[str, list[GraphJoint]] = defaultdict(list)
@@ -90,7 +90,7 @@ def _words(
     return words
 
 
-def _masses(subject: Subject) -> dict[str, float]:
+def _masses(subject: ReportSubject) -> dict[str, float]:
     return {link.name: link.mass.mass for link in (subject.scene.links if subject.scene else ()) if link.mass}
 
 
@@ -103,7 +103,7 @@ def _badge(about: Sequence[Diagnostic], places: Mapping[int, str]) -> Markup | N
     return element("a", count(len(about), "finding"), href=href, class_=f"badge {WORDS[first.severity]}")
 
 
-def _findings(subject: Subject, graph: Graph) -> Mapping[str, list[Diagnostic]]:
+def _findings(subject: ReportSubject, graph: Graph) -> Mapping[str, list[Diagnostic]]:
     """The findings about each node; those about a joint are with what it moves."""
     parts = {node.where.path: node.id for node in graph.nodes} | {each.where.path: each.child for each in graph.joints}
     parts.pop("", None)

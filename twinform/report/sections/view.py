@@ -1,12 +1,12 @@
 """The 3D view: a page of its own in a frame without rights, and what it shows in words."""
 
-from twinform.report.content import Report
+from twinform.report.content import ModelReport
 from twinform.report.frame import framed
 from twinform.report.markup import Markup, element, join
 from twinform.report.parts import count, table
 
 
-def view(report: Report) -> Markup | None:
+def view(report: ModelReport) -> Markup | None:
     """The frame, or why there is none."""
     if report.view:
         both = " and ".join(each.name for each in report.subjects)
@@ -22,7 +22,7 @@ def view(report: Report) -> Markup | None:
     return element("p", f"There is no 3D view: {report.without_view}.")
 
 
-def _boxes(report: Report) -> Markup | None:
+def _boxes(report: ModelReport) -> Markup | None:
     """What is not drawn and why, since boxes would else be taken for the robot."""
     missing = report.not_drawn
     if not missing:
@@ -33,7 +33,7 @@ def _boxes(report: Report) -> Markup | None:
     return join((element("p", words, class_="warning"), listed))
 
 
-def _words(report: Report) -> Markup:
+def _words(report: ModelReport) -> Markup:
     graph = report.first.graph
     summary = f"It shows {graph.summary()}, with every joint at zero. " if graph else ""
     if report.comparison and not report.comparison.same:

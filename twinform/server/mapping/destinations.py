@@ -5,7 +5,7 @@ from functools import cache
 from typing import NamedTuple
 
 from twinform.package_files import package_files
-from twinform.server.mapping.rows import FormatName, Row
+from twinform.server.mapping.rows import FormatName, MappingRow
 
 
 class Destination(NamedTuple):
@@ -15,7 +15,7 @@ class Destination(NamedTuple):
     fates: str
 
 
-def destination(row: Row) -> Destination:
+def destination(row: MappingRow) -> Destination:
     """Look up where a row of the facts tables goes in the other format."""
     goes, fates = _table()[row.format].get(row.path, ("", ""))
     return Destination(goes, fates)

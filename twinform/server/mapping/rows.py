@@ -13,7 +13,7 @@ FORMATS: tuple[FormatName, ...] = ("urdf", "sdf")
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class MappingRow:
     """A row of a table: its definition, the steps from there, and the first version that has it.
 
     A name may have several rows, one for each span of versions.
@@ -31,16 +31,16 @@ class Row:
         return f"{self.definition}/{self.steps}"
 
 
-class Part(NamedTuple):
+class TablePart(NamedTuple):
     """An element of a file, or one attribute of it, and the row that it is."""
 
     element: XmlElement
     attribute: str | None
-    row: Row
+    row: MappingRow
 
 
 @cache
-def rows(format: FormatName) -> tuple[Row, ...]:
+def rows(format: FormatName) -> tuple[MappingRow, ...]:
     """All rows that a file may use, in the order of the table."""
     reachable = frozenset(sections(format))
     definitions = table(format).definitions.items()
@@ -70,15 +70,15 @@ def holders(format: FormatName, definition: str) -> list[str]:
     return list(dict.fromkeys(row.path for row in rows(format) if row.fact.reference == definition))
 
 
-def _rows_below(format: FormatName, definition: str, fact: Fact, around: str) -> Iterator[Row]:
+def _rows_below(format: FormatName, definition: str, fact: Fact, around: str) -> Iterator[MappingRow]:
     for below in fact.rows:
         steps = f"{around}{below.name}"
-        yield Row(format, definition, steps, below.since, below)
+        yield MappingRow(format, definition, steps, below.since, below)
         if not below.reference:
             yield from _rows_below(format, definition, below, f"{steps}/")
 
 
-def parts(root: XmlElement) -> Iterator[Part]:
+def parts(root: XmlElement) -> Iterator[TablePart]:
     """The elements and attributes of a file that are rows of the table of its format and version."""
     format: FormatName = "urdf" if root.tag == "robot" else "sdf"
     facts = table(format)
@@ -89,13 +89,15 @@ def parts(root: XmlElement) -> Iterator[Part]:
         element, definition, fact, around = stack.pop()
         for name in element.attrib:
             if (row := _row(fact, f"@{name}", version)) is not None:
-                yield Part(element, str(name), Row(format, definition, f"{around}{row.name}", row.since, row))
+                yield TablePart(
+                    element, str(name), MappingRow(format, definition, f"{around}{row.name}", row.since, row)
+                )
         for child in element:
             row = _row(fact, str(child.tag), version) if isinstance(child.tag, str) else None
             if row is None:
                 continue
             steps = f"{around}{row.name}"
-            yield Part(child, None, Row(format, definition, steps, row.since, row))
+            yield TablePart(child, None, MappingRow(format, definition, steps, row.since, row))
             below = facts.definitions[row.reference] if row.reference else row
             stack.append((child, row.reference or definition, below, "" if row.reference else f"{steps}/"))
 

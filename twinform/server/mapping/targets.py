@@ -9,7 +9,7 @@ from twinform.ir import Document, Model, Node
 from twinform.ir.record import fields_of
 from twinform.schemas import table
 from twinform.schemas.facts import Fact
-from twinform.server.mapping.rows import FORMATS, FormatName, Row, rows
+from twinform.server.mapping.rows import FORMATS, FormatName, MappingRow, rows
 
 Chain = tuple[str, ...]
 """Fields of the IR from the outside in, each with its class: `("Joint.axis", "Axis.xyz")`."""
@@ -17,13 +17,13 @@ _ROOTS: dict[FormatName, type[Node]] = {"urdf": Model, "sdf": Document}
 _POSE = frozenset({"Pose.xyz", "Pose.rpy", "Pose.quat_xyzw"})
 
 
-def field_of(row: Row) -> str:
+def field_of(row: MappingRow) -> str:
     """The field that a row fills, such as `Inertial.mass`; empty for what is kept as it stands."""
     chain = _chains(row.format).get(row)
     return chain[-1] if chain else ""
 
 
-def targets(row: Row) -> list[str]:
+def targets(row: MappingRow) -> list[str]:
     """The paths of the rows of the other format that fill the same field, each once."""
     chain = _chains(row.format).get(row)
     if not chain:
@@ -41,8 +41,8 @@ def _fits(one: Chain, other: Chain) -> bool:
 
 
 @cache
-def _by_field(format: FormatName) -> dict[str, list[tuple[Row, Chain]]]:
-    found: dict[str, list[tuple[Row, Chain]]] = defaultdict(list)
+def _by_field(format: FormatName) -> dict[str, list[tuple[MappingRow, Chain]]]:
+    found: dict[str, list[tuple[MappingRow, Chain]]] = defaultdict(list)
     for row in rows(format):
         if chain := _chains(format).get(row):
             found[chain[-1]].append((row, chain))
@@ -50,10 +50,10 @@ def _by_field(format: FormatName) -> dict[str, list[tuple[Row, Chain]]]:
 
 
 @cache
-def _chains(format: FormatName) -> dict[Row, Chain]:
+def _chains(format: FormatName) -> dict[MappingRow, Chain]:
     """The chain of every row that has a place in the IR; where a definition has several, the first."""
     facts = table(format)
-    found: dict[Row, Chain] = {}
+    found: dict[MappingRow, Chain] = {}
     ahead, seen = [(facts.root, _ROOTS[format])], {facts.root}
     while ahead:
         definition, kind = ahead.pop(0)
@@ -67,12 +67,12 @@ def _chains(format: FormatName) -> dict[Row, Chain]:
 
 def _placed(
     format: FormatName, definition: str, fact: Fact, kind: type[Node], around: Chain, steps: str
-) -> Iterator[tuple[Row, Chain, type[Node] | None]]:
+) -> Iterator[tuple[MappingRow, Chain, type[Node] | None]]:
     """Each row below that has a place: its chain, and the class of the node that it makes."""
     for below in fact.rows:
         if below.place is None:
             continue
-        row = Row(format, definition, f"{steps}{below.name}", below.since, below)
+        row = MappingRow(format, definition, f"{steps}{below.name}", below.since, below)
         chain, inner = _follow(below, kind, around)
         if below.place != ".":
             yield row, chain, inner

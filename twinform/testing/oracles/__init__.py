@@ -11,15 +11,15 @@ Engines come with `pip install 'twinform[oracles]'`, and are imported when they 
 
 from twinform.testing.oracles.engines import ENGINES, Engine, available
 from twinform.testing.oracles.isolated import compare, simulate
-from twinform.testing.oracles.verdict import Alike, EngineMissingError, OracleError, UnreadableError, Verdict
+from twinform.testing.oracles.verdict import Alike, EngineMissingError, EngineUnreadableError, OracleError, Verdict
 
 __all__ = [
     "ENGINES",
     "Alike",
     "Engine",
     "EngineMissingError",
+    "EngineUnreadableError",
     "OracleError",
-    "UnreadableError",
     "Verdict",
     "available",
     "compare",

@@ -9,7 +9,7 @@ import numpy as np
 
 from twinform.passes.carriers.token_mass import CHAIN_MASS, TOKEN_MASS
 from twinform.testing.oracles.lumping import lumped as weighed_together
-from twinform.testing.oracles.robot import Matrix, Robot, Sample
+from twinform.testing.oracles.robot import EngineRobot, Matrix, Sample
 from twinform.testing.oracles.verdict import Alike, Verdict
 
 TOLERANCE = 1e-9
@@ -34,13 +34,13 @@ class _Deviation:
         return f"{self.kind} of {self.where}" if self.where else self.kind
 
 
-def renamed(source: Robot, result: Robot) -> dict[str, str]:
+def renamed(source: EngineRobot, result: EngineRobot) -> dict[str, str]:
     """The joints that have a new name because a link had theirs: the old name by the new one."""
     lost = (set(source.joints) - set(result.joints)) & {*source.links, *result.links}
     return {f"{name}_joint": name for name in lost if f"{name}_joint" in result.joints}
 
 
-def chained(first: Robot, second: Robot) -> frozenset[str]:
+def chained(first: EngineRobot, second: EngineRobot) -> frozenset[str]:
     """The joints of the second robot that are links of a chain: what one joint of the first becomes in URDF.
 
     SDF's joints with several degrees of freedom, and its screws, become joints that have its name, or begin with it.
@@ -51,7 +51,7 @@ def chained(first: Robot, second: Robot) -> frozenset[str]:
 
 
 def judge(
-    first: Robot, second: Robot, *, tolerance: float = TOLERANCE, lumped: bool = False, chains: bool = False
+    first: EngineRobot, second: EngineRobot, *, tolerance: float = TOLERANCE, lumped: bool = False, chains: bool = False
 ) -> Verdict:
     """The verdict on two robots that were read; `lumped` weighs links together that are fixed to each other.
 
@@ -77,7 +77,7 @@ def judge(
     return _verdict(first, second, Alike.INERTIAL, weight)
 
 
-def _by_scopes(first: Robot, second: Robot) -> Robot:
+def _by_scopes(first: EngineRobot, second: EngineRobot) -> EngineRobot:
     """The second robot with the names that the links of models in the first one have there."""
     # Links of nested models are called so in URDF.
     flat = {name.replace("::", "__"): name for name in first.links if "::" in name and name not in second.links}
@@ -96,12 +96,14 @@ def _by_scopes(first: Robot, second: Robot) -> Robot:
     return replace(second, links=links, samples=samples, welds=welds)
 
 
-def _verdict(first: Robot, second: Robot, alike: Alike | None, found: _Deviation, cause: str = "") -> Verdict:
+def _verdict(
+    first: EngineRobot, second: EngineRobot, alike: Alike | None, found: _Deviation, cause: str = ""
+) -> Verdict:
     engine = first.engine if first.engine == second.engine else f"{first.engine} and {second.engine}"
     return Verdict(engine, alike, found.size, str(found) if found.size else "", cause)
 
 
-def _largest_of_each_kind(first: Robot, second: Robot, nothing: float) -> list[_Deviation]:
+def _largest_of_each_kind(first: EngineRobot, second: EngineRobot, nothing: float) -> list[_Deviation]:
     scales = _scales(first.samples)
     largest: dict[str, _Deviation] = {}
     for before, after in zip(first.samples, second.samples, strict=True):
@@ -128,7 +130,9 @@ def _scales(samples: Sequence[Sample]) -> Mapping[str, float]:
     return {kind: max([1.0, *(float(np.abs(value).max()) for value in each)]) for kind, each in values.items()}
 
 
-def _deviations(first: Robot, second: Robot, before: Sample, after: Sample, nothing: float) -> Iterator[_Deviation]:
+def _deviations(
+    first: EngineRobot, second: EngineRobot, before: Sample, after: Sample, nothing: float
+) -> Iterator[_Deviation]:
     shared = [name for name in first.joints if name in second.joints]
     yield _mass_matrix(shared, _part(first, before, shared), _part(second, after, shared))
     for name in shared:
@@ -159,7 +163,7 @@ def _massive(sample: Sample, nothing: float) -> set[str]:
     return {name for name, body in sample.bodies.items() if body.mass > nothing}
 
 
-def _part(robot: Robot, sample: Sample, joints: list[str]) -> Matrix:
+def _part(robot: EngineRobot, sample: Sample, joints: list[str]) -> Matrix:
     rows = [robot.joints.index(name) for name in joints]
     return sample.mass_matrix[np.ix_(rows, rows)]
 
@@ -184,7 +188,7 @@ def _number(size: float) -> float:
     return math.inf if math.isnan(size) else size
 
 
-def _other_parts(first: Robot, second: Robot, nothing: float) -> str:
+def _other_parts(first: EngineRobot, second: EngineRobot, nothing: float) -> str:
     """Joints and links with mass that only one of the two has; massless links may become frames and back."""
     before, after = (_massive(robot.samples[0], nothing) for robot in (first, second))
     parts = [
@@ -196,7 +200,7 @@ def _other_parts(first: Robot, second: Robot, nothing: float) -> str:
     return "; ".join(f"{what}: {', '.join(sorted(names))}" for what, names in parts if names)
 
 
-def _other_limits(first: Robot, second: Robot) -> str:
+def _other_limits(first: EngineRobot, second: EngineRobot) -> str:
     texts = [
         f"{name}.{key} {one[key]:g} became {other[key]:g}"
         for name, one in first.limits.items()

@@ -11,9 +11,9 @@ import numpy as np
 from twinform.testing.oracles.robot import (
     GRAVITY,
     WORLD,
-    Body,
+    EngineBody,
+    EngineRobot,
     Matrix,
-    Robot,
     Sample,
     View,
     inverse,
@@ -29,7 +29,7 @@ _FREE = 6
 _OF_JOINTS = ("_parent", "_child", "_F", "_M")
 
 
-def read(path: Path, view: View) -> Robot:
+def read(path: Path, view: View) -> EngineRobot:
     """The first model of a file.
 
     Raises:
@@ -47,7 +47,7 @@ def read(path: Path, view: View) -> Robot:
         _sample(plant, bodies, moving, frames, origin, lambda name, number=number: position(name, number))
         for number in range(view.count)
     )
-    return Robot(
+    return EngineRobot(
         engine="drake",
         reference=reference,
         joints=tuple(moving),
@@ -148,7 +148,7 @@ def _sample(
     )
 
 
-def _body(context: Any, body: Any, pose: Matrix) -> Body | None:
+def _body(context: Any, body: Any, pose: Matrix) -> EngineBody | None:
     inertia = body.CalcSpatialInertiaInBodyFrame(context)
     if not inertia.get_mass() > 0:
         return None

@@ -18,7 +18,7 @@ from twinform.testing.oracles import drake
 from twinform.testing.oracles.comparison import IN_CHAINS, chained, renamed
 from twinform.testing.oracles.in_process import read_robot
 from twinform.testing.oracles.robot import Matrix, View, spread
-from twinform.testing.oracles.verdict import Alike, UnreadableError, Verdict
+from twinform.testing.oracles.verdict import Alike, EngineUnreadableError, Verdict
 
 TOLERANCE = 1e-6
 _ACCURACY = 1e-10
@@ -70,7 +70,7 @@ def _trajectory(path: Path, view: View, seconds: float) -> Trajectory:
     try:
         return _simulated(path, view, seconds)
     except (Exception, SystemExit) as error:
-        raise UnreadableError("drake", path, str(error)) from error
+        raise EngineUnreadableError("drake", path, str(error)) from error
 
 
 def _simulated(path: Path, view: View, seconds: float) -> Trajectory:

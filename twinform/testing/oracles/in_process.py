@@ -5,11 +5,11 @@ from pathlib import Path
 
 from twinform.testing.oracles.comparison import chained, judge, renamed
 from twinform.testing.oracles.engines import required
-from twinform.testing.oracles.robot import Robot, View
-from twinform.testing.oracles.verdict import UnreadableError, Verdict
+from twinform.testing.oracles.robot import EngineRobot, View
+from twinform.testing.oracles.verdict import EngineUnreadableError, Verdict
 
 
-def read_robot(path: Path, engine: str, view: View | None = None) -> Robot:
+def read_robot(path: Path, engine: str, view: View | None = None) -> EngineRobot:
     """What an engine sees in a file.
 
     Raises:
@@ -18,14 +18,16 @@ def read_robot(path: Path, engine: str, view: View | None = None) -> Robot:
     """
     chosen = required(engine)
     if not chosen.reads(path):
-        raise UnreadableError(engine, path, f"it does not read {path.suffix or 'files without a suffix'}")
+        raise EngineUnreadableError(engine, path, f"it does not read {path.suffix or 'files without a suffix'}")
     try:
         return import_module(chosen.module).read(path, view or View())
     except (Exception, SystemExit) as error:
-        raise UnreadableError(engine, path, str(error) or type(error).__name__) from error
+        raise EngineUnreadableError(engine, path, str(error) or type(error).__name__) from error
 
 
-def verdict_on(first: Robot, files: tuple[Path, Path], engines: tuple[str, str], *, lumped: bool = False) -> Verdict:
+def verdict_on(
+    first: EngineRobot, files: tuple[Path, Path], engines: tuple[str, str], *, lumped: bool = False
+) -> Verdict:
     """The verdict on two files, of which the first has been looked at.
 
     Raises:

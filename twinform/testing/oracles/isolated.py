@@ -5,7 +5,7 @@ from pathlib import Path
 
 from twinform.testing.oracles.child import ChildDiedError, call
 from twinform.testing.oracles.engines import required
-from twinform.testing.oracles.verdict import UnreadableError, Verdict
+from twinform.testing.oracles.verdict import EngineUnreadableError, Verdict
 
 
 def compare(
@@ -67,12 +67,12 @@ def simulate(a: str | PathLike[str], b: str | PathLike[str], *, seconds: float =
         raise _culprit(first, second, ("drake", "drake")) from None
 
 
-def _culprit(first: Path, second: Path, engines: tuple[str, str]) -> UnreadableError:
+def _culprit(first: Path, second: Path, engines: tuple[str, str]) -> EngineUnreadableError:
     """The file on which an engine ends its process."""
     from twinform.testing.oracles import in_process  # noqa: PLC0415 - as above
 
     try:
         call(in_process.read_robot, first, engines[0])
     except ChildDiedError as died:
-        return UnreadableError(engines[0], first, str(died))
-    return UnreadableError(engines[1], second, "it ends the process")
+        return EngineUnreadableError(engines[0], first, str(died))
+    return EngineUnreadableError(engines[1], second, "it ends the process")

@@ -10,7 +10,7 @@ from enum import Enum, auto
 
 import numpy as np
 
-from twinform.testing.oracles.robot import GRAVITY, WORLD, Matrix, Robot, Sample, View, inverse, moved, position
+from twinform.testing.oracles.robot import GRAVITY, WORLD, EngineRobot, Matrix, Sample, View, inverse, moved, position
 
 
 class Motion(Enum):
@@ -23,7 +23,7 @@ class Motion(Enum):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Link:
+class EngineLink:
     """A link; `center` is the pose of its inertia in its frame."""
 
     name: str
@@ -34,7 +34,7 @@ class Link:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Joint:
+class EngineJoint:
     """A joint; the axis is in its own frame, a unit vector."""
 
     name: str
@@ -52,12 +52,12 @@ class Joint:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Tree:
+class _KinematicTree:
     """The links by name, the joint above each of them, and the moving joints by the names that they are given."""
 
-    links: Mapping[str, Link]
-    above: Mapping[str, Joint]
-    moving: Mapping[str, Joint]
+    links: Mapping[str, EngineLink]
+    above: Mapping[str, EngineJoint]
+    moving: Mapping[str, EngineJoint]
 
     def shift(self, link: str, places: Mapping[str, float]) -> Matrix:
         """How far a link has been moved from its zero position, as a motion in the frame of the model."""
@@ -74,16 +74,18 @@ class _Tree:
         return frozenset() if joint is None else self.chain(joint.parent) | {joint.name}
 
 
-def robot(engine: str, links: Sequence[Link], joints: Sequence[Joint], model: Matrix, view: View) -> Robot:
+def robot(
+    engine: str, links: Sequence[EngineLink], joints: Sequence[EngineJoint], model: Matrix, view: View
+) -> EngineRobot:
     """The robot of these parts, whose frame lies in the world at the pose `model`."""
     named = ((view.names.get(joint.name, joint.name), joint) for joint in joints if joint.moves)
     moving = {name: joint for name, joint in named if name not in view.still}
-    tree = _Tree({link.name: link for link in links}, {joint.child: joint for joint in joints}, moving)
+    tree = _KinematicTree({link.name: link for link in links}, {joint.child: joint for joint in joints}, moving)
     reference = view.reference if view.reference in {*tree.links, WORLD} else _root(links, joints)
     # joints to the world say where in it a model stands; all others stand where their reference does
     origin = inverse(model) if reference == WORLD else tree.links[reference].pose
     samples = (_sample(tree, inverse(origin), number) for number in range(view.count))
-    return Robot(
+    return EngineRobot(
         engine=engine,
         reference=reference,
         joints=tuple(moving),
@@ -95,13 +97,13 @@ def robot(engine: str, links: Sequence[Link], joints: Sequence[Joint], model: Ma
     )
 
 
-def _root(links: Sequence[Link], joints: Sequence[Joint]) -> str:
+def _root(links: Sequence[EngineLink], joints: Sequence[EngineJoint]) -> str:
     children = {joint.child for joint in joints}
     grounded = any(joint.parent == WORLD for joint in joints)
     return WORLD if grounded else next((link.name for link in links if link.name not in children), WORLD)
 
 
-def _sample(tree: _Tree, back: Matrix, number: int) -> Sample:
+def _sample(tree: _KinematicTree, back: Matrix, number: int) -> Sample:
     places = {joint.name: position(name, number) for name, joint in tree.moving.items()}
     shifts = {name: back @ tree.shift(name, places) for name in tree.links}
     poses = {name: shifts[name] @ link.pose for name, link in tree.links.items()}
@@ -120,7 +122,7 @@ def _sample(tree: _Tree, back: Matrix, number: int) -> Sample:
     return Sample(poses, bodies, matrix, gravity)
 
 
-def _jacobian(tree: _Tree, link: str, center: Matrix, shifts: Mapping[str, Matrix]) -> tuple[Matrix, Matrix]:
+def _jacobian(tree: _KinematicTree, link: str, center: Matrix, shifts: Mapping[str, Matrix]) -> tuple[Matrix, Matrix]:
     """How fast a link turns, and its center of mass moves, for each of the moving joints."""
     turning, sliding = np.zeros((3, len(tree.moving))), np.zeros((3, len(tree.moving)))
     chain = tree.chain(link)
@@ -136,7 +138,7 @@ def _jacobian(tree: _Tree, link: str, center: Matrix, shifts: Mapping[str, Matri
     return turning, sliding
 
 
-def _motion(joint: Joint, place: float) -> Matrix:
+def _motion(joint: EngineJoint, place: float) -> Matrix:
     motion = np.eye(4)
     if joint.motion is Motion.SLIDES:
         motion[:3, 3] = joint.axis * place

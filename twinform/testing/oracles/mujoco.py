@@ -13,9 +13,9 @@ import numpy as np
 from twinform.testing.oracles.robot import (
     GRAVITY,
     WORLD,
-    Body,
+    EngineBody,
+    EngineRobot,
     Matrix,
-    Robot,
     Sample,
     View,
     inverse,
@@ -30,7 +30,7 @@ Numbers = dict[str, int]
 """MuJoCo's numbers of bodies or joints by name."""
 
 
-def read(path: Path, view: View) -> Robot:
+def read(path: Path, view: View) -> EngineRobot:
     """The robot of a file, with every link as a body of its own.
 
     Raises:
@@ -48,7 +48,7 @@ def read(path: Path, view: View) -> Robot:
     origin = np.eye(4) if reference == WORLD else _pose(data, bodies[reference])
     model.opt.gravity[:] = origin[:3, :3] @ np.array([0.0, 0.0, -GRAVITY])
     sample = partial(_sample, mujoco, model, data, bodies, joints, inverse(origin))
-    return Robot(
+    return EngineRobot(
         engine="mujoco",
         reference=reference,
         joints=tuple(joints),
@@ -117,7 +117,7 @@ def _mass_matrix(mujoco: Any, model: Any, data: Any) -> Matrix:
     return matrix
 
 
-def _body(model: Any, data: Any, number: int, back: Matrix) -> Body:
+def _body(model: Any, data: Any, number: int, back: Matrix) -> EngineBody:
     # MuJoCo has inertias along their own axes, with the center of mass as their origin
     inertial = back @ pose(data.ximat[number].reshape(3, 3), data.xipos[number])
     return moved(inertial, float(model.body_mass[number]), np.zeros(3), np.diag(model.body_inertia[number]))

@@ -12,9 +12,9 @@ import numpy as np
 from twinform.testing.oracles.robot import (
     GRAVITY,
     WORLD,
-    Body,
+    EngineBody,
+    EngineRobot,
     Matrix,
-    Robot,
     Sample,
     View,
     inverse,
@@ -27,7 +27,7 @@ Joints = dict[str, Any]
 """Pinocchio's joints with one degree of freedom, by name."""
 
 
-def read(path: Path, view: View) -> Robot:
+def read(path: Path, view: View) -> EngineRobot:
     """The robot of a file; its shapes are not loaded, so that no mesh is missed.
 
     Raises:
@@ -43,7 +43,7 @@ def read(path: Path, view: View) -> Robot:
     model.gravity.linear = origin[:3, :3] @ np.array([0.0, 0.0, -GRAVITY])
     joints = _joints(model, view)
     sample = partial(_sample, pinocchio, model, data, links, joints, inverse(origin))
-    return Robot(
+    return EngineRobot(
         engine="pinocchio",
         reference=reference,
         joints=tuple(joints),
@@ -94,7 +94,7 @@ def _sample(
     )
 
 
-def _bodies(model: Any, links: Mapping[str, Any], back: Matrix, data: Any) -> dict[str, Body]:
+def _bodies(model: Any, links: Mapping[str, Any], back: Matrix, data: Any) -> dict[str, EngineBody]:
     """The body of each joint, and of the root, by the first link that hangs there."""
     first: dict[int, str] = {}
     for name, frame in links.items():

@@ -17,9 +17,9 @@ from lxml import etree
 
 from twinform.testing.oracles.robot import (
     GRAVITY,
-    Body,
+    EngineBody,
+    EngineRobot,
     Matrix,
-    Robot,
     Sample,
     View,
     inverse,
@@ -80,7 +80,7 @@ class _World:
         self.ask("disconnect", of_robot=False)
 
 
-def read(path: Path, view: View) -> Robot:
+def read(path: Path, view: View) -> EngineRobot:
     """The robot of a file.
 
     Raises:
@@ -107,7 +107,7 @@ def _weighed(text: bytes) -> bytes:
     return etree.tostring(robot)
 
 
-def _robot(world: _World, view: View) -> Robot:
+def _robot(world: _World, view: View) -> EngineRobot:
     moving = {world.engine.JOINT_REVOLUTE, world.engine.JOINT_PRISMATIC}
     named = {joint.name.decode(): joint for joint in world.joints if joint.kind in moving}
     joints = {view.names.get(name, name): joint for name, joint in named.items() if name not in view.still}
@@ -117,7 +117,7 @@ def _robot(world: _World, view: View) -> Robot:
     down = origin[:3, :3] @ np.array([0.0, 0.0, -GRAVITY])
     world.ask("setGravity", *down, of_robot=False)
     samples = (_sample(world, joints, numbers, inverse(origin), number) for number in range(view.count))
-    return Robot(
+    return EngineRobot(
         engine="pybullet",
         reference=reference,
         joints=tuple(joints),
@@ -171,7 +171,7 @@ def _sample(
     )
 
 
-def _body(world: _World, number: int, inertial: Matrix) -> Body:
+def _body(world: _World, number: int, inertial: Matrix) -> EngineBody:
     known = world.engine.getDynamicsInfo(world.loose, number, physicsClientId=world.client)
     return moved(inertial, float(known[0]), np.zeros(3), np.diag(known[2]))
 

@@ -31,7 +31,7 @@ class View:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Body:
+class EngineBody:
     """The mass of a link in kg, its center in m, and its inertia about that in kg m2, along the axes of reference."""
 
     mass: float
@@ -48,14 +48,14 @@ class Sample:
     """
 
     poses: Mapping[str, Matrix]
-    bodies: Mapping[str, Body]
+    bodies: Mapping[str, EngineBody]
     mass_matrix: Matrix
     gravity: Mapping[str, float]
     frames: Mapping[str, Matrix] = field(default_factory=dict[str, Matrix])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Robot:
+class EngineRobot:
     """What one engine sees in one file.
 
     `joints` are those with one degree of freedom, and stand where the samples are; `others` are those with more, and
@@ -79,10 +79,10 @@ def limit(value: float) -> float:
     return math.copysign(math.inf, value) if abs(value) > _UNLIMITED else float(value)
 
 
-def moved(pose: Matrix, mass: float, center: Matrix, inertia: Matrix) -> Body:
+def moved(pose: Matrix, mass: float, center: Matrix, inertia: Matrix) -> EngineBody:
     """The body of a link at a pose, from center and inertia in the frame of the link."""
     turn = pose[:3, :3]
-    return Body(mass, pose[:3, 3] + turn @ center, turn @ inertia @ turn.T)
+    return EngineBody(mass, pose[:3, 3] + turn @ center, turn @ inertia @ turn.T)
 
 
 def pose(rotation: Matrix, translation: Matrix) -> Matrix:

@@ -52,13 +52,13 @@ class EngineMissingError(OracleError):
         super().__init__(f"{engine} is not here: {needs}")
 
 
-class UnreadableError(OracleError):
+class EngineUnreadableError(OracleError):
     """The engine cannot read a file: a format that it does not have, a fault, or a crash."""
 
     def __init__(self, engine: str, path: Path, cause: str) -> None:
         super().__init__(f"{engine} cannot read {path}: {cause}")
         self.engine, self.path, self.cause = engine, path, cause
 
-    def __reduce__(self) -> tuple[type["UnreadableError"], tuple[str, Path, str]]:
+    def __reduce__(self) -> tuple[type["EngineUnreadableError"], tuple[str, Path, str]]:
         # exceptions are pickled with their message alone, and this one comes from another process
-        return UnreadableError, (self.engine, self.path, self.cause)
+        return EngineUnreadableError, (self.engine, self.path, self.cause)

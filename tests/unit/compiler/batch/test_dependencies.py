@@ -8,7 +8,7 @@ import pytest
 
 from twinform.compiler.batch.dependencies import (
     Dependency,
-    Kind,
+    DependencyKind,
     are_current,
     are_same,
     dependencies_of,
@@ -51,16 +51,16 @@ def test_all_that_is_asked_for_is_seen(tmp_path: Path, monkeypatch: pytest.Monke
         (tmp_path / "written").write_text("no input")
     dependencies = _observed_in(seen, tmp_path)
     assert {path: dependency.kind for path, dependency in dependencies.items()} == {
-        "opened": Kind.READ,
-        "read": Kind.READ,
-        "looked": Kind.FILE,
-        "absent": Kind.ABSENT,
-        "folder": Kind.LISTED,
+        "opened": DependencyKind.READ,
+        "read": DependencyKind.READ,
+        "looked": DependencyKind.FILE,
+        "absent": DependencyKind.ABSENT,
+        "folder": DependencyKind.LISTED,
     }
     assert tuple(unpacked(packed(dependencies.values()))) == tuple(dependencies.values())
     now = time.time_ns() + 1_000_000_000
     root = str(tmp_path)
-    files = [dependency for dependency in dependencies.values() if dependency.kind is not Kind.LISTED]
+    files = [dependency for dependency in dependencies.values() if dependency.kind is not DependencyKind.LISTED]
     assert are_current(files, root, noted=now)
     assert not are_current(dependencies.values(), root, noted=now)  # the folder is young
     assert are_same(dependencies.values(), root)
@@ -136,7 +136,7 @@ def test_a_time_of_the_last_change_that_somebody_made_up_proves_nothing(tmp_path
     """Images of squashfs and mounts by FUSE have the time of the last modification there, in whole seconds."""
     path = tmp_path / "a"
     status = os.stat_result((0o100644, 7, 1, 1, 0, 0, 3, 9, 9, 9), {"st_mtime_ns": 10**18, "st_ctime_ns": 10**18})
-    dependency = Dependency("a", Kind.READ, 3, 10**18, "x", 10**18, 7)
+    dependency = Dependency("a", DependencyKind.READ, 3, 10**18, "x", 10**18, 7)
     assert not are_current([dependency], str(path.parent), status=lambda _: status)
 
 

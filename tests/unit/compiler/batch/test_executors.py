@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from twinform.compiler import ConversionRequest, LoadOptions
-from twinform.compiler.batch import Batch, Convert, Outcome, Record, batch, of_folder
-from twinform.compiler.batch.task import Done, Job, Task
+from twinform.compiler.batch import Batch, Convert, ModelRecord, Outcome, batch, of_folder
+from twinform.compiler.batch.task import BatchJob, Done, Task
 from twinform.compiler.batch.time_limit import LateError, time_limit
 
 _TEXT = '<robot name="r"><link name="a"/></robot>'
@@ -34,7 +34,7 @@ class _Unsendable(_Sleep):
         raise TypeError("cannot be sent")
 
 
-def _batch(folder: Path, job: Job | None = None) -> Batch:
+def _batch(folder: Path, job: BatchJob | None = None) -> Batch:
     source = folder / "src"
     source.mkdir(exist_ok=True)
     for name in ("a", "b", "c"):
@@ -43,7 +43,7 @@ def _batch(folder: Path, job: Job | None = None) -> Batch:
     return Batch(source=source, entries=of_folder(source), job=job, load_options=LoadOptions(), dest=folder / "out")
 
 
-def _run(asked: Batch, executor: Executor | None = None) -> list[Record]:
+def _run(asked: Batch, executor: Executor | None = None) -> list[ModelRecord]:
     with batch(asked, executor) as results:
         return sorted((result.record for result in results), key=lambda record: record.source)
 
@@ -75,10 +75,10 @@ def test_work_that_cannot_be_sent_is_said(tmp_path: Path) -> None:
 
 
 def test_another_version_of_the_compiler_does_not_work_along() -> None:
-    from twinform.compiler.batch.entries import Entry  # noqa: PLC0415 - only here
+    from twinform.compiler.batch.entries import ModelEntry  # noqa: PLC0415 - only here
     from twinform.compiler.batch.task import work  # noqa: PLC0415 - only here
 
-    task = Task(entry=Entry("a", "a"), job=_Sleep(), root="", load_options=LoadOptions(), version="0.0.0")
+    task = Task(entry=ModelEntry("a", "a"), job=_Sleep(), root="", load_options=LoadOptions(), version="0.0.0")
     assert "and 0.0.0 asks for the work" in work(task).message
 
 

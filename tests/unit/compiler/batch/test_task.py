@@ -7,7 +7,7 @@ from typing import ClassVar
 import pytest
 
 from twinform.compiler import ConversionRequest, LoadOptions
-from twinform.compiler.batch.entries import Entry
+from twinform.compiler.batch.entries import ModelEntry
 from twinform.compiler.batch.jobs import Convert
 from twinform.compiler.batch.record import Outcome
 from twinform.compiler.batch.task import Done, Task, work
@@ -36,7 +36,7 @@ def _done(folder: Path, text: str, policy: Policy = Policy(), *passes: Pass) -> 
     path = folder / "r.urdf"
     path.write_text(text)
     job = Convert(to=ConversionRequest(to="sdf", passes=Pipeline(passes)), policy=policy, ledgers=True)
-    entry, faults = Entry("r.urdf", "r.urdf"), folder / "faults"
+    entry, faults = ModelEntry("r.urdf", "r.urdf"), folder / "faults"
     return work(Task(entry=entry, job=job, root=str(folder), load_options=LoadOptions(), output="r.sdf", faults=faults))
 
 
@@ -54,7 +54,11 @@ def test_a_lifted_limit_reads_the_whole_file(tmp_path: Path) -> None:
     path.write_text(f'<robot name="r">{padding * (LARGEST // 2**20)}<link name="a"/></robot>')
     job = Convert(to=ConversionRequest(to="sdf", passes=Pipeline(())), policy=Policy(), ledgers=False)
     outcomes = [
-        work(Task(entry=Entry("r.urdf", "r.urdf"), job=job, root=str(tmp_path), load_options=options, output="r.sdf"))
+        work(
+            Task(
+                entry=ModelEntry("r.urdf", "r.urdf"), job=job, root=str(tmp_path), load_options=options, output="r.sdf"
+            )
+        )
         for options in (LoadOptions(), LoadOptions(limits=Limits(size=2 * LARGEST)))
     ]
     assert [done.outcome for done in outcomes] == [Outcome.UNREADABLE, Outcome.CONVERTED]

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from twinform.compiler import ConversionRequest, LoadOptions
-from twinform.compiler.batch import Batch, Convert, Result, UnfitWorkerError, batch, of_folder
+from twinform.compiler.batch import Batch, Convert, ModelResult, UnfitWorkerError, batch, of_folder
 from twinform.compiler.batch.worksite import Worksite, worksite
 from twinform.compiler.search.uris import SearchPath
 from twinform.compiler.workers import Runner
@@ -18,7 +18,7 @@ _MACHINE = "machine-7 (tcp://10.0.0.7:9)"
 Answer = Callable[..., object]
 
 
-def _run(folder: Path, answer: Answer, library: Path | None = None) -> list[Result]:
+def _run(folder: Path, answer: Answer, library: Path | None = None) -> list[ModelResult]:
     """A run on a worker that gives its own answer to each question."""
     source = folder / "src"
     source.mkdir(exist_ok=True)

@@ -3,7 +3,7 @@
 import pytest
 
 from twinform.compiler.compare.kinematics import Moving, sampled_positions
-from twinform.compiler.compare.robot import Body, JointView, Mass, Robot
+from twinform.compiler.compare.robot import ComparedBody, ComparedRobot, JointView, Mass
 from twinform.compiler.kinematics import Degree, Leader
 from twinform.ir import Format, Pose
 from twinform.ir.transform import Transform
@@ -14,8 +14,8 @@ _SLIDES = Degree((1.0, 0.0, 0.0), slides=True, lower=-1.0, upper=1.0)
 
 def _poses(*joints: JointView) -> dict[str, Transform]:
     names = ["base", *(joint.child for joint in joints)]
-    bodies = {name: Body(name, Transform(), Mass()) for name in names}
-    robot = Robot("r", Format.SDF, Transform(), bodies, {joint.name: joint for joint in joints}, {})
+    bodies = {name: ComparedBody(name, Transform(), Mass()) for name in names}
+    robot = ComparedRobot("r", Format.SDF, Transform(), bodies, {joint.name: joint for joint in joints}, {})
     return Moving(robot, dict.fromkeys(names, _AT)).poses(sampled_positions(joints, 1))
 
 

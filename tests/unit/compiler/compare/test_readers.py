@@ -8,9 +8,9 @@ from lxml import etree
 import twinform
 from testbed.engines.readers.judging import without_carriers
 from twinform import Comparison
-from twinform.compiler.compare import Difference, Severity
+from twinform.compiler.compare import Difference, DifferenceSeverity
 from twinform.compiler.compare.part_reader import PartReader
-from twinform.compiler.compare.readers import Reader, reconcile
+from twinform.compiler.compare.readers import ComparingReader, reconcile
 from twinform.ir import Document, Joint, Link, Model, World
 from twinform.ir.transform import Transform
 
@@ -46,12 +46,14 @@ def test_what_others_see_is_what_is_left_without_carriers(result: Path, tmp_path
     assert _seen(twinform.diff(*files)) == _seen(others)
 
 
-def _item(aspect: str, severity: Severity = Severity.DIFFERENCE) -> Difference:
+def _item(aspect: str, severity: DifferenceSeverity = DifferenceSeverity.DIFFERENCE) -> Difference:
     return Difference(severity=severity, group="link", name="a", aspect=aspect, message=f"{aspect} differs")
 
 
 def test_what_only_some_readers_find_is_carried():
-    found = reconcile([_item("mass"), _item("pose")], [_item("mass"), _item("inertia")], Reader.TWINFORM, ("a", "b"))
+    found = reconcile(
+        [_item("mass"), _item("pose")], [_item("mass"), _item("inertia")], ComparingReader.TWINFORM, ("a", "b")
+    )
     assert [(each.aspect, str(each.severity), each.reader, each.message) for each in found] == [
         ("mass", "difference", "", "mass differs"),
         ("pose", "carried", "twinform", "pose differs: only twinform reads them as the same"),
@@ -60,13 +62,13 @@ def test_what_only_some_readers_find_is_carried():
 
 
 def test_what_gazebo_alone_sees_stays_carried_for_it():
-    before = reconcile([_item("mass")], [], Reader.GAZEBO, ("a", "b"))
-    assert reconcile(before, [], Reader.TWINFORM, ("a", "b")) == before
+    before = reconcile([_item("mass")], [], ComparingReader.GAZEBO, ("a", "b"))
+    assert reconcile(before, [], ComparingReader.TWINFORM, ("a", "b")) == before
 
 
 def test_notes_of_the_other_readers_stay():
-    notes = [_item("frame", Severity.NOTE)]
-    assert reconcile(notes, [_item("name", Severity.NOTE)], Reader.TWINFORM, ("a", "b")) == notes
+    notes = [_item("frame", DifferenceSeverity.NOTE)]
+    assert reconcile(notes, [_item("name", DifferenceSeverity.NOTE)], ComparingReader.TWINFORM, ("a", "b")) == notes
 
 
 def test_what_readers_see_alike_is_read_once(monkeypatch: pytest.MonkeyPatch):

@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from twinform.compiler.compare.values import Direction, Flag, Numbers, Point, PoseValue, Tensor, Text, Value, gaps
+from twinform.compiler.compare.values import Flag, Numbers, Point, PoseValue, Tensor, Text, UnitVector, Value, gaps
 from twinform.ir import Pose
 from twinform.ir.transform import Transform
 
@@ -19,7 +19,7 @@ _SIXTH = Transform.from_pose(Pose(xyz=(0, 0, 1), rpy=(math.pi / 6, 0, 0)))
         (Text("a"), Text("b"), math.inf, None),
         (Flag(True), Flag(False), math.inf, None),
         (Point((0.0, 0.0, 0.0)), Point((0.0, 3.0, 4.0)), 5.0, 1.0),
-        (Direction((1.0, 0.0, 0.0)), Direction((0.0, 1.0, 0.0)), math.pi / 2, None),
+        (UnitVector((1.0, 0.0, 0.0)), UnitVector((0.0, 1.0, 0.0)), math.pi / 2, None),
         (Tensor((1, 1, 1, 0, 0, 0)), Tensor((1, 1, 1, 0, 0.5, 0)), 0.5, 0.5),
     ],
 )

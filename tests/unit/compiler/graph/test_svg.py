@@ -7,7 +7,7 @@ from lxml import etree
 from tests.chains import chain
 from twinform.compiler.graph import Graph
 from twinform.compiler.graph.labels import shortened
-from twinform.compiler.graph.layout import Box, layout
+from twinform.compiler.graph.layout import LayoutBox, layout
 from twinform.compiler.graph.svg import svg
 
 from .models import NESTED, WORLD, hostile_urdf
@@ -21,7 +21,7 @@ def _texts(graph: Graph) -> list[str]:
     return [each.text or "" for each in root.iter(f"{_SVG}text")]
 
 
-def _overlap(one: Box, other: Box) -> bool:
+def _overlap(one: LayoutBox, other: LayoutBox) -> bool:
     return one.x < other.right and other.x < one.right and one.y < other.bottom and other.y < one.bottom
 
 

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from tests.profile import examples
 from twinform.compiler.packaging.file_kinds import FileKind
-from twinform.compiler.packaging.layout import Layout, Places, safe_name
+from twinform.compiler.packaging.layout import PackageLayout, PackagePlaces, safe_name
 from twinform.compiler.packaging.package import Package, is_inner_path
 
 _KINDS: list[FileKind] = ["mesh", "image", "script", "data"]
@@ -22,7 +22,7 @@ _FILES = st.tuples(
 def test_every_file_has_a_place_of_its_own_inside_of_the_package(
     files: list[tuple[list[str], FileKind, str]],
 ) -> None:
-    layout, places = Layout({"model": "m"}), Places()
+    layout, places = PackageLayout({"model": "m"}), PackagePlaces()
     taken = [places.take(layout.places(parts, kind, holder)) for parts, kind, holder in files]
     assert len({place.casefold() for place in taken}) == len(taken)
     assert all(map(is_inner_path, taken))
@@ -30,7 +30,7 @@ def test_every_file_has_a_place_of_its_own_inside_of_the_package(
 
 
 def test_no_file_is_where_a_folder_is() -> None:
-    places = Places()
+    places = PackagePlaces()
     assert places.take(["meshes/a.stl"]) == "meshes/a.stl"
     assert places.take(["meshes/a.stl/b.stl"]) == "meshes/b_2.stl"
     assert places.take(["meshes/c.stl/b.stl"]) == "meshes/c.stl/b.stl"
@@ -54,7 +54,7 @@ def test_a_safe_name_is_safe_and_stays(name: str) -> None:
 
 
 def test_files_keep_the_path_below_their_folder() -> None:
-    layout = Layout({})
+    layout = PackageLayout({})
     places = {
         ("robots", "a1", "meshes", "visual", "hip.dae"): "meshes/visual/hip.dae",
         ("meshes", "textures", "skin.png"): "meshes/textures/skin.png",

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from twinform.compiler.packaging.order import PLACEHOLDERS, Details
+from twinform.compiler.packaging.order import PLACEHOLDERS, PackageDetails
 from twinform.compiler.packaging.source_details import details_around
 
 PACKAGE = """<package format="3"><name>arm</name><version>1.2.3</version>
@@ -19,7 +19,7 @@ MODEL = """<model><name>Arm</name><version>1.0</version><sdf version="1.6">model
 <author><name>Dee</name><email>d@example.org</email></author><description> An arm. </description></model>"""
 UNSAID = """<package><version>one</version><description>{description}</description>
 <maintainer email="{email}">{maintainer}</maintainer><license>{license}</license></package>""".format_map(PLACEHOLDERS)
-SAID = Details(
+SAID = PackageDetails(
     description="An arm, made of steel.",
     version="1.2.3",
     author="Cee",
@@ -27,8 +27,8 @@ SAID = Details(
     email="ann@example.org",
     license="BSD-3-Clause, Apache-2.0",
 )
-SAID_OF_MODEL = Details(description="An arm.", version="1.0.0", maintainer="Dee", email="d@example.org")
-NOTHING = Details()
+SAID_OF_MODEL = PackageDetails(description="An arm.", version="1.0.0", maintainer="Dee", email="d@example.org")
+NOTHING = PackageDetails()
 BOMB = '<!DOCTYPE p [<!ENTITY a "ha"><!ENTITY b "&a;&a;">]><package><description>&b;</description></package>'
 
 
@@ -54,7 +54,7 @@ BOMB = '<!DOCTYPE p [<!ENTITY a "ha"><!ENTITY b "&a;&a;">]><package><description
     ],
 )  # fmt: skip
 def test_details_are_those_of_the_nearest_package_or_model(
-    files: dict[str, str], expected: Details | None, tmp_path: Path
+    files: dict[str, str], expected: PackageDetails | None, tmp_path: Path
 ) -> None:
     for name, text in files.items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
@@ -64,11 +64,11 @@ def test_details_are_those_of_the_nearest_package_or_model(
 
 
 TEXTS = st.sampled_from(["", "a", "b"])
-DETAILS = st.builds(Details, **dict.fromkeys(Details.__dataclass_fields__, TEXTS))
+DETAILS = st.builds(PackageDetails, **dict.fromkeys(PackageDetails.__dataclass_fields__, TEXTS))
 
 
 @given(DETAILS, DETAILS)
-def test_what_is_given_wins_and_people_are_not_mixed(said: Details, others: Details) -> None:
+def test_what_is_given_wins_and_people_are_not_mixed(said: PackageDetails, others: PackageDetails) -> None:
     told = said.or_else(others)
     for name in ("description", "version", "author", "license"):
         assert getattr(told, name) == (getattr(said, name) or getattr(others, name))

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from twinform.compiler import ConversionRequest, LoadOptions, Split, split
+from twinform.compiler import ConversionRequest, LoadOptions, SplitWorld, split
 from twinform.compiler.search.uris import SearchPath
 from twinform.diagnostics import Severity
 
@@ -18,14 +18,16 @@ WORLD = """\
 """
 
 
-def _split(tmp_path: Path, folder: Path | None, *, uri: str = "shapes/a.obj", paths: tuple[Path, ...] = ()) -> Split:
+def _split(
+    tmp_path: Path, folder: Path | None, *, uri: str = "shapes/a.obj", paths: tuple[Path, ...] = ()
+) -> SplitWorld:
     world = tmp_path / "here/room.sdf"
     world.parent.mkdir(exist_ok=True)
     world.write_text(WORLD.format(uri))
     return split(ConversionRequest(to="urdf"), world, LoadOptions(search=SearchPath.of(paths, {})), folder=folder)
 
 
-def _mesh(found: Split) -> str:
+def _mesh(found: SplitWorld) -> str:
     shape = etree.fromstring(found.files["m.urdf"].encode()).find("link/collision/geometry/mesh")
     assert shape is not None
     return shape.get("filename", "")

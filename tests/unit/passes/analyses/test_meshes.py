@@ -14,7 +14,7 @@ from twinform.ir import Element, Mesh, Opaque
 from twinform.ir.geometry import Box
 from twinform.ir.solids import Solid, solid
 from twinform.passes.analyses.meshes import MeshError, Meshes
-from twinform.passes.mesh_jobs.job import Job, Result
+from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 
 trimesh: Any = importlib.import_module("trimesh")
 FORMATS = ("stl", "obj", "dae", "ply", "off", "glb")
@@ -155,9 +155,9 @@ def test_the_hull_stands_for_an_open_mesh_if_it_may(folder: Path) -> None:
 
 
 def test_without_the_library_it_reports_what_to_install(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    missing = Result({}, trouble="missing", message="trimesh")
+    missing = MeshResult({}, trouble="missing", message="trimesh")
 
-    def do(job: Job) -> Result:
+    def do(job: MeshJob) -> MeshResult:
         del job
         return missing
 

@@ -7,7 +7,7 @@ from twinform.ir import Element, Plugin, Sensor
 from twinform.passes.classic.sensors import SensorMigration
 from twinform.passes.plugins.catalog import release
 from twinform.passes.plugins.elements import sensor_of
-from twinform.passes.plugins.sites import Site
+from twinform.passes.plugins.sites import PluginSite
 
 MINE = Plugin(name="mine", filename="libmine.so")
 DRIVER = Plugin(
@@ -15,7 +15,7 @@ DRIVER = Plugin(
     filename="libgazebo_ros_multicamera.so",
     content=(Element(name="updateRate", text="3"), Element(name="nonsense", text="1")),
 )
-SITE = Site("link", "head")
+SITE = PluginSite("link", "head")
 
 
 def eyes(*names: str | None, plugins: tuple[Plugin, ...] = (MINE, DRIVER)) -> Sensor:

@@ -9,7 +9,7 @@ import pytest
 
 from twinform.passes.mesh_jobs.child import done
 from twinform.passes.mesh_jobs.child_process import MeshProcess
-from twinform.passes.mesh_jobs.job import BadMessageError, Job, Result, packed, unpacked
+from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult, packed, unpacked
 
 pytestmark = [
     pytest.mark.slow,
@@ -50,9 +50,9 @@ _DEATHS = {
 }
 
 
-def _replied(script: str) -> Result:
+def _replied(script: str) -> MeshResult:
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, check=True)
-    return Result.read(io.BytesIO(done.stdout))
+    return MeshResult.read(io.BytesIO(done.stdout))
 
 
 def test_it_opens_nothing_and_starts_nothing_but_threads() -> None:
@@ -80,9 +80,9 @@ def test_one_death_ends_no_other_job() -> None:
     process = MeshProcess()
     try:
         faces = b"".join(b"f" + b" 1 2 3" * 300 + b"\n" for _ in range(3_000))
-        worse = process.do(Job("count", {}, "obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + faces))
+        worse = process.do(MeshJob("count", {}, "obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + faces))
         assert worse.trouble == "unreadable" or worse.facts["triangles"]
-        assert process.do(Job("count", {}, "off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).facts == {
+        assert process.do(MeshJob("count", {}, "off", b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")).facts == {
             "triangles": 1
         }
     finally:
@@ -98,6 +98,6 @@ def test_a_message_with_too_much_is_none(sizes: list[object]) -> None:
 
 
 def test_a_long_message_of_a_library_is_cut() -> None:
-    found = done(Job("count", {}, "off", b"OFF\n" + b"x" * 10_000))
+    found = done(MeshJob("count", {}, "off", b"OFF\n" + b"x" * 10_000))
     assert found.trouble == "unreadable"
     assert len(found.message) < 1000

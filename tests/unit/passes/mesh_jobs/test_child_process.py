@@ -14,7 +14,7 @@ import pytest
 
 from twinform.passes.mesh_jobs.child import done
 from twinform.passes.mesh_jobs.child_process import MeshProcess
-from twinform.passes.mesh_jobs.job import BadMessageError, Job, Options, Result
+from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult, Options
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError, content_of
 from twinform.passes.meshes.results_cache import VARIABLE, ResultsCache
 
@@ -28,17 +28,17 @@ OPTIONS: Options = {
 }  # fmt: skip
 
 
-def job(content: bytes = BOX, kind: str = "stl", name: str = "simplify", **options: float | str | None) -> Job:
-    return Job(name, {**OPTIONS, **options}, kind, content)
+def job(content: bytes = BOX, kind: str = "stl", name: str = "simplify", **options: float | str | None) -> MeshJob:
+    return MeshJob(name, {**OPTIONS, **options}, kind, content)
 
 
 def test_jobs_and_results_are_the_same_after_the_way_there_and_back() -> None:
-    sent = Job("convert", OPTIONS, "obj", b"v 0 0 0", {"a.mtl": b"\0\xff"})
-    assert Job.read(io.BytesIO(sent.to_bytes())) == sent
-    result = Result({"error": 0.5}, {".obj": b"\0"}, None, "")
-    assert Result.read(io.BytesIO(result.to_bytes())) == result
+    sent = MeshJob("convert", OPTIONS, "obj", b"v 0 0 0", {"a.mtl": b"\0\xff"})
+    assert MeshJob.read(io.BytesIO(sent.to_bytes())) == sent
+    result = MeshResult({"error": 0.5}, {".obj": b"\0"}, None, "")
+    assert MeshResult.read(io.BytesIO(result.to_bytes())) == result
     with pytest.raises(BadMessageError):
-        Result.read(io.BytesIO(result.to_bytes()[:-1]))
+        MeshResult.read(io.BytesIO(result.to_bytes()[:-1]))
 
 
 def test_a_box_is_a_box_and_nothing_else() -> None:
@@ -69,7 +69,7 @@ def test_a_hostile_mesh_is_trouble_and_no_more(content: bytes, kind: str, why: s
 
 
 def test_scales_that_leave_nothing_are_trouble() -> None:
-    result = done(Job("simplify", {**OPTIONS, "scale": [1, 0, 1]}, "stl", BOX))
+    result = done(MeshJob("simplify", {**OPTIONS, "scale": [1, 0, 1]}, "stl", BOX))
     assert result.trouble == "unreadable"
     assert "scale" in result.message
 
@@ -103,19 +103,19 @@ def test_a_process_that_runs_out_of_time_or_memory_takes_only_its_job_along() ->
 
 
 def test_results_are_kept_by_all_that_they_depend_on(tmp_path: Path) -> None:
-    cache, result = ResultsCache(tmp_path / "a"), Result({"error": 1.0}, {".obj": b"v"})
+    cache, result = ResultsCache(tmp_path / "a"), MeshResult({"error": 1.0}, {".obj": b"v"})
     assert cache.get(job()) is None
     cache.put(job(), result)
     assert cache.get(job()) == result
     assert cache.get(job(max_error=0.1)) is None
     assert cache.get(job(BOX + b"\0")) is None
-    cache.put(job(kind="ply"), Result({}, trouble="unreadable", message="no"))
+    cache.put(job(kind="ply"), MeshResult({}, trouble="unreadable", message="no"))
     assert cache.get(job(kind="ply")) is None
 
 
 def test_a_damaged_result_is_none(tmp_path: Path) -> None:
     cache = ResultsCache(tmp_path)
-    cache.put(job(), Result({"error": 1.0}))
+    cache.put(job(), MeshResult({"error": 1.0}))
     (file,) = tmp_path.iterdir()
     file.write_bytes(file.read_bytes()[:-1] + b"?")
     assert cache.get(job()) is None
@@ -129,14 +129,14 @@ def test_nothing_is_kept_where_the_versions_cannot_be_read(monkeypatch: pytest.M
 
     monkeypatch.setattr("twinform.passes.meshes.results_cache.version", fail)
     cache = ResultsCache(tmp_path)
-    cache.put(job(), Result({"error": 1.0}))
+    cache.put(job(), MeshResult({"error": 1.0}))
     assert cache.get(job()) is None
     assert [*tmp_path.iterdir()] == []
 
 
 def test_runs_side_by_side_do_each_other_no_harm(tmp_path: Path) -> None:
-    cache, result = ResultsCache(tmp_path), Result({"error": 1.0}, {".obj": b"v" * 100_000})
-    seen: list[Result | None] = []
+    cache, result = ResultsCache(tmp_path), MeshResult({"error": 1.0}, {".obj": b"v" * 100_000})
+    seen: list[MeshResult | None] = []
 
     def work() -> None:
         for _ in range(20):
@@ -164,7 +164,7 @@ def test_the_cache_is_where_the_variables_say(monkeypatch: pytest.MonkeyPatch, t
 
 def test_a_folder_that_cannot_be_written_to_is_no_reason_to_fail(tmp_path: Path) -> None:
     (tmp_path / "file").write_bytes(b"")
-    ResultsCache(tmp_path / "file" / "below").put(job(), Result({}))
+    ResultsCache(tmp_path / "file" / "below").put(job(), MeshResult({}))
 
 
 def test_what_stops_a_reader_is_said_as_that() -> None:

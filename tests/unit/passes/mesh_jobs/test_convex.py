@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from tests.profile import examples
 from twinform.passes.mesh_jobs.geometry.convex import hull, reduced
 from twinform.passes.mesh_jobs.geometry.jobs import simplify
-from twinform.passes.mesh_jobs.job import Job, Options
+from twinform.passes.mesh_jobs.job import MeshJob, Options
 
 pytestmark = pytest.mark.slow
 
@@ -29,8 +29,8 @@ def _simplified(mesh: Any, **options: Any) -> Mapping[str, Any]:
     return cast("Mapping[str, Any]", simplify(_job(mesh, **options)).facts)
 
 
-def _job(mesh: Any, **options: Any) -> Job:
-    return Job("simplify", {**_OPTIONS, **options}, "stl", mesh.export(file_type="stl"))
+def _job(mesh: Any, **options: Any) -> MeshJob:
+    return MeshJob("simplify", {**_OPTIONS, **options}, "stl", mesh.export(file_type="stl"))
 
 
 def _channel() -> Any:

@@ -8,7 +8,7 @@ import pytest
 
 from twinform.passes.mesh_jobs.geometry.decimation import decimated
 from twinform.passes.mesh_jobs.geometry.jobs import decimate
-from twinform.passes.mesh_jobs.job import Job, Options
+from twinform.passes.mesh_jobs.job import MeshJob, Options
 
 pytestmark = pytest.mark.slow
 
@@ -21,7 +21,7 @@ _OPTIONS: Options = {
 
 
 def _levels(mesh: Any, **options: Any) -> list[dict[str, float]]:
-    found = decimate(Job("decimate", {**_OPTIONS, **options}, "stl", mesh.export(file_type="stl")))
+    found = decimate(MeshJob("decimate", {**_OPTIONS, **options}, "stl", mesh.export(file_type="stl")))
     return cast("list[dict[str, float]]", found.facts.get("levels", []))
 
 

@@ -11,7 +11,7 @@ from tests.profile import examples
 from tests.unit.passes.mesh_jobs.judge import distances, drawn
 from twinform.passes.mesh_jobs.geometry.convex import error_of, hull
 from twinform.passes.mesh_jobs.geometry.distances import Nearest, farthest
-from twinform.passes.mesh_jobs.geometry.surface import Surface, merged
+from twinform.passes.mesh_jobs.geometry.surface import TriangleSurface, merged
 
 np: Any = importlib.import_module("numpy")
 trimesh: Any = importlib.import_module("trimesh")
@@ -26,7 +26,7 @@ soups = st.lists(st.tuples(_points, _points, _points), min_size=1, max_size=8).m
 @examples(0.3)
 @given(soups, soups, st.sampled_from([0.5, 0.1, 0.02]))
 def test_no_point_is_farther_than_the_distance_and_some_point_nearly_is(
-    a: Surface, b: Surface, tolerance: float
+    a: TriangleSurface, b: TriangleSurface, tolerance: float
 ) -> None:
     said = farthest(a, Nearest(b), tolerance)
     met = distances(drawn(a.triangles), b.triangles).max()
@@ -34,7 +34,7 @@ def test_no_point_is_farther_than_the_distance_and_some_point_nearly_is(
     assert said <= _true(a, b) + tolerance + 1e-9
 
 
-def _true(a: Surface, b: Surface) -> float:
+def _true(a: TriangleSurface, b: TriangleSurface) -> float:
     """The greatest distance of a fine grid of points, which is off by half of its width at most."""
     steps = 24
     weights = np.array([(i, j, steps - i - j) for i in range(steps + 1) for j in range(steps + 1 - i)]) / steps
@@ -45,7 +45,7 @@ def _true(a: Surface, b: Surface) -> float:
 
 @examples(0.3)
 @given(soups)
-def test_a_surface_is_at_no_distance_from_itself(surface: Surface) -> None:
+def test_a_surface_is_at_no_distance_from_itself(surface: TriangleSurface) -> None:
     assert farthest(surface, Nearest(surface), 1e-3) <= 1e-3 + 1e-9
 
 

@@ -82,12 +82,12 @@ def test_a_computed_inertia_keeps_its_collisions(robot: Path) -> None:
 
 
 def test_without_the_libraries_a_diagnostic_says_what_to_install(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from twinform.passes.mesh_jobs.job import Job, Result  # noqa: PLC0415 - see above
+    from twinform.passes.mesh_jobs.job import MeshJob, MeshResult  # noqa: PLC0415 - see above
     from twinform.passes.meshes import mesh_pass  # noqa: PLC0415 - it is patched
 
-    def missing(job: Job) -> Result:
+    def missing(job: MeshJob) -> MeshResult:
         del job
-        return Result({}, trouble="missing", message="coacd")
+        return MeshResult({}, trouble="missing", message="coacd")
 
     monkeypatch.setattr(mesh_pass, "do", missing)
     monkeypatch.setenv("TWINFORM_MESH_CACHE", "off")

@@ -13,7 +13,7 @@ from twinform.passes.plugins.catalog import (
     system,
     systems,
 )
-from twinform.passes.plugins.parts import Parameter, PluginKind
+from twinform.passes.plugins.parts import PluginKind, PluginParameter
 from twinform.passes.plugins.release_names import ReleaseName
 
 ALL = [
@@ -87,7 +87,7 @@ def test_every_row_of_the_tables_makes_sense(kind: PluginKind) -> None:
         assert channel.message.startswith("gz.msgs.")
 
 
-def _make_sense(path: tuple[str, ...], row: Parameter) -> None:
+def _make_sense(path: tuple[str, ...], row: PluginParameter) -> None:
     assert row.count in "1?*+", path
     assert row.type in {
         "number", "integer", "bool", "text", "joint", "link", "collision", "topic", "vector", "numbers", "pose",

@@ -2,7 +2,7 @@
 
 from twinform.passes.plugins.catalog import LATEST, releases
 from twinform.passes.plugins.notation import read_plugins
-from twinform.passes.plugins.parts import Alternative, Channel, Parameter, PluginKind, Release
+from twinform.passes.plugins.parts import Alternative, PluginKind, PluginParameter, Release, TopicChannel
 
 NAMES = ("old", "middle", "new", "main")
 EVER = frozenset(NAMES)
@@ -21,7 +21,7 @@ plugin bare  file=bare.so class=Bare scope=world any since=new
 """
 
 
-def row(name: str, count: str, type_: str, **given: object) -> Parameter:
+def row(name: str, count: str, type_: str, **given: object) -> PluginParameter:
     usual = {
         "name": name,
         "count": count,
@@ -33,7 +33,7 @@ def row(name: str, count: str, type_: str, **given: object) -> Parameter:
         "is_attribute": False,
         "children": (),
     }
-    return Parameter(**{**usual, **given})  # pyright: ignore[reportArgumentType] - the fields of a parameter
+    return PluginParameter(**{**usual, **given})  # pyright: ignore[reportArgumentType] - the fields of a parameter
 
 
 def test_a_table_is_read_whole() -> None:
@@ -62,7 +62,7 @@ def test_a_table_is_read_whole() -> None:
             row("angle", "?", "number", unit="rad|m"),
         ),
         channels=(
-            Channel(
+            TopicChannel(
                 ">",
                 "topic",
                 "gz.msgs.Twist",
@@ -74,7 +74,7 @@ def test_a_table_is_read_whole() -> None:
                 EVER,
                 "or-default",
             ),
-            Channel("<", None, "gz.msgs.Odom", "/{each}", (), (), (("on",),), ("wheel", "limits"), early),
+            TopicChannel("<", None, "gz.msgs.Odom", "/{each}", (), (), (("on",),), ("wheel", "limits"), early),
         ),
         free=False,
     )

@@ -5,7 +5,7 @@ import pytest
 import twinform
 from twinform.ir import Document, Plugin, Sensor, replace_node
 from twinform.passes.plugins.editing import add_plugin, add_sensor, add_world_plugin
-from twinform.passes.plugins.sites import Site, map_plugins, map_sensors, plugins_of, sensors_of
+from twinform.passes.plugins.sites import PluginSite, map_plugins, map_sensors, plugins_of, sensors_of
 
 URDF = """<robot name="r">
   <ros2_control name="c" type="system"><hardware><plugin>fake/System</plugin></hardware></ros2_control>
@@ -83,7 +83,7 @@ def test_a_walk_that_changes_nothing_gives_the_same_document(text: str) -> None:
 
 @pytest.mark.parametrize("text", [URDF, SDF])
 def test_plugins_are_replaced_removed_and_multiplied(text: str) -> None:
-    def change(plugin: Plugin, _: Site) -> Iterable[Plugin]:
+    def change(plugin: Plugin, _: PluginSite) -> Iterable[Plugin]:
         if plugin.name == "v":
             return ()
         if plugin.name == "c":
@@ -97,7 +97,7 @@ def test_plugins_are_replaced_removed_and_multiplied(text: str) -> None:
 
 @pytest.mark.parametrize("text", [URDF, SDF])
 def test_sensors_are_changed(text: str) -> None:
-    def change(sensor: Sensor, _: Site) -> Iterable[Sensor]:
+    def change(sensor: Sensor, _: PluginSite) -> Iterable[Sensor]:
         return (sensor.copy(topic="here", plugins=()),) if sensor.name == "eye" else ()
 
     made = map_sensors(load(text), change)
@@ -112,7 +112,7 @@ def test_what_a_plugin_has_is_kept() -> None:
     assert back == document
 
 
-def _names(document: Document, site: Site) -> str | None:
+def _names(document: Document, site: PluginSite) -> str | None:
     return next(plugin.name for plugin, place in plugins_of(document) if place.scope == site.scope)
 
 

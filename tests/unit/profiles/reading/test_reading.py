@@ -5,7 +5,7 @@ import pytest
 import twinform.profiles.reading.tinyxml as tiny
 from twinform.diagnostics import rules
 from twinform.ir import Format
-from twinform.profiles import Subject, Verdict, assess, load
+from twinform.profiles import ConsumerVerdict, ProfiledFile, assess, load
 from twinform.profiles.reading import read_as
 from twinform.profiles.reading.nodes import UnparsedError
 from twinform.profiles.reading.notation import reads
@@ -100,9 +100,9 @@ def test_a_table_is_like_another_one_but_for_what_it_says() -> None:
 def test_a_profile_reports_shortfalls_by_rules(find: str, write: str, rule: object) -> None:
     profiles = tuple(profile for name in CONSUMERS for profile in load(name))
     content = ROBOT.replace(find, write).encode()
-    found = assess(Subject("robot.urdf", Format.URDF, content=content), profiles)
+    found = assess(ProfiledFile("robot.urdf", Format.URDF, content=content), profiles)
     assert {judgment.finding.rule for each in found for judgment in each.judgments} >= {rule}
     same = [judgment.finding for each in found for judgment in each.judgments if judgment.finding.rule is rule]
     assert len({id(each) for each in same}) < len(same) or len(same) == 1 or rule is rules.UNREAD_TEXT
-    clean = assess(Subject("robot.urdf", Format.URDF, content=ROBOT.encode()), profiles)
-    assert {each.verdict for each in clean} == {Verdict.ACCEPTS}
+    clean = assess(ProfiledFile("robot.urdf", Format.URDF, content=ROBOT.encode()), profiles)
+    assert {each.verdict for each in clean} == {ConsumerVerdict.ACCEPTS}

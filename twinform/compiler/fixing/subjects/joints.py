@@ -5,7 +5,7 @@ import math
 from lxml import etree
 
 from twinform.compiler.fixing.numbers_text import numbers_of, text_of_numbers
-from twinform.compiler.fixing.site import Fixers, Site, safe, unsafe
+from twinform.compiler.fixing.site import FindingSite, Fixers, safe, unsafe
 from twinform.diagnostics import Fix, TextEdit, nearest_name, rules
 from twinform.schemas import XmlElement
 
@@ -15,7 +15,7 @@ _RANGE = ("lower", "upper")
 _DEFAULT_AXIS = {"urdf": "1 0 0", "sdf": "0 0 1"}
 
 
-def _missing_axis(site: Site) -> Fix | None:
+def _missing_axis(site: FindingSite) -> Fix | None:
     """The default of the format, written down."""
     name = (site.finding.expected or "").strip("<>")
     if not name or site.element.find(name) is not None:
@@ -29,13 +29,13 @@ def _missing_axis(site: Site) -> Fix | None:
     return safe(f"Write the axis that is the default, {value}", site.edit.insert(site.element, axis, _last_end(site)))
 
 
-def _last_end(site: Site) -> XmlElement | None:
+def _last_end(site: FindingSite) -> XmlElement | None:
     """The last of the elements before which nobody looks for an axis."""
     found = [each for each in site.element if each.tag in {"origin", "pose", "parent", "child"}]
     return found[-1] if found else None
 
 
-def _unused_axis(site: Site) -> Fix | None:
+def _unused_axis(site: FindingSite) -> Fix | None:
     """What belongs to an axis goes with it; a second axis may tell that the type of the joint is wrong."""
     if site.element.tag == "axis2":
         return unsafe("Delete the <axis2>, which nobody reads", site.edit.remove(site.element))
@@ -49,7 +49,7 @@ def _unused_axis(site: Site) -> Fix | None:
     return safe(f"Delete {names}, which nobody reads", *map(site.edit.remove, gone)) if gone else None
 
 
-def _unnormalized_axis(site: Site) -> Fix | None:
+def _unnormalized_axis(site: FindingSite) -> Fix | None:
     element = site.element if site.file.format == "urdf" else site.element.find("xyz")
     if element is None:
         return None
@@ -62,7 +62,7 @@ def _unnormalized_axis(site: Site) -> Fix | None:
     return safe(f"Write the axis with length one, {value}", *_write(site, element, "xyz", value))
 
 
-def _zero_axis(site: Site) -> Fix | None:
+def _zero_axis(site: FindingSite) -> Fix | None:
     element = site.element if site.file.format == "urdf" else site.element.find("xyz")
     if element is None:
         return None
@@ -70,14 +70,14 @@ def _zero_axis(site: Site) -> Fix | None:
     return unsafe(f"Write the axis that is the default, {value}", *_write(site, element, "xyz", value))
 
 
-def _write(site: Site, element: XmlElement, name: str, value: str) -> tuple[TextEdit, ...]:
+def _write(site: FindingSite, element: XmlElement, name: str, value: str) -> tuple[TextEdit, ...]:
     """Write a value where the format has it: URDF in an attribute, SDF in a text."""
     if site.file.format == "urdf":
         return (site.edit.set_attribute(element, name, value),)
     return site.edit.set_text(element, value)
 
 
-def _unused_limit(site: Site) -> Fix | None:
+def _unused_limit(site: FindingSite) -> Fix | None:
     """Lower and upper limits of a continuous joint."""
     if site.element.tag != "limit":
         return None
@@ -89,7 +89,7 @@ def _unused_limit(site: Site) -> Fix | None:
     return safe("Delete the limits of the angle, which nobody reads", *edits) if edits else None
 
 
-def _continuous(site: Site) -> Fix | None:
+def _continuous(site: FindingSite) -> Fix | None:
     """A joint of SDF that Gazebo can turn."""
     if site.element.get("type") != "continuous":
         return None
@@ -97,7 +97,7 @@ def _continuous(site: Site) -> Fix | None:
     return unsafe("Make it revolute, without limits", site.edit.set_attribute(site.element, "type", "revolute"), *edits)
 
 
-def _without_range(site: Site, limit: XmlElement) -> list[TextEdit]:
+def _without_range(site: FindingSite, limit: XmlElement) -> list[TextEdit]:
     """A limit of SDF without those of the angle; there is none where it has no others."""
     gone = [each for each in limit if each.tag in _RANGE]
     if len(gone) == len(limit):
@@ -105,7 +105,7 @@ def _without_range(site: Site, limit: XmlElement) -> list[TextEdit]:
     return [site.edit.remove(each) for each in gone]
 
 
-def _make_continuous(site: Site) -> Fix | None:
+def _make_continuous(site: FindingSite) -> Fix | None:
     """A revolute joint of URDF without limits, or with none to move between."""
     joint = site.element if site.element.tag == "joint" else site.element.getparent()
     if site.file.format != "urdf" or joint is None or joint.get("type") != "revolute":
@@ -113,7 +113,7 @@ def _make_continuous(site: Site) -> Fix | None:
     return unsafe("Make it continuous: it turns without end", site.edit.set_attribute(joint, "type", "continuous"))
 
 
-def _missing_limit(site: Site) -> Fix | None:
+def _missing_limit(site: FindingSite) -> Fix | None:
     """A joint turns without end, unless its limit is there under another name: then that is what to fix."""
     row = site.file.row_of(site.element)
     known = {each.name for each in row.children} if row else set[str]()
@@ -123,18 +123,18 @@ def _missing_limit(site: Site) -> Fix | None:
     return _make_continuous(site)
 
 
-def _empty_range(site: Site) -> Fix | None:
+def _empty_range(site: FindingSite) -> Fix | None:
     written = {"lower", "upper"} & set(map(str, site.element.attrib))
     return _make_continuous(site) if not written else None
 
 
-def _empty_dynamics(site: Site) -> Fix | None:
+def _empty_dynamics(site: FindingSite) -> Fix | None:
     if site.element.tag != "dynamics":
         return None
     return safe("Delete the empty <dynamics>", site.edit.remove(site.element))
 
 
-def _world_child(site: Site) -> Fix | None:
+def _world_child(site: FindingSite) -> Fix | None:
     joint = site.element if site.element.tag == "joint" else site.element.getparent()
     if joint is None:
         return None

@@ -4,17 +4,17 @@ import math
 from collections.abc import Mapping
 
 from twinform.compiler.fixing.numbers_text import numbers_of, text_of_number
-from twinform.compiler.fixing.site import Fixers, Site, unsafe
+from twinform.compiler.fixing.site import FindingSite, Fixers, unsafe
 from twinform.diagnostics import Fix, TextEdit, rules
 from twinform.schemas import XmlElement
 
 
-def value_of(site: Site, element: XmlElement, name: str) -> str | None:
+def value_of(site: FindingSite, element: XmlElement, name: str) -> str | None:
     """What an element says of a name: URDF in an attribute, SDF in an element."""
     return element.get(name) if site.file.format == "urdf" else element.findtext(name)
 
 
-def write(site: Site, element: XmlElement, values: Mapping[str, str]) -> list[TextEdit]:
+def write(site: FindingSite, element: XmlElement, values: Mapping[str, str]) -> list[TextEdit]:
     """Write other values where there are some."""
     if site.file.format == "urdf":
         return [site.edit.set_attribute(element, name, value) for name, value in values.items()]
@@ -22,12 +22,12 @@ def write(site: Site, element: XmlElement, values: Mapping[str, str]) -> list[Te
     return [edit for each, value in found if each is not None for edit in site.edit.set_text(each, value)]
 
 
-def _number(site: Site, element: XmlElement, name: str) -> float | None:
+def _number(site: FindingSite, element: XmlElement, name: str) -> float | None:
     found = numbers_of(value_of(site, element, name))
     return found[0] if len(found) == 1 else None
 
 
-def _upside_down(site: Site) -> Fix | None:
+def _upside_down(site: FindingSite) -> Fix | None:
     lower, upper = (value_of(site, site.element, name) for name in ("lower", "upper"))
     if lower is None or upper is None:
         return None
@@ -37,13 +37,13 @@ def _upside_down(site: Site) -> Fix | None:
     )
 
 
-def _in_degrees(site: Site) -> Fix | None:
+def _in_degrees(site: FindingSite) -> Fix | None:
     found = {name: _number(site, site.element, name) for name in ("lower", "upper")}
     values = {name: text_of_number(round(math.radians(value), 9)) for name, value in found.items() if value}
     return unsafe("Write the limits in radians", *write(site, site.element, values)) if values else None
 
 
-def _soft(site: Site) -> Fix | None:
+def _soft(site: FindingSite) -> Fix | None:
     """Soft limits on the hard ones, where these are there."""
     joint = site.element.getparent()
     limit = joint.find("limit") if joint is not None else None
@@ -65,7 +65,7 @@ def _soft(site: Site) -> Fix | None:
     return unsafe("Put the soft limits inside of the hard ones", *edits) if edits else None
 
 
-def _negative_dynamics(site: Site) -> Fix | None:
+def _negative_dynamics(site: FindingSite) -> Fix | None:
     names = [name for name in ("damping", "friction") if (_number(site, site.element, name) or 0) < 0]
     written = {name: (value_of(site, site.element, name) or "").strip().removeprefix("-") for name in names}
     return unsafe("Write the number without its minus", *write(site, site.element, written)) if written else None

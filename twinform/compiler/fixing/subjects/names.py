@@ -1,6 +1,6 @@
 """Fixes of names: unknown words with one near miss, references to what is called nearly so, names that SDF refuses."""
 
-from twinform.compiler.fixing.site import FixableFile, Fixers, Site, unsafe
+from twinform.compiler.fixing.site import FindingSite, FixableFile, Fixers, unsafe
 from twinform.diagnostics import Fix, TextEdit, meant_name, nearest_name, rules
 
 # How much of two words has to be the same for a tag to be taken for the other one; with less, the
@@ -10,7 +10,7 @@ _ENDS = frozenset({"parent", "child"})
 """What names a link where a joint has its name too."""
 
 
-def _unknown_element(site: Site) -> Fix | None:
+def _unknown_element(site: FindingSite) -> Fix | None:
     meant = meant_name(site.finding.help)
     old = str(site.element.tag)
     parent = site.element.getparent()
@@ -23,14 +23,14 @@ def _unknown_element(site: Site) -> Fix | None:
     return unsafe(f"Write <{meant}> instead of <{old}>", *site.edit.rename(site.element, meant))
 
 
-def _unknown_attribute(site: Site) -> Fix | None:
+def _unknown_attribute(site: FindingSite) -> Fix | None:
     meant, old = meant_name(site.finding.help), site.attribute
     if not meant or not old or meant in site.element.attrib or old not in site.element.attrib:
         return None
     return unsafe(f"Write {meant} instead of {old}", site.edit.rename_attribute(site.element, old, meant))
 
 
-def _reference(site: Site) -> Fix | None:
+def _reference(site: FindingSite) -> Fix | None:
     """A name of something that is not there, where one that is there is near."""
     # The name is read out of the help sentence: a field of its own in `Diagnostic` would have to be
     # filled in at forty places and say what the sentence says.
@@ -42,7 +42,7 @@ def _reference(site: Site) -> Fix | None:
     return unsafe(f"Write {meant!r} instead of {found!r}", *edits) if edits else None
 
 
-def _write_name(site: Site, found: str, meant: str) -> tuple[TextEdit, ...]:
+def _write_name(site: FindingSite, found: str, meant: str) -> tuple[TextEdit, ...]:
     """Write a name where another one stands: in the attribute of the finding, the only one with it, or the text."""
     if site.attribute and site.attribute in site.element.attrib:
         return site.set_value(meant)
@@ -55,7 +55,7 @@ def _write_name(site: Site, found: str, meant: str) -> tuple[TextEdit, ...]:
     return site.edit.set_text(inner[0], meant) if len(inner) == 1 else ()
 
 
-def _reserved_name(site: Site) -> Fix | None:
+def _reserved_name(site: FindingSite) -> Fix | None:
     """A name with `::` in it, where nothing else in the file says it."""
     name = site.element.get("name")
     if not name or "::" not in name or not name.replace("::", "") or _is_said_elsewhere(site, name):
@@ -64,7 +64,7 @@ def _reserved_name(site: Site) -> Fix | None:
     return unsafe(f"Call it {new!r}", site.edit.set_attribute(site.element, "name", new))
 
 
-def _shared_name(site: Site) -> Fix | None:
+def _shared_name(site: FindingSite) -> Fix | None:
     """Two things of different kinds with one name, where nothing else in the file says the name."""
     name, tag = site.element.get("name"), str(site.element.tag)
     if not name or _is_said_elsewhere(site, name, _ENDS):
@@ -73,7 +73,7 @@ def _shared_name(site: Site) -> Fix | None:
     return unsafe(f"Call this <{tag}> {new!r}", site.edit.set_attribute(site.element, "name", new))
 
 
-def _is_said_elsewhere(site: Site, name: str, but: frozenset[str] = frozenset()) -> bool:
+def _is_said_elsewhere(site: FindingSite, name: str, but: frozenset[str] = frozenset()) -> bool:
     """Whether a name stands in the texts of elements, or in other attributes than `name`."""
     return any(not site.file.words.get(word, set()) <= but for word in {name, *name.split("::")[-1:]})
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from twinform.compiler.fixing.numbers_text import numbers_of, text_of_number, text_of_numbers
-from twinform.compiler.fixing.site import Fixers, Site, safe, unsafe
+from twinform.compiler.fixing.site import FindingSite, Fixers, safe, unsafe
 from twinform.diagnostics import Fix, Safety, TextEdit, meant_name, rules
 from twinform.schemas import VALUE_TYPES
 
@@ -53,7 +53,7 @@ class Guess(NamedTuple):
     safety: Safety
 
 
-def _invalid_value(site: Site) -> Fix | None:
+def _invalid_value(site: FindingSite) -> Fix | None:
     text = site.value
     word = meant_name(site.finding.help)
     if word is not None:
@@ -68,7 +68,7 @@ def _invalid_value(site: Site) -> Fix | None:
     return None
 
 
-def _parser(site: Site) -> Callable[[str], bool] | None:
+def _parser(site: FindingSite) -> Callable[[str], bool] | None:
     """Whether a text is of the type that the finding asks for."""
     types = [each for each in VALUE_TYPES[site.file.format].values() if each.expected == site.finding.expected]
     types = types or [each for each in VALUE_TYPES["sdf"].values() if each.expected == site.finding.expected]
@@ -120,7 +120,7 @@ def _without_units(text: str) -> Iterator[Guess]:
         yield Guess(_WITH_UNIT.sub(scaled, text), Safety.UNSAFE)
 
 
-def _out_of_range(site: Site) -> Fix | None:
+def _out_of_range(site: FindingSite) -> Fix | None:
     numbers = numbers_of(site.value)
     if site.finding.help == "divide by 255" and all(0 <= each <= _WHITE for each in numbers):
         # Somebody who writes colors from 0 to 255 often still writes an alpha of 1.
@@ -138,7 +138,7 @@ _WHITE = 255
 _MOST_BRIGHT = 2
 
 
-def _angles_in_degrees(site: Site) -> Fix | None:
+def _angles_in_degrees(site: FindingSite) -> Fix | None:
     """Angles of a pose, of which at least one is more than two turns."""
     if site.file.format == "urdf":
         angles = numbers_of(site.element.get("rpy"))
@@ -157,7 +157,7 @@ def _radians(angles: Sequence[float]) -> str:
     return text_of_numbers(round(math.radians(each), 9) for each in angles)
 
 
-def _unnormalized_quaternion(site: Site) -> Fix | None:
+def _unnormalized_quaternion(site: FindingSite) -> Fix | None:
     name = "quat_xyzw" if site.file.format == "urdf" else None
     numbers = numbers_of(site.element.get(name) if name else site.element.text)
     turn = numbers[-4:]
@@ -169,7 +169,7 @@ def _unnormalized_quaternion(site: Site) -> Fix | None:
     return unsafe("Write the quaternion with length one", *edits)
 
 
-def _split_value(site: Site) -> Fix | None:
+def _split_value(site: FindingSite) -> Fix | None:
     """Put the comments before the element."""
     place, text = site.edit.places[site.element], site.edit.text
     if place.content is None or place.children:
@@ -180,7 +180,7 @@ def _split_value(site: Site) -> Fix | None:
     return unsafe(f"Put the comment before the element, whose text is {value!r}", moved, TextEdit(place.content, value))
 
 
-def _negative_mass(site: Site) -> Fix | None:
+def _negative_mass(site: FindingSite) -> Fix | None:
     element = site.element if site.element.tag == "mass" else site.element.find("mass")
     if element is None:
         return None

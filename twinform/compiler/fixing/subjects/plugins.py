@@ -5,7 +5,7 @@ from itertools import chain
 
 from lxml import etree
 
-from twinform.compiler.fixing.site import Fixers, Site, unsafe
+from twinform.compiler.fixing.site import FindingSite, Fixers, unsafe
 from twinform.diagnostics import Fix, TextEdit, meant_name, rules
 from twinform.passes.plugins.catalog import systems_of_file
 from twinform.schemas import XmlElement
@@ -13,7 +13,7 @@ from twinform.schemas import XmlElement
 _WRITTEN = re.compile(r'<plugin filename="(?P<file>[^"]+)" name="(?P<name>[^"]+)"')
 
 
-def _ignition(site: Site) -> Fix | None:
+def _ignition(site: FindingSite) -> Fix | None:
     """The names that Gazebo has now, as the finding proposes them."""
     found = _WRITTEN.search(site.finding.help or "")
     if found is None or site.element.tag != "plugin":
@@ -22,7 +22,7 @@ def _ignition(site: Site) -> Fix | None:
     return unsafe(f"Write filename={found['file']!r} name={found['name']!r}", *edits)
 
 
-def _called(site: Site, file: str, name: str) -> tuple[TextEdit, ...]:
+def _called(site: FindingSite, file: str, name: str) -> tuple[TextEdit, ...]:
     wanted = {"filename": file, "name": name}
     return tuple(
         site.edit.set_attribute(site.element, key, value)
@@ -31,7 +31,7 @@ def _called(site: Site, file: str, name: str) -> tuple[TextEdit, ...]:
     )
 
 
-def _wrong_class(site: Site) -> Fix | None:
+def _wrong_class(site: FindingSite) -> Fix | None:
     expected, found = site.finding.expected or "", site.finding.found
     names = [str(key) for key, value in site.element.attrib.items() if value == found and key in {"name", "filename"}]
     if not expected or " or " in expected or len(names) != 1:
@@ -39,7 +39,7 @@ def _wrong_class(site: Site) -> Fix | None:
     return unsafe(f"Write {names[0]}={expected!r}", site.edit.set_attribute(site.element, names[0], expected))
 
 
-def _not_in_release(site: Site) -> Fix | None:
+def _not_in_release(site: FindingSite) -> Fix | None:
     meant = meant_name(site.finding.help)
     if not meant or site.element.get("filename") != site.finding.found:
         return None
@@ -49,7 +49,7 @@ def _not_in_release(site: Site) -> Fix | None:
     return unsafe(f"Write filename={meant!r} name={name!r}", *_called(site, meant, name))
 
 
-def _lacking(site: Site) -> Fix | None:
+def _lacking(site: FindingSite) -> Fix | None:
     """The systems that the finding proposes, put into the world before its other plugins."""
     world = next((each for each in (site.element, *site.element.iterancestors()) if each.tag == "world"), None)
     found = [*_WRITTEN.finditer(site.finding.help or "")]
@@ -66,7 +66,9 @@ def _before_plugins(world: XmlElement) -> XmlElement | None:
     return own[-1] if own else None
 
 
-def _inserted(site: Site, world: XmlElement, file: str, name: str, behind: XmlElement | None) -> tuple[TextEdit, ...]:
+def _inserted(
+    site: FindingSite, world: XmlElement, file: str, name: str, behind: XmlElement | None
+) -> tuple[TextEdit, ...]:
     plugin = etree.Element("plugin", {"filename": file, "name": name})
     return (site.edit.insert(world, plugin, behind),)
 

@@ -5,7 +5,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 
 from twinform.compiler.fixing.numbers_text import numbers_of, text_of_number
-from twinform.compiler.fixing.site import Fixers, Site, display, safe, unsafe
+from twinform.compiler.fixing.site import FindingSite, Fixers, display, safe, unsafe
 from twinform.compiler.fixing.subjects.names import free_name
 from twinform.compiler.fixing.subjects.numbers import guesses
 from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit, rules
@@ -20,7 +20,7 @@ _OF_THEIR_OWN = frozenset({"actor", "camera", "joint", "light", "link", "model",
 _SHOWN = 40
 
 
-def _missing_attribute(site: Site) -> Fix | None:
+def _missing_attribute(site: FindingSite) -> Fix | None:
     name = (site.finding.expected or "").removeprefix("@")
     if not name or name in site.element.attrib:
         return None
@@ -40,7 +40,7 @@ def _missing_attribute(site: Site) -> Fix | None:
     return None
 
 
-def _text_as_attribute(site: Site, name: str) -> Fix | None:
+def _text_as_attribute(site: FindingSite, name: str) -> Fix | None:
     """`<mass>1</mass>` where the format has `<mass value="1"/>`."""
     row = site.file.row_of(site.element)
     fact = next((each for each in row.attributes if each.name == f"@{name}"), None) if row else None
@@ -67,7 +67,7 @@ def _fits(fact: Fact, text: str, format_: str) -> bool:
     return True
 
 
-def _defaulted(site: Site) -> Fix | None:
+def _defaulted(site: FindingSite) -> Fix | None:
     """The default, written down; what has no effect without its attribute is deleted."""
     name = site.finding.expected or ""
     row = site.file.row_of(site.element)
@@ -80,7 +80,7 @@ def _defaulted(site: Site) -> Fix | None:
     return safe(f'Write {name[1:]}="{value}"', site.edit.set_attribute(site.element, name[1:], value))
 
 
-def _deprecated(site: Site) -> Fix | None:
+def _deprecated(site: FindingSite) -> Fix | None:
     """`thread_pitch` counts radians to a meter and the other way round, what has taken its place meters to a turn."""
     parent, numbers = site.element.getparent(), numbers_of(site.element.text)
     if site.element.tag != "thread_pitch" or parent is None or len(numbers) != 1 or not numbers[0]:
@@ -92,7 +92,7 @@ def _deprecated(site: Site) -> Fix | None:
     return unsafe(f"Write <screw_thread_pitch>{value}</screw_thread_pitch>", *edits)
 
 
-def _repeated(site: Site) -> Fix | None:
+def _repeated(site: FindingSite) -> Fix | None:
     """What stands again; readers go by the first one, or by the last one."""
     parent = site.element.getparent()
     if parent is None or site.element.tag in _OF_THEIR_OWN:
@@ -106,14 +106,14 @@ def _repeated(site: Site) -> Fix | None:
     return unsafe(f"Delete the second <{site.element.tag}>", edit)
 
 
-def _blank(site: Site) -> Fix | None:
+def _blank(site: FindingSite) -> Fix | None:
     row = site.file.row_of(site.element)
     if row is None or row.default is None or len(site.element):
         return None
     return safe(f"Write the default, {row.default}", *site.edit.set_text(site.element, row.default))
 
 
-def _stray_text(site: Site) -> Fix | None:
+def _stray_text(site: FindingSite) -> Fix | None:
     """Text that every reader passes over; not what an attribute that is missing there may be meant to be."""
     fixes = site.file.memo.setdefault("stray texts", {})
     key = site.element, site.finding.found
@@ -122,7 +122,7 @@ def _stray_text(site: Site) -> Fix | None:
     return fixes[key]
 
 
-def _without_stray_text(site: Site) -> Fix | None:
+def _without_stray_text(site: FindingSite) -> Fix | None:
     """Every text in the element that begins so as a comment, or away where it says nothing."""
     runs = _runs_of_text(site).get(site.finding.found, [])
     if not runs or any("--" in run.of(site.edit.text) and _says_something(run.of(site.edit.text)) for run in runs):
@@ -132,7 +132,7 @@ def _without_stray_text(site: Site) -> Fix | None:
     return safe("Delete the characters that belong to nothing", *(_without_text(site.edit.text, run) for run in runs))
 
 
-def _runs_of_text(site: Site) -> Mapping[str | None, list[Span]]:
+def _runs_of_text(site: FindingSite) -> Mapping[str | None, list[Span]]:
     """The runs of text in an element by the beginning of what they say."""
     memo = site.file.memo.setdefault("runs of text", {})
     if site.element not in memo:
@@ -142,7 +142,7 @@ def _runs_of_text(site: Site) -> Mapping[str | None, list[Span]]:
     return memo[site.element]
 
 
-def _without_attributes(site: Site) -> frozenset[str]:
+def _without_attributes(site: FindingSite) -> frozenset[str]:
     """The paths of elements that lack an attribute."""
     if "without attributes" not in site.file.memo:
         lacking = (each for each in site.file.loaded.diagnostics if each.rule is rules.MISSING_ATTRIBUTE)
@@ -160,7 +160,7 @@ def _without_text(text: str, run: Span) -> TextEdit:
     return TextEdit(Span(start, start + len(piece.strip())), "")
 
 
-def _outside_version(site: Site) -> Fix | None:
+def _outside_version(site: FindingSite) -> Fix | None:
     """The first version that has all that the file has from other versions."""
     if "version" not in site.file.memo:
         site.file.memo["version"] = _fitting(site)
@@ -170,7 +170,7 @@ def _outside_version(site: Site) -> Fix | None:
     return unsafe(f"Declare version {version}", site.edit.set_attribute(site.file.root, "version", version))
 
 
-def _fitting(site: Site) -> str | None:
+def _fitting(site: FindingSite) -> str | None:
     outside = [each for each in site.file.loaded.diagnostics if each.rule is rules.OUTSIDE_VERSION]
     rows = [[*_rows(site, each)] for each in _sites(site, outside)]
     if len(rows) != len(outside) or site.file.root.get("version") is None:
@@ -182,15 +182,15 @@ def _fitting(site: Site) -> str | None:
     return print_version(found) if found else None
 
 
-def _sites(site: Site, findings: Iterable[Diagnostic]) -> Iterator[Site]:
+def _sites(site: FindingSite, findings: Iterable[Diagnostic]) -> Iterator[FindingSite]:
     for each in findings:
         element = site.part(each.location)
         if element is not None:
             path = each.location.path
-            yield Site(each, site.file, element, path.rpartition("/@")[2] if "/@" in path else None)
+            yield FindingSite(each, site.file, element, path.rpartition("/@")[2] if "/@" in path else None)
 
 
-def _rows(site: Site, other: Site) -> list[Fact]:
+def _rows(site: FindingSite, other: FindingSite) -> list[Fact]:
     """The rows of what stands at a site, of all versions."""
     found = other.finding.found or ""
     if other.attribute is None:
@@ -203,7 +203,7 @@ def _rows(site: Site, other: Site) -> list[Fact]:
     return [row for row in rows if row.name == found or found in row.enum]
 
 
-def _unknown_version(site: Site) -> Fix | None:
+def _unknown_version(site: FindingSite) -> Fix | None:
     declared, known = site.element.get("version"), versions_of(site.file.format)
     if declared is None:
         return None

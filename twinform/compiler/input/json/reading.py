@@ -16,7 +16,7 @@ from twinform.compiler.input.limits import excess_of_names
 from twinform.compiler.input.parsing import refuse_excess
 from twinform.compiler.output.emitting import document_text
 from twinform.compiler.output.json import Data, json_data
-from twinform.diagnostics import DiagnosticSink, Location, Origins, Source, rules
+from twinform.diagnostics import DiagnosticSink, LineOrigins, Location, Source, rules
 from twinform.ir import Document, Node, node_values
 from twinform.schemas.json_check import JsonPath, is_array, is_object, json_faults
 
@@ -39,11 +39,11 @@ class JsonSource:
         if missed is not None:
             report_missed(missed, self.format, _location(lines_of(self.json), missed.path), sink)
 
-    def origins(self, document: Document | None, file: str) -> Origins:
+    def origins(self, document: Document | None, file: str) -> LineOrigins:
         """Where the lines of the text were in the JSON file."""
         lines = lines_of(self.json)
         nodes = _places(document, ()) if document else ()
-        return Origins.of((line, Location(file, lines.get(path, 1))) for line, path in nodes)
+        return LineOrigins.of((line, Location(file, lines.get(path, 1))) for line, path in nodes)
 
 
 def read_json(text: bytes, sink: DiagnosticSink) -> JsonSource | None:

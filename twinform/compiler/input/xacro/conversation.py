@@ -15,7 +15,7 @@ from typing import Any, cast
 from twinform.child_python import python_command
 from twinform.compiler.input.limits import LARGEST
 from twinform.compiler.input.options import LoadOptions
-from twinform.compiler.input.xacro.files import DeniedError, Files
+from twinform.compiler.input.xacro.files import AllowedFiles, DeniedError
 from twinform.compiler.input.xacro.variables import variable
 from twinform.compiler.observing import note_failure, note_variable
 from twinform.compiler.search.uris import SearchPath, UriError
@@ -125,7 +125,7 @@ class _Conversation:
         self.path = path
         self.search = load_options.search
         self.variables = load_options.variables
-        self.files = Files(self.search.readable(path))
+        self.files = AllowedFiles(self.search.readable(path))
         self.asked = 0
         self.spent = 0.0
 

@@ -12,7 +12,7 @@ from twinform.compiler.input.limits import LARGEST
 from twinform.compiler.input.options import LoadOptions
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.compiler.input.xacro.conversation import ask_worker
-from twinform.diagnostics import DiagnosticSink, Location, Origins, rules
+from twinform.diagnostics import DiagnosticSink, LineOrigins, Location, rules
 
 _EXPAT = re.compile(r"not well-formed XML: .*: line \d+, column (\d+)$")
 """Where expat noticed what is wrong; it counts columns from 0."""
@@ -24,7 +24,7 @@ class Expansion:
     """The expanded text, and where the elements on its lines were written."""
 
     text: bytes
-    origins: Origins
+    origins: LineOrigins
 
 
 def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expansion:
@@ -74,12 +74,12 @@ def _report_remarks(outcome: Mapping[str, Any], sink: DiagnosticSink) -> None:
         sink.report(rule, text.removeprefix(start), Location(file, line))
 
 
-def _origins(text: bytes, places: list[tuple[str, int] | None]) -> Origins:
+def _origins(text: bytes, places: list[tuple[str, int] | None]) -> LineOrigins:
     """Elements are in the same order in the expanded text and in the list of places."""
     parser = etree.XMLParser(remove_comments=True, remove_pis=True, resolve_entities=False, no_network=True)
     try:
         root = etree.fromstring(text, parser)
     except etree.XMLSyntaxError:
-        return Origins()  # reading the text will say what is wrong with it
+        return LineOrigins()  # reading the text will say what is wrong with it
     pairs = zip(root.iter(), places, strict=False)
-    return Origins.of((element.sourceline or 0, Location(*place)) for element, place in pairs if place)
+    return LineOrigins.of((element.sourceline or 0, Location(*place)) for element, place in pairs if place)

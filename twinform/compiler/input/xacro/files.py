@@ -28,7 +28,7 @@ class DeniedError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Files:
+class AllowedFiles:
     """The files that a xacro file may read."""
 
     readable: Readable

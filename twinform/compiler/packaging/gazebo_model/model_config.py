@@ -4,11 +4,13 @@ from collections.abc import Iterable, Mapping
 
 from lxml import etree
 
-from twinform.compiler.packaging.order import Details
+from twinform.compiler.packaging.order import PackageDetails
 from twinform.schemas import XmlElement
 
 
-def model_config(name: str, details: Details, sdf_files: Mapping[str, str], includes: Iterable[str] = ()) -> bytes:
+def model_config(
+    name: str, details: PackageDetails, sdf_files: Mapping[str, str], includes: Iterable[str] = ()
+) -> bytes:
     """The text of a model.config.
 
     `sdf_files` are the SDF files by their versions, the newest first: Gazebo takes the newest that it reads. `includes`

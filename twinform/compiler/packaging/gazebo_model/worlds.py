@@ -14,7 +14,7 @@ from twinform.compiler.input.loading import read
 from twinform.compiler.packaging.collect_files import CollectFiles
 from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.gazebo_model.folder import folder_files, reserve_names
-from twinform.compiler.packaging.layout import Layout
+from twinform.compiler.packaging.layout import PackageLayout
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
 from twinform.compiler.search.uris import LocalAssets
@@ -74,7 +74,7 @@ class _Folders:
     worlds: dict[str, Content] = field(default_factory=dict[str, Content])
 
     def __post_init__(self) -> None:
-        self.around = Collection(Layout({}), self.order.allow_missing)
+        self.around = Collection(PackageLayout({}), self.order.allow_missing)
 
     def adapted(self, document: Document, file: str, sink: DiagnosticSink) -> Document:
         """The document of a file, which names its files as they are in its folder."""
@@ -85,7 +85,7 @@ class _Folders:
         elif folder in self.models:
             collection = self.models[folder]
         else:
-            collection = self.models[folder] = Collection(Layout({"model": folder}), self.order.allow_missing)
+            collection = self.models[folder] = Collection(PackageLayout({"model": folder}), self.order.allow_missing)
             reserve_names(collection)
         assets = LocalAssets(self.order.load_options.search, Path(sink.file))
         document = CollectFiles.into(collection).with_assets(assets).run(document, sink)

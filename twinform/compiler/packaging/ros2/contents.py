@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from twinform.compiler.packaging.order import Details
+from twinform.compiler.packaging.order import PackageDetails
 from twinform.compiler.packaging.ros2.controllers import Controller
 from twinform.ir import Document, Model
 from twinform.passes.plugins.bridge import Bridge
@@ -13,7 +13,7 @@ _FIXED = frozenset({"fixed", "floating", "planar"})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Contents:
+class PackageContents:
     """The robot as the URDF of a package has it, the name and details of the package, and what was found out for it.
 
     `started` are those of the controllers that Gazebo runs. `folders` are those of the files that come from elsewhere,
@@ -21,7 +21,7 @@ class Contents:
     """
 
     package: str
-    details: Details
+    details: PackageDetails
     document: Document
     release: str
     controllers: Sequence[Controller] = ()

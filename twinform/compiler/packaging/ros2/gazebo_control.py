@@ -10,7 +10,7 @@ from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Element, Format, GazeboExtension, Model, Plugin, rewrite
 from twinform.passes.framework.base import Pass
 from twinform.passes.plugins.release_names import ReleaseName
-from twinform.passes.plugins.sites import Site, map_plugins, plugins_of
+from twinform.passes.plugins.sites import PluginSite, map_plugins, plugins_of
 
 CONTROLLERS = "config/controllers.yaml"
 """The file of the package that it reads."""
@@ -62,7 +62,7 @@ class ConnectControllers(Pass):
             return map_plugins(document, lambda plugin, site: self._with_file(plugin, site, sink))
         return rewrite(document, Model, lambda model: self._with_plugin(model, document.format))
 
-    def _with_file(self, plugin: Plugin, site: Site, sink: DiagnosticSink) -> Iterable[Plugin]:
+    def _with_file(self, plugin: Plugin, site: PluginSite, sink: DiagnosticSink) -> Iterable[Plugin]:
         if not _is_control(plugin):
             return (plugin,)
         wanted = controllers_uri(self.package)

@@ -4,14 +4,14 @@ import re
 from collections.abc import Iterable
 from xml.sax.saxutils import escape, quoteattr
 
-from twinform.compiler.packaging.ros2.contents import Contents
+from twinform.compiler.packaging.ros2.contents import PackageContents
 
 _SCHEMA = "http://download.ros.org/schema/package_format3.xsd"
 _FORBIDDEN = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """What XML cannot have, in any notation."""
 
 
-def package_xml(contents: Contents, depends: Iterable[str]) -> str:
+def package_xml(contents: PackageContents, depends: Iterable[str]) -> str:
     """The file, with these packages as dependencies at run time."""
     details = contents.details
     lines = [

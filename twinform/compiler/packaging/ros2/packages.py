@@ -10,7 +10,7 @@ from twinform.compiler.gazebo_files import world_without_text
 from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
-from twinform.compiler.packaging.ros2.contents import Contents
+from twinform.compiler.packaging.ros2.contents import PackageContents
 from twinform.compiler.packaging.ros2.controllers import controllers_in_gazebo, controllers_of
 from twinform.compiler.packaging.ros2.gazebo_control import CONTROLLERS, ConnectControllers, has_gazebo_control
 from twinform.compiler.packaging.ros2.sensor_frames import NameSensorFrames, report_frames
@@ -63,11 +63,11 @@ def _converted(order: Order, collection: Collection) -> Conversion:
     return ordered.convert(collection, "urdf")
 
 
-def _contents(order: Order, conversion: Conversion, files: Sequence[str], sink: DiagnosticSink) -> Contents:
+def _contents(order: Order, conversion: Conversion, files: Sequence[str], sink: DiagnosticSink) -> PackageContents:
     document = conversion.document
     controllers = controllers_of(document, sink, order.release)
     runs = has_gazebo_control(document, order.release, DiagnosticSink())
-    contents = Contents(
+    contents = PackageContents(
         package=order.name,
         details=order.details,
         document=document,
@@ -96,7 +96,7 @@ def _check_name(order: Order) -> None:
     raise CompileError(tuple(sink.diagnostics))
 
 
-def _check_joint_states(contents: Contents, sink: DiagnosticSink) -> None:
+def _check_joint_states(contents: PackageContents, sink: DiagnosticSink) -> None:
     told = contents.controlled or any(each.ros_type_name == _JOINT_STATE for each in contents.bridges)
     if contents.moves and not told:
         message = f"nothing tells ROS in Gazebo where the joints of {contents.model.name!r} are"

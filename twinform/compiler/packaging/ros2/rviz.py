@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from twinform.compiler.packaging.ros2.contents import Contents
+from twinform.compiler.packaging.ros2.contents import PackageContents
 from twinform.passes.plugins.base_link import base_link
 from twinform.passes.plugins.bridge import Bridge
 from twinform.passes.plugins.yaml_text import Value, yaml_text
@@ -20,7 +20,7 @@ _SHOWN: Mapping[str, str] = {
 _TOOLS = ("Interact", "MoveCamera", "Select", "FocusCamera", "Measure")
 
 
-def rviz_config(contents: Contents) -> str:
+def rviz_config(contents: PackageContents) -> str:
     """The file for one robot, seen from its root link."""
     fixed = base_link(contents.model, contents.document.format)
     panels = ("Displays", "Tool Properties", "Views", "Time")

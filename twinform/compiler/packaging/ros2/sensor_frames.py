@@ -12,7 +12,7 @@ from twinform.passes.framework.base import Pass
 from twinform.passes.plugins.catalog import release
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sensor_frames import frames_of, is_placed, named_frame, own_frame, with_own_frame
-from twinform.passes.plugins.sites import Site, map_sensors, sensors_of
+from twinform.passes.plugins.sites import PluginSite, map_sensors, sensors_of
 from twinform.passes.plugins.worlds import kind_of_sensor
 
 
@@ -33,7 +33,7 @@ class NameSensorFrames(Pass):
         added: dict[str, list[tuple[str, Sensor, str, str]]] = defaultdict(list)
         often = Counter(sensor.name for sensor, _ in sensors_of(document))
 
-        def change(sensor: Sensor, site: Site) -> Iterable[Sensor]:
+        def change(sensor: Sensor, site: PluginSite) -> Iterable[Sensor]:
             kind = kind_of_sensor(sensor, self.release)
             link = site.link_or_joint
             if kind is None or site.scope != "link" or link is None or site.model is None or any(frames_of(sensor)):
@@ -68,7 +68,7 @@ def report_frames(document: Document, gazebo: str, sink: DiagnosticSink) -> None
             sink.report(rules.FRAME_ELSEWHERE, message, sensor.location, found=site.link_or_joint, help=help_)
 
 
-def _report_nameless(sensor: Sensor, site: Site, gazebo: str, sink: DiagnosticSink) -> None:
+def _report_nameless(sensor: Sensor, site: PluginSite, gazebo: str, sink: DiagnosticSink) -> None:
     model = site.model.name if site.model else None
     frame = "/".join(filter(None, (model, site.link_or_joint, sensor.name)))
     message = f"messages of sensor {sensor.name!r} are in the frame {frame!r}, which tf does not have"

@@ -1,6 +1,6 @@
 """The generated files of a ROS 2 package, by their paths in it."""
 
-from twinform.compiler.packaging.ros2.contents import Contents
+from twinform.compiler.packaging.ros2.contents import PackageContents
 from twinform.compiler.packaging.ros2.controllers import controllers_yaml
 from twinform.compiler.packaging.ros2.gazebo_control import CONTROLLERS, control_package
 from twinform.compiler.packaging.ros2.manifest import package_xml
@@ -23,7 +23,7 @@ _HOOKS = ("gazebo_resource_path.dsv.in", "gazebo_resource_path.sh.in")
 _WORLD = "world"
 
 
-def generated_files(contents: Contents) -> dict[str, str]:
+def generated_files(contents: PackageContents) -> dict[str, str]:
     """The files that are text of our own: all but the URDF, the world, and meshes with their textures."""
     name = contents.package
     files = {
@@ -40,14 +40,14 @@ def generated_files(contents: Contents) -> dict[str, str]:
     return {**files, "CMakeLists.txt": _cmake(contents, files)}
 
 
-def _depends(contents: Contents) -> list[str]:
+def _depends(contents: PackageContents) -> list[str]:
     found = [*_LAUNCH, *(_SLIDERS if contents.moves else ()), *(each.package for each in contents.controllers)]
     if contents.controlled:
         found += ["controller_manager", control_package(contents.release)]
     return found
 
 
-def _cmake(contents: Contents, files: dict[str, str]) -> str:
+def _cmake(contents: PackageContents, files: dict[str, str]) -> str:
     folders = {path.partition("/")[0] for path in files if "/" in path} - {"env-hooks"}
     folders |= {"urdf", "worlds", *contents.folders}
     values = {
@@ -58,7 +58,7 @@ def _cmake(contents: Contents, files: dict[str, str]) -> str:
     return render("CMakeLists.txt.in", values, {"files": bool(contents.files)})
 
 
-def _launch(contents: Contents, template: str) -> str:
+def _launch(contents: PackageContents, template: str) -> str:
     values = {
         "package": contents.package,
         "robot": python_text(contents.model.name),
@@ -70,7 +70,7 @@ def _launch(contents: Contents, template: str) -> str:
     return render(template, values, facts)
 
 
-def _height(contents: Contents) -> float:
+def _height(contents: PackageContents) -> float:
     """How high above the ground the root link begins, so that the robot stands on it; one that is held begins at 0."""
     model = contents.model
     if any(link.name == _WORLD for link in model.links):

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
-from twinform.ir.changes import Change, ChangeKind, changes, count_changes
+from twinform.ir.changes import ChangeKind, NodeChange, changes, count_changes
 from twinform.ir.sourced import Sourced
 from twinform.passes.framework.base import Pass
 from twinform.passes.framework.instrumentation import PassInstrumentation
@@ -35,7 +35,7 @@ def _counted(old: Document, new: Document) -> str:
     return ", ".join(f"{count} node{'' if count == 1 else 's'} {word}" for word, count in words if count)
 
 
-def line_of(change: Change) -> str:
+def line_of(change: NodeChange) -> str:
     """One change as `sign path: old -> new`."""
     start = f"  {change.how} {change.path}"
     match change.how:

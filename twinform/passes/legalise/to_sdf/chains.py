@@ -38,7 +38,7 @@ class StaleChainError(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Chain:
+class JointChain:
     """The joints and links of a chain, from the parent's side; `kind` is the joint that it stands for."""
 
     kind: JointType
@@ -47,7 +47,7 @@ class Chain:
     last: Joint
 
 
-class Neighbors(NamedTuple):
+class ChainNeighbors(NamedTuple):
     """The links of a model by name, joints by their children, names of joints by their parents, and those mimicked."""
 
     links: dict[str, Link]
@@ -56,7 +56,7 @@ class Neighbors(NamedTuple):
     leaders: frozenset[str | None]
 
     @classmethod
-    def of(cls, model: Model) -> "Neighbors":
+    def of(cls, model: Model) -> "ChainNeighbors":
         """Look up the neighbors of all links of a model, once for all of its chains."""
         below: dict[str | None, list[str]] = {}
         for joint in model.joints:
@@ -67,7 +67,7 @@ class Neighbors(NamedTuple):
         return cls(links, {joint.child: joint for joint in model.joints}, below, leaders)
 
 
-def find_chain(last: Joint, kind: str, around: Neighbors) -> Chain:
+def find_chain(last: Joint, kind: str, around: ChainNeighbors) -> JointChain:
     """The chain that ends in this joint.
 
     Raises:
@@ -93,7 +93,7 @@ def find_chain(last: Joint, kind: str, around: Neighbors) -> Chain:
     return chain
 
 
-def _walk(last: Joint, kind: JointType, around: Neighbors) -> Chain:
+def _walk(last: Joint, kind: JointType, around: ChainNeighbors) -> JointChain:
     joints: list[Joint] = []
     between: list[Link] = []
     joint = last
@@ -104,10 +104,10 @@ def _walk(last: Joint, kind: JointType, around: Neighbors) -> Chain:
         joints.insert(0, upper)
         between.insert(0, link)
         joint = upper
-    return Chain(kind, tuple(joints), tuple(between), last)
+    return JointChain(kind, tuple(joints), tuple(between), last)
 
 
-def _check_links(chain: Chain, around: Neighbors) -> None:
+def _check_links(chain: JointChain, around: ChainNeighbors) -> None:
     """The links between hold nothing but the chain."""
     inside = {joint.name for joint in (*chain.above, chain.last)}
     for link in chain.between:
@@ -123,20 +123,20 @@ def _check_links(chain: Chain, around: Neighbors) -> None:
             raise StaleChainError(f"joint {name!r} is attached to one of its links")
 
 
-def _check_limits(chain: Chain) -> None:
+def _check_limits(chain: JointChain) -> None:
     for joint in (*chain.above, chain.last):
         limit = joint.axis.limit if joint.axis and joint.axis.limit else Limit()
         if any(getattr(limit, field) is not None for field in _BEYOND_SDF):
             raise StaleChainError(f"joint {joint.name!r} has limits that SDF does not have")
 
 
-def _check_turns(chain: Chain) -> None:
+def _check_turns(chain: JointChain) -> None:
     for joint in (*chain.above, chain.last):
         if joint.type not in _TURNS:
             raise StaleChainError(f"joint {joint.name!r} does not turn")
 
 
-def _check_ball(chain: Chain) -> None:
+def _check_ball(chain: JointChain) -> None:
     _check_turns(chain)
     joints = (*chain.above, chain.last)
     for joint, xyz in zip(joints, BALL_AXES, strict=True):
@@ -154,7 +154,7 @@ def _damping(joint: Joint) -> tuple[float | None, float | None]:
     return dynamics.damping, dynamics.friction
 
 
-def _check_screw(chain: Chain) -> None:
+def _check_screw(chain: JointChain) -> None:
     slide, turn = chain.above[0], chain.last
     mimic = slide.axis.mimic if slide.axis else None
     if slide.type != "prismatic" or turn.type not in _TURNS:
@@ -168,7 +168,7 @@ def _check_screw(chain: Chain) -> None:
 _CHECKS = {"universal": _check_turns, "revolute2": _check_turns, "ball": _check_ball, "screw": _check_screw}
 
 
-def folded(chain: Chain) -> Joint:
+def folded(chain: JointChain) -> Joint:
     """The joint that a chain stands for, with the values that the chain has now.
 
     Raises:
@@ -216,7 +216,7 @@ def _ball(joint: Joint, last: Joint) -> Joint:
     return joint.copy(axis=axis.copy(dynamics=dynamics))
 
 
-def _screw(joint: Joint, chain: Chain) -> Joint:
+def _screw(joint: Joint, chain: JointChain) -> Joint:
     """A screw joint has the pitch that it carries, or the one that its chain has now if that is another."""
     axis = chain.above[0].axis
     mimic = axis.mimic if axis else None

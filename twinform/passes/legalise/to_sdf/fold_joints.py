@@ -8,7 +8,7 @@ from twinform.ir import Axis, Joint, Link, Model
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.joint_chains import CHAIN, PART, TWO_AXES, chain_type, part_of
 from twinform.passes.framework.base import ModelPass
-from twinform.passes.legalise.to_sdf.chains import Chain, Neighbors, StaleChainError, find_chain, folded
+from twinform.passes.legalise.to_sdf.chains import ChainNeighbors, JointChain, StaleChainError, find_chain, folded
 
 AnyPart = TypeVar("AnyPart", Joint, Link)
 
@@ -50,9 +50,9 @@ class FoldJoints(ModelPass):
         return model.copy(joints=followed, links=tuple(links))
 
 
-def _chains(model: Model, sink: DiagnosticSink) -> Iterator[tuple[Chain, Joint]]:
+def _chains(model: Model, sink: DiagnosticSink) -> Iterator[tuple[JointChain, Joint]]:
     """The chains that still are what they were made, with the joints that they are; the others are reported."""
-    around = Neighbors.of(model)
+    around = ChainNeighbors.of(model)
     for joint in model.joints:
         kind = chain_type(joint)
         if kind is None:
@@ -68,7 +68,7 @@ def _chains(model: Model, sink: DiagnosticSink) -> Iterator[tuple[Chain, Joint]]
             yield chain, made
 
 
-def _report_names(chain: Chain, sink: DiagnosticSink) -> None:
+def _report_names(chain: JointChain, sink: DiagnosticSink) -> None:
     """Report the parts that somebody has given a name: synthesized ones begin with that of their joint."""
     for part in (*chain.above, *chain.between):
         # A name that somebody gave to a part is one that controllers and plugins of the URDF may

@@ -12,7 +12,7 @@ Names = tuple[str, str, str, str]
 """Those of the sliding joints and their links, in turns."""
 
 
-class Chain(NamedTuple):
+class PlanarChain(NamedTuple):
     """Two sliding joints, each with the link that it moves, and the turning one, which keeps name and child."""
 
     links: tuple[Link, Link]
@@ -29,7 +29,7 @@ def planar_names(joint: str, taken: set[str]) -> Names:
     )
 
 
-def planar_chain(joint: Joint, names: Names) -> Chain:
+def planar_chain(joint: Joint, names: Names) -> PlanarChain:
     """The chain of a planar joint of URDF.
 
     All three axes are in the joint's frame, whose x and y span the plane where its normal is z. The links between have
@@ -68,4 +68,4 @@ def planar_chain(joint: Joint, names: Names) -> Chain:
         Link(name=first_link, pose=Pose(relative_to=first), inertial=TOKEN, source=source),
         Link(name=second_link, pose=Pose(relative_to=second), inertial=TOKEN, source=source),
     )
-    return Chain(links, (slide, shift, turn))
+    return PlanarChain(links, (slide, shift, turn))

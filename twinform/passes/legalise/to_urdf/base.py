@@ -18,7 +18,7 @@ UrdfVersion = Literal["1.0", "1.1", "1.2"]
 
 
 @dataclass(frozen=True, slots=True)
-class Keeper:
+class UrdfKeeper:
     """Where the parts go in one run. A model that came from URDF goes back there: how SDF wrote it need not travel."""
 
     sink: DiagnosticSink
@@ -86,7 +86,7 @@ class ToUrdfPass(Pass):
         """The document with its model passed through."""
         if sink.has_errors:
             return document
-        keeper = Keeper(sink, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
+        keeper = UrdfKeeper(sink, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
         try:
             return replace_fields(document, models=tuple(self.run_model(model, keeper) for model in document.models))
         except FrameError as error:
@@ -94,5 +94,5 @@ class ToUrdfPass(Pass):
             return document
 
     @abstractmethod
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model after the pass."""

@@ -12,7 +12,7 @@ from twinform.passes.carriers.annotations import (
     find_annotation,
     without_annotation,
 )
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
 from twinform.passes.legalise.to_urdf.joint_tree import JointTree
 from twinform.passes.structure.reroot_sdf import reroot_sdf
@@ -37,7 +37,7 @@ class BuildTree(ToUrdfPass):
 
     name: ClassVar[str] = "build-tree"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with its joints in a tree."""
         tree = JointTree([link.name for link in model.links])
         kept: list[str] = []
@@ -64,7 +64,7 @@ class BuildTree(ToUrdfPass):
         return _hang(model, [link for link in roots if link.name != first], first, keeper)
 
 
-def _reversed(model: Model, names: set[str], keeper: Keeper) -> Model:
+def _reversed(model: Model, names: set[str], keeper: UrdfKeeper) -> Model:
     """The model with these joints reversed, each of which has an annotation that says so."""
     turned = [joint for joint in model.joints if joint.name in names]
     if not turned:
@@ -78,14 +78,14 @@ def _reversed(model: Model, names: set[str], keeper: Keeper) -> Model:
     return model.copy(joints=tuple(joints))
 
 
-def _annotated(joint: Joint, before: Joint, keeper: Keeper) -> Joint:
+def _annotated(joint: Joint, before: Joint, keeper: UrdfKeeper) -> Joint:
     # A word and no copy: reversing again is exact whatever was edited in between.
     joint = keeper.annotate(joint, REVERSED, always=True)
     attributes = joint_pose_attributes(before)
     return keeper.annotate(joint, POSE, attributes=attributes) if attributes else joint
 
 
-def _first_root(model: Model, tree: JointTree, keeper: Keeper) -> str:
+def _first_root(model: Model, tree: JointTree, keeper: UrdfKeeper) -> str:
     # Readers without Gazebo's extensions learn from the joint to `world` that nothing moves. A
     # model that came from URDF had <static> in an extension and hung from nothing.
     if (model.static and not keeper.back) or tree.holds_any(WORLD):
@@ -93,14 +93,14 @@ def _first_root(model: Model, tree: JointTree, keeper: Keeper) -> str:
     return tree.root(FrameGraph(model).body(MODEL, kind="model"))
 
 
-def _report_cut(joint: Joint, closed: Joint | None, keeper: Keeper) -> None:
+def _report_cut(joint: Joint, closed: Joint | None, keeper: UrdfKeeper) -> None:
     message = f"joint {joint.name!r} closes a loop at link {joint.child!r}"
     related = (closed.location,) if closed else ()
     keeper.sink.report(rules.CUT_LOOP, message, joint.location, found=joint.child, related=related)
     keeper.sink.account(Fate.CARRIED, rules.CUT_LOOP, message, joint.location, count_parts(joint))
 
 
-def _hang(model: Model, roots: list[Link], first: str, keeper: Keeper) -> Model:
+def _hang(model: Model, roots: list[Link], first: str, keeper: UrdfKeeper) -> Model:
     if not roots:
         return model
     taken = {node.name for node in (*model.links, *model.joints)}

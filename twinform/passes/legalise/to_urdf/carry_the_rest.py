@@ -11,7 +11,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SECOND, has_our
 from twinform.passes.carriers.definitions import has_first, inside, is_repeated
 from twinform.passes.carriers.provenance import came_from, with_provenance, without_provenance
 from twinform.passes.framework.base import Pass
-from twinform.passes.legalise.to_urdf.base import Keeper, UrdfVersion
+from twinform.passes.legalise.to_urdf.base import UrdfKeeper, UrdfVersion
 from twinform.passes.legalise.to_urdf.map_surfaces import OF_ALL_COLLISIONS
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, take_remainder, urdf_fields
 from twinform.passes.transforms.notation import BODY
@@ -43,7 +43,7 @@ class CarryTheRest(Pass):
         """The document as URDF."""
         if sink.has_errors:
             return document
-        keeper = Keeper(sink, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
+        keeper = UrdfKeeper(sink, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
         models = tuple(_finish(model, document, _RemainderCarrier(keeper, self.words)) for model in document.models)
         if not self.carriers:
             models = tuple(without_synthesized(model) for model in models)
@@ -73,12 +73,12 @@ def _finish(model: Model, document: Document, rest: "_RemainderCarrier") -> Mode
     return with_provenance(without_provenance(model), document)
 
 
-def _annotated_world(link: Link, keeper: Keeper) -> Link:
+def _annotated_world(link: Link, keeper: UrdfKeeper) -> Link:
     """A link called `world`, which SDF before 1.7 did not forbid, is a body; the one of URDF is SDF's world."""
     return keeper.annotate(link, BODY) if link.name == WORLD else link
 
 
-def _without_usual_root(model: Model, keeper: Keeper) -> Model:
+def _without_usual_root(model: Model, keeper: UrdfKeeper) -> Model:
     """The model, if it came from URDF, without a canonical link that the conversion named: the root."""
     children = {joint.child for joint in model.joints}
     root = next((link.name for link in model.links if link.name not in children), None)
@@ -89,7 +89,7 @@ def _without_usual_root(model: Model, keeper: Keeper) -> Model:
 class _RemainderCarrier:
     """Takes the remainders off, from the inside out."""
 
-    def __init__(self, keeper: Keeper, words: UrdfVersion) -> None:
+    def __init__(self, keeper: UrdfKeeper, words: UrdfVersion) -> None:
         self.keeper = keeper
         self.fields = partial(urdf_fields, words)
         self.link_fields = KnownFields({**self.fields("link"), "pose": _IMPLIED, "inertial": None})

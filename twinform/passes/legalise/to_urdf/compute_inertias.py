@@ -15,7 +15,7 @@ from twinform.passes.analyses.automatic_inertias import (
 )
 from twinform.passes.analyses.meshes import Meshes
 from twinform.passes.framework.assets import AssetPass
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 
 
 class ComputeInertias(ToUrdfPass, AssetPass):
@@ -30,12 +30,12 @@ class ComputeInertias(ToUrdfPass, AssetPass):
 
     name: ClassVar[str] = "compute-inertias"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with every inertia written out."""
         return map_automatic(model, partial(_compute, keeper, Meshes(self._assets)))
 
 
-def _compute(keeper: Keeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
+def _compute(keeper: UrdfKeeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
     try:
         found = automatic(link, inertial, link.collisions, graph, meshes)
     except NoInertiaError as error:

@@ -7,11 +7,11 @@ from twinform.ir import GazeboExtension, Joint, Model, Pose, rewrite
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.legalise.to_urdf.base import Keeper
+from twinform.passes.legalise.to_urdf.base import UrdfKeeper
 
 
 def cut_joints(
-    model: Model, kept: Sequence[Joint], cut: Sequence[Joint], parent_joint: Mapping[str, Joint], keeper: Keeper
+    model: Model, kept: Sequence[Joint], cut: Sequence[Joint], parent_joint: Mapping[str, Joint], keeper: UrdfKeeper
 ) -> Model:
     """The model with only the joints that are kept, and each of the others in a `<gazebo>` element.
 

@@ -7,7 +7,7 @@ from twinform.ir import Axis, Format, Joint, Model
 from twinform.ir.defaults import AXIS, direction, filled
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.carriers.joint_words import OLD_NAME
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 
 _AXES = {
     **dict.fromkeys(("revolute", "continuous", "prismatic", "screw"), ("axis",)),
@@ -26,7 +26,7 @@ class ExpressAxes(ToUrdfPass):
 
     name: ClassVar[str] = "express-axes"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with its axes in the joint frames."""
         if not any(joint.type in _AXES for joint in model.joints):
             return model
@@ -40,7 +40,7 @@ class ExpressAxes(ToUrdfPass):
         return model.copy(joints=tuple(joints))
 
 
-def _express(joint: Joint, field: str, graph: FrameGraph, keeper: Keeper) -> Joint:
+def _express(joint: Joint, field: str, graph: FrameGraph, keeper: UrdfKeeper) -> Joint:
     written: Axis | None = getattr(joint, field)
     axis = written or Axis()
     if axis.xyz is not None and not any(axis.xyz):

@@ -9,7 +9,7 @@ from twinform.ir import Dynamics, Element, GazeboExtension, Joint, Link, Model, 
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.carriers import SECOND, to_element
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.transforms.gazebo_tags import FLAGS, JOINT_TAGS, LINK_TAGS, MODEL_TAGS, flag_tags
 from twinform.schemas import format_value, table
 
@@ -39,7 +39,7 @@ class ExtendGazebo(ToUrdfPass):
 
     name: ClassVar[str] = "extend-gazebo"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with its extensions."""
         extensions = list(model.extensions)
         links: list[Link] = []
@@ -108,7 +108,9 @@ def _link_content(link: Link) -> tuple[list[Element], Link]:
     return content, link.copy(**{**empty, "opaque": _without_verbatim(link.opaque, "link")})
 
 
-def _joint_content(joint: Joint, links: set[str], with_mass: set[str], keeper: Keeper) -> tuple[list[Element], Joint]:
+def _joint_content(
+    joint: Joint, links: set[str], with_mass: set[str], keeper: UrdfKeeper
+) -> tuple[list[Element], Joint]:
     content: list[Element] = []
     # Links of SDF are bodies. Without the tag, libsdformat would lump them into one when it reads
     # the URDF, and contact sensors and plugins would lose the names that they know.
@@ -142,7 +144,7 @@ def _springs(joint: Joint) -> tuple[list[Element], Joint]:
     return content, joint.copy(axis=axis.copy(dynamics=dynamics))
 
 
-def _physics(joint: Joint, keeper: Keeper) -> tuple[list[Element], Joint]:
+def _physics(joint: Joint, keeper: UrdfKeeper) -> tuple[list[Element], Joint]:
     """The tags that mean what the first `<physics>` of a joint does; others go into carriers that are not its rest."""
     content: list[Element] = []
     parts: list[Opaque] = []

@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from twinform.ir import Link, Model, replace_fields
 from twinform.ir.solids import with_written_defaults
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 
 
 class FillInertials(ToUrdfPass):
@@ -17,7 +17,7 @@ class FillInertials(ToUrdfPass):
 
     name: ClassVar[str] = "fill-inertials"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with an inertial in every link."""
         return model.copy(links=tuple(map(_fill_link, model.links)))
 

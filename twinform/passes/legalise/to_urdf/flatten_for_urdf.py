@@ -9,7 +9,7 @@ from twinform.ir.scopes import SCOPE, nested_models
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, to_element
 from twinform.passes.legalise.names import Names, renamed, with_old_names
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.nested_settings import differing_rests, settle_links
 from twinform.passes.transforms.nodes import unique_name
@@ -31,7 +31,7 @@ class FlattenForUrdf(ToUrdfPass):
 
     name: ClassVar[str] = "flatten-for-urdf"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model without models in it."""
         _refuse_includes(model, keeper)
         if keeper.sink.has_errors:
@@ -44,7 +44,7 @@ class FlattenForUrdf(ToUrdfPass):
         return with_old_names(flat, names) if keeper.carriers else flat
 
 
-def _flat(model: Model, keeper: Keeper) -> Model:
+def _flat(model: Model, keeper: UrdfKeeper) -> Model:
     for nested, message in differing_rests(model):
         where = nested.location.at("allow_auto_disable")
         keeper.sink.account(Fate.APPROXIMATED, rules.NESTED_SETTING, f"{message}: Gazebo reads the outer one", where, 0)
@@ -52,7 +52,7 @@ def _flat(model: Model, keeper: Keeper) -> Model:
     return flatten(with_static_models_fixed(settled), partial(_keep, keeper))
 
 
-def _keep(keeper: Keeper, frame: Frame, shell: Model) -> Frame:
+def _keep(keeper: UrdfKeeper, frame: Frame, shell: Model) -> Frame:
     """The frame of a nested model with all else that the model has; its pose is the frame's."""
     message = f"nested model {frame.name!r} is flattened"
     keeper.account(rules.NESTED_MODEL, message, shell.location, count_parts(shell))
@@ -82,7 +82,7 @@ def _legal_names(model: Model) -> Names:
     return names
 
 
-def _refuse_includes(model: Model, keeper: Keeper) -> None:
+def _refuse_includes(model: Model, keeper: UrdfKeeper) -> None:
     for each in nested_models(model):
         for include in each.includes:
             message = f"model {each.name!r} includes {include.uri!r}, which was not read"

@@ -8,10 +8,10 @@ from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import carry
 from twinform.passes.legalise.to_sdf.joints import FLOATING
-from twinform.passes.legalise.to_urdf.base import Keeper
+from twinform.passes.legalise.to_urdf.base import UrdfKeeper
 
 
-def with_floating_joints(model: Model, keeper: Keeper) -> Model:
+def with_floating_joints(model: Model, keeper: UrdfKeeper) -> Model:
     """The model with the annotated floating joints; one that fits the file no more is a `stale-carrier`."""
     if not _has_annotations(model):
         return model

@@ -10,7 +10,7 @@ from twinform.ir.record import fields_of
 from twinform.passes.carriers.annotations import SYNTHESIZED, is_synthesized, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.legalise.to_sdf.planar import planar_chain, planar_names
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 
 AnyPart = TypeVar("AnyPart", Joint, Link)
 
@@ -31,7 +31,7 @@ class FoldPlanarJoints(ToUrdfPass):
 
     name: ClassVar[str] = "fold-planar-joints"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with planar joints."""
         annotated = [joint for joint in model.joints if any(_is_annotation(part) for part in joint.opaque)]
         if not annotated:

@@ -15,7 +15,7 @@ from twinform.ir import (
     replace_fields,
 )
 from twinform.ir.defaults import SIZES, filled
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass, UrdfVersion
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper, UrdfVersion
 from twinform.passes.legalise.to_urdf.remainder import urdf_fields
 from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
 from twinform.passes.transforms.nodes import piece
@@ -46,20 +46,22 @@ class MapGeometry(ToUrdfPass):
     name: ClassVar[str] = "map-geometry"
     urdf_version: UrdfVersion = "1.0"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with shapes of URDF alone."""
         sayable = frozenset(urdf_fields(self.urdf_version, "geometry")["shape"] or ())
         return replace_fields(model, links=tuple(_map_link(link, sayable, keeper) for link in model.links))
 
 
-def _map_link(link: Link, sayable: Sayable, keeper: Keeper) -> Link:
+def _map_link(link: Link, sayable: Sayable, keeper: UrdfKeeper) -> Link:
     # A shape in a carrier is carried after the link's frame has moved onto its joint, so that its
     # pose means the same place as in SDF.
     link = _sort(link, "collisions", "collision", link.collisions, sayable, keeper)
     return _sort(link, "visuals", "visual", link.visuals, sayable, keeper)
 
 
-def _sort(link: Link, field: str, tag: str, shapes: tuple[AnyShaped, ...], sayable: Sayable, keeper: Keeper) -> Link:
+def _sort(
+    link: Link, field: str, tag: str, shapes: tuple[AnyShaped, ...], sayable: Sayable, keeper: UrdfKeeper
+) -> Link:
     kept: list[AnyShaped] = []
     taken = 0
     for one in shapes:
@@ -88,7 +90,7 @@ def _can_say(geometry: Geometry | None, sayable: Sayable) -> bool:
     return shape is not None and shape.kind in sayable
 
 
-def _map_shape(one: AnyShaped, keeper: Keeper) -> AnyShaped:
+def _map_shape(one: AnyShaped, keeper: UrdfKeeper) -> AnyShaped:
     geometry = one.geometry
     shape = geometry.shape if geometry else None
     if geometry is None or shape is None:

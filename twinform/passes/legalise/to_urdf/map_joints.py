@@ -8,7 +8,7 @@ from twinform.diagnostics import Fate, rules
 from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node
 from twinform.ir.defaults import UNLIMITED, multiplier
 from twinform.passes.carriers.joint_words import CONTINUOUS, MIMIC
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass, UrdfVersion
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper, UrdfVersion
 from twinform.passes.legalise.to_urdf.remainder import urdf_row
 from twinform.passes.legalise.urdf_pieces import BALLS
 from twinform.passes.transforms.nodes import text_piece
@@ -35,14 +35,14 @@ class MapJoints(ToUrdfPass):
     name: ClassVar[str] = "map-joints"
     urdf_version: UrdfVersion = "1.0"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with joints of URDF."""
         # URDF 1.0 and 1.1 ask for finite numbers where SDF has infinity.
         strength = UNLIMITED if urdf_row(self.urdf_version, "joint", "limit", "@effort").required else None
         return model.copy(joints=tuple(_map(joint, strength, keeper) for joint in model.joints))
 
 
-def _map(joint: Joint, strength: float | None, keeper: Keeper) -> Joint:
+def _map(joint: Joint, strength: float | None, keeper: UrdfKeeper) -> Joint:
     """The joint in URDF, which writes this for an effort or a velocity without a limit."""
     if joint.type in BALLS:  # it came from a dialect of URDF; another one is a chain by now
         return joint
@@ -86,7 +86,7 @@ def _is_strength(value: float | None) -> bool:
     return value is not None and 0 <= value < math.inf
 
 
-def _continuous(joint: Joint, limit: Limit, strength: float | None, keeper: Keeper) -> tuple[Joint, Limit]:
+def _continuous(joint: Joint, limit: Limit, strength: float | None, keeper: UrdfKeeper) -> tuple[Joint, Limit]:
     ends = tuple(name for name in ("lower", "upper") if _is_bound(getattr(limit, name)))
     joint = _keep_written(joint, limit, ends, keeper)
     endless = [name for name in _LIMITS if name not in ends and not _limits(limit, name)]
@@ -100,7 +100,7 @@ def _continuous(joint: Joint, limit: Limit, strength: float | None, keeper: Keep
     return joint, limit.copy(**dict.fromkeys(_WITHOUT_STRENGTH))
 
 
-def _fill(joint: Joint, limit: Limit, numbers: Mapping[str, float | None], keeper: Keeper) -> Limit:
+def _fill(joint: Joint, limit: Limit, numbers: Mapping[str, float | None], keeper: UrdfKeeper) -> Limit:
     """The limit with these numbers where URDF needs one; None is a number that it does not need."""
     strength = _is_finite if keeper.back else _is_strength
     valid = {"lower": _is_finite, "upper": _is_finite, "effort": strength, "velocity": strength}
@@ -117,14 +117,14 @@ def _is_finite(value: float | None) -> bool:
     return value is not None and math.isfinite(value)
 
 
-def _keep_written(joint: Joint, limit: Limit, names: tuple[str, ...], keeper: Keeper) -> Joint:
+def _keep_written(joint: Joint, limit: Limit, names: tuple[str, ...], keeper: UrdfKeeper) -> Joint:
     written = [(name, getattr(limit, name)) for name in names if getattr(limit, name) is not None]
     pieces = [text_piece(name, format_value(value), "axis/limit") for name, value in written]
     message = f"joint {joint.name!r} has {' and '.join(f'{name} {value:g}' for name, value in written)}"
     return keeper.keep(joint, pieces, rules.SDF_ONLY, message, limit.location)
 
 
-def _map_mimic(joint: Joint, axis: Axis, keeper: Keeper) -> Joint:
+def _map_mimic(joint: Joint, axis: Axis, keeper: UrdfKeeper) -> Joint:
     """A mimic of multiplier (leader - reference) + offset is multiplier leader + (offset - multiplier reference)."""
     mimic = axis.mimic
     if mimic is None or mimic.reference is None:

@@ -5,7 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics import Fate, rules
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual
 from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS, material_name
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
 from twinform.passes.transforms.gazebo_tags import SCRIPT_URI
 from twinform.passes.transforms.nodes import unique_name
@@ -27,7 +27,7 @@ class MapMaterials(ToUrdfPass):
 
     name: ClassVar[str] = "map-materials"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with materials of URDF."""
         names: set[str] = set()
         links = tuple(_map_link(link, names, keeper) for link in model.links)
@@ -36,13 +36,13 @@ class MapMaterials(ToUrdfPass):
         return model.copy(links=links, extensions=(*model.extensions, *tags.values()))
 
 
-def _map_link(link: Link, names: set[str], keeper: Keeper) -> Link:
+def _map_link(link: Link, names: set[str], keeper: UrdfKeeper) -> Link:
     if not any(visual.material for visual in link.visuals):
         return link
     return link.copy(visuals=tuple(_map_visual(one, link, names, keeper) for one in link.visuals))
 
 
-def _map_visual(visual: Visual, link: Link, names: set[str], keeper: Keeper) -> Visual:
+def _map_visual(visual: Visual, link: Link, names: set[str], keeper: UrdfKeeper) -> Visual:
     material = visual.material
     if material is None:
         return visual
@@ -62,7 +62,7 @@ def _map_visual(visual: Visual, link: Link, names: set[str], keeper: Keeper) -> 
     return visual.copy(material=material.copy(**update))
 
 
-def _keep_colors(visual: Visual, material: Material, keeper: Keeper) -> Visual:
+def _keep_colors(visual: Visual, material: Material, keeper: UrdfKeeper) -> Visual:
     """Carry the colors where they say more than one color does."""
     written = {"ambient": material.ambient, "diffuse": material.diffuse}
     color = urdf_color(material.diffuse or material.ambient or ())
@@ -78,7 +78,7 @@ def _keep_colors(visual: Visual, material: Material, keeper: Keeper) -> Visual:
     return keeper.annotate(visual, COLORS, attributes={**others, "of": format_value(color)}, always=True)
 
 
-def _note_gazebo(visual: Visual, material: Material, keeper: Keeper) -> None:
+def _note_gazebo(visual: Visual, material: Material, keeper: UrdfKeeper) -> None:
     """An entry in the ledger where Gazebo makes another material of that of URDF."""
     # A <material> in <gazebo> would give Gazebo the SDF's color. A color that somebody edits in the
     # URDF would then count for RViz and not for Gazebo: one fact would stand twice in the file.
@@ -87,7 +87,7 @@ def _note_gazebo(visual: Visual, material: Material, keeper: Keeper) -> None:
         keeper.sink.account(Fate.APPROXIMATED, rules.GAZEBO_MATERIAL, message, material.location, weight=0)
 
 
-def _script_tag(link: Link, keeper: Keeper) -> GazeboExtension | None:
+def _script_tag(link: Link, keeper: UrdfKeeper) -> GazeboExtension | None:
     """The tag of a link whose visuals all have one material of Gazebo Classic."""
     scripts = {
         visual.material.script.name if visual.material and visual.material.script else None for visual in link.visuals
@@ -100,7 +100,7 @@ def _script_tag(link: Link, keeper: Keeper) -> GazeboExtension | None:
     )
 
 
-def _set_by_tag(link: Link, keeper: Keeper) -> Link:
+def _set_by_tag(link: Link, keeper: UrdfKeeper) -> Link:
     """The link, whose visuals only say by now from which files their material is."""
     visuals: list[Visual] = []
     for visual in link.visuals:

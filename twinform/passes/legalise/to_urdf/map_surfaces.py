@@ -6,7 +6,7 @@ from twinform.diagnostics.rules import UNSHARED_SURFACE
 from twinform.ir import Collision, Element, GazeboExtension, Link, Model, Surface
 from twinform.ir.record import field_values
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.schemas import format_value
 
 _TAGS = {
@@ -33,7 +33,7 @@ class MapSurfaces(ToUrdfPass):
 
     name: ClassVar[str] = "map-surfaces"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with shared surfaces in extensions."""
         links: list[Link] = []
         extensions = list(model.extensions)
@@ -66,7 +66,7 @@ def _shared(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]
     return content, fields
 
 
-def _note_unshared(link: Link, keeper: Keeper) -> None:
+def _note_unshared(link: Link, keeper: UrdfKeeper) -> None:
     """A warning where collisions keep something for themselves, which is lost to Gazebo."""
     left = [(field, one) for field in OF_ALL_COLLISIONS for one in link.collisions if getattr(one, field) is not None]
     if left:

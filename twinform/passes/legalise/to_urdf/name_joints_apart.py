@@ -6,7 +6,7 @@ from twinform.diagnostics import rules
 from twinform.ir import Format, Joint, Model
 from twinform.passes.legalise.names import Names, renamed, with_old_name
 from twinform.passes.legalise.to_sdf.unique_names import free_name
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 
 
 class NameJointsApart(ToUrdfPass):
@@ -20,7 +20,7 @@ class NameJointsApart(ToUrdfPass):
 
     name: ClassVar[str] = "name-joints-apart"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with one name for each link and joint."""
         links = {link.name for link in model.links}
         clashes = [joint.name for joint in model.joints if joint.name in links]
@@ -34,7 +34,7 @@ class NameJointsApart(ToUrdfPass):
         joints = tuple(self._rename_joint(joint, new, keeper) if joint.name in new else joint for joint in model.joints)
         return renamed(model.copy(joints=joints), names, Format.URDF)
 
-    def _rename_joint(self, joint: Joint, new: dict[str, str], keeper: Keeper) -> Joint:
+    def _rename_joint(self, joint: Joint, new: dict[str, str], keeper: UrdfKeeper) -> Joint:
         message = f"joint {joint.name!r} is called {new[joint.name]!r} in URDF: a link has its name"
         keeper.sink.report(rules.RENAMED, message, joint.location, found=joint.name)
         keeper.account(rules.RENAMED, message, joint.location.at("@name"), 1)

@@ -7,7 +7,7 @@ from twinform.diagnostics import Location
 from twinform.diagnostics.rules import GAZEBO_SHAPE_NAME
 from twinform.ir import Model
 from twinform.passes.legalise.names import NAME
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.structure.tag_shapes import AnyShape, named_for_gazebo, renaming
 
 
@@ -22,7 +22,7 @@ class NameShapesForGazebo(ToUrdfPass):
 
     name: ClassVar[str] = "name-shapes-for-gazebo"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model by names that Gazebo keeps."""
 
         def rename(shape: AnyShape, name: str, kind: str) -> AnyShape:

@@ -8,7 +8,7 @@ from twinform.passes.carriers.annotations import find_annotation, is_synthesized
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.legalise.to_sdf.frame_links import frame_as_before
 from twinform.passes.legalise.to_sdf.free_links import placing_frames
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.transforms.notation import FRAME
 
 
@@ -26,7 +26,7 @@ class PlaceFreeLinks(ToUrdfPass):
 
     name: ClassVar[str] = "place-free-links"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with a frame for each synthesized floating joint, and those that others wrote."""
         floating = [joint for joint in model.joints if joint.type == "floating"]
         if not floating:

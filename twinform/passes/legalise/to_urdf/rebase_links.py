@@ -24,7 +24,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import REVERSED, annotation, find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import part_of
 from twinform.passes.legalise.names import NAME, SCOPED_NAME
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.transforms.element_poses import ElementPoses
 from twinform.passes.transforms.joint_ends import joint_pose_attributes
 from twinform.passes.transforms.notation import FRAME, OFFSET, POSE, in_radians, offset_attributes, pose_attributes
@@ -49,7 +49,7 @@ class RebaseLinks(ToUrdfPass):
 
     name: ClassVar[str] = "rebase-links"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with each link in the frame of its joint."""
         graph = FrameGraph(model)
         carried_by = {joint.child or "": joint for joint in model.joints}
@@ -76,7 +76,7 @@ class _Rebase:
     graph: FrameGraph
     name: str
     base: Base
-    keeper: Keeper
+    keeper: UrdfKeeper
     kind: Kind = "link"
     framed: frozenset[str] = frozenset()
     """Links that are frames in SDF, which are accounted for as such."""
@@ -147,7 +147,7 @@ class _Rebase:
         return (made,) if made and self.keeper.carriers and not self.keeper.back else ()
 
 
-def _account(keeper: Keeper, message: str, written: Pose, where: Location) -> None:
+def _account(keeper: UrdfKeeper, message: str, written: Pose, where: Location) -> None:
     """Account for a pose: it moved, and what is in it besides numbers has no place there."""
     rest = sum(part.weight for part in written.opaque)
     keeper.account(rules.MOVED_FRAME, message, where, count_parts(written) - rest)
@@ -202,7 +202,7 @@ def _is_plain(holder: Posed) -> bool:
     )
 
 
-def _place_joint(joint: Joint, graph: FrameGraph, bases: Mapping[str, Base], keeper: Keeper) -> Joint:
+def _place_joint(joint: Joint, graph: FrameGraph, bases: Mapping[str, Base], keeper: UrdfKeeper) -> Joint:
     written = joint.pose
     (name, kind), (parent, held) = bases.get(joint.child or "", (joint.name, "joint")), bases[joint.parent or WORLD]
     made = in_radians(graph.pose(name, parent, kind=kind, base=held), joint.parent)
@@ -220,7 +220,7 @@ def _place_joint(joint: Joint, graph: FrameGraph, bases: Mapping[str, Base], kee
     return keeper.annotate(placed, POSE, attributes=attributes) if attributes else placed
 
 
-def _place_model(model: Model, graph: FrameGraph, roots: list[str], keeper: Keeper) -> Model:
+def _place_model(model: Model, graph: FrameGraph, roots: list[str], keeper: UrdfKeeper) -> Model:
     """The pose of the root, which is the robot's frame."""
     written, root = model.pose, roots[0] if roots else WORLD
     made = None

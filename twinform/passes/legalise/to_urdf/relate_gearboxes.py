@@ -7,7 +7,7 @@ from twinform.ir import Axis, Joint, Mimic, Model, count_parts
 from twinform.ir.frames import FrameGraph
 from twinform.passes.analyses.gearboxes import GEARED, Relation, UngearedError, relation
 from twinform.passes.carriers.annotations import with_annotation
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
 
 
@@ -22,7 +22,7 @@ class RelateGearboxes(ToUrdfPass):
 
     name: ClassVar[str] = "relate-gearboxes"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model without gearboxes."""
         gearboxes = [joint for joint in model.joints if joint.type == "gearbox"]
         if not gearboxes:
@@ -50,11 +50,11 @@ def _follower(joint: Joint, found: Relation) -> Joint:
     return with_annotation(joint.copy(axis=axis), GEARED)
 
 
-def _report_uncoupled(gearbox: Joint, why: str, keeper: Keeper) -> None:
+def _report_uncoupled(gearbox: Joint, why: str, keeper: UrdfKeeper) -> None:
     message = f"gearbox {gearbox.name!r} cannot be written as a mimic in URDF: {why}"
     _report(gearbox, message, Severity.WARNING, keeper)
 
 
-def _report(gearbox: Joint, message: str, severity: Severity, keeper: Keeper) -> None:
+def _report(gearbox: Joint, message: str, severity: Severity, keeper: UrdfKeeper) -> None:
     keeper.sink.report(rules.GEARBOX, message, gearbox.location, found=gearbox.name, severity=severity)
     keeper.sink.account(Fate.CARRIED, rules.GEARBOX, message, gearbox.location, count_parts(gearbox))

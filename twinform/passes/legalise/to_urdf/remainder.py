@@ -43,7 +43,7 @@ _NONE: tuple[()] = ()
 
 
 @dataclass(slots=True)
-class Split:
+class SplitNode:
     """The two halves of a node: `paths` are the places below it where both have something.
 
     `endless` are the paths and texts of numbers that are kept and not finite, which URDF cannot write.
@@ -154,8 +154,8 @@ def _questions(kind: type[Node], known: KnownFields) -> _Questions:
     return made
 
 
-def _split(node: Node, known: KnownFields, path: str, *, own_element: bool) -> Split:
-    split = Split()
+def _split(node: Node, known: KnownFields, path: str, *, own_element: bool) -> SplitNode:
+    split = SplitNode()
     for name, value in field_values(node).items():
         if value is None or value is _NONE or name in _APART:
             continue
@@ -174,7 +174,7 @@ def _split(node: Node, known: KnownFields, path: str, *, own_element: bool) -> S
     return split
 
 
-def _split_inner(split: Split, name: str, value: Node, known: KnownFields, path: str) -> None:
+def _split_inner(split: SplitNode, name: str, value: Node, known: KnownFields, path: str) -> None:
     kind = getattr(value, "kind", None)
     if kind is not None:
         found = known.get(str(kind))
@@ -210,7 +210,7 @@ def _is_endless(value: object) -> bool:
     return isinstance(value, tuple) and any(map(_is_endless, value))  # pyright: ignore[reportUnknownArgumentType] - any
 
 
-def _split_opaque(split: Split, node: Node, *, own_element: bool) -> None:
+def _split_opaque(split: SplitNode, node: Node, *, own_element: bool) -> None:
     """Carriers stay, and so do other tools' elements and attributes where the node is an element of URDF too."""
     if not node.opaque:
         return

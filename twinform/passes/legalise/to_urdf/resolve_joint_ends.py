@@ -5,7 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics import rules
 from twinform.ir import Joint, Model
 from twinform.ir.frames import WORLD, FrameGraph
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.transforms.joint_ends import ENDS, named_ends, report_self_joint, resolve_ends
 
 
@@ -19,7 +19,7 @@ class ResolveJointEnds(ToUrdfPass):
 
     name: ClassVar[str] = "resolve-joint-ends"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with joints between links."""
         links = {link.name for link in model.links} | {WORLD}
         if all(joint.parent in links and joint.child in links for joint in model.joints):
@@ -28,7 +28,7 @@ class ResolveJointEnds(ToUrdfPass):
         return model.copy(joints=tuple(_resolve(joint, links, graph, keeper) for joint in model.joints))
 
 
-def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: Keeper) -> Joint:
+def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: UrdfKeeper) -> Joint:
     resolved, pieces = resolve_ends(joint, links, graph)
     if not pieces:
         return joint

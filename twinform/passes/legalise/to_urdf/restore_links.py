@@ -7,7 +7,7 @@ from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Collision, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.to_urdf.floating_links import with_floating_joints
 from twinform.passes.transforms.notation import LINK
 
@@ -28,14 +28,14 @@ class RestoreLinks(ToUrdfPass):
 
     name: ClassVar[str] = "restore-links"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with links and joints in the place of frames."""
         if any(find_annotation(frame, LINK) is not None for frame in model.frames):
             model = _with_links(model, keeper)
         return with_floating_joints(model, keeper)
 
 
-def _with_links(model: Model, keeper: Keeper) -> Model:
+def _with_links(model: Model, keeper: UrdfKeeper) -> Model:
     pairs = dict(_pairs(model, keeper))
     graph = FrameGraph(model)
     mounts = {mount.name for mount in pairs.values()}
@@ -80,7 +80,7 @@ def _holding_a_link(joint: Joint, held_by: dict[str, str]) -> Joint:
     return joint.copy(child=body, pose=pose)
 
 
-def _pairs(model: Model, keeper: Keeper) -> Iterator[tuple[str, Frame]]:
+def _pairs(model: Model, keeper: UrdfKeeper) -> Iterator[tuple[str, Frame]]:
     """Each frame that is a link, by its name, with the one that is its joint."""
     frames = {frame.name: frame for frame in model.frames}
     taken: set[str] = set()

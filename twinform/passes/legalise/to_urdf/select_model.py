@@ -8,7 +8,7 @@ from typing import ClassVar
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Document, Format, Include, Model, Node, Opaque, World, count_parts
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
-from twinform.passes.analyses.candidates import Candidate, candidates
+from twinform.passes.analyses.candidates import ModelCandidate, candidates
 from twinform.passes.framework.base import Pass
 
 
@@ -43,7 +43,7 @@ class Selector:
     def __init__(self, document: Document) -> None:
         self.document = document
         self.among = list(candidates(document))
-        self._by_name: defaultdict[str | None, list[Candidate]] = defaultdict(list)
+        self._by_name: defaultdict[str | None, list[ModelCandidate]] = defaultdict(list)
         for one in self.among:
             for name in {one.model.name, one.full_name}:
                 self._by_name[name].append(one)
@@ -73,7 +73,7 @@ class _Chosen:
 
 
 @dataclass(frozen=True, slots=True)
-class _Part:
+class _CarriedPart:
     what: str
     location: Location
     weight: int
@@ -83,7 +83,7 @@ class _Part:
         sink.account(Fate.DROPPED, rules.OUTSIDE_MODEL, message, self.location, self.weight)
 
 
-def _choose(among: list[Candidate], name: str | None, where: Location, sink: DiagnosticSink) -> _Chosen | None:
+def _choose(among: list[ModelCandidate], name: str | None, where: Location, sink: DiagnosticSink) -> _Chosen | None:
     found = [one for one in among if one.answers_to(name)]
     if len(found) != 1:
         _say_which(among, name, len(found), where, sink)
@@ -96,7 +96,9 @@ def _choose(among: list[Candidate], name: str | None, where: Location, sink: Dia
     return _Chosen(model, world)
 
 
-def _say_which(among: list[Candidate], name: str | None, count: int, where: Location, sink: DiagnosticSink) -> None:
+def _say_which(
+    among: list[ModelCandidate], name: str | None, count: int, where: Location, sink: DiagnosticSink
+) -> None:
     names, advice = ", ".join(one.full_name for one in among) or "none", None
     if not among:
         message = "there is no model in the file"
@@ -110,7 +112,7 @@ def _say_which(among: list[Candidate], name: str | None, count: int, where: Loca
     sink.report(rules.MODEL_NOT_CHOSEN, message, where, found=name, expected=names, help=advice, related=related)
 
 
-def _joints(one: Candidate) -> int:
+def _joints(one: ModelCandidate) -> int:
     return len(one.model.joints) if isinstance(one.model, Model) else 0
 
 
@@ -129,32 +131,32 @@ def _place(model: Model, world: World, sink: DiagnosticSink) -> Model:
     return model.copy(pose=placed.to_pose())
 
 
-def _outside(document: Document, chosen: _Chosen) -> Iterator[_Part]:
+def _outside(document: Document, chosen: _Chosen) -> Iterator[_CarriedPart]:
     yield from _opaque_parts(document)
     for field in ("models", "lights", "includes"):
         yield from _node_parts(getattr(document, field), field, chosen.model)
     for world in document.worlds:
         if world is not chosen.world:
-            yield _Part(f"world {world.name!r}", world.location, count_parts(world))
+            yield _CarriedPart(f"world {world.name!r}", world.location, count_parts(world))
             continue
-        yield _Part(f"world {world.name!r} around the model", world.location.at("@name"), 2)
+        yield _CarriedPart(f"world {world.name!r} around the model", world.location.at("@name"), 2)
         yield from _opaque_parts(world)
         if world.gravity is not None:
-            yield _Part("<gravity> of the world", world.location.at("gravity"), 1)
+            yield _CarriedPart("<gravity> of the world", world.location.at("gravity"), 1)
         for field in ("models", "includes", "lights", "frames", "joints", "plugins"):
             yield from _node_parts(getattr(world, field), field, chosen.model)
 
 
-def _node_parts(nodes: tuple[Node, ...], field: str, chosen: Model) -> Iterator[_Part]:
+def _node_parts(nodes: tuple[Node, ...], field: str, chosen: Model) -> Iterator[_CarriedPart]:
     for node in nodes:
         if node is not chosen:
             name = getattr(node, "name", None) or getattr(node, "uri", None)
-            yield _Part(f"{field[:-1]} {name!r}", node.location, count_parts(node))
+            yield _CarriedPart(f"{field[:-1]} {name!r}", node.location, count_parts(node))
 
 
-def _opaque_parts(node: Node) -> Iterator[_Part]:
+def _opaque_parts(node: Node) -> Iterator[_CarriedPart]:
     for part in node.opaque:
-        yield _Part(_called(part), part.location_in(node), part.weight)
+        yield _CarriedPart(_called(part), part.location_in(node), part.weight)
 
 
 def _called(part: Opaque) -> str:

@@ -9,7 +9,7 @@ from twinform.ir.record import field_values
 from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.material_annotations import LOOK, look_of
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass, UrdfVersion
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper, UrdfVersion
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, fits, take_remainder, urdf_fields
 from twinform.passes.transforms.gazebo_tags import LINK_TAGS
 
@@ -30,7 +30,7 @@ class ShareVisuals(ToUrdfPass):
     name: ClassVar[str] = "share-visuals"
     urdf_version: UrdfVersion = "1.0"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with shared parts of visuals in extensions."""
         links: list[Link] = []
         extensions = list(model.extensions)

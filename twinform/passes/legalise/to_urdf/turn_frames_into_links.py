@@ -6,7 +6,7 @@ from twinform.diagnostics import rules
 from twinform.ir import Frame, Joint, Link, Model, Pose, count_parts
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.carriers.annotations import SYNTHESIZED, annotate_synthesized, is_synthesized, without_annotation
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.transforms.nodes import unique_name
 from twinform.passes.transforms.notation import FRAME, POSE, pose_attributes
 
@@ -21,7 +21,7 @@ class TurnFramesIntoLinks(ToUrdfPass):
 
     name: ClassVar[str] = "turn-frames-into-links"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model without frames."""
         if model.links and not model.frames:
             return model
@@ -46,7 +46,7 @@ class TurnFramesIntoLinks(ToUrdfPass):
         return model.copy(links=tuple(links), joints=tuple(joints), frames=())
 
 
-def _link(frame: Frame, body: str, keeper: Keeper) -> Link:
+def _link(frame: Frame, body: str, keeper: UrdfKeeper) -> Link:
     pose = frame.pose or Pose()
     if not pose.relative_to:
         pose = pose.copy(relative_to=frame.attached_to or MODEL)

@@ -10,8 +10,8 @@ from twinform.passes.carriers.carriers import carry, is_carrier, to_element, unp
 from twinform.passes.carriers.chain_carriers import split_axes
 from twinform.passes.carriers.joint_chains import CHAIN, CHAINS, PART, PITCHES, TWO_AXES, metres_per_radian
 from twinform.passes.carriers.token_mass import CHAIN_MASS, CHAIN_TOKEN
-from twinform.passes.legalise.to_urdf.base import Keeper, ToUrdfPass
-from twinform.passes.legalise.to_urdf.joint_steps import Step, ball, screw, two_axes
+from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf.joint_steps import ChainStep, ball, screw, two_axes
 from twinform.passes.legalise.urdf_pieces import BALLS
 from twinform.passes.transforms.nodes import text_piece, unique_name
 from twinform.schemas import format_value
@@ -39,7 +39,7 @@ class UnfoldJoints(ToUrdfPass):
 
     name: ClassVar[str] = "unfold-joints"
 
-    def run_model(self, model: Model, keeper: Keeper) -> Model:
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with chains of joints."""
         if not any(joint.type in CHAINS for joint in model.joints):
             return model
@@ -61,7 +61,7 @@ class UnfoldJoints(ToUrdfPass):
         return model.copy(links=every, joints=tuple(joints))
 
 
-def _unfold(joint: Joint, taken: set[str], keeper: Keeper) -> tuple[tuple[Link, ...], list[Joint]]:
+def _unfold(joint: Joint, taken: set[str], keeper: UrdfKeeper) -> tuple[tuple[Link, ...], list[Joint]]:
     """The links between and the joints of the chain, from the parent's side."""
     *above, last = _STEPS[joint.type](joint)
     kept = _account(joint, keeper)
@@ -86,17 +86,19 @@ def _free_name(name: str, taken: set[str]) -> str:
     return made
 
 
-def _part(made: Joint, joint: Joint, keeper: Keeper) -> Joint:
+def _part(made: Joint, joint: Joint, keeper: UrdfKeeper) -> Joint:
     return with_annotation(made, PART, attributes={"joint": joint.name}) if keeper.carriers else made
 
 
-def _between(name: str, joint: Joint, keeper: Keeper) -> Link:
+def _between(name: str, joint: Joint, keeper: UrdfKeeper) -> Link:
     """A link where the joint is, with a token of mass that Gazebo's reader of URDF and MuJoCo see."""
     link = Link(name=name, pose=Pose(relative_to=joint.name), inertial=CHAIN_TOKEN, source=joint.source)
     return with_annotation(link, PART, attributes={"joint": joint.name}) if keeper.carriers else link
 
 
-def _make_last_joint(joint: Joint, parent: str | None, step: Step, opaque: tuple[Opaque, ...], keeper: Keeper) -> Joint:
+def _make_last_joint(
+    joint: Joint, parent: str | None, step: ChainStep, opaque: tuple[Opaque, ...], keeper: UrdfKeeper
+) -> Joint:
     """The joint that keeps the name, the child and the place."""
     update: dict[str, object] = {"type": step.type, "parent": parent, "axis": step.axis, "opaque": opaque}
     said = PITCHES if joint.type == "screw" else ("axis2",)  # the second axis of a screw is one that nobody reads
@@ -108,7 +110,7 @@ def _make_last_joint(joint: Joint, parent: str | None, step: Step, opaque: tuple
     return with_annotation(last, CHAIN, attributes={"type": joint.type}) if keeper.carriers else last
 
 
-def _account(joint: Joint, keeper: Keeper) -> Joint:
+def _account(joint: Joint, keeper: UrdfKeeper) -> Joint:
     """Report what becomes of the joint; it carries what its chain cannot express."""
     between = len(CHAINS[joint.type])
     message = (
@@ -131,7 +133,7 @@ def _account(joint: Joint, keeper: Keeper) -> Joint:
     return joint
 
 
-def _keep_axis(joint: Joint, keeper: Keeper) -> Joint:
+def _keep_axis(joint: Joint, keeper: UrdfKeeper) -> Joint:
     """A ball joint turns about any axis; what its own is good for is the damping."""
     for field in ("axis", "axis2"):
         axis: Axis | None = getattr(joint, field)
@@ -154,7 +156,7 @@ def _follow(joint: Joint, first: dict[str, str]) -> Joint:
     return joint.copy(axis=axis.copy(mimic=mimic))
 
 
-def _lacks_pitch(joint: Joint, keeper: Keeper) -> bool:
+def _lacks_pitch(joint: Joint, keeper: UrdfKeeper) -> bool:
     if joint.type != "screw" or metres_per_radian(joint) is not None:
         return False
     message = f"screw joint {joint.name!r} has a thread pitch of 0 rad/m, which moves infinitely far"

@@ -5,13 +5,13 @@ from typing import TypeVar
 from twinform.diagnostics import rules
 from twinform.ir import Collision, Visual
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
-from twinform.passes.legalise.to_urdf.base import Keeper
+from twinform.passes.legalise.to_urdf.base import UrdfKeeper
 from twinform.passes.transforms.uri_schemes import GAZEBO, package_uri, scheme_of
 
 Shape = TypeVar("Shape", Visual, Collision)
 
 
-def urdf_uri(shape: Shape, kind: str, written: str, keeper: Keeper) -> tuple[Shape, str]:
+def urdf_uri(shape: Shape, kind: str, written: str, keeper: UrdfKeeper) -> tuple[Shape, str]:
     """A URI in a visual or collision for ROS, and the shape with an annotation if SDF would have another scheme for it.
 
     `kind` is the annotation's. One that came from URDF with the scheme of Gazebo keeps that.

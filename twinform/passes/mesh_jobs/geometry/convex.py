@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from twinform.passes.mesh_jobs.geometry.distances import Nearest, farthest
 from twinform.passes.mesh_jobs.geometry.libraries import Array, np
 from twinform.passes.mesh_jobs.geometry.solver_libraries import coacd, fast_simplification, spatial
-from twinform.passes.mesh_jobs.geometry.surface import Surface, UnusableMeshError
+from twinform.passes.mesh_jobs.geometry.surface import TriangleSurface, UnusableMeshError
 
 _CONCAVITIES = (0.1, 0.05, 0.02, 0.01)
 """Thresholds of CoACD that are tried, from few parts to many."""
@@ -22,7 +22,7 @@ _BESIDE = 1e-4
 """How far beside a face it is asked whether another part lies there, as part of the size."""
 
 
-def hull(points: Array) -> Surface:
+def hull(points: Array) -> TriangleSurface:
     """The convex hull of points, its triangles looking outward.
 
     Raises:
@@ -38,13 +38,13 @@ def hull(points: Array) -> Surface:
     )
     simplices = np.where((outward < 0)[:, None], found.simplices[:, ::-1], found.simplices)
     used, index = np.unique(simplices, return_inverse=True)
-    return Surface(found.points[used], index.reshape(-1, 3))
+    return TriangleSurface(found.points[used], index.reshape(-1, 3))
 
 
 # The parts that CoACD makes have up to thousands of corners: the seven collisions of a UR5, with
 # 5,328 triangles, became 43,586. With the corners that the distance needs it is 1,820, in a third
 # of the time.
-def reduced(convex: Surface, distance: float, triangles: int | None = None) -> Surface:
+def reduced(convex: TriangleSurface, distance: float, triangles: int | None = None) -> TriangleSurface:
     """The hull of some corners of a hull: of as few as leave none out by more than a distance, or a budget allows.
 
     It begins with four, and what sticks out most is added; so it lies inside of the hull that is given.
@@ -79,7 +79,7 @@ def _four_corners(points: Array) -> Array:
     return np.stack([a, b, c, d])
 
 
-def decompositions(surface: Surface, most_parts: int) -> Iterator[list[Surface]]:
+def decompositions(surface: TriangleSurface, most_parts: int) -> Iterator[list[TriangleSurface]]:
     """Convex parts that are together about the shape, from coarse to fine; each is the hull of its points."""
     mesh = _for_parts(surface)
     before = 0
@@ -100,23 +100,25 @@ def decompositions(surface: Surface, most_parts: int) -> Iterator[list[Surface]]
             return
 
 
-def _part(made: Sequence[Array]) -> Surface | None:
+def _part(made: Sequence[Array]) -> TriangleSurface | None:
     try:
         return hull(np.asarray(made[0], dtype=float))
     except UnusableMeshError:
         return None
 
 
-def _for_parts(surface: Surface) -> Surface:
+def _for_parts(surface: TriangleSurface) -> TriangleSurface:
     if len(surface.faces) <= _MOST_FOR_PARTS:
         return surface
     points, faces = fast_simplification.simplify(
         surface.points, surface.faces.astype(np.int64), target_count=_MOST_FOR_PARTS
     )
-    return Surface(np.asarray(points, dtype=float), np.asarray(faces))
+    return TriangleSurface(np.asarray(points, dtype=float), np.asarray(faces))
 
 
-def error_of(surface: Surface, parts: Sequence[Surface], tolerance: float, limit: float = math.inf) -> float:
+def error_of(
+    surface: TriangleSurface, parts: Sequence[TriangleSurface], tolerance: float, limit: float = math.inf
+) -> float:
     """How far apart the outsides of a surface and of some convex parts are, at most.
 
     It is the greater of two distances: of what is outside of all parts from them, and of what is outside of the parts
@@ -141,10 +143,10 @@ def error_of(surface: Surface, parts: Sequence[Surface], tolerance: float, limit
     return found
 
 
-def _together(parts: Sequence[Surface]) -> Surface:
+def _together(parts: Sequence[TriangleSurface]) -> TriangleSurface:
     starts = np.cumsum([0, *(len(part.points) for part in parts)])
     faces = [part.faces + start for part, start in zip(parts, starts, strict=False)]
-    return Surface(np.concatenate([part.points for part in parts]), np.concatenate(faces))
+    return TriangleSurface(np.concatenate([part.points for part in parts]), np.concatenate(faces))
 
 
 class _Inside:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from twinform.passes.mesh_jobs.geometry.distances import Nearest, farthest
 from twinform.passes.mesh_jobs.geometry.libraries import np
 from twinform.passes.mesh_jobs.geometry.solver_libraries import fast_simplification
-from twinform.passes.mesh_jobs.geometry.surface import Surface, joined
+from twinform.passes.mesh_jobs.geometry.surface import TriangleSurface, joined
 
 _STEPS = 4
 """Between a number of triangles that is too small and one that is too large, this often the middle is tried."""
@@ -50,7 +50,12 @@ def decimated(parts: Sequence[tuple[str, Any]], share: float, tolerance: float, 
 
 
 def _best(
-    parts: Sequence[tuple[str, Any]], share: float, whole: Surface, nearest: Nearest, tolerance: float, limit: float
+    parts: Sequence[tuple[str, Any]],
+    share: float,
+    whole: TriangleSurface,
+    nearest: Nearest,
+    tolerance: float,
+    limit: float,
 ) -> Decimated | None:
     """What has the fewest triangles of what is within the limit."""
     found: list[Decimated] = []
@@ -77,12 +82,12 @@ def _fewer(parts: Sequence[tuple[str, Any]], share: float, *, careful: bool) -> 
     return found
 
 
-def _collapsed(surface: Surface, count: int) -> Surface:
+def _collapsed(surface: TriangleSurface, count: int) -> TriangleSurface:
     points, faces = fast_simplification.simplify(*_near_unit(surface), target_count=count, agg=_HASTY)
-    return Surface(_restored(np.asarray(points, dtype=float), surface), faces)
+    return TriangleSurface(_restored(np.asarray(points, dtype=float), surface), faces)
 
 
-def _carefully_collapsed(surface: Surface, count: int) -> Surface:
+def _carefully_collapsed(surface: TriangleSurface, count: int) -> TriangleSurface:
     """A surface with about so many triangles, which keeps its borders.
 
     The library moves borders at no cost as long as the surface is flat there, until nothing is left. So each border
@@ -102,10 +107,10 @@ def _carefully_collapsed(surface: Surface, count: int) -> Surface:
     of_skirt[became[is_skirt & (became >= 0)]] = True
     faces = faces[~of_skirt[faces].any(axis=1)]
     used, faces = np.unique(faces, return_inverse=True)  # the skirt's points are far from the surface
-    return Surface(_restored(np.asarray(points[used], dtype=float), skirted), faces.reshape(-1, 3))
+    return TriangleSurface(_restored(np.asarray(points[used], dtype=float), skirted), faces.reshape(-1, 3))
 
 
-def _with_skirt(surface: Surface) -> tuple[Surface, Any]:
+def _with_skirt(surface: TriangleSurface) -> tuple[TriangleSurface, Any]:
     """A surface with a strip along each border, across the triangles there, and which points are the strip's own."""
     edges = np.concatenate([surface.faces[:, [at, (at + 1) % 3]] for at in range(3)])
     _, index, uses = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True, return_counts=True)
@@ -123,21 +128,23 @@ def _with_skirt(surface: Surface) -> tuple[Surface, Any]:
     above[on_border] = len(surface.points) + np.arange(len(on_border))
     strip = np.concatenate([np.stack([b, a, above[a]], axis=1), np.stack([b, above[a], above[b]], axis=1)])
     points = np.concatenate([surface.points, surface.points[on_border] + steps])
-    return Surface(points, np.concatenate([surface.faces, strip])), np.arange(len(points)) >= len(surface.points)
+    return TriangleSurface(points, np.concatenate([surface.faces, strip])), np.arange(len(points)) >= len(
+        surface.points
+    )
 
 
-def _near_unit(surface: Surface) -> tuple[Any, Any]:
+def _near_unit(surface: TriangleSurface) -> tuple[Any, Any]:
     """Points about the origin and of about unit size: the library has single precision inside."""
     middle, size = _box(surface)
     return np.ascontiguousarray((surface.points - middle) / size), np.ascontiguousarray(surface.faces.astype(np.int64))
 
 
-def _restored(points: Any, surface: Surface) -> Any:
+def _restored(points: Any, surface: TriangleSurface) -> Any:
     middle, size = _box(surface)
     return points * size + middle
 
 
-def _box(surface: Surface) -> tuple[Any, float]:
+def _box(surface: TriangleSurface) -> tuple[Any, float]:
     low, high = surface.points.min(axis=0), surface.points.max(axis=0)
     return (low + high) / 2, float((high - low).max()) or 1.0
 
@@ -152,7 +159,7 @@ def _with_material(part: Any, points: Any, faces: Any) -> Any:
 
 
 def _distance(
-    whole: Surface, nearest: Nearest, made: Sequence[tuple[str, Any]], tolerance: float, limit: float
+    whole: TriangleSurface, nearest: Nearest, made: Sequence[tuple[str, Any]], tolerance: float, limit: float
 ) -> float:
     surface = joined(list(made))
     there = farthest(surface, nearest, tolerance, limit=limit)

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 
 from twinform.passes.mesh_jobs.geometry.libraries import Array, np
 from twinform.passes.mesh_jobs.geometry.solver_libraries import spatial
-from twinform.passes.mesh_jobs.geometry.surface import Surface
+from twinform.passes.mesh_jobs.geometry.surface import TriangleSurface
 
 _SAMPLES = 60_000
 """About so many samples of a surface are kept to find triangles by."""
@@ -34,7 +34,7 @@ Covered = Callable[[Array], Array]
 class Nearest:
     """A surface to which distances are measured."""
 
-    def __init__(self, surface: Surface) -> None:
+    def __init__(self, surface: TriangleSurface) -> None:
         self.triangles = surface.triangles
         samples, self._owners = _samples(self.triangles)
         self._tree = spatial.cKDTree(samples)
@@ -55,7 +55,7 @@ class Nearest:
 
 
 def farthest(
-    surface: Surface,
+    surface: TriangleSurface,
     nearest: Nearest,
     tolerance: float,
     covered: Covered | None = None,

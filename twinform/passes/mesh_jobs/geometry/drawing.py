@@ -6,7 +6,7 @@ from typing import Any
 from twinform.passes.mesh_jobs.geometry.formats import appearance_of
 from twinform.passes.mesh_jobs.geometry.libraries import Array, np, trimesh
 from twinform.passes.mesh_jobs.geometry.parts import parts_of
-from twinform.passes.mesh_jobs.job import Job, Result
+from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 
 _SHARP = 0.6
 """Angles between triangles, in radians, from which there is an edge to be seen."""
@@ -15,9 +15,9 @@ _MOST_SMOOTHED = 100_000
 _UNPAINTED = (200, 200, 205, 255)
 
 
-def draw(job: Job) -> Result:
+def draw(job: MeshJob) -> MeshResult:
     """All triangles of a mesh as arrays, for who draws it."""
-    return Result({}, drawn(parts_of(job, appearance=True)))
+    return MeshResult({}, drawn(parts_of(job, appearance=True)))
 
 
 def drawn(parts: Sequence[tuple[str, Any]]) -> dict[str, bytes]:

@@ -9,8 +9,8 @@ from twinform.passes.mesh_jobs.geometry.decimation import WORTH, decimated
 from twinform.passes.mesh_jobs.geometry.formats import appearance_of, written
 from twinform.passes.mesh_jobs.geometry.libraries import np, trimesh
 from twinform.passes.mesh_jobs.geometry.parts import parts_of
-from twinform.passes.mesh_jobs.geometry.surface import Surface, joined, scaled
-from twinform.passes.mesh_jobs.job import Job, Result
+from twinform.passes.mesh_jobs.geometry.surface import TriangleSurface, joined, scaled
+from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 from twinform.passes.mesh_jobs.limits import allow_work
 
 _ACCURACY = 0.05
@@ -20,7 +20,7 @@ _ACCURACY = 0.05
 _LEFT_OUT = (0.5, 0.2, 0.1, 0.05)
 
 
-def _limit(job: Job, surface: Surface) -> float:
+def _limit(job: MeshJob, surface: TriangleSurface) -> float:
     """How far the new surface may be from the old one, in the frame of the shape."""
     limits = [cast("float | None", job.options["max_error"])]
     relative = cast("float | None", job.options["max_relative_error"])
@@ -28,11 +28,11 @@ def _limit(job: Job, surface: Surface) -> float:
     return min((each for each in limits if each is not None), default=math.inf)
 
 
-def _tolerance(limit: float, surface: Surface) -> float:
+def _tolerance(limit: float, surface: TriangleSurface) -> float:
     return _ACCURACY * min(limit, 0.05 * surface.diagonal) or 1e-9 * surface.diagonal
 
 
-def simplify(job: Job) -> Result:
+def simplify(job: MeshJob) -> MeshResult:
     """The cheapest stand-in for a collision, of those asked for, that is within the limit."""
     parts = parts_of(job)
     allow_work()
@@ -43,13 +43,13 @@ def simplify(job: Job) -> Result:
     # primitive costs less than a hull, and a hull less than parts.
     for how in cast("Sequence[str]", job.options["how"]):
         found = _WAYS[how](job, surface, limit)
-        if isinstance(found, Result):
-            return Result({**facts, **found.facts}, found.files)
+        if isinstance(found, MeshResult):
+            return MeshResult({**facts, **found.facts}, found.files)
         tried.append(found)
-    return Result({**facts, "kept": ", ".join(tried)})
+    return MeshResult({**facts, "kept": ", ".join(tried)})
 
 
-def _primitive(job: Job, surface: Surface, limit: float) -> Result | str:
+def _primitive(job: MeshJob, surface: TriangleSurface, limit: float) -> MeshResult | str:
     found = primitives.best(surface, cast("Sequence[str]", job.options["shapes"]), _tolerance(limit, surface), limit)
     if found is None or found[1] > limit:
         return "no primitive is near enough"
@@ -58,10 +58,10 @@ def _primitive(job: Job, surface: Surface, limit: float) -> Result | str:
         "how": "primitive", "error": error, "after": 0, "kind": primitive.kind, "sizes": list(primitive.sizes),
         "center": list(primitive.center), "rotation": np.asarray(primitive.rotation, dtype=float).ravel().tolist(),
     }  # fmt: skip
-    return Result(facts)
+    return MeshResult(facts)
 
 
-def _hull(job: Job, surface: Surface, limit: float) -> Result | str:
+def _hull(job: MeshJob, surface: TriangleSurface, limit: float) -> MeshResult | str:
     budget = cast("int | None", job.options["triangles"])
     whole = convex.hull(surface.points[np.unique(surface.faces)])
     for distance in _distances(limit):
@@ -74,7 +74,7 @@ def _hull(job: Job, surface: Surface, limit: float) -> Result | str:
     return "its convex hull is farther off" if budget is None else "so is a convex hull with so few triangles"
 
 
-def _decomposition(job: Job, surface: Surface, limit: float) -> Result | str:
+def _decomposition(job: MeshJob, surface: TriangleSurface, limit: float) -> MeshResult | str:
     budget = cast("int | None", job.options["triangles"])
     most = len(surface.faces) if len(cast("Sequence[str]", job.options["how"])) > 1 else math.inf
     why = f"{job.options['parts']} convex parts are farther off"
@@ -99,19 +99,19 @@ def _distances(limit: float) -> Iterator[float]:
     yield 0.0
 
 
-def _convex(how: str, parts: Sequence[Surface], error: float) -> Result:
+def _convex(how: str, parts: Sequence[TriangleSurface], error: float) -> MeshResult:
     meshes = [trimesh.Trimesh(vertices=part.points, faces=part.faces, process=False) for part in parts]
     files = {f"{index}": written([("convex", mesh)], "obj")[".obj"] for index, mesh in enumerate(meshes)}
     after = sum(len(part.faces) for part in parts)
-    return Result({"how": how, "error": error, "after": after, "each": [len(part.faces) for part in parts]}, files)
+    return MeshResult({"how": how, "error": error, "after": after, "each": [len(part.faces) for part in parts]}, files)
 
 
-_WAYS: Mapping[str, Callable[[Job, Surface, float], Result | str]] = {
+_WAYS: Mapping[str, Callable[[MeshJob, TriangleSurface, float], MeshResult | str]] = {
     "primitive": _primitive, "hull": _hull, "parts": _decomposition,
 }  # fmt: skip
 
 
-def decimate(job: Job) -> Result:
+def decimate(job: MeshJob) -> MeshResult:
     """Levels of detail of a visual, each with a share of the triangles of the one before."""
     parts = parts_of(job, appearance=True)
     allow_work()
@@ -120,7 +120,7 @@ def decimate(job: Job) -> Result:
     facts: dict[str, object] = {"before": before, "appearance": sorted(appearance_of(parts))}
     # Texture coordinates and colors of vertices do not survive the collapse of edges.
     if appearance_of(parts) & {"textures", "vertex colors"}:
-        return Result({**facts, "kept": f"it has {' and '.join(sorted(appearance_of(parts) - {'colors'}))}"})
+        return MeshResult({**facts, "kept": f"it has {' and '.join(sorted(appearance_of(parts) - {'colors'}))}"})
     stretch = max(abs(float(each)) for each in cast("Sequence[float]", job.options["scale"]))
     limit = _limit(job, scaled(surface, job.options["scale"])) / stretch
     files: dict[str, bytes] = {}
@@ -137,16 +137,16 @@ def decimate(job: Job) -> Result:
         if not found.reached:
             break  # the distance allows no coarser one
     if not levels:
-        return Result({**facts, "kept": "no fewer triangles are within the distance"})
-    return Result({**facts, "levels": levels, "kind": kind}, files)
+        return MeshResult({**facts, "kept": "no fewer triangles are within the distance"})
+    return MeshResult({**facts, "levels": levels, "kind": kind}, files)
 
 
-def _share(job: Job, before: int) -> float:
+def _share(job: MeshJob, before: int) -> float:
     count = cast("int | None", job.options["triangles"])
     return min(1.0, cast("float", job.options["share"]) if count is None else count / before)
 
 
-def convert(job: Job) -> Result:
+def convert(job: MeshJob) -> MeshResult:
     """A file in another format."""
     parts = parts_of(job, appearance=True)
     allow_work()
@@ -156,7 +156,7 @@ def convert(job: Job) -> Result:
         parts = [(name, _welded(name, part)) for name, part in parts]
     files = written(parts, kind, stem=str(job.options["stem"]), y_up=job.options["gltf_up"] == "y")
     lost = appearance if kind == "stl" else set[str]()
-    return Result({"before": sum(len(part.faces) for _, part in parts), "lost": sorted(lost)}, files)
+    return MeshResult({"before": sum(len(part.faces) for _, part in parts), "lost": sorted(lost)}, files)
 
 
 def _welded(name: str, part: Any) -> Any:

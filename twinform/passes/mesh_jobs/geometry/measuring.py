@@ -8,20 +8,20 @@ from twinform.passes.mesh_jobs.geometry.libraries import np, trimesh
 from twinform.passes.mesh_jobs.geometry.parts import parts_of
 from twinform.passes.mesh_jobs.geometry.reading import scene_of
 from twinform.passes.mesh_jobs.geometry.surface import UnusableMeshError
-from twinform.passes.mesh_jobs.job import Job, Result
+from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 
 _Triangles = Any
 """A `trimesh.Trimesh`."""
 
 
-def count(job: Job) -> Result:
+def count(job: MeshJob) -> MeshResult:
     """All triangles of a file, those of a part as often as the file places it."""
     scene = scene_of(job.content, job.kind, companions=job.companions)
     placed = (scene.graph[node][1] for node in scene.graph.nodes_geometry)
-    return Result({"triangles": sum(len(getattr(scene.geometry[name], "faces", ())) for name in placed)})
+    return MeshResult({"triangles": sum(len(getattr(scene.geometry[name], "faces", ())) for name in placed)})
 
 
-def measure(job: Job) -> Result:
+def measure(job: MeshJob) -> MeshResult:
     """The box around a mesh; where `solid`, also its volume, center and inertia of unit density, or why it has none.
 
     Where `hull`, an open mesh stands for its convex hull.
@@ -31,17 +31,17 @@ def measure(job: Job) -> Result:
     facts: dict[str, object] = {"least": least, "greatest": greatest}
     if job.options["solid"]:
         facts |= _solid(triangles, hull=bool(job.options["hull"]))
-    return Result(facts)
+    return MeshResult(facts)
 
 
-def surface(job: Job) -> Result:
+def surface(job: MeshJob) -> MeshResult:
     """The triangles of a mesh: `points`, rows of three doubles, and `faces`, of three 64-bit integers."""
     triangles = _scaled(job, finite=False)  # whoever draws leaves out what is nowhere
     points, faces = np.asarray(triangles.vertices, dtype=np.float64), np.asarray(triangles.faces, dtype=np.int64)
-    return Result({}, {"points": points.tobytes(), "faces": faces.tobytes()})
+    return MeshResult({}, {"points": points.tobytes(), "faces": faces.tobytes()})
 
 
-def _scaled(job: Job, *, finite: bool = True) -> _Triangles:
+def _scaled(job: MeshJob, *, finite: bool = True) -> _Triangles:
     """The triangles of a mesh in the frame of its shape, with vertices merged that are at one place."""
     whole = trimesh.util.concatenate([part for _, part in parts_of(job, finite=finite)])
     # made anew, so that vertices which differ in their appearance are merged as well

@@ -6,10 +6,10 @@ from typing import Any, cast
 
 from twinform.passes.mesh_jobs.geometry.formats import upright
 from twinform.passes.mesh_jobs.geometry.surface import UnusableMeshError, placed_parts, read_scene, selected
-from twinform.passes.mesh_jobs.job import Job
+from twinform.passes.mesh_jobs.job import MeshJob
 
 
-def parts_of(job: Job, *, appearance: bool = False, finite: bool = True) -> list[tuple[str, Any]]:
+def parts_of(job: MeshJob, *, appearance: bool = False, finite: bool = True) -> list[tuple[str, Any]]:
     """The meshes that a shape uses, in meters."""
     scene = read_scene(job.content, job.kind, job.companions, appearance=appearance, finite=finite)
     parts = selected(

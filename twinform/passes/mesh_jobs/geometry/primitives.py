@@ -8,7 +8,7 @@ from twinform.passes.mesh_jobs.geometry.convex import hull
 from twinform.passes.mesh_jobs.geometry.distances import Nearest, farthest
 from twinform.passes.mesh_jobs.geometry.libraries import Array, np, trimesh
 from twinform.passes.mesh_jobs.geometry.solver_libraries import optimize
-from twinform.passes.mesh_jobs.geometry.surface import Surface
+from twinform.passes.mesh_jobs.geometry.surface import TriangleSurface
 
 _AROUND, _FINENESS = 48, 3
 # Triangles in a round surface are deepest at their middle or at that of a side, or very near.
@@ -41,11 +41,11 @@ class Primitive(NamedTuple):
         """How far points are outside of it; negative inside."""
         return _DEPTHS[self.kind]((points - self.center) @ self.rotation, self.sizes)
 
-    def surface(self) -> tuple[Surface, float]:
+    def surface(self) -> tuple[TriangleSurface, float]:
         """Triangles of its surface, and how far these are off it at most."""
         mesh = _MESHES[self.kind](self.sizes)
         points = np.asarray(mesh.vertices, dtype=float) @ self.rotation.T + self.center
-        made = Surface(points, np.asarray(mesh.faces))
+        made = TriangleSurface(points, np.asarray(mesh.faces))
         sides = (made.triangles + np.roll(made.triangles, 1, axis=1)) / 2
         deepest = np.concatenate([made.triangles.mean(axis=1), sides.reshape(-1, 3)])
         return made, 0.0 if self.kind == "box" else _MARGIN * float(np.maximum(-self.depths(deepest), 0).max())
@@ -88,7 +88,7 @@ _MESHES: Mapping[str, Callable[[Sequence[float]], Any]] = {
 }
 
 
-def error_of(surface: Surface, primitive: Primitive, tolerance: float, limit: float = math.inf) -> float:
+def error_of(surface: TriangleSurface, primitive: Primitive, tolerance: float, limit: float = math.inf) -> float:
     """How far apart the outsides of a mesh and of a primitive are, at most: see `convex.error_of`."""
     beyond = max(0.0, float(primitive.depths(surface.points[np.unique(surface.faces)]).max()))
     if beyond > limit:
@@ -98,7 +98,7 @@ def error_of(surface: Surface, primitive: Primitive, tolerance: float, limit: fl
 
 
 def best(
-    surface: Surface, kinds: Sequence[str], tolerance: float, limit: float = math.inf
+    surface: TriangleSurface, kinds: Sequence[str], tolerance: float, limit: float = math.inf
 ) -> tuple[Primitive, float] | None:
     """The primitive of these kinds with the least error that was found, and its error; None without a candidate."""
     around = hull(surface.points[np.unique(surface.faces)])
@@ -122,7 +122,7 @@ def best(
     return min(measured, key=lambda each: each[1], default=None)
 
 
-def _candidates(around: Surface, kinds: Sequence[str]) -> Iterator[Primitive]:
+def _candidates(around: TriangleSurface, kinds: Sequence[str]) -> Iterator[Primitive]:
     for axes in _frames(around.points):
         at = around.points @ axes
         low, high = at.min(axis=0), at.max(axis=0)
@@ -195,7 +195,7 @@ def _misfit(primitive: Primitive, points: Array) -> float:
     return float(np.abs(primitive.depths(points)).max())
 
 
-def _spread(around: Surface) -> Array:
+def _spread(around: TriangleSurface) -> Array:
     """Points of a convex hull: its corners, and the middles of its sides and triangles."""
     triangles = around.triangles
     middles = (triangles + np.roll(triangles, 1, axis=1)) / 2

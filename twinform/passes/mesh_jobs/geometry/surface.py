@@ -14,7 +14,7 @@ class UnusableMeshError(RefusedMeshError):
     """Why nothing can be made of a mesh."""
 
 
-class Surface(NamedTuple):
+class TriangleSurface(NamedTuple):
     """Triangles: points as rows of x, y, z in meters, and three indices of points for each."""
 
     points: Array
@@ -96,7 +96,7 @@ def selected(parts: list[tuple[str, Any]], submesh: str | None, *, center: bool)
     return found
 
 
-def joined(parts: list[tuple[str, Any]]) -> Surface:
+def joined(parts: list[tuple[str, Any]]) -> TriangleSurface:
     """All triangles of some meshes, with points that are at one place merged, without those that have no area.
 
     Raises:
@@ -109,15 +109,15 @@ def joined(parts: list[tuple[str, Any]]) -> Surface:
     return surface
 
 
-def merged(triangles: Array) -> Surface:
+def merged(triangles: Array) -> TriangleSurface:
     """Triangles of corners as a surface, without those of which two corners are one."""
     points, index = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
     faces = index.reshape(-1, 3)
     apart = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
-    return Surface(points, faces[apart])
+    return TriangleSurface(points, faces[apart])
 
 
-def scaled(surface: Surface, scale: Any) -> Surface:
+def scaled(surface: TriangleSurface, scale: Any) -> TriangleSurface:
     """A surface stretched along x, y and z; its triangles still look outward where it is mirrored.
 
     Raises:
@@ -127,4 +127,4 @@ def scaled(surface: Surface, scale: Any) -> Surface:
     if not np.isfinite(factors).all() or not factors.all():
         raise UnusableMeshError("its scale is zero or no number")
     faces = surface.faces if np.prod(factors) > 0 else surface.faces[:, ::-1]
-    return Surface(surface.points * factors, faces)
+    return TriangleSurface(surface.points * factors, faces)

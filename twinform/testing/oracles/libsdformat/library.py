@@ -97,7 +97,7 @@ class RobotRow(TypedDict):
     plugins: list[PluginRow]
 
 
-class _Row(TypedDict):
+class _OutputRow(TypedDict):
     """A line of the program's output."""
 
     path: str
@@ -109,7 +109,7 @@ class _Row(TypedDict):
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class LibsdformatReading:
     """Whether the file was read without an error, and the errors as `code: message`.
 
     `console` is what the library writes to the terminal, warnings of its own and all that urdfdom finds: nothing of it
@@ -126,12 +126,12 @@ def available() -> bool:
     return _PROGRAM.can_be_built()
 
 
-def judge(paths: Iterable[Path]) -> dict[Path, Reading]:
+def judge(paths: Iterable[Path]) -> dict[Path, LibsdformatReading]:
     """The verdict on each file. A file on which the library crashes or hangs gets an error of its own."""
     waiting = [Path(path).resolve() for path in paths]
     names = "".join(f"{path}\n" for path in waiting).encode()
     done = subprocess.run([str(_PROGRAM.built())], input=names, stdout=subprocess.PIPE, check=True)
-    rows: list[_Row] = [json.loads(line) for line in done.stdout.decode(errors="replace").splitlines()]
+    rows: list[_OutputRow] = [json.loads(line) for line in done.stdout.decode(errors="replace").splitlines()]
     return {path: _reading(row) for path, row in zip(waiting, rows, strict=True)}
 
 
@@ -161,7 +161,7 @@ def describing() -> Generator[Callable[[Path], RobotRow]]:
         yield describe_one
 
 
-def _robot(row: _Row) -> RobotRow:
+def _robot(row: _OutputRow) -> RobotRow:
     if errors := _reading(row).errors:
         raise RuntimeError("; ".join(errors))
     if "robot" not in row:
@@ -169,7 +169,7 @@ def _robot(row: _Row) -> RobotRow:
     return row["robot"]
 
 
-def models_of(path: Path, folders: Iterable[Path] = ()) -> tuple[Reading, list[RobotRow]]:
+def models_of(path: Path, folders: Iterable[Path] = ()) -> tuple[LibsdformatReading, list[RobotRow]]:
     """The messages on a file, and all models of it, those of its worlds too; none where it is not read.
 
     Includes are looked up beside the file, and then in the folders.
@@ -183,11 +183,11 @@ def models_of(path: Path, folders: Iterable[Path] = ()) -> tuple[Reading, list[R
         cwd=path.parent,
         env={**os.environ, "SDF_PATH": places},
     )
-    row: _Row = json.loads(done.stdout.decode(errors="replace"))
+    row: _OutputRow = json.loads(done.stdout.decode(errors="replace"))
     reading = _reading(row)
     return reading, row.get("models", []) if reading.ok else []
 
 
-def _reading(row: _Row) -> Reading:
+def _reading(row: _OutputRow) -> LibsdformatReading:
     errors = tuple(f"{error['code']}: {error['message']}" for error in row["errors"])
-    return Reading(row["ok"], errors, row["console"])
+    return LibsdformatReading(row["ok"], errors, row["console"])

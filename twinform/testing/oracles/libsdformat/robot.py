@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
-from twinform.testing.oracles.kinematics import Joint, Link, Motion, robot
+from twinform.testing.oracles.kinematics import EngineJoint, EngineLink, Motion, robot
 from twinform.testing.oracles.libsdformat.library import JointRow, LinkRow, describe
 from twinform.testing.oracles.lumping import lumped
-from twinform.testing.oracles.robot import WORLD, Matrix, Robot, View, limit, pose
+from twinform.testing.oracles.robot import WORLD, EngineRobot, Matrix, View, limit, pose
 
 _MOTIONS = {2: Motion.TURNS, 3: Motion.FIXED, 5: Motion.SLIDES, 6: Motion.TURNS}
 """The kinds of joints that move in one way or not at all, by the library's numbers for them."""
@@ -17,7 +17,7 @@ _ENDLESS = {"lower": -math.inf, "upper": math.inf}
 """What a continuous joint has, whatever is written: in SDF its range has no ends."""
 
 
-def read(path: Path, view: View) -> Robot:
+def read(path: Path, view: View) -> EngineRobot:
     """The first model of a file.
 
     Raises:
@@ -33,26 +33,26 @@ def read(path: Path, view: View) -> Robot:
     return lumped(seen) if path.suffix == ".urdf" else seen
 
 
-def _held(links: list[Link], joints: list[Joint]) -> list[Joint]:
+def _held(links: list[EngineLink], joints: list[EngineJoint]) -> list[EngineJoint]:
     """What holds the roots of a static model where they are."""
     children = {joint.child for joint in joints}
     roots = (link for link in links if link.name not in children)
-    return [Joint(link.name, Motion.FIXED, WORLD, link.name, link.pose, np.zeros(3), {}) for link in roots]
+    return [EngineJoint(link.name, Motion.FIXED, WORLD, link.name, link.pose, np.zeros(3), {}) for link in roots]
 
 
-def link_of(row: LinkRow) -> Link:
+def link_of(row: LinkRow) -> EngineLink:
     """A link in the frame of its model."""
     xx, yy, zz, xy, xz, yz = row["moments"]
     inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-    return Link(row["name"], pose_matrix(row["pose"]), row["mass"], pose_matrix(row["center"]), inertia)
+    return EngineLink(row["name"], pose_matrix(row["pose"]), row["mass"], pose_matrix(row["center"]), inertia)
 
 
-def joint_of(row: JointRow) -> Joint:
+def joint_of(row: JointRow) -> EngineJoint:
     """A joint in the frame of its model."""
     limits = {name: limit(value) for name, value in row.get("limits", {}).items()}
     if row["kind"] == _CONTINUOUS:
         limits |= _ENDLESS
-    return Joint(
+    return EngineJoint(
         row["name"],
         _MOTIONS.get(row["kind"], Motion.OTHER),
         row["parent"],

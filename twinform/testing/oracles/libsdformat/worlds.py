@@ -9,10 +9,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from twinform.testing.oracles.comparison import judge, renamed
-from twinform.testing.oracles.kinematics import Joint, Motion, robot
+from twinform.testing.oracles.kinematics import EngineJoint, Motion, robot
 from twinform.testing.oracles.libsdformat.library import RobotRow
 from twinform.testing.oracles.libsdformat.robot import joint_of, link_of, pose_matrix
-from twinform.testing.oracles.robot import WORLD, Matrix, Robot, View
+from twinform.testing.oracles.robot import WORLD, EngineRobot, Matrix, View
 
 TOLERANCE = 1e-6
 """In m, kg and so on: urdfdom and the library's writer keep fewer digits than the files have."""
@@ -55,19 +55,22 @@ def _sensor(row: object) -> str:
     return f"{row['kind']} {row['name']}"
 
 
-def _held(row: RobotRow, view: View) -> Robot:
+def _held(row: RobotRow, view: View) -> EngineRobot:
     """The model with its roots where they are in the world, whether they are fixed to it or not."""
     links, joints = [link_of(each) for each in row["links"]], [joint_of(each) for each in row["joints"]]
     loose = _tree([joint for joint in joints if joint.parent != WORLD or joint.motion is not Motion.FIXED])
     children = {joint.child for joint in loose}
     roots = (link for link in links if link.name not in children)
-    held = [Joint(f"{WORLD} {link.name}", Motion.OTHER, WORLD, link.name, link.pose, np.zeros(3), {}) for link in roots]
+    held = [
+        EngineJoint(f"{WORLD} {link.name}", Motion.OTHER, WORLD, link.name, link.pose, np.zeros(3), {})
+        for link in roots
+    ]
     return robot("libsdformat", links, [*loose, *held], pose_matrix(row["pose"]), view)
 
 
-def _tree(joints: Sequence[Joint]) -> list[Joint]:
+def _tree(joints: Sequence[EngineJoint]) -> list[EngineJoint]:
     """The joints without those that close a loop."""
-    above: dict[str, Joint] = {}
+    above: dict[str, EngineJoint] = {}
     for joint in joints:
         name = joint.parent
         while name in above and name != joint.child:

@@ -17,7 +17,7 @@ from twinform.compiler.input.xacro.worker.expressions.budget import Budget, Exce
 from twinform.compiler.input.xacro.worker.expressions.functions import math_functions, python_functions
 from twinform.compiler.input.xacro.worker.expressions.interpreter import Interpreter
 from twinform.compiler.input.xacro.worker.expressions.syntax import parse
-from twinform.compiler.input.xacro.worker.expressions.values import DotDict, DotList, RefusedError, weigh
+from twinform.compiler.input.xacro.worker.expressions.values import DotDict, DotList, ExpressionRefusedError, weigh
 
 _VALUES: dict[str, Any] = {"i": 3, "x": 0.25, "s": "a b", "b": True, "l": [1, 2.5, "c"], "d": {"k": 1, "n": 0}}
 _EVALUATE: Callable[..., Any] = vars(import_module("builtins"))["eval"]
@@ -95,7 +95,7 @@ expressions = st.recursive(_LITERALS, _larger, max_leaves=8)
 def test_an_expression_has_the_value_that_python_gives_it_or_none(expression: str) -> None:
     try:
         ours = evaluate(expression, pi=math.pi, **deepcopy(_VALUES))
-    except (RefusedError, ExcessError):
+    except (ExpressionRefusedError, ExcessError):
         return
     except Exception:  # noqa: BLE001 - as below
         with pytest.raises(Exception):  # noqa: B017, PT011 - which one it is, Python decides
@@ -166,14 +166,14 @@ def test_all_expressions_of_a_file_share_one_budget() -> None:
 @pytest.mark.parametrize("value", [object(), print, math, int, Budget(), memoryview(b""), iter(())])
 def test_no_other_value_can_be_used_for_anything(value: Any) -> None:
     for expression in ("v", "v.real", "v()", "v[0]", "str(v)", "[v]", "v == v", "v + 1", "list(v)", "len(v)"):
-        with pytest.raises((RefusedError, TypeError)):
+        with pytest.raises((ExpressionRefusedError, TypeError)):
             evaluate(expression, v=value)
 
 
 @pytest.mark.parametrize("name", [name for name in ESCAPES if name.startswith(("classes", "functions"))])
 def test_escapes_by_syntax_or_name_fail_whatever_the_names_mean(name: str) -> None:
     expression = ESCAPES[name][0].rpartition("${")[2].partition("}")[0]
-    with pytest.raises((RefusedError, NameError, TypeError)):
+    with pytest.raises((ExpressionRefusedError, NameError, TypeError)):
         evaluate(expression, d=DotDict(a=1), xacro=DotDict(load_yaml=1), python=DotDict())
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from twinform.compiler.input.xacro import files
-from twinform.compiler.input.xacro.files import DeniedError, Files
+from twinform.compiler.input.xacro.files import AllowedFiles, DeniedError
 from twinform.compiler.input.xacro.variables import variable
 from twinform.file_access import Readable
 
@@ -30,9 +30,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def _files() -> Files:
+def _files() -> AllowedFiles:
     trusted = (Path("trusted"),)
-    return Files(Readable.of(Path("own/main.xacro"), trusted, trusted))
+    return AllowedFiles(Readable.of(Path("own/main.xacro"), trusted, trusted))
 
 
 @pytest.mark.parametrize("path", ["own/a.xacro", "own/sub/../a.xacro", "trusted/file", "trusted/link"])

@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 from tests.profile import examples
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget, ExcessError
 from twinform.compiler.input.xacro.worker.expressions.interpreter import Interpreter
-from twinform.compiler.input.xacro.worker.texts import Texts
+from twinform.compiler.input.xacro.worker.texts import TextEvaluator
 
 _XACRO: Any = import_module("xacro")
 
 
-def _texts(budget: Budget) -> Texts:
-    return Texts(Interpreter(budget).evaluate, _substitute, _XACRO.XacroException, budget)
+def _texts(budget: Budget) -> TextEvaluator:
+    return TextEvaluator(Interpreter(budget).evaluate, _substitute, _XACRO.XacroException, budget)
 
 
 def _substitute(text: str) -> str:

@@ -11,7 +11,7 @@ from PIL import Image
 import twinform
 from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.gazebo_model.thumbnail import thumbnail
-from twinform.compiler.packaging.layout import Layout
+from twinform.compiler.packaging.layout import PackageLayout
 from twinform.diagnostics import DiagnosticSink
 
 pytestmark = pytest.mark.slow
@@ -38,7 +38,7 @@ def _visual(name: str, pose: str, color: str, shape: str = _BALL) -> str:
 def _drawn(*visuals: str) -> tuple[bytes | None, DiagnosticSink]:
     sink = DiagnosticSink()
     return thumbnail(
-        twinform.loads(_TEXT.format("".join(visuals)).encode()), Collection(Layout({"model": "m"})), sink
+        twinform.loads(_TEXT.format("".join(visuals)).encode()), Collection(PackageLayout({"model": "m"})), sink
     ), sink
 
 
@@ -97,7 +97,7 @@ def test_nothing_to_be_drawn_is_a_note(visuals: list[str]) -> None:
 def test_corners_that_are_no_numbers_are_left_out(tmp_path: Path) -> None:
     mesh = tmp_path / "m.obj"
     mesh.write_text("v 0 0 0\nv 1 0 0\nv 0 1 1\nv nan 0 0\nf 1 2 3\nf 1 2 4\n")
-    collection = Collection(Layout({"model": "m"}), files={"meshes/m.obj": mesh})
+    collection = Collection(PackageLayout({"model": "m"}), files={"meshes/m.obj": mesh})
     shape = "<mesh><uri>model://m/meshes/m.obj</uri></mesh>"
     document = twinform.loads(_TEXT.format(_visual("v", "0 0 0", "1 0 0", shape)).encode())
     assert thumbnail(document, collection, DiagnosticSink())

@@ -8,7 +8,7 @@ import twinform
 from twinform.compiler import CompileError
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.packaging.kinds import build
-from twinform.compiler.packaging.order import Built, Details, Order
+from twinform.compiler.packaging.order import Built, Order, PackageDetails
 from twinform.compiler.request import ConversionRequest
 from twinform.ir.frames import FrameGraph
 from twinform.ir.node import Vector3
@@ -27,7 +27,7 @@ def packaged(name: str = "robot", passes: str = "", text: str = ROBOT) -> Built:
         folder=name,
         conversion=ConversionRequest(to="urdf", passes=parse_pipeline(passes)),
         load_options=LoadOptions(),
-        details=Details(description="A robot", maintainer="Ann", email="ann@example.org", license="MIT"),
+        details=PackageDetails(description="A robot", maintainer="Ann", email="ann@example.org", license="MIT"),
     )
     return build(order, ("ros2",))
 

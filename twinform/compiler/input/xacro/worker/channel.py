@@ -68,7 +68,7 @@ class MissingFileError(OSError):
     """A file that is not there: an include that is optional does without it."""
 
 
-class Channel:
+class WorkerChannel:
     """The pipes that the process was started with; nothing else can use them afterwards."""
 
     def __init__(self) -> None:

@@ -11,11 +11,11 @@ from xml.dom import minidom
 from twinform.compiler.input.xacro.worker.channel import Compiler, MissingFileError
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget
 from twinform.compiler.input.xacro.worker.expressions.interpreter import Interpreter
-from twinform.compiler.input.xacro.worker.expressions.values import Names, RefusedError, Value
+from twinform.compiler.input.xacro.worker.expressions.values import ExpressionRefusedError, NameLookup, Value
 from twinform.compiler.input.xacro.worker.language import xacro_functions
 from twinform.compiler.input.xacro.worker.places import FileLine, parse, place_of
 from twinform.compiler.input.xacro.worker.substitutions import Substitutions
-from twinform.compiler.input.xacro.worker.texts import Texts
+from twinform.compiler.input.xacro.worker.texts import TextEvaluator
 from twinform.compiler.input.xacro.worker.vocabulary import vocabulary
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ class Expander:
         self.substitutions = Substitutions(
             self.module, self.interpreter, self._package, compiler.environment, self._warn
         )
-        self.texts = Texts(self.interpreter.evaluate, self._substitute, self.xacro.XacroException, self.budget)
+        self.texts = TextEvaluator(self.interpreter.evaluate, self._substitute, self.xacro.XacroException, self.budget)
         theirs: Mapping[str, Any] = getattr(self.xacro, "_global_symbols", {})
         self.names = vocabulary(theirs, xacro_functions(self), self.budget, self._warn)
         self.data_files = self._data_files() if yaml else None
@@ -77,7 +77,7 @@ class Expander:
         path = self.path(name)
         if self.data_files is None:
             self.lacks_yaml = True
-            raise RefusedError("this process cannot read data files")
+            raise ExpressionRefusedError("this process cannot read data files")
         return self.data_files.load(self.compiler.read(path), path)
 
     def say(self, text: str) -> None:
@@ -130,7 +130,7 @@ class Expander:
 
         return call
 
-    def _text(self, text: str, symbols: Names) -> Value:
+    def _text(self, text: str, symbols: NameLookup) -> Value:
         """What xacro's function of the same arguments does."""
         return self.texts.value(text, symbols)
 
@@ -175,7 +175,7 @@ def _replace(module: ModuleType, replacements: Mapping[str, Any]) -> None:
 
 
 def _refuse(*_: object, **__: object) -> Any:
-    raise RefusedError("xacro must not evaluate or open anything by itself")
+    raise ExpressionRefusedError("xacro must not evaluate or open anything by itself")
 
 
 def _working_folder() -> str:

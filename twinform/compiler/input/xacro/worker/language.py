@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget
-from twinform.compiler.input.xacro.worker.expressions.values import DotDict, RefusedError, Value, text_of
+from twinform.compiler.input.xacro.worker.expressions.values import DotDict, ExpressionRefusedError, Value, text_of
 
 
 class Environment(Protocol):
@@ -74,6 +74,6 @@ def xacro_functions(environment: Environment) -> dict[str, Callable[..., Value]]
 
 def _tokenize(text: str, sep: str = ",; ", skip_empty: bool = True) -> list[str]:
     if "]" in sep:
-        raise RefusedError("the separators of 'tokenize' must not have ']' among them")
+        raise ExpressionRefusedError("the separators of 'tokenize' must not have ']' among them")
     found = re.split(f"[{sep}]", text)
     return [each for each in found if each] if skip_empty else found

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-from twinform.compiler.input.xacro.worker.channel import Channel, Compiler
+from twinform.compiler.input.xacro.worker.channel import Compiler, WorkerChannel
 from twinform.compiler.input.xacro.worker.expander import Expander
 from twinform.compiler.input.xacro.worker.expressions.budget import ExcessError
 from twinform.compiler.input.xacro.worker.failures import description
@@ -93,5 +93,5 @@ def main() -> None:
     """Do one task."""
     end_with_parent()
     limit()
-    channel = Channel()
+    channel = WorkerChannel()
     channel.send(run(channel))

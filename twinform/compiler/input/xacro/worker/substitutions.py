@@ -63,7 +63,7 @@ class Substitutions:
         }
         budget = self.interpreter.budget
         theirs: Mapping[str, Any] = getattr(self.module, "_eval_dict", {})
-        names = _Names(eval_vocabulary(theirs, own, budget), arguments, self._converted)
+        names = _SubstitutionNames(eval_vocabulary(theirs, own, budget), arguments, self._converted)
         return text_of(self.interpreter.evaluate(expression, names), budget)
 
     def _converted(self, arguments: Mapping[str, str], name: str) -> Value:
@@ -71,7 +71,7 @@ class Substitutions:
         return self.module.convert_value(arguments[name], "auto")
 
 
-class _Names:
+class _SubstitutionNames:
     """The names in `$(eval ...)`: what is offered, then the arguments of the file."""
 
     def __init__(

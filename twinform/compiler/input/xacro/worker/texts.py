@@ -5,7 +5,7 @@ import re
 from collections.abc import Callable
 
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget, require_length
-from twinform.compiler.input.xacro.worker.expressions.values import Names, Value, text_of
+from twinform.compiler.input.xacro.worker.expressions.values import NameLookup, Value, text_of
 
 # The four tokens of xacro's own lexer (`QuickLexer` in xacro/__init__.py), in its order.
 _PART = re.compile(
@@ -13,12 +13,12 @@ _PART = re.compile(
 )
 
 
-class Texts:
+class TextEvaluator:
     """Evaluates texts; `failure` makes the exception of xacro that names the expression at fault."""
 
     def __init__(
         self,
-        evaluate: Callable[[str, Names], Value],
+        evaluate: Callable[[str, NameLookup], Value],
         substitute: Callable[[str], str],
         failure: Callable[..., Exception],
         budget: Budget,
@@ -28,7 +28,7 @@ class Texts:
         self.failure = failure
         self.budget = budget
 
-    def value(self, text: str, names: Names) -> Value:
+    def value(self, text: str, names: NameLookup) -> Value:
         """The value of a text: of whatever type it is if the text is a single expression, and else a text."""
         if "$" not in text:
             return text
@@ -39,7 +39,7 @@ class Texts:
         require_length(sum(map(len, words)))
         return self.budget.write("".join(words))
 
-    def _parts(self, text: str, names: Names) -> list[Value]:
+    def _parts(self, text: str, names: NameLookup) -> list[Value]:
         found: list[Value] = []
         position = 0
         while position < len(text):
@@ -50,7 +50,7 @@ class Texts:
             position = match.end()
         return found
 
-    def _part(self, match: re.Match[str], names: Names) -> Value:
+    def _part(self, match: re.Match[str], names: NameLookup) -> Value:
         self.budget.spend()
         match match.lastgroup:
             case "expression":
@@ -60,12 +60,12 @@ class Texts:
             case _:
                 return match["escaped"] or match["plain"]
 
-    def _expression(self, text: str, names: Names) -> Value:
+    def _expression(self, text: str, names: NameLookup) -> Value:
         try:
             value = self.evaluate(self._text(text, names), names)
             return self.budget.write(value) if isinstance(value, str) else value
         except Exception as error:
             raise self.failure(exc=error, suffix=f"{os.linesep}when evaluating expression '{text}'") from error
 
-    def _text(self, text: str, names: Names) -> str:
+    def _text(self, text: str, names: NameLookup) -> str:
         return text_of(self.value(text, names), self.budget)

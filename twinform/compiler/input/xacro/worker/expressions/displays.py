@@ -6,7 +6,7 @@ from typing import Protocol
 
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget
 from twinform.compiler.input.xacro.worker.expressions.iterating import each, hashable
-from twinform.compiler.input.xacro.worker.expressions.values import Names, RefusedError, Value
+from twinform.compiler.input.xacro.worker.expressions.values import ExpressionRefusedError, NameLookup, Value
 
 
 class Evaluator(Protocol):
@@ -14,7 +14,7 @@ class Evaluator(Protocol):
 
     budget: Budget
 
-    def value(self, node: ast.expr, names: Names) -> Value:
+    def value(self, node: ast.expr, names: NameLookup) -> Value:
         """The value of a part."""
         ...
 
@@ -22,7 +22,7 @@ class Evaluator(Protocol):
 class _Scope:
     """The names of a comprehension, and those around it."""
 
-    def __init__(self, around: Names) -> None:
+    def __init__(self, around: NameLookup) -> None:
         self.around = around
         self.own: dict[str, Value] = {}
 
@@ -30,55 +30,55 @@ class _Scope:
         return self.own[name] if name in self.own else self.around[name]
 
 
-def list_display(evaluator: Evaluator, node: ast.List, names: Names) -> list[Value]:
+def list_display(evaluator: Evaluator, node: ast.List, names: NameLookup) -> list[Value]:
     """`[a, b]`."""
     return [evaluator.value(part, names) for part in node.elts]
 
 
-def tuple_display(evaluator: Evaluator, node: ast.Tuple, names: Names) -> tuple[Value, ...]:
+def tuple_display(evaluator: Evaluator, node: ast.Tuple, names: NameLookup) -> tuple[Value, ...]:
     """`(a, b)`."""
     return tuple(evaluator.value(part, names) for part in node.elts)
 
 
-def set_display(evaluator: Evaluator, node: ast.Set, names: Names) -> set[Value]:
+def set_display(evaluator: Evaluator, node: ast.Set, names: NameLookup) -> set[Value]:
     """`{a, b}`."""
     return {_key(evaluator, part, names) for part in node.elts}
 
 
-def dict_display(evaluator: Evaluator, node: ast.Dict, names: Names) -> dict[Value, Value]:
+def dict_display(evaluator: Evaluator, node: ast.Dict, names: NameLookup) -> dict[Value, Value]:
     """`{a: b}`."""
     pairs = [(key, value) for key, value in zip(node.keys, node.values, strict=True) if key]
     return {_key(evaluator, key, names): evaluator.value(value, names) for key, value in pairs}
 
 
-def list_comprehension(evaluator: Evaluator, node: ast.ListComp, names: Names) -> list[Value]:
+def list_comprehension(evaluator: Evaluator, node: ast.ListComp, names: NameLookup) -> list[Value]:
     """`[a for b in c]`."""
     return [evaluator.value(node.elt, scope) for scope in _scopes(evaluator, node.generators, names)]
 
 
-def generator(evaluator: Evaluator, node: ast.GeneratorExp, names: Names) -> Iterator[Value]:
+def generator(evaluator: Evaluator, node: ast.GeneratorExp, names: NameLookup) -> Iterator[Value]:
     """`(a for b in c)`, all of it at once: an iterator without a frame behind it."""
     # A real generator has a frame (`gi_frame`), and with it the globals of this module: the way out
     # of simpleeval.
     return iter([evaluator.value(node.elt, scope) for scope in _scopes(evaluator, node.generators, names)])
 
 
-def set_comprehension(evaluator: Evaluator, node: ast.SetComp, names: Names) -> set[Value]:
+def set_comprehension(evaluator: Evaluator, node: ast.SetComp, names: NameLookup) -> set[Value]:
     """`{a for b in c}`."""
     return {_key(evaluator, node.elt, scope) for scope in _scopes(evaluator, node.generators, names)}
 
 
-def dict_comprehension(evaluator: Evaluator, node: ast.DictComp, names: Names) -> dict[Value, Value]:
+def dict_comprehension(evaluator: Evaluator, node: ast.DictComp, names: NameLookup) -> dict[Value, Value]:
     """`{a: b for c in d}`."""
     scopes = _scopes(evaluator, node.generators, names)
     return {_key(evaluator, node.key, scope): evaluator.value(node.value, scope) for scope in scopes}
 
 
-def _key(evaluator: Evaluator, node: ast.expr, names: Names) -> Value:
+def _key(evaluator: Evaluator, node: ast.expr, names: NameLookup) -> Value:
     return hashable(evaluator.value(node, names), evaluator.budget)
 
 
-def _scopes(evaluator: Evaluator, generators: list[ast.comprehension], names: Names) -> Iterator[Names]:
+def _scopes(evaluator: Evaluator, generators: list[ast.comprehension], names: NameLookup) -> Iterator[NameLookup]:
     """The names as they are each time that the inside of a comprehension is evaluated."""
     if not generators:
         yield names
@@ -99,4 +99,4 @@ def _assign(target: ast.expr, value: Value, scope: _Scope, budget: Budget) -> No
             for part, item in zip(parts, list(each(value, budget)), strict=True):
                 _assign(part, item, scope, budget)
         case _:
-            raise RefusedError("a comprehension must assign to names")
+            raise ExpressionRefusedError("a comprehension must assign to names")

@@ -14,8 +14,8 @@ from twinform.compiler.input.xacro.worker.expressions.operations import add
 from twinform.compiler.input.xacro.worker.expressions.values import (
     MAPPINGS,
     SCALARS,
+    ExpressionRefusedError,
     Function,
-    RefusedError,
     Value,
     kind_of,
     text_of,
@@ -49,7 +49,7 @@ def refused(name: str) -> Function:
     """What stands for a function of xacro that is not offered."""
 
     def call(*_: Value, **__: Value) -> Value:
-        raise RefusedError(f"an expression must not use {name!r}")
+        raise ExpressionRefusedError(f"an expression must not use {name!r}")
 
     return Function(name, call)
 
@@ -144,7 +144,7 @@ def _range(_: Budget, *args: int) -> range:
 
 def _round(_: Budget, number: Value, ndigits: int | None = None) -> Value:
     if ndigits is not None and abs(ndigits) > _MOST_ROUNDED:
-        raise RefusedError(f"'round' must not be asked for {ndigits} digits")
+        raise ExpressionRefusedError(f"'round' must not be asked for {ndigits} digits")
     return round(number, ndigits)
 
 

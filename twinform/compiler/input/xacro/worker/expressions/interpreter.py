@@ -14,7 +14,7 @@ from twinform.compiler.input.xacro.worker.expressions.values import (
     SCALARS,
     TYPES,
     Function,
-    Names,
+    NameLookup,
     Value,
     weigh,
 )
@@ -27,7 +27,7 @@ class Interpreter:
         self.budget = budget
         self.scope = scope
 
-    def evaluate(self, expression: str, names: Names) -> Value:
+    def evaluate(self, expression: str, names: NameLookup) -> Value:
         """The value of an expression.
 
         Raises:
@@ -40,33 +40,33 @@ class Interpreter:
             weigh(value, self.budget)
         return value
 
-    def value(self, node: ast.expr, names: Names) -> Value:
+    def value(self, node: ast.expr, names: NameLookup) -> Value:
         """The value of a part of an expression."""
         self.budget.spend()
         return _EVALUATE[type(node)](self, node, names)
 
 
-def _constant(_: Interpreter, node: ast.Constant, __: Names) -> Value:
+def _constant(_: Interpreter, node: ast.Constant, __: NameLookup) -> Value:
     return node.value
 
 
-def _name(_: Interpreter, node: ast.Name, names: Names) -> Value:
+def _name(_: Interpreter, node: ast.Name, names: NameLookup) -> Value:
     try:
         return names[node.id]
     except KeyError as error:
         raise NameError(f"name {node.id!r} is not defined") from error
 
 
-def _binary(interpreter: Interpreter, node: ast.BinOp, names: Names) -> Value:
+def _binary(interpreter: Interpreter, node: ast.BinOp, names: NameLookup) -> Value:
     left, right = interpreter.value(node.left, names), interpreter.value(node.right, names)
     return binary(node.op, left, right, interpreter.budget)
 
 
-def _unary(interpreter: Interpreter, node: ast.UnaryOp, names: Names) -> Value:
+def _unary(interpreter: Interpreter, node: ast.UnaryOp, names: NameLookup) -> Value:
     return unary(node.op, interpreter.value(node.operand, names))
 
 
-def _boolean(interpreter: Interpreter, node: ast.BoolOp, names: Names) -> Value:
+def _boolean(interpreter: Interpreter, node: ast.BoolOp, names: NameLookup) -> Value:
     """The first value that decides, or the last one."""
     deciding = isinstance(node.op, ast.Or)
     value: Value = None
@@ -77,7 +77,7 @@ def _boolean(interpreter: Interpreter, node: ast.BoolOp, names: Names) -> Value:
     return value
 
 
-def _comparison(interpreter: Interpreter, node: ast.Compare, names: Names) -> bool:
+def _comparison(interpreter: Interpreter, node: ast.Compare, names: NameLookup) -> bool:
     left = interpreter.value(node.left, names)
     for operation, part in zip(node.ops, node.comparators, strict=True):
         right = interpreter.value(part, names)
@@ -87,11 +87,11 @@ def _comparison(interpreter: Interpreter, node: ast.Compare, names: Names) -> bo
     return True
 
 
-def _conditional(interpreter: Interpreter, node: ast.IfExp, names: Names) -> Value:
+def _conditional(interpreter: Interpreter, node: ast.IfExp, names: NameLookup) -> Value:
     return interpreter.value(node.body if interpreter.value(node.test, names) else node.orelse, names)
 
 
-def _subscript(interpreter: Interpreter, node: ast.Subscript, names: Names) -> Value:
+def _subscript(interpreter: Interpreter, node: ast.Subscript, names: NameLookup) -> Value:
     value = interpreter.value(node.value, names)
     if type(value) not in TYPES:
         weigh(value, interpreter.budget)
@@ -100,26 +100,26 @@ def _subscript(interpreter: Interpreter, node: ast.Subscript, names: Names) -> V
     return found
 
 
-def _index(interpreter: Interpreter, node: ast.expr, names: Names) -> Value:
+def _index(interpreter: Interpreter, node: ast.expr, names: NameLookup) -> Value:
     if not isinstance(node, ast.Slice):
         return hashable(interpreter.value(node, names), interpreter.budget)
     return slice(*(part and interpreter.value(part, names) for part in (node.lower, node.upper, node.step)))
 
 
-def _attribute(interpreter: Interpreter, node: ast.Attribute, names: Names) -> Value:
+def _attribute(interpreter: Interpreter, node: ast.Attribute, names: NameLookup) -> Value:
     found = member(interpreter.value(node.value, names), node.attr, interpreter.scope)
     interpreter.budget.pay(found)
     return found
 
 
-def _call(interpreter: Interpreter, node: ast.Call, names: Names) -> Value:
+def _call(interpreter: Interpreter, node: ast.Call, names: NameLookup) -> Value:
     call = _callee(interpreter, node.func, names)
     args = [interpreter.value(part, names) for part in node.args]
     named = {part.arg: interpreter.value(part.value, names) for part in node.keywords if part.arg}
     return call(*args, **named)
 
 
-def _callee(interpreter: Interpreter, node: ast.expr, names: Names) -> Callable[..., Value]:
+def _callee(interpreter: Interpreter, node: ast.expr, names: NameLookup) -> Callable[..., Value]:
     if isinstance(node, ast.Attribute):
         value = interpreter.value(node.value, names)
         return callable_member(value, node.attr, interpreter.scope, interpreter.budget)
@@ -136,7 +136,7 @@ def _callee(interpreter: Interpreter, node: ast.expr, names: Names) -> Callable[
 # RestrictedPython 9.0 calls itself "not a sandbox system" and bounds neither steps nor sizes. The
 # tree walk that they would save is 150 lines; bounding what methods, functions and operators make
 # is 500.
-_EVALUATE: Mapping[type[ast.expr], Callable[[Interpreter, Any, Names], Value]] = {
+_EVALUATE: Mapping[type[ast.expr], Callable[[Interpreter, Any, NameLookup], Value]] = {
     ast.Constant: _constant,
     ast.Name: _name,
     ast.BinOp: _binary,

@@ -6,9 +6,9 @@ from twinform.compiler.input.xacro.worker.expressions.budget import Budget
 from twinform.compiler.input.xacro.worker.expressions.methods import METHODS
 from twinform.compiler.input.xacro.worker.expressions.values import (
     DotDict,
+    ExpressionRefusedError,
     Function,
     Namespace,
-    RefusedError,
     Value,
     kind_of,
 )
@@ -27,9 +27,9 @@ def member(value: Value, name: str, scope: type | None) -> Value:
     if scope and type(value) is scope:
         return _named(value, name)
     if type(value) is not DotDict:
-        raise RefusedError(f"an expression must not use {name!r} of {_kind(value)}")
+        raise ExpressionRefusedError(f"an expression must not use {name!r} of {_kind(value)}")
     if name in _NAMES_OF_DICT:
-        raise RefusedError(f"an expression must not use {name!r} of a dictionary; [{name!r}] is its item")
+        raise ExpressionRefusedError(f"an expression must not use {name!r} of a dictionary; [{name!r}] is its item")
     if name not in value:
         raise AttributeError(f"The yaml dictionary has no key {name!r}")
     return value[name]
@@ -49,7 +49,7 @@ def callable_member(value: Value, name: str, scope: type | None, budget: Budget)
         return found.call
     if name not in methods:
         offered = ", ".join(sorted(methods))
-        raise RefusedError(f"an expression must not use {name!r} of {_kind(value)}, only {offered}")
+        raise ExpressionRefusedError(f"an expression must not use {name!r} of {_kind(value)}, only {offered}")
     method = methods[name]
     return lambda *args, **named: method(value, budget, *args, **named)
 

@@ -10,7 +10,7 @@ from twinform.compiler.input.xacro.worker.expressions.values import (
     SCALARS,
     DotDict,
     DotList,
-    RefusedError,
+    ExpressionRefusedError,
     Value,
     text_of,
     weigh,
@@ -93,7 +93,7 @@ def _field(match: re.Match[str], unnamed: Iterator[int], args: tuple[Value, ...]
     name = match[1]
     # `'{0.__class__}'.format(x)` would lead from a value to its class.
     if name is None and len(match[0]) == 1:
-        raise RefusedError("the fields of 'format' must be names or numbers, as in '{name}'")
+        raise ExpressionRefusedError("the fields of 'format' must be names or numbers, as in '{name}'")
     if name is None:
         return match[0][0]
     if not name:

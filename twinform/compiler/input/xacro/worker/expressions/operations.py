@@ -11,7 +11,7 @@ from twinform.compiler.input.xacro.worker.expressions.values import (
     SCALARS,
     SEQUENCES,
     TYPES,
-    RefusedError,
+    ExpressionRefusedError,
     Value,
     weigh,
 )
@@ -34,12 +34,12 @@ def binary(node: ast.operator, left: Value, right: Value, budget: Budget) -> Val
             _require_power(left, right)
         # `'%0999999999d' % 1` fills the memory.
         case ast.Mod() if isinstance(left, str):
-            raise RefusedError("an expression must not use '%' on a text")
+            raise ExpressionRefusedError("an expression must not use '%' on a text")
         case _:
             pass
     result = _BINARY[type(node)](left, right)
     if isinstance(result, complex):
-        raise RefusedError("an expression must not use complex numbers")
+        raise ExpressionRefusedError("an expression must not use complex numbers")
     budget.pay(result)
     return result
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 
 from twinform.compiler.input.xacro.worker.expressions.budget import ExcessError
-from twinform.compiler.input.xacro.worker.expressions.values import SCALARS, RefusedError
+from twinform.compiler.input.xacro.worker.expressions.values import SCALARS, ExpressionRefusedError
 
 LONGEST = 10_000
 """In characters. The longest real expression that we know has 300."""
@@ -59,17 +59,17 @@ def parse(expression: str) -> ast.expr:
 def _require_allowed(node: ast.AST) -> None:
     if type(node) not in _ALLOWED:
         name = type(node).__name__
-        raise RefusedError(f"an expression must not use {_CALLED.get(type(node), name)}")
+        raise ExpressionRefusedError(f"an expression must not use {_CALLED.get(type(node), name)}")
     match node:
         case ast.Constant() if type(node.value) not in SCALARS:
-            raise RefusedError(f"an expression must not use {node.value!r}")
+            raise ExpressionRefusedError(f"an expression must not use {node.value!r}")
         case ast.Name(id=name) | ast.Attribute(attr=name) if name.startswith("__"):
-            raise RefusedError(f"an expression must not use {name!r}")
+            raise ExpressionRefusedError(f"an expression must not use {name!r}")
         case ast.keyword(arg=None):
-            raise RefusedError("an expression must not use '**'")
+            raise ExpressionRefusedError("an expression must not use '**'")
         case ast.Dict(keys=keys) if None in keys:
-            raise RefusedError("an expression must not use '**'")
+            raise ExpressionRefusedError("an expression must not use '**'")
         case ast.comprehension(is_async=1):
-            raise RefusedError("an expression must not use 'async'")
+            raise ExpressionRefusedError("an expression must not use 'async'")
         case _:
             return

@@ -16,7 +16,7 @@ Value = Any
 """A value of an expression. What it may be is decided when it is used, by its exact type."""
 
 
-class Names(Protocol):
+class NameLookup(Protocol):
     """Where the names of an expression are looked up."""
 
     def __getitem__(self, name: str, /) -> Value:
@@ -28,7 +28,7 @@ class Names(Protocol):
         ...
 
 
-class RefusedError(Exception):
+class ExpressionRefusedError(Exception):
     """An expression wants what is not offered to it."""
 
 
@@ -127,7 +127,7 @@ def weigh(value: Value, budget: Budget) -> None:
         elif kind in _GONE_THROUGH:
             stack.extend(inner)
         elif kind not in TYPES:
-            raise RefusedError(f"an expression must not use {_described(inner)}")
+            raise ExpressionRefusedError(f"an expression must not use {_described(inner)}")
         if items + characters + len(stack) > LONGEST_TEXT:
             raise ExcessError(f"a value holds more than {LONGEST_TEXT:,} characters and items")
     budget.spend(1 + items // ITEMS_A_STEP + characters // CHARACTERS_A_STEP)
