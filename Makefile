@@ -50,13 +50,13 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.schemas.generate
 	$(BIN)/python -m twinform.diagnostics.rule_table twinform/diagnostics/rules/__init__.py
 	$(BIN)/python -m twinform.passes.framework.built_in_table twinform/passes/framework/built_in.py
-	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md
-	$(BIN)/python -m twinform.passes.framework.pages docs/reference/passes.md
-	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md
-	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md
-	$(BIN)/python -m twinform.profiles.page docs/reference/profiles
-	$(BIN)/python -m twinform.compiler.compare.page docs/reference/not_compared.md
-	$(BIN)/python -m twinform.cli.pages docs/reference/commands.md
+	$(BIN)/python -m twinform.diagnostics.rules_page docs/reference/rules.md
+	$(BIN)/python -m twinform.passes.framework.passes_page docs/reference/passes.md
+	$(BIN)/python -m twinform.passes.legalise.pipeline_page docs/explanation/pipeline.md
+	$(BIN)/python -m twinform.passes.plugins.plugins_page docs/reference/plugins.md
+	$(BIN)/python -m twinform.profiles.profile_pages docs/reference/profiles
+	$(BIN)/python -m twinform.compiler.compare.not_compared_page docs/reference/not_compared.md
+	$(BIN)/python -m twinform.cli.commands_page docs/reference/commands.md
 	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md
 	$(BIN)/python -m generators.mapping.elements urdf docs/reference/urdf
 	$(BIN)/python -m generators.mapping.elements sdf docs/reference/sdf
@@ -72,13 +72,13 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.schemas.generate --check
 	$(BIN)/python -m twinform.diagnostics.rule_table twinform/diagnostics/rules/__init__.py --check
 	$(BIN)/python -m twinform.passes.framework.built_in_table twinform/passes/framework/built_in.py --check
-	$(BIN)/python -m twinform.diagnostics.pages docs/reference/rules.md --check
-	$(BIN)/python -m twinform.passes.framework.pages docs/reference/passes.md --check
-	$(BIN)/python -m twinform.passes.legalise.page docs/explanation/pipeline.md --check
-	$(BIN)/python -m twinform.passes.plugins.pages docs/reference/plugins.md --check
-	$(BIN)/python -m twinform.profiles.page docs/reference/profiles --check
-	$(BIN)/python -m twinform.compiler.compare.page docs/reference/not_compared.md --check
-	$(BIN)/python -m twinform.cli.pages docs/reference/commands.md --check
+	$(BIN)/python -m twinform.diagnostics.rules_page docs/reference/rules.md --check
+	$(BIN)/python -m twinform.passes.framework.passes_page docs/reference/passes.md --check
+	$(BIN)/python -m twinform.passes.legalise.pipeline_page docs/explanation/pipeline.md --check
+	$(BIN)/python -m twinform.passes.plugins.plugins_page docs/reference/plugins.md --check
+	$(BIN)/python -m twinform.profiles.profile_pages docs/reference/profiles --check
+	$(BIN)/python -m twinform.compiler.compare.not_compared_page docs/reference/not_compared.md --check
+	$(BIN)/python -m twinform.cli.commands_page docs/reference/commands.md --check
 	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md --check
 	$(BIN)/python -m generators.mapping.elements urdf docs/reference/urdf --check
 	$(BIN)/python -m generators.mapping.elements sdf docs/reference/sdf --check

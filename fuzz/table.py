@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple, get_args
 from lsprotocol.types import METHOD_TO_TYPES
 
 from fuzz import targets
-from twinform.cli.config.settings import FileSettings, FormatSettings, Settings
+from twinform.cli.config.settings import FileSettings, FormatSettings, ProjectSettings
 from twinform.compiler import check
 from twinform.compiler.output.json import json_text
 from twinform.diagnostics import DiagnosticSink, catalog
@@ -93,7 +93,7 @@ def _configurations() -> Iterator[bytes]:
 
 
 def _settings() -> Iterator[str]:
-    for kind in (Settings, FileSettings, FormatSettings):
+    for kind in (ProjectSettings, FileSettings, FormatSettings):
         yield from (field.alias or name for name, field in kind.model_fields.items())
     yield from catalog()
     yield from registered_passes()

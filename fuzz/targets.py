@@ -23,11 +23,11 @@ from twinform.cli.format import command as format_command
 from twinform.compiler import check
 from twinform.compiler.batch.archives import LEAST_BYTES, MOST_TIMES, unpacked
 from twinform.compiler.batch.entries import FolderError
-from twinform.compiler.input.options import LoadResult
+from twinform.compiler.input.load_options import LoadResult
 from twinform.compiler.output.emitting import emit
 from twinform.compiler.output.json import json_text
 from twinform.compiler.reproducers.reproducer import Reproducer
-from twinform.compiler.search.uris import SearchPath, UriError
+from twinform.compiler.search.resolve_uris import SearchPath, UriError
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.baseline import Baseline, BaselineError
 from twinform.diagnostics.suppressions import parse_suppressions

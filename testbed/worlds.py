@@ -17,12 +17,12 @@ from lxml import etree
 import twinform
 from testbed.corpus.examine import rules_of
 from twinform.compiler import ConversionRequest, Language, LoadOptions, split
-from twinform.compiler.search.uris import SearchPath
+from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.file_access.roots import folders_around
 from twinform.ir import Document
 from twinform.testing.oracles import libsdformat
+from twinform.testing.oracles.libsdformat.compare_worlds import differences
 from twinform.testing.oracles.libsdformat.library import models_of
-from twinform.testing.oracles.libsdformat.worlds import differences
 
 _QUOTED = re.compile(r"'[^']*'")
 

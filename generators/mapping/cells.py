@@ -7,8 +7,8 @@ from generators.mapping.notes import destinations
 from testbed.markdown import rule_links
 from twinform.diagnostics import Fate, Severity
 from twinform.schemas.facts import Fact, print_version
+from twinform.server.mapping.row_targets import field_of, targets
 from twinform.server.mapping.rows import MappingRow
-from twinform.server.mapping.targets import field_of, targets
 
 ROOT = "../../.."
 """From a page to the root of the repository."""

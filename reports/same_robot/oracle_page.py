@@ -9,7 +9,7 @@ from reports.harness.let_go import Motion, motion_table
 from reports.same_robot.drake_verdicts import Outcome, Verdict
 from reports.same_robot.other_engines import Agreement, Answer
 from testbed.markdown import cross_table, first, grouped, listing, subsection, table
-from twinform.testing.oracles.comparison import TOLERANCE
+from twinform.testing.oracles.robot_comparison import TOLERANCE
 
 ABOUT = f"""\
 Every URDF file of the corpus is converted to SDF, and every SDF model that libsdformat 12 takes without an error to

@@ -15,11 +15,11 @@ from testbed.edits.judging import Outcome
 from testbed.markdown import listing, subsection, table
 from twinform.compiler.workers import Failure
 from twinform.passes.carriers.carriers import NAMESPACE
-from twinform.passes.transforms.notation import OFFSET
+from twinform.passes.transforms.pose_notation import OFFSET
 from twinform.testing import oracles
-from twinform.testing.oracles.comparison import chained, renamed
 from twinform.testing.oracles.in_process import read_robot, verdict_on
 from twinform.testing.oracles.robot import EngineRobot, View
+from twinform.testing.oracles.robot_comparison import chained, renamed
 
 KNOWN = Known(Path(__file__).with_name("edits.toml"), contains)
 _TOLERANCE = 1e-9

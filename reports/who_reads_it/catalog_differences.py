@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from reports.who_reads_it.sensor_sources import SensorSource
 from reports.who_reads_it.system_sources import Read, SystemSource
 from twinform.passes.plugins.catalog import sensors, systems
-from twinform.passes.plugins.parts import Alternative, PluginKind, PluginParameter, SensorKind, TopicChannel
+from twinform.passes.plugins.catalog_types import Alternative, PluginKind, PluginParameter, SensorKind, TopicChannel
 from twinform.passes.plugins.topic_patterns import without_parentheses
 
 # Names are compared wherever they stand in a plugin: the path of an element goes through variables in

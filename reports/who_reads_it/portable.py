@@ -19,7 +19,7 @@ from testbed.markdown import listing, subsection, table
 from testbed.output_files import OUT, kept
 from twinform.compiler.conversion import convert_once
 from twinform.compiler.fitting import assessed, fitted
-from twinform.compiler.input.options import LoadOptions
+from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.request import ConversionRequest
 from twinform.profiles import findings, parse
 

@@ -20,7 +20,7 @@ from twinform.compiler import LoadOptions
 pytest.importorskip("viser", reason="viser is not installed")
 
 from twinform.view import ViewSubject, read_subject, standalone_page
-from twinform.view.names import shortened
+from twinform.view.shown_names import shortened
 from twinform.view.viewer import Viewer, camera_for
 
 from .watched import strict_page

@@ -8,7 +8,7 @@ import pytest
 
 import twinform
 from twinform.passes.carriers.token_mass import CHAIN_MASS
-from twinform.testing.oracles.comparison import IN_CHAINS
+from twinform.testing.oracles.robot_comparison import IN_CHAINS
 
 np: Any = pytest.importorskip("numpy")
 pytest.importorskip("pydrake")

@@ -8,7 +8,7 @@ import pytest
 
 from testbed.engines.readers import LOADERS, Loader
 from tests.profile import DEEP
-from twinform.compiler.input.options import LoadOptions
+from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.profiling import assess_file
 from twinform.profiles import Assessment, Effect, parse
 

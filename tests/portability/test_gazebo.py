@@ -8,7 +8,7 @@ import pytest
 
 import twinform
 from testbed.engines import gazebo
-from twinform.compiler.input.options import LoadOptions
+from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.profiling import assess_file
 from twinform.profiles import Assessment, Effect, parse
 

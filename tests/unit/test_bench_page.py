@@ -104,10 +104,10 @@ def test_the_table_of_targets_says_which_are_met():
         (["ir/verify/links.py", "compiler/input/loading.py"], "verify the input"),
         (["ir/verify/links.py", "passes/framework/pipeline.py", "compiler/output/emitting.py"], "verify the result"),
         (["ir/rewrite.py", "passes/legalise/to_sdf/merge.py", "compiler/output/emitting.py"], "passes"),
-        (["schemas/text_output.py", "compiler/output/sdf.py"], "write"),
+        (["schemas/text_output.py", "compiler/output/write_sdf.py"], "write"),
         (["compiler/input/parsing.py", "compiler/input/loading.py"], "parse"),
         (["/lib/pydantic/main.py", "compiler/input/loading.py"], "Pydantic"),
-        (["schemas/reader.py", "compiler/input/urdf.py"], "read"),
+        (["schemas/reader.py", "compiler/input/read_urdf.py"], "read"),
         (["compiler/driver.py"], stages.REST),
     ],
 )

@@ -5,12 +5,12 @@ import click
 from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
-from twinform.cli.findings import show
 from twinform.cli.inputs import file_options, inputs, load_options_of
+from twinform.cli.print_findings import show
 from twinform.cli.printing import print_report
 from twinform.compiler import CompileError
 from twinform.compiler.advice import REPORTERS, advise
-from twinform.compiler.input.options import FileOptions
+from twinform.compiler.input.load_options import FileOptions
 from twinform.diagnostics.reporters import FileFindings
 from twinform.profiles import Profile, UnknownProfileError, load, names, parse
 from twinform.profiles.profile import PORTABLE

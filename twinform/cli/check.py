@@ -10,17 +10,17 @@ from twinform.cli.check_report import CheckReport
 from twinform.cli.command import Command
 from twinform.cli.completion import files, pipelines
 from twinform.cli.config.per_file import RuleSettings
-from twinform.cli.consumers import consumers_option
+from twinform.cli.consumer_option import consumers_option
 from twinform.cli.exclude import exclude_options, exclusion_of
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
-from twinform.cli.findings import all_option, notes_option
 from twinform.cli.inputs import model_inputs, reading_options
 from twinform.cli.own_options import OptionsByFile
 from twinform.cli.pipeline_option import pipeline_option
 from twinform.cli.policy import policy_options
+from twinform.cli.print_findings import all_option, notes_option
 from twinform.cli.source import InputSource
 from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, inspect, read
-from twinform.compiler.input.options import ReadingOptions
+from twinform.compiler.input.load_options import ReadingOptions
 from twinform.diagnostics.reporters import REPORTERS
 from twinform.passes import PassError
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from twinform.cli.baseline import BaselineFile
 from twinform.cli.failure import FINDINGS, UNUSABLE
-from twinform.cli.findings import placed, show
+from twinform.cli.print_findings import placed, show
 from twinform.cli.printing import print_document, print_line
 from twinform.compiler import LoadResult
 from twinform.diagnostics import Policy, Safety, Severity

@@ -13,7 +13,7 @@ def files(_ctx: Context, _parameter: Parameter, incomplete: str) -> list[Complet
 
 def rule_names(_ctx: Context, _parameter: Parameter, incomplete: str) -> list[CompletionItem]:
     """Rules, with what they find."""
-    from twinform.diagnostics.registry import rules  # noqa: PLC0415 - it reads entry points
+    from twinform.diagnostics.rule_registry import rules  # noqa: PLC0415 - it reads entry points
 
     known = {name: each.rule.finds for name, each in rules().items() if name.startswith(incomplete)}
     return [CompletionItem(name, help=finds.partition(". ")[0]) for name, finds in known.items()]

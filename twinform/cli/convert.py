@@ -12,21 +12,21 @@ from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.config import settings_of
 from twinform.cli.config.per_file import RuleSettings
-from twinform.cli.consumers import consumers_option, keep_physics_option
-from twinform.cli.conversion import Options, print_plan, run_job
-from twinform.cli.findings import all_option, notes_option
+from twinform.cli.consumer_option import consumers_option, keep_physics_option
+from twinform.cli.conversion_targets import TARGETS, ConversionJob, Target, jobs, jobs_in_place
 from twinform.cli.gazebo_files import GazeboFiles, companion_options, version_for
 from twinform.cli.inputs import inputs, reading_options
 from twinform.cli.instrumentation import InstrumentationOptions, watching_options
 from twinform.cli.outputs import Outputs
 from twinform.cli.own_options import OptionsByFile
 from twinform.cli.policy import policy_options
+from twinform.cli.print_findings import all_option, notes_option
 from twinform.cli.printing import print_line
 from twinform.cli.request import passes_of, request_options, whole_request
+from twinform.cli.run_conversion import Options, print_plan, run_job
 from twinform.cli.source import InputSource
-from twinform.cli.targets import TARGETS, ConversionJob, Target, jobs, jobs_in_place
 from twinform.compiler import ConversionRequest
-from twinform.compiler.input.options import ReadingOptions
+from twinform.compiler.input.load_options import ReadingOptions
 from twinform.compiler.request_options import RequestOptions
 
 if TYPE_CHECKING:

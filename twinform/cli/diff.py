@@ -3,16 +3,16 @@
 import click
 
 from twinform.cli.command import Command
-from twinform.cli.comparison import comparison_options
+from twinform.cli.comparison_options import comparison_options
 from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
-from twinform.cli.findings import show
 from twinform.cli.inputs import file_options, inputs, load_options_of
+from twinform.cli.print_findings import show
 from twinform.cli.printing import Color, print_report, print_text, styled
 from twinform.compiler import CompileError
 from twinform.compiler.compare import ComparisonOptions, DifferenceSeverity, compare_files
-from twinform.compiler.compare.reporters import REPORTERS, summary, text
-from twinform.compiler.input.options import FileOptions
+from twinform.compiler.compare.comparison_reporters import REPORTERS, summary, text
+from twinform.compiler.input.load_options import FileOptions
 from twinform.diagnostics.reporters import FileFindings
 
 _COLORS: dict[DifferenceSeverity, Color] = {

@@ -9,8 +9,8 @@ from twinform.cli.completion import rule_names
 from twinform.cli.failure import Unusable
 from twinform.cli.printing import print_text, styled
 from twinform.diagnostics import Rule
-from twinform.diagnostics.pages import sections, severity_words
-from twinform.diagnostics.registry import OWN, RegisteredRule, RuleRegistryError, find_rule, rules
+from twinform.diagnostics.rule_registry import OWN, RegisteredRule, RuleRegistryError, find_rule, rules
+from twinform.diagnostics.rules_page import sections, severity_words
 
 EXAMPLES = {
     "Say what a rule finds, and what is better": "twinform explain dangling-link",

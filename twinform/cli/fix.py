@@ -10,18 +10,18 @@ from twinform.cli.config.per_file import RuleSettings
 from twinform.cli.exclude import exclude_options, exclusion_of
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.files.model_files import is_plain
-from twinform.cli.findings import notes_option, show
 from twinform.cli.fixing import Fixing, fixed_source
 from twinform.cli.inputs import file_options, load_options_of, model_inputs
 from twinform.cli.mesh_progress import mesh_progress
 from twinform.cli.pipeline_option import pipeline_option
 from twinform.cli.policy import policy_of, policy_options
+from twinform.cli.print_findings import notes_option, show
 from twinform.cli.printing import print_line
 from twinform.cli.rewriting import Rewrite, show_differences, write_back
 from twinform.cli.source import InputSource
 from twinform.compiler import CompileError, ConversionRequest, Language, LoadResult, inspect, read
 from twinform.compiler.in_place import convert_bytes_in_place
-from twinform.compiler.input.options import FileOptions
+from twinform.compiler.input.load_options import FileOptions
 from twinform.diagnostics import Diagnostic
 from twinform.diagnostics.reporters import FileFindings
 from twinform.passes import PassError, Pipeline, SideFilePass

@@ -8,7 +8,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from twinform.cli.config import hold_limit
-from twinform.compiler.options import Option, declared_options
+from twinform.compiler.option import Option, declared_options
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 Decorator = Callable[[Any], Any]

@@ -12,16 +12,16 @@ from twinform.cli.config import config_options
 from twinform.cli.exclude import exclude_options, exclusion_of
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
 from twinform.cli.files.model_files import is_text
-from twinform.cli.findings import show
 from twinform.cli.inputs import model_inputs, size_option
+from twinform.cli.print_findings import show
 from twinform.cli.printing import print_document, print_line, print_text
 from twinform.cli.rewriting import Rewrite, write_back
 from twinform.cli.source import InputSource
 from twinform.compiler import CompileError
 from twinform.compiler.formatting import formatted
-from twinform.compiler.input.limits import LARGEST, Limits
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
-from twinform.compiler.options import given
+from twinform.compiler.input.size_limits import LARGEST, Limits
+from twinform.compiler.option import given
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.reporters import FileFindings
 from twinform.text import SourceText

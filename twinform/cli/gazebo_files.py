@@ -7,9 +7,9 @@ from typing import Any, TypeVar, get_args
 
 import click
 
-from twinform.cli.findings import show
 from twinform.cli.flags import group
 from twinform.cli.outputs import Output, Outputs
+from twinform.cli.print_findings import show
 from twinform.compiler import Conversion
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.reporters import FileFindings

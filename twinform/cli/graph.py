@@ -7,13 +7,13 @@ import click
 from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
-from twinform.cli.findings import show
 from twinform.cli.inputs import inputs, load_options_of, reading_options
 from twinform.cli.outputs import Outputs
+from twinform.cli.print_findings import show
 from twinform.compiler import expand, read
 from twinform.compiler.graph import WRITERS, build_graph
 from twinform.compiler.graph.mermaid import MOST_CHARACTERS, MOST_EDGES, fits
-from twinform.compiler.input.options import ReadingOptions
+from twinform.compiler.input.load_options import ReadingOptions
 from twinform.diagnostics.reporters import FileFindings
 
 _SUFFIXES = {".mmd": "mermaid", ".mermaid": "mermaid", ".dot": "dot", ".gv": "dot", ".svg": "svg"}

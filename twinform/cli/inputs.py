@@ -13,9 +13,9 @@ from twinform.cli.files.model_files import FileKind, is_model
 from twinform.cli.flags import flag, flags_of, group
 from twinform.cli.source import InputSource, open_source
 from twinform.compiler import LoadOptions
-from twinform.compiler.input.limits import LARGEST
-from twinform.compiler.input.options import FileOptions, ReadingOptions
-from twinform.compiler.options import declared_options
+from twinform.compiler.input.load_options import FileOptions, ReadingOptions
+from twinform.compiler.input.size_limits import LARGEST
+from twinform.compiler.option import declared_options
 from twinform.diagnostics import Policy
 
 if TYPE_CHECKING:

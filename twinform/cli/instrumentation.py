@@ -102,7 +102,7 @@ class InputInstrumentation:
 
 def show_fault(error: PassError, name: str, folder: Path | None = None) -> None:
     """Print what a pass did wrong to the input that messages call `name`, and write what makes it come again."""
-    from twinform.compiler.reproducers.files import write_reproducer  # noqa: PLC0415 - passes seldom fail
+    from twinform.compiler.reproducers.reproducer_files import write_reproducer  # noqa: PLC0415 - passes seldom fail
 
     print_line(f"{name}: {error}", err=True)
     try:

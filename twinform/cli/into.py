@@ -4,11 +4,11 @@ from pathlib import Path
 
 import click
 
-from twinform.cli.conversion import Options
+from twinform.cli.conversion_targets import ConversionJob, known_target
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.outputs import Outputs
+from twinform.cli.run_conversion import Options
 from twinform.cli.source import InputSource
-from twinform.cli.targets import ConversionJob, known_target
 from twinform.compiler import CompileError
 from twinform.compiler.in_place import TextChange
 from twinform.compiler.into import convert_into

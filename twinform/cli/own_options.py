@@ -13,7 +13,7 @@ from twinform.cli.inputs import load_options_of
 from twinform.cli.pipeline_option import configured_pipeline
 from twinform.cli.policy import policy_of
 from twinform.compiler import LoadOptions
-from twinform.compiler.input.options import FileOptions
+from twinform.compiler.input.load_options import FileOptions
 from twinform.diagnostics import Policy
 
 if TYPE_CHECKING:

@@ -8,15 +8,15 @@ from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.config.per_file import RuleSettings
 from twinform.cli.details import detail_options, details_of
-from twinform.cli.findings import all_option, notes_option
 from twinform.cli.gazebo_files import release_option, version_for
 from twinform.cli.inputs import inputs, reading_options
 from twinform.cli.own_options import OptionsByFile
 from twinform.cli.packaging import Packaging, run_packaging
 from twinform.cli.policy import policy_options
+from twinform.cli.print_findings import all_option, notes_option
 from twinform.cli.request import passes_of, request_options_of_versions, whole_request
 from twinform.compiler import ConversionRequest
-from twinform.compiler.input.options import ReadingOptions
+from twinform.compiler.input.load_options import ReadingOptions
 from twinform.compiler.packaging.kind_names import KIND_NAMES, kinds_of
 from twinform.compiler.packaging.order import Order, PackageDetails
 from twinform.compiler.request_options import RequestOptions

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import click
 
-from twinform.cli.conversion import summary
 from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
-from twinform.cli.findings import show
 from twinform.cli.instrumentation import show_fault
 from twinform.cli.outputs import Output, Outputs
+from twinform.cli.print_findings import show
 from twinform.cli.printing import print_line, print_text
+from twinform.cli.run_conversion import summary
 from twinform.cli.source import InputSource
 from twinform.compiler import CompileError
 from twinform.compiler.input.source_files import SourceFiles

@@ -9,13 +9,13 @@ import click
 from twinform.cli.command import Command
 from twinform.cli.completion import pass_names, pipelines
 from twinform.cli.config import config_options, settings_of
-from twinform.cli.config.options import Project
+from twinform.cli.config.config_defaults import Project
 from twinform.cli.failure import Unusable
 from twinform.cli.printing import print_document, print_text, styled
 from twinform.passes import Pass, PipelineError, Registered, RegistryError, parse_pipeline, registered_passes
-from twinform.passes.framework.options import nearest
-from twinform.passes.framework.pages import OptionPage, description, options, summary
-from twinform.passes.framework.registry import OWN
+from twinform.passes.framework.pass_options import nearest
+from twinform.passes.framework.pass_registry import OWN
+from twinform.passes.framework.passes_page import OptionPage, description, options, summary
 from twinform.passes.framework.tables import print_tables
 
 _TABLE_NAME = "mine"

@@ -10,8 +10,8 @@ from twinform.cli.config.per_file import NO_OWN_SETTINGS, OwnSettings, RuleSetti
 from twinform.cli.failure import Unusable
 from twinform.cli.flags import group
 from twinform.diagnostics import Policy
-from twinform.diagnostics.registry import RuleRegistryError, find_rule
-from twinform.diagnostics.registry import rules as known_rules
+from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule
+from twinform.diagnostics.rule_registry import rules as known_rules
 
 
 def policy_of(ctx: click.Context, typed: RuleSettings, own: OwnSettings = NO_OWN_SETTINGS) -> Policy:
@@ -53,7 +53,7 @@ def _known(_ctx: click.Context, option: click.Parameter, names: tuple[str, ...])
 
 def _problem(name: str, option: str) -> str:
     """What is wrong with a rule of an option; empty where nothing is."""
-    from twinform.passes.framework.options import nearest  # noqa: PLC0415 - most names are those of rules
+    from twinform.passes.framework.pass_options import nearest  # noqa: PLC0415 - most names are those of rules
 
     try:
         found = find_rule(name)

@@ -5,15 +5,15 @@ from pathlib import Path
 import click
 
 from twinform.cli.command import Command
-from twinform.cli.comparison import comparison_options
+from twinform.cli.comparison_options import comparison_options
 from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
-from twinform.cli.findings import show
 from twinform.cli.inputs import file_options, inputs, load_options_of
 from twinform.cli.outputs import Outputs
+from twinform.cli.print_findings import show
 from twinform.compiler import CompileError
 from twinform.compiler.compare import ComparisonOptions
-from twinform.compiler.input.options import FileOptions
+from twinform.compiler.input.load_options import FileOptions
 from twinform.diagnostics.reporters import FileFindings
 from twinform.report import WRITERS, build_report
 from twinform.report.content import make_page

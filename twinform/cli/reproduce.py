@@ -9,14 +9,14 @@ from twinform import __version__
 from twinform.cli.command import Command
 from twinform.cli.config.trust import Outside
 from twinform.cli.failure import FINDINGS, Unusable
-from twinform.cli.findings import paint
+from twinform.cli.print_findings import paint
 from twinform.cli.printing import print_line, print_text
 from twinform.compiler import LoadOptions
 from twinform.compiler.includes.other_documents import OtherDocuments
 from twinform.compiler.output.same_files import is_below
-from twinform.compiler.reproducers.files import read_reproducer
 from twinform.compiler.reproducers.reproducer import Reproducer
-from twinform.compiler.search.uris import LocalAssets, SearchPath
+from twinform.compiler.reproducers.reproducer_files import read_reproducer
+from twinform.compiler.search.resolve_uris import LocalAssets, SearchPath
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.reporters import FileFindings, concise
 from twinform.passes import PassError, PipelineError, RegistryError

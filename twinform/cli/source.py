@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import NamedTuple
 
-from twinform.compiler.input.limits import LARGEST
+from twinform.compiler.input.size_limits import LARGEST
 from twinform.file_access import STREAMS, Readable, read_up_to
 
 # Bytes that contain the root element of every file, except those that begin with a very long

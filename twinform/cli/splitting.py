@@ -3,11 +3,11 @@
 from dataclasses import replace
 from pathlib import Path
 
-from twinform.cli.conversion import Options, summary
+from twinform.cli.conversion_targets import Target
 from twinform.cli.failure import FINDINGS, UNUSABLE
 from twinform.cli.outputs import Outputs
+from twinform.cli.run_conversion import Options, summary
 from twinform.cli.source import InputSource
-from twinform.cli.targets import Target
 from twinform.compiler import CompileError, SplitWorld, split
 from twinform.passes import PassError
 

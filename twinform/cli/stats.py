@@ -5,11 +5,11 @@ import click
 from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.failure import FINDINGS, UNUSABLE
-from twinform.cli.findings import show
 from twinform.cli.inputs import inputs, load_options_of, reading_options
+from twinform.cli.print_findings import show
 from twinform.cli.printing import print_report
 from twinform.compiler import expand, read
-from twinform.compiler.input.options import ReadingOptions
+from twinform.compiler.input.load_options import ReadingOptions
 from twinform.compiler.statistics import REPORTERS, FileStatistics, measure
 from twinform.diagnostics.reporters import FileFindings
 

@@ -12,12 +12,12 @@ import click
 from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.failure import UNUSABLE, Unusable
-from twinform.cli.findings import show
 from twinform.cli.inputs import file_options, inputs, load_options_of
+from twinform.cli.print_findings import show
 from twinform.cli.printing import print_line
 from twinform.cli.source import InputSource
 from twinform.compiler import CompileError, LoadOptions
-from twinform.compiler.input.options import FileOptions
+from twinform.compiler.input.load_options import FileOptions
 from twinform.diagnostics import Diagnostic
 from twinform.diagnostics.reporters import FileFindings
 from twinform.signals import signals_exit_with

@@ -7,15 +7,15 @@ from twinform.lazy import lazy_attributes
 if TYPE_CHECKING:
     from twinform.compiler.checking import check
     from twinform.compiler.conversion import Conversion
+    from twinform.compiler.conversion_error import CompileError, ReadOnlyPassError
     from twinform.compiler.driver import convert, plan, run_conversion
     from twinform.compiler.dumping import dump, dumps
-    from twinform.compiler.errors import CompileError, ReadOnlyPassError
     from twinform.compiler.includes.expanding import expand
     from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, load, loads, read
     from twinform.compiler.inspection import inspect
     from twinform.compiler.request import ConversionRequest
     from twinform.compiler.request_options import URDF_VERSIONS, Language, UrdfVersion
-    from twinform.compiler.search.uris import SearchPath, UriError
+    from twinform.compiler.search.resolve_uris import SearchPath, UriError
     from twinform.compiler.splitting import SplitWorld, split
     from twinform.schemas import DEFAULT_SDF_VERSION
     from twinform.storage.writing import write_all_atomically, write_atomically
@@ -27,7 +27,7 @@ else:
             "twinform.compiler.conversion": "Conversion",
             "twinform.compiler.driver": "convert plan run_conversion",
             "twinform.compiler.dumping": "dump dumps",
-            "twinform.compiler.errors": "CompileError ReadOnlyPassError",
+            "twinform.compiler.conversion_error": "CompileError ReadOnlyPassError",
             "twinform.compiler.includes.expanding": "expand",
             "twinform.compiler.input.loading": "Input LoadOptions LoadResult load loads read",
             "twinform.compiler.inspection": "inspect",
@@ -35,7 +35,7 @@ else:
             "twinform.storage.writing": "write_all_atomically write_atomically",
             "twinform.compiler.request": "ConversionRequest",
             "twinform.compiler.request_options": "URDF_VERSIONS Language UrdfVersion",
-            "twinform.compiler.search.uris": "SearchPath UriError",
+            "twinform.compiler.search.resolve_uris": "SearchPath UriError",
             "twinform.compiler.splitting": "SplitWorld split",
         },
     )

@@ -5,9 +5,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
-from twinform.compiler.errors import CompileError
+from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.input.allowances import staying
-from twinform.compiler.input.comments import comments_of
 from twinform.compiler.input.loading import (
     Input,
     LoadOptions,
@@ -16,10 +15,11 @@ from twinform.compiler.input.loading import (
     read,
     read_tree_again,
 )
+from twinform.compiler.input.source_comments import comments_of
 from twinform.compiler.output.emitting import emit, emit_legal
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest
-from twinform.compiler.search.uris import LocalAssets
+from twinform.compiler.search.resolve_uris import LocalAssets
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile
 from twinform.diagnostics.rules import MISSING_ATTRIBUTE, MISSING_LIMIT, OUTSIDE_VERSION
 from twinform.ir import Document, Format, Include

@@ -3,8 +3,8 @@
 from typing import Unpack
 
 from twinform.compiler.conversion import Conversion, convert_once
-from twinform.compiler.input.options import CheckOptions, Input, LoadOptions, checking_options
-from twinform.compiler.options import require_options
+from twinform.compiler.input.load_options import CheckOptions, Input, LoadOptions, checking_options
+from twinform.compiler.option import require_options
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.request_options import Language, RequestOptions
 from twinform.ir import Document

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Literal
 
-from twinform.compiler.errors import CompileError
+from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink

@@ -9,11 +9,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from twinform.compiler.conversion import Conversion, convert_once
-from twinform.compiler.errors import CompileError
+from twinform.compiler.conversion_error import CompileError
+from twinform.compiler.input.load_options import Input, LoadOptions
 from twinform.compiler.input.loading import read
-from twinform.compiler.input.options import Input, LoadOptions
 from twinform.compiler.inspection import inspect
-from twinform.compiler.inspection.consumers import subject_of, unread
+from twinform.compiler.inspection.inspect_for_consumers import subject_of, unread
 from twinform.compiler.output.emitting import located
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import Diagnostic, LedgerEntry, Location, PhysicsChange, Severity

@@ -13,10 +13,10 @@ from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.joint_chains import CHAIN, PART
 from twinform.passes.carriers.joint_words import MIMIC
 from twinform.passes.carriers.token_mass import TOKEN_MASS
-from twinform.passes.legalise.names import NAME, SCOPED_NAME
-from twinform.passes.legalise.to_sdf.bodies import UNSAID
+from twinform.passes.legalise.changed_names import NAME, SCOPED_NAME
+from twinform.passes.legalise.to_sdf.root_masses import UNSAID
 from twinform.schemas import XmlElement
-from twinform.schemas.values import format_number
+from twinform.schemas.value_types import format_number
 
 _OURS = f"{{{NAMESPACE}}}"
 _CHAIN, _PART, _MADE, _GEARED, _URDF = (f"{_OURS}{word}" for word in (CHAIN, PART, SYNTHESIZED, GEARED, "urdf"))

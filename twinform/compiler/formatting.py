@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 
-from twinform.compiler.errors import CompileError
-from twinform.compiler.input.limits import USUAL_LIMITS, Limits, excess_of_bytes
+from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.input.parsing import UnreadableError, parse, refuse_excess
+from twinform.compiler.input.size_limits import USUAL_LIMITS, Limits, excess_of_bytes
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, rules
 from twinform.text import SourceText, UndecodableError, UnplacedError
 from twinform.text.formatting import FormatOptions, format_text

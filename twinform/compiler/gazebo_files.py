@@ -9,7 +9,7 @@ from twinform.ir import Document, Element, Format, Model, Opaque, Pose, World
 from twinform.passes.plugins.bridge import bridge_yaml, bridges
 from twinform.passes.plugins.ground_clearance import lowest_point
 from twinform.passes.plugins.sites import sensors_of
-from twinform.passes.plugins.worlds import (
+from twinform.passes.plugins.world_systems import (
     WorldRequirements,
     kind_of_sensor,
     needed_by_plugins,

@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from twinform.compiler.conversion import Conversion
+from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
-from twinform.compiler.errors import CompileError
 from twinform.compiler.input.loading import LoadOptions, read, read_tree
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.compiler.output.emitting import document_tree

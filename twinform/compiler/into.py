@@ -6,8 +6,8 @@ from pathlib import Path
 
 from twinform.compiler.compare import Difference, compare_files
 from twinform.compiler.conversion import Conversion
+from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
-from twinform.compiler.errors import CompileError
 from twinform.compiler.in_place import Updated, file_bytes, updated
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.request import ConversionRequest

@@ -3,8 +3,8 @@
 import sys
 
 from twinform.compiler.driver import ConversionOptions
-from twinform.compiler.input.options import CheckOptions, FileOptions, ReadingOptions
-from twinform.compiler.options import Option, declared_options
+from twinform.compiler.input.load_options import CheckOptions, FileOptions, ReadingOptions
+from twinform.compiler.option import Option, declared_options
 from twinform.compiler.request_options import RequestOptions
 from twinform.diagnostics.generated_files import main
 

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable
 
+from twinform.compiler.input.load_options import Input, LoadOptions
 from twinform.compiler.input.loading import read
-from twinform.compiler.input.options import Input, LoadOptions
 from twinform.compiler.inspection import inspect
-from twinform.compiler.inspection.consumers import subject_of
+from twinform.compiler.inspection.inspect_for_consumers import subject_of
 from twinform.profiles import Assessment, Profile, assess
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from twinform.compiler.options import given
+from twinform.compiler.option import given
 from twinform.compiler.request_options import URDF_VERSIONS, Language, RequestOptions, UrdfVersion, known_sdf_version
 from twinform.ir import Document, Format
 from twinform.passes import NO_ASSETS, Assets, Pass, Pipeline

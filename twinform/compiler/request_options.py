@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Annotated, Literal, TypedDict, get_args
 
-from twinform.compiler.options import Option
+from twinform.compiler.option import Option
 from twinform.schemas import versions_of
 
 if TYPE_CHECKING:

@@ -31,7 +31,7 @@ from twinform.ir.record import field_values
 from twinform.ir.references import IN_MODELS, ReferenceChange, ReferenceKind, map_references
 from twinform.ir.rewrite import map_children, replace_fields, replace_node, rewrite
 from twinform.ir.sensor import Sensor
-from twinform.ir.tree import children_of, count_parts, node_fields, node_values, walk
+from twinform.ir.tree_walks import children_of, count_parts, node_fields, node_values, walk
 from twinform.ir.visual import Collision, Material, Script, Surface, Visual
 from twinform.ir.world import World
 

@@ -19,7 +19,7 @@ from twinform.ir.node import Node
 from twinform.ir.pose import Frame, Pose
 from twinform.ir.record import Record
 from twinform.ir.sensor import Sensor
-from twinform.ir.tree import children_of, node_fields
+from twinform.ir.tree_walks import children_of, node_fields
 from twinform.ir.visual import Material, Visual
 from twinform.ir.world import World
 

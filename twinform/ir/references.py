@@ -14,7 +14,7 @@ from twinform.ir.node import Node
 from twinform.ir.pose import Frame, Pose
 from twinform.ir.rewrite import map_children
 from twinform.ir.sensor import Sensor
-from twinform.ir.tree import classes_below, classes_in, node_fields
+from twinform.ir.tree_walks import classes_below, classes_in, node_fields
 from twinform.ir.visual import Material
 
 AnyNode = TypeVar("AnyNode", bound=Node)

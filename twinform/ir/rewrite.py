@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 from twinform.ir.census import ANYTHING, bits_of, census_of
 from twinform.ir.node import Node
 from twinform.ir.sourced import Sourced
-from twinform.ir.tree import classes_below, classes_in, node_fields
+from twinform.ir.tree_walks import classes_below, classes_in, node_fields
 
 AnyPart = TypeVar("AnyPart", bound=Sourced)
 AnyNode = TypeVar("AnyNode", bound=Node)

@@ -11,7 +11,7 @@ from twinform.ir.element import Element, Opaque
 from twinform.ir.node import Node
 from twinform.ir.plugin import Plugin
 from twinform.ir.scopes import SCOPE
-from twinform.ir.tree import children_of
+from twinform.ir.tree_walks import children_of
 
 _PLUGIN = "plugin"
 

@@ -15,7 +15,7 @@ from twinform.lazy import lazy_attributes
 
 if TYPE_CHECKING:
     from twinform.profiles.assessment import Assessment, ConsumerVerdict, Judgment, assess
-    from twinform.profiles.findings import findings
+    from twinform.profiles.consumer_findings import findings
     from twinform.profiles.profile import (
         Effect,
         Profile,
@@ -32,7 +32,7 @@ else:
         __name__,
         {
             "twinform.profiles.assessment": "Assessment ConsumerVerdict Judgment assess",
-            "twinform.profiles.findings": "findings",
+            "twinform.profiles.consumer_findings": "findings",
             "twinform.profiles.profile": "Effect Profile ProfileError ProfileRow UnknownProfileError load names parse",
             "twinform.profiles.subject": "ProfiledFile",
         },

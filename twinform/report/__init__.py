@@ -14,7 +14,7 @@ from types import MappingProxyType
 from twinform.report.content import ModelReport, build_report
 from twinform.report.markdown import markdown
 from twinform.report.notebook import Shown, show
-from twinform.report.page import html
+from twinform.report.report_page import html
 
 WRITERS: Mapping[str, Callable[[ModelReport], str]] = MappingProxyType({"html": html, "md": markdown})
 """Every form by its name on the command line."""

@@ -5,18 +5,18 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from twinform.compiler.compare import USUAL, Comparison, ComparisonOptions, compare_files
+from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
-from twinform.compiler.errors import CompileError
 from twinform.compiler.graph import Graph, build_graph
 from twinform.compiler.includes.expanding import expand
 from twinform.compiler.input.finding_spans import with_columns
+from twinform.compiler.input.load_options import name_of_input
 from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
-from twinform.compiler.input.options import name_of_input
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.inspection import inspect
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.scene import Scene, build_scene
-from twinform.compiler.search.uris import SearchPath
+from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.compiler.statistics import FileStatistics, MeshCost, ModelStatistics, measure
 from twinform.diagnostics import Diagnostic, Ledger, Severity
 from twinform.diagnostics.reporters import FileFindings

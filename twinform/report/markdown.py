@@ -4,13 +4,13 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import islice
 
-from twinform.compiler.compare.reporters import amounts_of, heading_of, places_of, summary, what_differs
+from twinform.compiler.compare.comparison_reporters import amounts_of, heading_of, places_of, summary, what_differs
 from twinform.compiler.graph.mermaid import fits, mermaid
 from twinform.diagnostics import Diagnostic, Fate, Severity
 from twinform.diagnostics.reporters import printable
 from twinform.report.content import ModelReport, ReportSubject
-from twinform.report.page import outcome
-from twinform.report.parts import count, place
+from twinform.report.html_parts import count, place
+from twinform.report.report_page import outcome
 
 LARGEST = 65_536
 """What GitHub takes as a comment; counted in bytes, which is never less than in characters."""

@@ -8,8 +8,8 @@ from twinform.compiler.graph.svg import svg
 from twinform.diagnostics import Fate, Severity
 from twinform.diagnostics.reporters.grouping import grouped
 from twinform.ir import Document
+from twinform.report.html_parts import count, place
 from twinform.report.markup import Markup, element, join
-from twinform.report.parts import count, place
 
 if TYPE_CHECKING:
     from twinform.compiler import Conversion

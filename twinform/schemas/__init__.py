@@ -26,7 +26,7 @@ from twinform.schemas.validator import (
     validate,
     xmlschema_errors,
 )
-from twinform.schemas.values import VALUE_TYPES, format_value, parse_value
+from twinform.schemas.value_types import VALUE_TYPES, format_value, parse_value
 from twinform.schemas.written_rows import in_order, repeated_fields
 from twinform.schemas.xml import (
     XmlElement,

@@ -6,7 +6,7 @@ from typing import Any, Literal, get_args, get_origin
 
 from twinform.ir import Node
 from twinform.ir.record import fields_of, maker
-from twinform.ir.tree import classes_in
+from twinform.ir.tree_walks import classes_in
 
 Data = dict[str, Any]
 """The values of a node by their fields, while it is read."""

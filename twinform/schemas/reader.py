@@ -21,7 +21,7 @@ from twinform.schemas.node_makers import Data, NodeMaker, node_class, require_pl
 from twinform.schemas.row_findings import ReadChild, with_row_findings
 from twinform.schemas.untyped_parts import keep_element, locate
 from twinform.schemas.value_readers import text_reader
-from twinform.schemas.values import VALUE_TYPES
+from twinform.schemas.value_types import VALUE_TYPES
 from twinform.schemas.xml import XmlElement, is_blank
 
 _ROOTS: dict[str, type[Node]] = {"urdf": Model, "sdf": Document}

@@ -32,7 +32,7 @@ _IMPORT = Template("from twinform.schemas.$module import (\n$names\n)")
 _TYPES = ("TextOutput", "Write")
 _HELPERS = {
     "text_output": "bool_attribute bool_text in_attribute in_text pose_numbers vector3",
-    "values": "format_number format_numbers format_value",
+    "value_types": "format_number format_numbers format_value",
 }
 """The functions that code calls, by their modules."""
 _KINDS = Template("$name: dict[str, Write] = {\n$writers\n}\n")

@@ -13,7 +13,7 @@ from typing import Any
 from lxml import etree
 
 from twinform.schemas.facts import Version
-from twinform.schemas.values import format_numbers, format_value, parse_bool
+from twinform.schemas.value_types import format_numbers, format_value, parse_bool
 from twinform.schemas.written_rows import in_order
 
 Write = Callable[[Any, "TextOutput", str], str]

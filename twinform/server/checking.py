@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from twinform.compiler.fixing import with_fixes
 from twinform.compiler.input.finding_spans import with_columns
+from twinform.compiler.input.load_options import LoadOptions, LoadResult
 from twinform.compiler.input.loading import read
-from twinform.compiler.input.options import LoadOptions, LoadResult
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.inspection import inspect
 from twinform.diagnostics import Diagnostic, rules

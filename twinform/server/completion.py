@@ -6,19 +6,19 @@ from lsprotocol import types
 
 from twinform.diagnostics import Span
 from twinform.passes.plugins.catalog import systems
-from twinform.passes.plugins.parts import PluginParameter
+from twinform.passes.plugins.catalog_types import PluginParameter
 from twinform.schemas import Fact, rows_by_name
 from twinform.server.cursor import Cursor, CursorKind, cursor_at
+from twinform.server.document_names import kind_at
 from twinform.server.documents import TextDocument
 from twinform.server.hover import text_of_row
 from twinform.server.known_names import names_for
 from twinform.server.mapping.rows import MappingRow
-from twinform.server.names import kind_at
 from twinform.server.plugin_facts import described, parameter_of, parameters_in
 from twinform.server.proposal import Proposal, literal
 from twinform.server.schema import SchemaPlace, inside, is_of_xacro
 from twinform.server.session import Session
-from twinform.server.tree import TolerantNode
+from twinform.server.tolerant_tree import TolerantNode
 from twinform.server.xacro_completion import in_expression, xacro_attributes, xacro_elements
 
 _ITEM = types.CompletionItemKind

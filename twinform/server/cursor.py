@@ -5,7 +5,7 @@ from enum import Enum, auto
 
 from twinform.diagnostics import Span
 from twinform.server.documents import TextDocument
-from twinform.server.tree import TolerantNode
+from twinform.server.tolerant_tree import TolerantNode
 
 _BLANKS = " \t\r\n"
 

@@ -8,7 +8,7 @@ from lsprotocol import types
 from twinform.diagnostics import Diagnostic, Location, Severity, Span, catalog
 from twinform.diagnostics.addresses import rule_address
 from twinform.server.documents import TextDocument
-from twinform.server.tree import TolerantNode, Tree
+from twinform.server.tolerant_tree import TolerantNode, Tree
 
 SOURCE = "twinform"
 _SEVERITIES = {

@@ -9,11 +9,11 @@ from typing import Any, TypeVar
 
 from lsprotocol.types import PositionEncodingKind, TextDocumentContentChangeEvent, TextDocumentContentChangePartial
 
+from twinform.server.editor_uris import file_of, path_of
 from twinform.server.positions import Positions
 from twinform.server.schema import FormatName, Schema, format_of
 from twinform.server.settings import LARGEST, MOST_TAGS
-from twinform.server.tree import Tree, parse
-from twinform.server.uris import file_of, path_of
+from twinform.server.tolerant_tree import Tree, parse
 from twinform.text import SourceText
 
 Made = TypeVar("Made")

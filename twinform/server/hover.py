@@ -6,23 +6,23 @@ from functools import cache
 from lsprotocol import types
 
 from twinform.diagnostics import Diagnostic, Span
-from twinform.diagnostics.registry import RuleRegistryError, find_rule
+from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule
 from twinform.passes.plugins.catalog import systems
-from twinform.passes.plugins.parts import PluginKind
+from twinform.passes.plugins.catalog_types import PluginKind
 from twinform.schemas import table
 from twinform.schemas.documentation import Documentation
 from twinform.server.cursor import Cursor, CursorKind, cursor_at
 from twinform.server.diagnostics import span_of
+from twinform.server.document_names import name_at
 from twinform.server.documents import TextDocument
 from twinform.server.mapping.destinations import destination
 from twinform.server.mapping.rows import FORMATS, FormatName, MappingRow, rows
 from twinform.server.markdown import code, code_block
 from twinform.server.name import Name
-from twinform.server.names import name_at
 from twinform.server.navigation import Found, meant_by, search_of
 from twinform.server.plugin_facts import described, kind_of, parameter_of
 from twinform.server.session import Session
-from twinform.server.tree import TolerantNode
+from twinform.server.tolerant_tree import TolerantNode
 from twinform.server.xacro_names import ELEMENTS, PREFIX
 
 _OTHERS: dict[FormatName, str] = {"urdf": "SDF", "sdf": "URDF"}

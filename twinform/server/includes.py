@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
-from twinform.compiler.search.uris import SearchPath
+from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.diagnostics import Span
 from twinform.passes import AssetError
+from twinform.server.document_files import DocumentFiles
 from twinform.server.documents import TextDocument
-from twinform.server.files import DocumentFiles
-from twinform.server.tree import TolerantNode
+from twinform.server.tolerant_tree import TolerantNode
 
 _FIND = re.compile(r"\$\(find\s+(?P<package>[\w.-]+)\)(?P<rest>.*)", re.DOTALL)
 _DIRNAME = re.compile(r"\$\(dirname\)/?")

@@ -4,12 +4,12 @@ from collections.abc import Iterator
 
 from twinform.ir.references import ReferenceKind
 from twinform.passes.structure.scopes import LOOKUP_ORDER
+from twinform.server.document_names import names_of, scope_of_reference
 from twinform.server.documents import TextDocument
 from twinform.server.name import Name
-from twinform.server.names import names_of, scope_of_reference
 from twinform.server.navigation import search_of
 from twinform.server.session import Session
-from twinform.server.tree import TolerantNode
+from twinform.server.tolerant_tree import TolerantNode
 
 
 def names_for(session: Session, document: TextDocument, node: TolerantNode, kind: ReferenceKind) -> Iterator[Name]:

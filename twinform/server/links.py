@@ -4,11 +4,11 @@ from collections.abc import Iterator
 
 from lsprotocol import types
 
-from twinform.compiler.search.uris import SearchPath
+from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.diagnostics import Span
 from twinform.server.documents import TextDocument
+from twinform.server.editor_uris import uri_of
 from twinform.server.includes import includes_of, resolved, target
-from twinform.server.uris import uri_of
 
 # Elements of SDF whose text names a file that a person opens; the library of a plugin is none.
 _TEXTS = frozenset({"uri", "albedo_map", "normal_map", "roughness_map", "metalness_map", "filename", "file"})

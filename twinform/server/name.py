@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from twinform.diagnostics import Span
 from twinform.passes.structure.scopes import LOOKUP_ORDER
-from twinform.server.tree import TolerantNode
+from twinform.server.tolerant_tree import TolerantNode
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,14 +4,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from twinform.compiler.search.uris import SearchPath
+from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.diagnostics import Span
+from twinform.server.document_names import defined, found_in, name_at, names_of, surroundings
 from twinform.server.documents import TextDocument
 from twinform.server.includes import includes_of, target
 from twinform.server.name import Name
-from twinform.server.names import defined, found_in, name_at, names_of, surroundings
 from twinform.server.session import Session
-from twinform.server.tree import TolerantNode
+from twinform.server.tolerant_tree import TolerantNode
 from twinform.server.xacro_names import XACRO_KINDS
 
 

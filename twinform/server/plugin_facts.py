@@ -5,8 +5,8 @@ from twinform.passes.plugins.catalog import (
     system_of_class,
     systems_of_file,
 )
-from twinform.passes.plugins.parts import PluginKind, PluginParameter
-from twinform.server.tree import TolerantNode
+from twinform.passes.plugins.catalog_types import PluginKind, PluginParameter
+from twinform.server.tolerant_tree import TolerantNode
 
 
 def plugin_around(node: TolerantNode | None) -> TolerantNode | None:

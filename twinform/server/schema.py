@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from twinform.schemas import Fact, Table, Version, parse_version, rows_by_name, table
 from twinform.server.mapping.rows import FORMATS, FormatName, MappingRow
-from twinform.server.tree import TolerantNode, Tree
+from twinform.server.tolerant_tree import TolerantNode, Tree
 
 __all__ = ["FormatName", "Schema", "SchemaPlace", "format_of", "inside", "is_of_xacro"]
 

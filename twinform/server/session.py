@@ -9,8 +9,8 @@ from lsprotocol import types
 from twinform.diagnostics import Diagnostic
 from twinform.server.checking import Checked, CheckJob
 from twinform.server.diagnostics import as_protocol, by_file, notice
+from twinform.server.document_files import DocumentFiles
 from twinform.server.documents import Documents, TextDocument
-from twinform.server.files import DocumentFiles
 from twinform.server.includes import IncludedNeighbors
 from twinform.server.scheduling import PAUSE, Checks
 from twinform.server.settings import SettingsOf

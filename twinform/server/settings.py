@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from twinform.compiler.input.limits import Limits
-from twinform.compiler.input.options import LoadOptions
+from twinform.compiler.input.load_options import LoadOptions
+from twinform.compiler.input.size_limits import Limits
 from twinform.diagnostics import Policy
 from twinform.text.formatting import FormatOptions
 

@@ -2,11 +2,11 @@
 
 from lsprotocol import types
 
+from twinform.server.document_names import names_of
 from twinform.server.documents import TextDocument
 from twinform.server.name import Name
-from twinform.server.names import names_of
 from twinform.server.session import Session
-from twinform.server.tree import TolerantNode
+from twinform.server.tolerant_tree import TolerantNode
 
 _KINDS = {
     "robot": types.SymbolKind.Module,

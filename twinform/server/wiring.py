@@ -15,17 +15,17 @@ from twinform import __version__
 from twinform.server.actions import FIX_ALL, RUN_PASSES, actions, edit_of, text_edits, word_of
 from twinform.server.completion import complete
 from twinform.server.documents import TextDocument
-from twinform.server.editing import Rewritten, lay_out, run_passes
+from twinform.server.editor_uris import file_of
 from twinform.server.folding import folds
 from twinform.server.hover import hover, warm_up
 from twinform.server.links import links
 from twinform.server.navigation import DocumentPlace, definitions, references, search_of
 from twinform.server.protocol import Protocol
-from twinform.server.renaming import RenameRefusedError, prepare, rename
+from twinform.server.rename_symbol import RenameRefusedError, prepare, rename
+from twinform.server.rewrite_document import Rewritten, lay_out, run_passes
 from twinform.server.session import Session
 from twinform.server.settings import SettingsOf, no_settings
 from twinform.server.symbols import outline, search
-from twinform.server.uris import file_of
 from twinform.server.workers import TaskError, Worker
 
 Answer = TypeVar("Answer")

@@ -11,7 +11,7 @@ from twinform.server.known_names import names_of_kind
 from twinform.server.name import Name
 from twinform.server.proposal import Proposal, literal
 from twinform.server.session import Session
-from twinform.server.tree import TolerantNode
+from twinform.server.tolerant_tree import TolerantNode
 from twinform.server.xacro_names import ELEMENTS, PREFIX, parameter_names
 
 _ITEM = types.CompletionItemKind

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from twinform.diagnostics import Span
 from twinform.server.documents import TextDocument
 from twinform.server.name import Name
-from twinform.server.tree import TolerantNode
+from twinform.server.tolerant_tree import TolerantNode
 
 PREFIX = "xacro:"
 ELEMENTS: dict[str, tuple[tuple[str, ...], tuple[str, ...], str]] = {

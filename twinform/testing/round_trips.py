@@ -11,7 +11,7 @@ from twinform.compiler.includes.expanding import expand
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.normal_form import normal_form
 from twinform.compiler.output.emitting import emit
-from twinform.compiler.search.uris import SearchPath
+from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format
 from twinform.passes.analyses.candidates import name_once_expanded, wanted_includes

@@ -7,7 +7,7 @@ from twinform.lazy import lazy_attributes
 if TYPE_CHECKING:
     from twinform.text.alignment import same_element
     from twinform.text.applying import OverlapError, apply
-    from twinform.text.editing import Editor
+    from twinform.text.element_edits import Editor
     from twinform.text.masking import masked
     from twinform.text.merging import Conflict, Merge, merge
     from twinform.text.patching import edits, patch
@@ -20,7 +20,7 @@ else:
         {
             "twinform.text.alignment": "same_element",
             "twinform.text.applying": "OverlapError apply",
-            "twinform.text.editing": "Editor",
+            "twinform.text.element_edits": "Editor",
             "twinform.text.masking": "masked",
             "twinform.text.merging": "Conflict Merge merge",
             "twinform.text.patching": "edits patch",

@@ -22,7 +22,7 @@ from twinform.text.alignment import (
     stripped,
     texts,
 )
-from twinform.text.renaming import with_renamed
+from twinform.text.renamed_elements import with_renamed
 
 
 class Conflict(NamedTuple):

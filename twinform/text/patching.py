@@ -11,9 +11,9 @@ from twinform.diagnostics import Span, TextEdit
 from twinform.schemas import XmlElement
 from twinform.text.alignment import ElementContents, aligned, elements, texts
 from twinform.text.applying import apply
-from twinform.text.editing import Editor
+from twinform.text.element_edits import Editor
 from twinform.text.positions import ElementSpan, spans
-from twinform.text.renaming import renamed, with_renamed
+from twinform.text.renamed_elements import renamed, with_renamed
 from twinform.text.serializing import Prefixes, contents, serialized, value_of
 from twinform.text.source_text import SourceText
 from twinform.text.surroundings import TextSurroundings

@@ -10,7 +10,7 @@ from twinform.compiler.scene import Kinematics, Positions, Scene, SceneJoint, Sc
 from twinform.ir import Plane, Vector3
 from twinform.ir.transform import Transform
 from twinform.view.mesh_drawings import MeshDrawings
-from twinform.view.names import shortened
+from twinform.view.shown_names import shortened
 from twinform.view.triangles import Triangles, triangles_of
 
 np: Any = importlib.import_module("numpy")

@@ -10,7 +10,7 @@ from twinform.compiler.scene import Degree, SceneJoint
 from twinform.ir import Vector3
 from twinform.ir.motion import plane_across, slide, turn
 from twinform.view.figure import Figure, Handle, Rgb
-from twinform.view.names import shortened
+from twinform.view.shown_names import shortened
 
 np: Any = importlib.import_module("numpy")
 

@@ -8,8 +8,8 @@ from twinform.ir.transform import Transform
 from twinform.view.figure import Figure, Handle, Rgb, rgb
 from twinform.view.joint_marks import joint_axes, joint_limits, skeleton
 from twinform.view.mass_marks import centers, inertias
-from twinform.view.names import shortened
 from twinform.view.sensor_marks import sensors
+from twinform.view.shown_names import shortened
 
 SKELETON = "Skeleton"
 _COLLISION: Rgb = (230, 90, 60)

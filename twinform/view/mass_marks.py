@@ -8,7 +8,7 @@ from twinform.ir.principal_moments import principal_axes
 from twinform.ir.solids import Solid
 from twinform.ir.transform import Transform
 from twinform.view.figure import Figure, Handle, Rgb, placed
-from twinform.view.names import shortened
+from twinform.view.shown_names import shortened
 
 _INERTIA: Rgb = (60, 140, 230)
 _TOO_LARGE: Rgb = (220, 40, 40)

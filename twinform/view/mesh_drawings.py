@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from twinform.compiler.search.uris import LocalAssets, SearchPath
+from twinform.compiler.search.resolve_uris import LocalAssets, SearchPath
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Mesh
 from twinform.passes import NO_ASSETS
-from twinform.passes.analyses.meshes import MeshError
+from twinform.passes.analyses.mesh_solids import MeshError
 from twinform.passes.meshes.mesh_pass import Workbench
 from twinform.passes.meshes.mesh_source import MeshSources
 

@@ -8,7 +8,7 @@ from typing import Any
 from twinform.compiler.scene import Frustum
 from twinform.ir import Vector3
 from twinform.view.figure import Figure, Handle, Rgb, placed
-from twinform.view.names import shortened
+from twinform.view.shown_names import shortened
 
 np: Any = importlib.import_module("numpy")
 

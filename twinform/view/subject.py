@@ -7,7 +7,7 @@ from functools import cached_property
 from pathlib import Path
 
 from twinform.compiler.scene import Scene
-from twinform.compiler.search.uris import SearchPath
+from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.diagnostics import Diagnostic, Location
 from twinform.diagnostics.ledger import LedgerEntry
 from twinform.ir import Document

@@ -17,13 +17,13 @@ from twinform.compiler.scene import Positions
 from twinform.view import page_script
 from twinform.view.access import Access
 from twinform.view.camera import Camera
-from twinform.view.errors import PortTakenError, ViewError
 from twinform.view.figure import Figure, Handle, Look
 from twinform.view.joint_controls import Choices
 from twinform.view.mesh_drawings import MeshDrawings
-from twinform.view.names import shortened
 from twinform.view.panel import Panel
+from twinform.view.shown_names import shortened
 from twinform.view.subject import ViewSubject
+from twinform.view.view_errors import PortTakenError, ViewError
 
 np: Any = importlib.import_module("numpy")
 viser: Any = importlib.import_module("viser")

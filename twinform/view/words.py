@@ -9,9 +9,9 @@ from twinform.diagnostics import Diagnostic, Severity
 from twinform.diagnostics.ledger import LedgerEntry
 from twinform.view.difference_colors import MEANINGS
 from twinform.view.figure import Rgb
-from twinform.view.names import shortened
+from twinform.view.shown_names import shortened
 from twinform.view.subject import ViewSubject
-from twinform.view.tree import Mark
+from twinform.view.tree_rows import Mark
 
 QUIET: Rgb = (110, 116, 125)
 _SEVERITIES: Mapping[Severity, tuple[str, Rgb]] = {

@@ -2,11 +2,11 @@
 
 import re
 
-from twinform.compiler.fixing import Site
+from twinform.compiler.fixing import FindingSite
 from twinform.diagnostics import Fix, Safety, TextEdit
 
 
-def house_style(site: Site) -> Fix | None:
+def house_style(site: FindingSite) -> Fix | None:
     """The name in small letters with underscores, wherever the file says it."""
     old = site.finding.found or ""
     new = re.sub(r"\W+", "_", old.strip()).lower()

@@ -65,7 +65,7 @@ _UNUSED = {
     "check": [
         "pydantic",
         "twinform.passes.legalise",
-        "twinform.passes.framework.base",
+        "twinform.passes.framework.pass_base",
         "twinform.cli.config.settings",
         "difflib",
     ],

@@ -6,7 +6,7 @@ import pytest
 
 from twinform.diagnostics import Rule, Severity, catalog, rules
 from twinform.diagnostics.built_in_rule import rule as built_in
-from twinform.diagnostics.registry import OWN, find_rule
+from twinform.diagnostics.rule_registry import OWN, find_rule
 
 
 def test_every_rule_is_found_by_its_name_and_by_its_constant() -> None:

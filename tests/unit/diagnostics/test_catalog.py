@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 from twinform.diagnostics import catalog
-from twinform.diagnostics.pages import rules_page, sections, severity_words
+from twinform.diagnostics.rules_page import rules_page, sections, severity_words
 
 PAGE = Path(__file__).parents[3] / "docs/reference/rules.md"
 RULES = list(catalog().values())
@@ -55,5 +55,5 @@ def test_an_old_page_is_found_and_renewed(tmp_path: Path) -> None:
 
 
 def generator(*arguments: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "twinform.diagnostics.pages", *arguments]
+    command = [sys.executable, "-m", "twinform.diagnostics.rules_page", *arguments]
     return subprocess.run(command, capture_output=True, text=True, check=False)

@@ -7,8 +7,8 @@ from generators.mapping.notes import Note, destinations, notes
 from generators.mapping.page import page
 from testbed.corpus.files import ROOT
 from twinform.diagnostics.catalog import catalog
+from twinform.server.mapping.row_targets import field_of, targets
 from twinform.server.mapping.rows import FORMATS, FormatName, rows, sections, unreachable
-from twinform.server.mapping.targets import field_of, targets
 
 PAGE = ROOT / "docs/explanation/mapping.md"
 

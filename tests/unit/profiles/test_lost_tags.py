@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from twinform.compiler.input.options import LoadOptions
+from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.profiling import assess_file
 from twinform.profiles import parse
 from twinform.testing.oracles import libsdformat

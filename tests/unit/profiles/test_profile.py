@@ -12,8 +12,8 @@ from twinform.passes import parse_pipeline
 from twinform.profiles import Effect, Profile, ProfileRow, UnknownProfileError, load, names, parse
 from twinform.profiles.counterparts import OF_FACTS
 from twinform.profiles.profile import PORTABLE
-from twinform.profiles.reading.notation import reads
-from twinform.profiles.reading.tree import FACTS
+from twinform.profiles.reading.reads_notation import reads
+from twinform.profiles.reading.tree_facts import FACTS
 from twinform.profiles.remedies import REMEDIES, in_order
 
 _EVERY = [profile for name in names() if name != PORTABLE for profile in load(name)]

@@ -9,7 +9,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.schemas import Context, Fact
 from twinform.schemas.plain_values import plain_values, store_plain
 from twinform.schemas.value_readers import attribute_reader, text_reader
-from twinform.schemas.values import VALUE_TYPES
+from twinform.schemas.value_types import VALUE_TYPES
 
 NOW = (1, 5)
 TEXTS = (

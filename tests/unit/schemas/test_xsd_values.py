@@ -7,7 +7,7 @@ import xmlschema
 from lxml import etree
 
 from twinform.schemas import Fact, XmlElement, generate
-from twinform.schemas.values import VALUE_TYPES
+from twinform.schemas.value_types import VALUE_TYPES
 from twinform.schemas.xsd_values import TOKENS, XS, Values, xs
 
 NUMBERS = "1|-1|+1|007|1.|.5|-.5|1.5|1e5|1E-5|+.5e+3|-0|-0.0|12345678901234567890"

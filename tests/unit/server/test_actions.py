@@ -9,7 +9,7 @@ from twinform.diagnostics import Diagnostic, Fix, Location, Safety, Severity, Sp
 from twinform.server.actions import FIX_ALL, actions, edit_of, together
 from twinform.server.checking import CheckJob, check
 from twinform.server.documents import TextDocument
-from twinform.server.editing import lay_out, run_passes
+from twinform.server.rewrite_document import lay_out, run_passes
 from twinform.server.session import Session
 from twinform.server.settings import EditorSettings
 from twinform.text import apply

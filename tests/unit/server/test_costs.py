@@ -10,7 +10,7 @@ from tests.profile import DEEP
 from twinform.server.documents import TextDocument
 from twinform.server.hover import hover
 from twinform.server.navigation import references
-from twinform.server.renaming import RenameRefusedError, rename
+from twinform.server.rename_symbol import RenameRefusedError, rename
 from twinform.server.session import Session
 from twinform.server.settings import no_settings
 from twinform.server.symbols import outline, search

@@ -20,7 +20,7 @@ from twinform.server.folding import folds
 from twinform.server.hover import hover
 from twinform.server.links import links
 from twinform.server.navigation import definitions, references, search_of
-from twinform.server.renaming import RenameRefusedError, prepare, rename
+from twinform.server.rename_symbol import RenameRefusedError, prepare, rename
 from twinform.server.session import Session
 from twinform.server.settings import no_settings
 from twinform.server.symbols import outline

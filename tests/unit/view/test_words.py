@@ -8,8 +8,8 @@ from twinform.compiler import LoadOptions
 from twinform.diagnostics import Location
 from twinform.diagnostics.ledger import LedgerEntry
 from twinform.view import ViewSubject, read_subject
-from twinform.view.names import shortened
-from twinform.view.tree import Mark, tree
+from twinform.view.shown_names import shortened
+from twinform.view.tree_rows import Mark, tree
 from twinform.view.words import part, verdict
 
 LOOP = """<sdf version="1.11"><model name="loop"><link name="a"/><link name="b"/><link name="c"/>

@@ -9,12 +9,12 @@ from twinform.cli.batch.running import RunOptions, run_and_end, run_options
 from twinform.cli.command import Command
 from twinform.cli.completion import pipelines
 from twinform.cli.config.per_file import RuleSettings
-from twinform.cli.consumers import consumers_option
+from twinform.cli.consumer_option import consumers_option
 from twinform.cli.inputs import load_options_of, reading_options
 from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.request import pipeline_option
 from twinform.compiler.batch import Batch, Check
-from twinform.compiler.input.options import ReadingOptions
+from twinform.compiler.input.load_options import ReadingOptions
 from twinform.passes import Pipeline
 from twinform.profiles import Profile
 

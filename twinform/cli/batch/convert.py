@@ -9,13 +9,13 @@ from twinform.cli.batch.models import ModelOptions, model_options, models
 from twinform.cli.batch.running import RunOptions, run_and_end, run_options
 from twinform.cli.command import Command
 from twinform.cli.config.per_file import RuleSettings
-from twinform.cli.consumers import consumers_option, keep_physics_option
+from twinform.cli.consumer_option import consumers_option, keep_physics_option
 from twinform.cli.inputs import load_options_of, reading_options
 from twinform.cli.policy import policy_of, policy_options
 from twinform.cli.request import request_options, whole_request
 from twinform.compiler import ConversionRequest
 from twinform.compiler.batch import Batch, Convert
-from twinform.compiler.input.options import ReadingOptions
+from twinform.compiler.input.load_options import ReadingOptions
 from twinform.compiler.request_options import RequestOptions
 from twinform.profiles import Profile
 

@@ -7,11 +7,11 @@ import click
 from twinform.cli.batch.models import pair_options
 from twinform.cli.batch.running import RunOptions, run_and_end, run_options
 from twinform.cli.command import Command
-from twinform.cli.comparison import comparison_options
+from twinform.cli.comparison_options import comparison_options
 from twinform.cli.inputs import file_options, load_options_of
 from twinform.compiler.batch import Batch, Diff, FolderError, Shard, of_folder, pairs
 from twinform.compiler.compare import ComparisonOptions
-from twinform.compiler.input.options import FileOptions
+from twinform.compiler.input.load_options import FileOptions
 
 EXAMPLES = {
     "Compare the models of two folders": "twinform batch diff models out",

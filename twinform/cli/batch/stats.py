@@ -9,7 +9,7 @@ from twinform.cli.batch.running import RunOptions, run_and_end, run_options
 from twinform.cli.command import Command
 from twinform.cli.inputs import load_options_of, reading_options
 from twinform.compiler.batch import Batch, Stats
-from twinform.compiler.input.options import ReadingOptions
+from twinform.compiler.input.load_options import ReadingOptions
 
 EXAMPLES = {
     "Numbers of every model, for a table": "twinform batch stats models",

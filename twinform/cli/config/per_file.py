@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
-from twinform.cli.config.errors import ConfigError
+from twinform.cli.config.config_error import ConfigError
 
 Value = TypeVar("Value")
 

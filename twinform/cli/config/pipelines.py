@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from twinform.cli.config.errors import ConfigError
+from twinform.cli.config.config_error import ConfigError
 from twinform.passes import Pipeline, PipelineError, UnknownPipelineError, parse_pipeline
-from twinform.passes.framework.options import nearest
+from twinform.passes.framework.pass_options import nearest
 from twinform.passes.framework.syntax import KEY
 from twinform.passes.framework.tables import TableError, parse_tables
 

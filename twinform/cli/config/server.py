@@ -3,13 +3,13 @@
 from dataclasses import replace
 from pathlib import Path
 
-from twinform.cli.config.errors import ConfigError
-from twinform.cli.config.files import find
+from twinform.cli.config.config_error import ConfigError
+from twinform.cli.config.config_file import find
 from twinform.cli.config.per_file import NO_OWN_SETTINGS, OwnSettings, PerFile, RuleSettings
 from twinform.cli.config.settings import ProjectSettings, parse_settings
 from twinform.cli.config.trust import require_inside
-from twinform.compiler.input.options import profiles_of
-from twinform.compiler.search.uris import SearchPath
+from twinform.compiler.input.load_options import profiles_of
+from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.diagnostics import Policy
 from twinform.profiles import Profile
 from twinform.server.settings import EditorSettings

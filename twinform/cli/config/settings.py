@@ -7,12 +7,12 @@ from typing import Annotated, Any, ForwardRef, Literal, get_args
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, create_model, field_validator
 
-from twinform.cli.config.errors import ConfigError
-from twinform.cli.config.files import Table
-from twinform.compiler.input.options import FileOptions
-from twinform.compiler.options import Option, declared_options
+from twinform.cli.config.config_error import ConfigError
+from twinform.cli.config.config_file import Table
+from twinform.compiler.input.load_options import FileOptions
+from twinform.compiler.option import Option, declared_options
 from twinform.compiler.request_options import RequestOptions
-from twinform.passes.framework.options import nearest
+from twinform.passes.framework.pass_options import nearest
 
 _MOST = 1000
 """Folders, patterns, names of rules and tables of files that a configuration may list."""

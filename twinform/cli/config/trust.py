@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from twinform.cli.config.errors import ConfigError
+from twinform.cli.config.config_error import ConfigError
 from twinform.compiler.output.same_files import is_below
 from twinform.passes import FilesPass, Pass, Pipeline
 from twinform.passes.framework.built_in import BUILT_IN

@@ -3,7 +3,7 @@
 `forms` converts the file into the other format, `choosing` has the reasons for each, `consumers` asks the profiles.
 """
 
+from twinform.compiler.advice.advice_reporters import REPORTERS
 from twinform.compiler.advice.advising import Advice, advise
-from twinform.compiler.advice.reporters import REPORTERS
 
 __all__ = ["REPORTERS", "Advice", "advise"]

@@ -4,11 +4,11 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from twinform.compiler.advice.choosing import Choice, Facts, choose
-from twinform.compiler.advice.consumers import ConsumerReading, readings
+from twinform.compiler.advice.consumer_readings import ConsumerReading, readings
 from twinform.compiler.advice.forms import Form, converted_form, own_form
-from twinform.compiler.errors import CompileError
+from twinform.compiler.conversion_error import CompileError
+from twinform.compiler.input.load_options import Input, LoadOptions
 from twinform.compiler.input.loading import XACRO, read
-from twinform.compiler.input.options import Input, LoadOptions
 from twinform.ir import Format
 from twinform.profiles import Profile
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import NamedTuple
 
+from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
-from twinform.compiler.errors import CompileError
-from twinform.compiler.input.options import Input, LoadOptions, LoadResult
+from twinform.compiler.input.load_options import Input, LoadOptions, LoadResult
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.request_options import Language
 from twinform.diagnostics import Diagnostic, Fate, LedgerEntry, rules

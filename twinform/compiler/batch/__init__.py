@@ -4,7 +4,6 @@
 on one, wherever it is done, and `recording` keeps the result. `driver` puts these together.
 """
 
-from twinform.compiler.batch.driver import Batch, batch
 from twinform.compiler.batch.entries import (
     PATTERNS,
     FolderError,
@@ -21,6 +20,7 @@ from twinform.compiler.batch.merging import merge
 from twinform.compiler.batch.record import ModelRecord, Outcome, Summary
 from twinform.compiler.batch.recording import ModelResult
 from twinform.compiler.batch.report import open_report, report_line
+from twinform.compiler.batch.run_batch import Batch, batch
 from twinform.compiler.batch.worksite import UnfitWorkerError
 
 __all__ = [

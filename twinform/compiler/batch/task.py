@@ -15,8 +15,8 @@ from twinform.compiler.batch.time_limit import LateError, time_limit
 from twinform.compiler.batch.worksite import fingerprint, own_version
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.observing import observed
-from twinform.compiler.reproducers.files import write_reproducer
-from twinform.compiler.search.uris import SearchPath
+from twinform.compiler.reproducers.reproducer_files import write_reproducer
+from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.passes import PassError
 
 

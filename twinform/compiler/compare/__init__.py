@@ -1,5 +1,6 @@
 """The comparison of robots: do two files, of either format, describe the same one?"""
 
+from twinform.compiler.compare.compare_files import compare_files, diff
 from twinform.compiler.compare.comparison import (
     TOLERANCE,
     USUAL,
@@ -9,7 +10,6 @@ from twinform.compiler.compare.comparison import (
     DifferenceSeverity,
     Side,
 )
-from twinform.compiler.compare.driver import compare_files, diff
 
 __all__ = [
     "TOLERANCE",

@@ -10,10 +10,10 @@ what happened.
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from twinform.compiler.compare.findings import Base, Terms
+from twinform.compiler.compare.collect_differences import Base, Terms
+from twinform.compiler.compare.compared_robot import ComparedBody, ComparedRobot, JointView
+from twinform.compiler.compare.compared_values import Point, PoseValue, Tensor
 from twinform.compiler.compare.matching import unmatched
-from twinform.compiler.compare.robot import ComparedBody, ComparedRobot, JointView
-from twinform.compiler.compare.values import Point, PoseValue, Tensor
 from twinform.ir.frames import WORLD
 from twinform.ir.motion import spanning_tree
 

@@ -5,22 +5,22 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from twinform.compiler.compare.compared_robot import ComparedRobot
 from twinform.compiler.compare.memo import Memo
 from twinform.compiler.compare.readers import ComparingReader, as_read_by
-from twinform.compiler.compare.robot import ComparedRobot
 from twinform.compiler.compare.robot_builder import build_robot
 from twinform.compiler.compare.surroundings import WorldSurroundings, read_surroundings
-from twinform.compiler.errors import CompileError
+from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.includes.expanding import expand
 from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
-from twinform.compiler.search.uris import LocalAssets
+from twinform.compiler.search.resolve_uris import LocalAssets
 from twinform.diagnostics import DiagnosticSink, LineOrigins
 from twinform.ir import Document, Format, Model
 from twinform.ir.frames import FrameError
 from twinform.passes import Assets, Pass, Pipeline
 from twinform.passes.analyses.candidates import name_once_expanded, wanted_includes
 from twinform.passes.carriers.token_mass import without_tokens
-from twinform.passes.legalise.names import RestoreNames
+from twinform.passes.legalise.changed_names import RestoreNames
 from twinform.passes.legalise.to_sdf import to_sdf
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_urdf.floating_links import without_loose_floating

@@ -7,17 +7,9 @@ from functools import partial
 from typing import TypeVar
 
 from twinform.compiler.compare.alignment import Alignment, align
-from twinform.compiler.compare.comparison import Difference, DifferenceSeverity
-from twinform.compiler.compare.findings import Base, ComparedSubject, ComparisonFindings, Terms
-from twinform.compiler.compare.fixed_bodies import FixedBodies
-from twinform.compiler.compare.frames import compare_frames
-from twinform.compiler.compare.joint_values import joint_type
-from twinform.compiler.compare.kinematics import KINEMATICS, compare_kinematics
-from twinform.compiler.compare.lumping import lump
-from twinform.compiler.compare.matching import compare_leaves, compare_parts
-from twinform.compiler.compare.memo import Memo
-from twinform.compiler.compare.robot import ComparedBody, ComparedRobot, JointView, Leaves, Mass
-from twinform.compiler.compare.values import (
+from twinform.compiler.compare.collect_differences import Base, ComparedSubject, ComparisonFindings, Terms
+from twinform.compiler.compare.compared_robot import ComparedBody, ComparedRobot, JointView, Leaves, Mass
+from twinform.compiler.compare.compared_values import (
     Delta,
     Flag,
     Numbers,
@@ -29,6 +21,14 @@ from twinform.compiler.compare.values import (
     Value,
     gaps,
 )
+from twinform.compiler.compare.comparison import Difference, DifferenceSeverity
+from twinform.compiler.compare.fixed_bodies import FixedBodies
+from twinform.compiler.compare.frames import compare_frames
+from twinform.compiler.compare.joint_values import joint_type
+from twinform.compiler.compare.kinematics import KINEMATICS, compare_kinematics
+from twinform.compiler.compare.lumped_links import lump
+from twinform.compiler.compare.matching import compare_leaves, compare_parts
+from twinform.compiler.compare.memo import Memo
 from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform

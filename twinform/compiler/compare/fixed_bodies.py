@@ -6,7 +6,7 @@ SDF of a URDF does so where one of them has an inertia that no body has, and a f
 from collections import defaultdict
 from functools import cached_property
 
-from twinform.compiler.compare.robot import ComparedRobot
+from twinform.compiler.compare.compared_robot import ComparedRobot
 from twinform.ir.groups import tops
 from twinform.ir.motion import spanning_tree
 from twinform.ir.solids import Solid, combined

@@ -2,9 +2,9 @@
 
 from collections.abc import Mapping
 
-from twinform.compiler.compare.findings import Base, ComparedSubject, ComparisonFindings
-from twinform.compiler.compare.robot import ComparedRobot, NamedFrame
-from twinform.compiler.compare.values import PoseValue, Text, show
+from twinform.compiler.compare.collect_differences import Base, ComparedSubject, ComparisonFindings
+from twinform.compiler.compare.compared_robot import ComparedRobot, NamedFrame
+from twinform.compiler.compare.compared_values import PoseValue, Text, show
 from twinform.ir import Format
 
 _MOST_PAIRS = 2_500

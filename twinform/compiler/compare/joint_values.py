@@ -4,8 +4,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 
-from twinform.compiler.compare.robot import Leaf, Leaves
-from twinform.compiler.compare.values import Numbers, Text, Value
+from twinform.compiler.compare.compared_robot import Leaf, Leaves
+from twinform.compiler.compare.compared_values import Numbers, Text, Value
 from twinform.ir import Joint
 from twinform.ir.defaults import MULTIPLIER, UNLIMITED
 from twinform.ir.motion import WITH_TWO_AXES, WITHOUT_AXIS

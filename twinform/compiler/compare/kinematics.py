@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from random import Random
 
-from twinform.compiler.compare.findings import Base, ComparedSubject, ComparisonFindings
-from twinform.compiler.compare.robot import ComparedRobot, JointView
-from twinform.compiler.compare.values import Delta, PoseValue, gaps
+from twinform.compiler.compare.collect_differences import Base, ComparedSubject, ComparisonFindings
+from twinform.compiler.compare.compared_robot import ComparedRobot, JointView
+from twinform.compiler.compare.compared_values import Delta, PoseValue, gaps
 from twinform.compiler.kinematics import Degree, Kinematics, Positions
 from twinform.ir import Vector3
 from twinform.ir.groups import tops

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
-from twinform.compiler.compare.robot import Leaf
-from twinform.compiler.compare.values import Flag, Numbers, PoseValue, Text, Value, typed_value
+from twinform.compiler.compare.compared_robot import Leaf
+from twinform.compiler.compare.compared_values import Flag, Numbers, PoseValue, Text, Value, typed_value
 from twinform.diagnostics import Source
 from twinform.ir import Pose
 from twinform.ir.transform import Transform

@@ -6,9 +6,16 @@ from dataclasses import replace
 from functools import partial
 from operator import attrgetter
 
-from twinform.compiler.compare.findings import UNKNOWN, Base, ComparedSubject, ComparisonFindings, Places, Terms
-from twinform.compiler.compare.robot import Leaf, Leaves, LinkPart
-from twinform.compiler.compare.values import PoseValue, Text, show
+from twinform.compiler.compare.collect_differences import (
+    UNKNOWN,
+    Base,
+    ComparedSubject,
+    ComparisonFindings,
+    Places,
+    Terms,
+)
+from twinform.compiler.compare.compared_robot import Leaf, Leaves, LinkPart
+from twinform.compiler.compare.compared_values import PoseValue, Text, show
 from twinform.ir.transform import Transform
 
 _BY_CONTENT = frozenset({"visual", "collision"})

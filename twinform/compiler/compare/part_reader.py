@@ -7,9 +7,9 @@ from functools import cache
 from lxml import etree
 
 from twinform.compiler.compare.carried import CARRIER_OF_URDF, definition, unpack_sdf, urdf_pieces
+from twinform.compiler.compare.compared_robot import Leaf, Leaves, LinkPart
+from twinform.compiler.compare.compared_values import Text
 from twinform.compiler.compare.leaves import CARRIED, LeafWalk, Resolve, numbered, urdf_row
-from twinform.compiler.compare.robot import Leaf, Leaves, LinkPart
-from twinform.compiler.compare.values import Text
 from twinform.diagnostics import Source
 from twinform.ir import Document, Element, Format, Frame, Joint, Link, Model, Node, Sensor, World, node_fields
 from twinform.ir.sensor import RENAMED_ELEMENTS
@@ -18,8 +18,8 @@ from twinform.ir.visual import Collision, Visual
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import from_xml
 from twinform.passes.carriers.definitions import definition_of
-from twinform.passes.legalise.names import NAME
-from twinform.passes.legalise.to_sdf.joints import FLOATING
+from twinform.passes.legalise.changed_names import NAME
+from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS, WITHOUT_AXIS, joints_of
 from twinform.passes.sdf_versions.name_the_nameless import plugin_stem
 from twinform.schemas import Fact, XmlElement, node_xml, table

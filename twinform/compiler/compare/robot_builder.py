@@ -3,17 +3,25 @@
 from collections.abc import Callable, Collection, Iterable, Iterator
 from typing import TypeVar
 
+from twinform.compiler.compare.compared_robot import (
+    ComparedBody,
+    ComparedRobot,
+    JointView,
+    Leaf,
+    LinkPart,
+    Mass,
+    NamedFrame,
+)
 from twinform.compiler.compare.joint_values import joint_leaves
 from twinform.compiler.compare.leaves import THERE
 from twinform.compiler.compare.memo import Memo
 from twinform.compiler.compare.part_reader import PartReader
-from twinform.compiler.compare.robot import ComparedBody, ComparedRobot, JointView, Leaf, LinkPart, Mass, NamedFrame
 from twinform.compiler.kinematics import Degree, degrees_of
 from twinform.ir import Axis, Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.solids import placed, written_solid
 from twinform.ir.transform import Transform
-from twinform.ir.verify.joints import useless_leader
+from twinform.ir.verify.verify_joints import useless_leader
 from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.transforms.flattening import flatten

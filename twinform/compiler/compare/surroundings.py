@@ -4,11 +4,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 
+from twinform.compiler.compare.collect_differences import Base, ComparedSubject, ComparisonFindings, Terms
+from twinform.compiler.compare.compared_robot import Leaves, LinkPart
 from twinform.compiler.compare.comparison import Difference
-from twinform.compiler.compare.findings import Base, ComparedSubject, ComparisonFindings, Terms
 from twinform.compiler.compare.matching import compare_leaves, compare_parts
 from twinform.compiler.compare.part_reader import PartReader
-from twinform.compiler.compare.robot import Leaves, LinkPart
 from twinform.diagnostics import Source
 from twinform.ir import Document, Frame, Joint, Pose, World
 from twinform.ir.frames import WORLD, FrameGraph

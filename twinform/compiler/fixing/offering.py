@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from twinform.compiler.fixing.registry import fixer_of, text_fixer_of
+from twinform.compiler.fixing.fixer_registry import fixer_of, text_fixer_of
 from twinform.compiler.fixing.site import FindingSite, FixableFile, touches_expressions
 from twinform.compiler.input.loading import LoadResult
 from twinform.diagnostics import Diagnostic, Fix, rules

@@ -7,9 +7,9 @@ from posixpath import dirname
 from typing import NamedTuple
 
 from twinform.compiler.includes.model_config import manifest, model_file, newest_read
-from twinform.compiler.input.limits import LIFTED_BY_TAGS, excess_of_names
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
-from twinform.compiler.search.uris import UriError
+from twinform.compiler.input.size_limits import LIFTED_BY_TAGS, excess_of_names
+from twinform.compiler.search.resolve_uris import UriError
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Include
 from twinform.ir.scopes import outer_models

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from twinform.compiler.includes.model_config import manifest, model_file, newest_read
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
-from twinform.compiler.search.uris import UriError
+from twinform.compiler.search.resolve_uris import UriError
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import UNREAD_DOCUMENT
 from twinform.ir import Document, Format

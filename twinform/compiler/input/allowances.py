@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from twinform.compiler.input.limits import Limits
+from twinform.compiler.input.size_limits import Limits
 from twinform.diagnostics import Diagnostic, DiagnosticSink, LineOrigins, Location, Rule
 from twinform.diagnostics.rules import MALFORMED_SUPPRESSION
 from twinform.diagnostics.suppressions import NO_SUPPRESSIONS, Suppressions
@@ -132,7 +132,7 @@ def content_of(file: Path, limits: Limits) -> bytes:
 def _problems(name: str) -> Iterator[tuple[str, str | None]]:
     """What is wrong with the name of a rule in a comment, and help."""
     from twinform.diagnostics import did_you_mean  # noqa: PLC0415 - few files have any
-    from twinform.diagnostics.registry import RuleRegistryError, find_rule, rules  # noqa: PLC0415 - as above
+    from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule, rules  # noqa: PLC0415 - as above
 
     try:
         found = find_rule(name)

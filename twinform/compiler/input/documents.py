@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from twinform.compiler.input.gazebo_extensions import check_extensions
 from twinform.compiler.input.json import compare_documents
-from twinform.compiler.input.options import LoadOptions, LoadResult
+from twinform.compiler.input.load_options import LoadOptions, LoadResult
 from twinform.compiler.output.emitting import document_tree, located
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format

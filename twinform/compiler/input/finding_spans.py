@@ -12,10 +12,10 @@ from functools import cached_property
 
 from twinform.compiler.input.finding_lines import PartFinder
 from twinform.compiler.input.finding_pieces import piece, quoted, values
-from twinform.compiler.input.limits import LIFTED_LIMITS
+from twinform.compiler.input.load_options import LoadResult, expanded_name
 from twinform.compiler.input.loading import garbage_collection_paused, read_tree_again
-from twinform.compiler.input.options import LoadResult, expanded_name
 from twinform.compiler.input.parsing import UnreadableError, parse
+from twinform.compiler.input.size_limits import LIFTED_LIMITS
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Span, rules
 from twinform.schemas import LAST_LINE, XmlElement

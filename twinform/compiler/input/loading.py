@@ -12,14 +12,13 @@ from itertools import count
 from pathlib import Path
 from typing import Unpack
 
-from twinform.compiler.errors import CompileError
-from twinform.compiler.input import sdf, urdf
+from twinform.compiler.conversion_error import CompileError
+from twinform.compiler.input import read_sdf as sdf
+from twinform.compiler.input import read_urdf as urdf
 from twinform.compiler.input.allowances import Allowances, content_of
-from twinform.compiler.input.comments import may_have_comments, take_comments
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.gazebo_extensions import check_extensions
-from twinform.compiler.input.limits import LIFTED_LIMITS, USUAL_LIMITS, Limits, excess_of_json
-from twinform.compiler.input.options import (
+from twinform.compiler.input.load_options import (
     FileOptions,
     Input,
     LoadOptions,
@@ -36,9 +35,11 @@ from twinform.compiler.input.parsing import (
     refuse_excess,
     strip_default_namespace,
 )
+from twinform.compiler.input.size_limits import LIFTED_LIMITS, USUAL_LIMITS, Limits, excess_of_json
+from twinform.compiler.input.source_comments import may_have_comments, take_comments
 from twinform.compiler.input.unexpanded_xacro import report_unexpanded
 from twinform.compiler.input.used_up_tree import LARGE, used_up
-from twinform.compiler.options import require_options
+from twinform.compiler.option import require_options
 from twinform.compiler.output.source_comments import Comments
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format

@@ -10,7 +10,7 @@ from typing import cast
 
 from lxml import etree
 
-from twinform.compiler.input.limits import (
+from twinform.compiler.input.size_limits import (
     LIFTED_BY_SIZE,
     USUAL_LIMITS,
     Excess,

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from twinform.compiler.input.limits import LARGEST
-from twinform.compiler.input.options import LoadResult
+from twinform.compiler.input.load_options import LoadResult
+from twinform.compiler.input.size_limits import LARGEST
 from twinform.diagnostics.rules import XACRO_REFUSED
 from twinform.file_access import Readable
 from twinform.schemas import XmlElement

@@ -52,7 +52,7 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
         whole.extend_new(_placed(found, loaded))
     if load_options.profiles:
         # few files are for certain consumers
-        from twinform.compiler.inspection.consumers import report_for_consumers  # noqa: PLC0415 - see above
+        from twinform.compiler.inspection.inspect_for_consumers import report_for_consumers  # noqa: PLC0415 - see above
 
         report_for_consumers(loaded, load_options, whole)
     if loaded.allowances:

@@ -8,7 +8,7 @@ from posixpath import normpath
 from urllib.parse import unquote
 
 from twinform.compiler.search.packages import MODEL_CONFIG, package_name
-from twinform.compiler.search.uris import SearchPath, UriError, exists
+from twinform.compiler.search.resolve_uris import SearchPath, UriError, exists
 from twinform.diagnostics import nearest_name
 from twinform.file_access import Readable
 from twinform.file_access.roots import folders_around

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from twinform.compiler.errors import ReadOnlyPassError
+from twinform.compiler.conversion_error import ReadOnlyPassError
 from twinform.compiler.includes.other_documents import OtherDocuments
 from twinform.compiler.input.loading import LoadOptions
-from twinform.compiler.search.uris import LocalAssets
+from twinform.compiler.search.resolve_uris import LocalAssets
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes import FilesPass, Pass, Pipeline

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Iterator
 
-from twinform.compiler.kinematics.joints import Degree, Leader
+from twinform.compiler.kinematics.placed_joints import Degree, Leader
 from twinform.ir import Axis, Format, Joint, Mimic, Vector3
 from twinform.ir.defaults import SCREW_THREAD_PITCH, UNLIMITED, direction, multiplier, with_range
 from twinform.ir.motion import FULL_TURN, axes_of, plane_across, unit

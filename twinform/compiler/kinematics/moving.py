@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from typing import Generic, TypeVar
 
-from twinform.compiler.kinematics.joints import Leader, PlacedJoint
+from twinform.compiler.kinematics.placed_joints import Leader, PlacedJoint
 from twinform.ir.motion import FULL_TURN, slide, spanning_tree, turn
 from twinform.ir.transform import Transform
 

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+from twinform.compiler.compare.compared_values import show
 from twinform.compiler.compare.comparison import Side
-from twinform.compiler.compare.values import show
 from twinform.compiler.normal_form.part import TEXT, Key, NormalPart, text_of
-from twinform.compiler.normal_form.values import same
+from twinform.compiler.normal_form.value_meanings import same
 from twinform.diagnostics import Location
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.schemas import XmlElement, path_of

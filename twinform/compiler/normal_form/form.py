@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from twinform.compiler.errors import CompileError
+from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.input.loading import LoadOptions, declared_version, read, read_tree
 from twinform.compiler.input.parsing import UnreadableError
-from twinform.compiler.normal_form.building import builder
+from twinform.compiler.normal_form.build_normal_form import builder
 from twinform.compiler.normal_form.comparing import Comparing, Discrepancy
 from twinform.compiler.normal_form.part import NormalPart
 from twinform.diagnostics import DiagnosticSink

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from twinform.compiler.compare.values import Value
-from twinform.compiler.normal_form.values import literally
+from twinform.compiler.compare.compared_values import Value
+from twinform.compiler.normal_form.value_meanings import literally
 from twinform.schemas import XmlElement
 
 TEXT = ""

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 from lxml import etree
 
-from twinform.compiler.output import sdf, urdf
-from twinform.compiler.output.comments import place_comments
+from twinform.compiler.output import write_sdf as sdf
+from twinform.compiler.output import write_urdf as urdf
+from twinform.compiler.output.place_comments import place_comments
 from twinform.compiler.output.source_comments import Comments
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Fate, Location, rules
 from twinform.diagnostics.rules import LEFT_COMMENT

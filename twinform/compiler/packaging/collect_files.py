@@ -9,13 +9,13 @@ from twinform.compiler.packaging.collecting import Collection, UncollectedError
 from twinform.compiler.packaging.file_kinds import FileKind
 from twinform.compiler.packaging.made_files import MadeFiles
 from twinform.compiler.packaging.plugin_files import report_plugin_files
-from twinform.compiler.search.uris import LocalAssets
+from twinform.compiler.search.resolve_uris import LocalAssets
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity
 from twinform.diagnostics.rules import UNPACKAGED_FILE, UNPACKAGED_INCLUDE
 from twinform.ir import Document, Format
 from twinform.passes.framework.asset_access import AssetError
 from twinform.passes.framework.assets import AssetPass
-from twinform.passes.transforms.uris import Kind, map_uris
+from twinform.passes.transforms.document_uris import Kind, map_uris
 
 _STANDARD = "file://media/"
 """What Gazebo Classic brings itself begins so."""

@@ -13,7 +13,7 @@ from twinform.compiler.packaging.file_kinds import FileKind, kind_of, suffix_of
 from twinform.compiler.packaging.layout import PackageLayout, PackagePlaces
 from twinform.compiler.packaging.origins import FileOrigins
 from twinform.compiler.packaging.package import Content
-from twinform.compiler.search.uris import LocalAssets
+from twinform.compiler.search.resolve_uris import LocalAssets
 from twinform.diagnostics import Rule
 from twinform.diagnostics.rules import UNPACKAGED_FILE, URI_LEAVES_FOLDER
 from twinform.file_access import OutsideError

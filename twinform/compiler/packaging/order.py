@@ -5,8 +5,8 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Self
 
 from twinform.compiler.conversion import Conversion
+from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
-from twinform.compiler.errors import CompileError
 from twinform.compiler.input.loading import Input, LoadOptions
 from twinform.compiler.packaging.collect_files import CollectFiles
 from twinform.compiler.packaging.collecting import Collection, UncollectedError

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from twinform.compiler.search.uris import LocalAssets
+from twinform.compiler.search.resolve_uris import LocalAssets
 
 HIGHEST = 8
 """So many folders up a package or model is looked for."""

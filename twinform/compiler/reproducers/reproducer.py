@@ -14,8 +14,8 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.ir.verify import verify
 from twinform.passes.framework.asset_access import NO_ASSETS, Assets
-from twinform.passes.framework.errors import BrokenPassError, PassError
 from twinform.passes.framework.other_documents import DocumentReader, Refusal
+from twinform.passes.framework.pass_errors import BrokenPassError, PassError
 from twinform.passes.framework.pipeline import Pipeline
 from twinform.passes.framework.text import parse_pipeline
 from twinform.passes.legalise.known import legalisation_kinds

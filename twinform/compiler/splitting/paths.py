@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import Literal
 from urllib.parse import quote, unquote
 
-from twinform.compiler.search.uris import LocalAssets, exists
+from twinform.compiler.search.resolve_uris import LocalAssets, exists
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import MISSING_FILE
 from twinform.file_access import Readable
 from twinform.ir import Document
 from twinform.passes.framework.asset_access import AssetError
-from twinform.passes.transforms.uris import map_uris
+from twinform.passes.transforms.document_uris import map_uris
 
 _ABSOLUTE = re.compile(r"[A-Za-z][\w+.-]*:|/|__")
 """A scheme, a path from the root, or a keyword such as `__default__`."""

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-from twinform.compiler.statistics.meshes import MeshCost
+from twinform.compiler.statistics.mesh_costs import MeshCost
 from twinform.ir import Collision, Material, Model, Plugin, walk
 from twinform.passes.analyses.sensor_costs import sensor_cost, sensors_in
 

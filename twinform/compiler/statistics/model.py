@@ -5,8 +5,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from twinform.compiler.statistics.cost import Cost, cost_of
-from twinform.compiler.statistics.meshes import MeshCost
-from twinform.compiler.statistics.tree import freedom, joints_of, shape
+from twinform.compiler.statistics.mesh_costs import MeshCost
+from twinform.compiler.statistics.tree_counts import freedom, joints_of, shape
 from twinform.ir import Collision, Format, Frame, Include, Light, Link, Model, Plugin, Sensor, Visual, walk
 from twinform.ir.defaults import MASS
 

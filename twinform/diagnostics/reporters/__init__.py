@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from twinform.diagnostics.reporters.findings import NO_TEXTS, FileFindings, FileTexts, Reporter
+from twinform.diagnostics.reporters.file_findings import NO_TEXTS, FileFindings, FileTexts, Reporter
 from twinform.diagnostics.reporters.github import github
 from twinform.diagnostics.reporters.json import json
 from twinform.diagnostics.reporters.junit import junit

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.location import Location
-from twinform.diagnostics.reporters.findings import NO_TEXTS, FileFindings, FileTexts, placed_edits
+from twinform.diagnostics.reporters.file_findings import NO_TEXTS, FileFindings, FileTexts, placed_edits
 
 
 def json(files: Sequence[FileFindings]) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from twinform.diagnostics.diagnostic import Diagnostic
-from twinform.diagnostics.reporters.findings import FileFindings
+from twinform.diagnostics.reporters.file_findings import FileFindings
 from twinform.diagnostics.reporters.printable import printable
 from twinform.diagnostics.rule import Severity
 

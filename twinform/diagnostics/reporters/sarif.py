@@ -9,7 +9,7 @@ from twinform.diagnostics.addresses import HOME, rule_address
 from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.location import Location
-from twinform.diagnostics.reporters.findings import FileFindings, placed_edits
+from twinform.diagnostics.reporters.file_findings import FileFindings, placed_edits
 from twinform.diagnostics.rule import Rule, Severity
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -37,7 +37,7 @@ def sarif(files: Sequence[FileFindings]) -> str:
 
 
 def _rule(rule: Rule) -> dict[str, object]:
-    from twinform.diagnostics.pages import sections  # noqa: PLC0415 - few runs write it
+    from twinform.diagnostics.rules_page import sections  # noqa: PLC0415 - few runs write it
 
     page = list(sections(rule))
     text = "\n".join(f"{heading}: {body}" for heading, body in page)

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from twinform.diagnostics.diagnostic import Diagnostic
 from twinform.diagnostics.location import Location
 from twinform.diagnostics.reporters.excerpt import excerpt
-from twinform.diagnostics.reporters.findings import FileFindings
+from twinform.diagnostics.reporters.file_findings import FileFindings
 from twinform.diagnostics.reporters.grouping import Group, grouped
 from twinform.diagnostics.reporters.printable import printable
 from twinform.diagnostics.rule import Severity

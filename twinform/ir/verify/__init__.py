@@ -7,8 +7,8 @@ is asked of a robot and of a model, and what only they know: materials, scopes, 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import UNKNOWN_COLLISION, UNKNOWN_GRIPPER_LINK
 from twinform.ir.document import Document, Format
-from twinform.ir.verify.sdf import verify_sdf
-from twinform.ir.verify.urdf import verify_robot
+from twinform.ir.verify.verify_sdf import verify_sdf
+from twinform.ir.verify.verify_urdf import verify_robot
 
 __all__ = ["verify", "verify_again"]
 

@@ -5,7 +5,7 @@ from typing import Literal
 
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Node
-from twinform.ir.verify.names import name_of
+from twinform.ir.verify.verify_names import name_of
 from twinform.ir.world import World
 
 Found = Literal["link", "joint", "frame", "model", "unread", "twice"]

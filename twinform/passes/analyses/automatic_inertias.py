@@ -7,8 +7,8 @@ from twinform.ir import Collision, Inertial, Link, Mesh, Model, Opaque
 from twinform.ir.defaults import DENSITY
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, combined, placed, solid, with_mass
-from twinform.passes.analyses.meshes import MeshError, Meshes
-from twinform.passes.analyses.shapes import inertial_of, own_density
+from twinform.passes.analyses.link_shapes import inertial_of, own_density
+from twinform.passes.analyses.mesh_solids import MeshError, Meshes
 from twinform.passes.carriers.carriers import to_element
 
 COMPUTED_MASS = "computed-mass"

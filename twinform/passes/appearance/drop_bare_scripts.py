@@ -5,7 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import DROPPED_BARE_SCRIPT
 from twinform.ir import Document, Format, Material, Script, rewrite
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 
 # libsdformat reads this as no name and as no URI.
 _NOTHING = frozenset({"", "__default__", None})

@@ -10,7 +10,7 @@ from twinform.ir import Document
 from twinform.passes.appearance.uri_schemes import Known, Roots, Scheme, UnmappedError, rewritten, scheme_of
 from twinform.passes.framework.asset_access import AssetError
 from twinform.passes.framework.assets import AssetPass
-from twinform.passes.transforms.uris import Kind, map_uris
+from twinform.passes.transforms.document_uris import Kind, map_uris
 
 
 class RewriteUris(AssetPass):

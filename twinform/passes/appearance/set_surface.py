@@ -8,7 +8,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import NOTHING_MATCHED, UNSET_SURFACE
 from twinform.ir import Collision, Document, Format, Link, Model, Surface, rewrite
 from twinform.passes.appearance.link_tags import with_element, with_tags
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.schemas import format_value
 

@@ -8,7 +8,7 @@ from pydantic import Field
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import TIDIED_MATERIAL
 from twinform.ir import Document, Format, Material, Model, Visual, replace_fields, rewrite
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.transforms.nodes import unique_name
 
 _PLAIN = "material"

@@ -11,7 +11,7 @@ from twinform.ir.defaults import sizes
 from twinform.ir.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere
 from twinform.ir.transform import Transform
 from twinform.ir.visual import Collision, Visual
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.transforms.nodes import unique_name
 
 Part = TypeVar("Part", Visual, Collision)

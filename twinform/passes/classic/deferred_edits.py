@@ -18,7 +18,7 @@ from twinform.ir import (
     replace_fields,
 )
 from twinform.ir.element import Element
-from twinform.passes.plugins.editing import add_sensor, add_world_plugin
+from twinform.passes.plugins.add_elements import add_sensor, add_world_plugin
 from twinform.passes.plugins.sites import PluginSite
 
 Path = tuple[str, ...]

@@ -5,8 +5,8 @@ from twinform.ir import Document, Element, Format, GazeboExtension, Model, repla
 from twinform.passes.classic.element_edits import text_at, with_text
 from twinform.passes.classic.tables import hardware_names
 from twinform.passes.control.carried_elements import as_parts, elements, place_of, replace
-from twinform.passes.framework.registry import find_pass, registered_passes
-from twinform.passes.plugins.parts import Release
+from twinform.passes.framework.pass_registry import find_pass, registered_passes
+from twinform.passes.plugins.catalog_types import Release
 
 _MATERIALS = "materials"
 # Fortress, whose ros2_control plugin has names of its own.

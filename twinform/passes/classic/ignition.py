@@ -4,7 +4,7 @@ import re
 
 from twinform.ir import Element, Plugin
 from twinform.passes.plugins.catalog import is_ignition_name, modern_class, modern_file
-from twinform.passes.plugins.parts import Release
+from twinform.passes.plugins.catalog_types import Release
 
 # Fortress, in which the names of Ignition are the ones in use.
 _NATIVE = 6

@@ -8,15 +8,15 @@ from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, Format, Model
 from twinform.passes.classic.deferred_edits import DeferredEdits
 from twinform.passes.classic.document_edits import in_colors, modern_hardware, without_emptied
+from twinform.passes.classic.migrate_sensors import SensorMigration
+from twinform.passes.classic.migrate_worlds import complete_worlds, report_needs, report_unread, ship_models
 from twinform.passes.classic.plugins import PluginMigration
 from twinform.passes.classic.reporting import accept, scratch
-from twinform.passes.classic.sensors import SensorMigration
-from twinform.passes.classic.worlds import complete_worlds, report_needs, report_unread, ship_models
 from twinform.passes.control.carried_elements import declare_carriers
 from twinform.passes.control.ros2_control_from_transmissions import Ros2ControlFromTransmissions
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.plugins.catalog import release
-from twinform.passes.plugins.parts import Release
+from twinform.passes.plugins.catalog_types import Release
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sites import map_plugins, map_sensors
 from twinform.passes.sdf_versions import change_version, known_version

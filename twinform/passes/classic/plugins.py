@@ -6,19 +6,19 @@ from dataclasses import dataclass
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Axis, Element, Format, Joint, Mimic, Model, Plugin
 from twinform.ir.defaults import multiplier
+from twinform.passes.classic.classic_parameters import as_read
 from twinform.passes.classic.deferred_edits import DeferredEdits
 from twinform.passes.classic.ignition import modern_plugin
 from twinform.passes.classic.link_pose import OtherQuantityError, offset_of
+from twinform.passes.classic.migrate_sensors import SensorMigration, in_frame
 from twinform.passes.classic.moving import DroppedParameter, Moved
-from twinform.passes.classic.reading import as_read
 from twinform.passes.classic.reporting import MigrationReport, accept, reasons_to_look, scratch
-from twinform.passes.classic.sensors import SensorMigration, in_frame
 from twinform.passes.classic.systems import made_systems, unused
 from twinform.passes.classic.tables import MakeRow, Migration, migration_of
 from twinform.passes.classic.topics import RosNames
 from twinform.passes.plugins.catalog import systems_of_file
+from twinform.passes.plugins.catalog_types import Release
 from twinform.passes.plugins.elements import sensor_of
-from twinform.passes.plugins.parts import Release
 from twinform.passes.plugins.sites import PluginSite
 from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
 from twinform.schemas import format_value

@@ -3,13 +3,13 @@
 from collections.abc import Callable, Iterator
 
 from twinform.ir import Element, Plugin
+from twinform.passes.classic.classic_parameters import as_read
 from twinform.passes.classic.element_edits import added
 from twinform.passes.classic.moving import DroppedParameter, Moved, truth_of
-from twinform.passes.classic.reading import as_read
 from twinform.passes.classic.tables import Migration, SystemRow
 from twinform.passes.classic.topics import RosNames, is_namespace
 from twinform.passes.plugins.catalog import system
-from twinform.passes.plugins.parts import PluginKind
+from twinform.passes.plugins.catalog_types import PluginKind
 from twinform.passes.plugins.sites import PluginSite
 
 _ON, _OFF = "{=/tf}", "=odom_transform"

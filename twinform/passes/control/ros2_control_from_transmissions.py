@@ -11,7 +11,7 @@ from twinform.ir import Document, Element, Format, Joint, Model, Opaque, rewrite
 from twinform.passes.control.carried_elements import as_parts, declare_carriers, elements, place_of, replace
 from twinform.passes.control.interfaces import PLUGINS, STATES, commands_of
 from twinform.passes.control.transmission import Transmission, new_transmission, read_transmission
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.transforms.nodes import unique_name
 
 _UNMOVABLE = frozenset({"fixed", "floating", "planar"})

@@ -5,7 +5,7 @@ from typing import Self
 from pydantic import PrivateAttr
 
 from twinform.passes.framework.asset_access import NO_ASSETS, Assets
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 
 
 class AssetPass(Pass):

@@ -3,7 +3,7 @@
 import sys
 
 from twinform.diagnostics.generated_files import main
-from twinform.passes.framework.registry import HOME, OWN, registered_passes
+from twinform.passes.framework.pass_registry import HOME, OWN, registered_passes
 
 _HEAD = '''\
 """The built-in passes, by their names in a pipeline: modules below `twinform.passes`, and classes.

@@ -4,8 +4,8 @@ from collections.abc import Iterable
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
-from twinform.passes.framework.base import Pass
-from twinform.passes.framework.errors import PassError
+from twinform.passes.framework.pass_base import Pass
+from twinform.passes.framework.pass_errors import PassError
 
 
 class PassInstrumentation:

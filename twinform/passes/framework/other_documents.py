@@ -9,7 +9,7 @@ from pydantic import PrivateAttr
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import UNREAD_DOCUMENT
 from twinform.ir import Document
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 
 
 class DocumentReader(Protocol):

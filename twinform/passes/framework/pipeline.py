@@ -7,10 +7,10 @@ from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.ir import Document
 from twinform.passes.framework.asset_access import Assets
 from twinform.passes.framework.assets import AssetPass
-from twinform.passes.framework.base import Pass
-from twinform.passes.framework.errors import BrokenPassError, FailedPassError
 from twinform.passes.framework.instrumentation import PassInstrumentation
 from twinform.passes.framework.other_documents import DocumentPass, DocumentReader, Refusal
+from twinform.passes.framework.pass_base import Pass
+from twinform.passes.framework.pass_errors import BrokenPassError, FailedPassError
 
 Verifier = Callable[[Document, DiagnosticSink], None]
 """Reports what is wrong with a document; it is a function of `twinform.ir.verify`."""
@@ -60,7 +60,7 @@ class Pipeline:
         Raises:
             TypeError: an option has a value that has no form in the text.
         """
-        from twinform.passes.framework.options import chosen  # noqa: PLC0415 - few pipelines are printed
+        from twinform.passes.framework.pass_options import chosen  # noqa: PLC0415 - few pipelines are printed
         from twinform.passes.framework.syntax import print_call  # noqa: PLC0415 - see above
 
         return ",".join(print_call(each.name, dict(chosen(each))) for each in self)

@@ -12,7 +12,7 @@ from pydantic import AfterValidator, Field
 
 from twinform.diagnostics import DiagnosticSink, SideFile
 from twinform.ir import Document
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 
 # The name of a file or folder that is not hidden and means the same to every system and shell.
 _PART = re.compile(r"[^./~\\:\x00-\x1f\x7f][^/\\:\x00-\x1f\x7f]*")

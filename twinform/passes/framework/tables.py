@@ -17,8 +17,8 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import cast
 
-from twinform.passes.framework.base import Pass
-from twinform.passes.framework.options import OptionError, build, chosen
+from twinform.passes.framework.pass_base import Pass
+from twinform.passes.framework.pass_options import OptionError, build, chosen
 from twinform.passes.framework.pipeline import Pipeline
 from twinform.passes.framework.syntax import KEY, Scalar, Value
 from twinform.passes.framework.text import Names, UnknownPipelineError, no_names

@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Iterator, Mapping
 
-from twinform.passes.framework.base import Pass
-from twinform.passes.framework.options import OptionError, build
+from twinform.passes.framework.pass_base import Pass
+from twinform.passes.framework.pass_options import OptionError, build
 from twinform.passes.framework.pipeline import Pipeline
 from twinform.passes.framework.syntax import Call, PipelineError, PipelineReference, parse_calls
 

@@ -9,7 +9,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.provenance import came_from
-from twinform.passes.transforms.notation import OFFSET, read_offset
+from twinform.passes.transforms.pose_notation import OFFSET, read_offset
 
 _PARAMETERS = "params"
 """The local name of `<experimental:params>`."""

@@ -4,7 +4,7 @@ import re
 from posixpath import normpath
 
 from twinform.ir import Document
-from twinform.passes.transforms.uris import map_uris
+from twinform.passes.transforms.document_uris import map_uris
 
 _ABSOLUTE = re.compile(r"[A-Za-z][\w+.-]*:|/|__")
 """A scheme, a path from the root, or a name such as `__default__`."""

@@ -10,9 +10,9 @@ from twinform.diagnostics.rules import MASS_RATIO, MISSING_INERTIAL, NON_POSITIV
 from twinform.ir import Document, Format, Inertial, Link
 from twinform.ir.defaults import MOMENT
 from twinform.ir.verify.inertia import inertia_matrix, report_moments
-from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.analyses.link_shapes import ShapePlaces
+from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.analyses.moving_bodies import Body, ConnectedBodies, movable_models, moving_bodies, neighbors
-from twinform.passes.analyses.shapes import ShapePlaces
 from twinform.passes.framework.assets import AssetPass
 from twinform.passes.inertia.physical_consistency import DIGITS, ROUNDING
 from twinform.passes.inertia.plausible import Plausible

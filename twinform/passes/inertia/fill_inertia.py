@@ -12,9 +12,9 @@ from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.frames import FrameError
 from twinform.ir.scaling import common_exponent, times_power
 from twinform.ir.solids import Solid, combined, with_mass
-from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.analyses.link_shapes import Kind, NoSolidError, PlacedShape, ShapePlaces, inertial_of, solid_of
+from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.analyses.moving_bodies import movable_models, moving_bodies
-from twinform.passes.analyses.shapes import Kind, NoSolidError, PlacedShape, ShapePlaces, inertial_of, solid_of
 from twinform.passes.framework.assets import AssetPass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.inertia.physical_consistency import has_mass, is_possible

@@ -12,8 +12,15 @@ from twinform.ir.frames import FrameError
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import ORIGIN, Solid, combined, placed
 from twinform.ir.verify.inertia import inertia_matrix
-from twinform.passes.analyses.meshes import Meshes
-from twinform.passes.analyses.shapes import NoSolidError, PlacedShape, ShapePlaces, bounds_of, solid_of, united_bounds
+from twinform.passes.analyses.link_shapes import (
+    NoSolidError,
+    PlacedShape,
+    ShapePlaces,
+    bounds_of,
+    solid_of,
+    united_bounds,
+)
+from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.framework.asset_access import NO_ASSETS
 from twinform.passes.inertia.physical_consistency import has_mass
 

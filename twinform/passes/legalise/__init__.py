@@ -5,7 +5,7 @@ from functools import lru_cache
 from typing import Literal
 
 from twinform.ir import Format
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 
 __all__ = ["Target", "legalisation"]
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from functools import cache
 
 from twinform.ir import Format
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise import Target, legalisation
 from twinform.schemas import versions_of
 

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, get_args
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Color, Format, Model, Node, rewrite
 from twinform.ir.record import fields_of
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 
 _DOUBLE = sys.float_info.min
 _FLOAT = 2.0**-126

@@ -25,7 +25,7 @@ from twinform.passes.inertia.physical_consistency import (
     is_clearly_possible,
     nearest_possible,
 )
-from twinform.passes.structure.bodies import body_of
+from twinform.passes.structure.combined_bodies import body_of
 from twinform.passes.transforms.lumped_links import lumped_links
 
 _MARGIN = 1e-6

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 from twinform.ir import Element, Joint, Link, Mimic, Model, Node, Opaque
-from twinform.ir.verify.joints import useless_leader
+from twinform.ir.verify.verify_joints import useless_leader
 from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_FIELDS, LINK_TAGS, MODEL_TAGS
 
 _ABOUT_JOINTS = frozenset({"transmission", "ros2_control"})

@@ -5,7 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import REPLACED_CONTINUOUS
 from twinform.ir import Axis, Document, Format, Joint, Limit, rewrite
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 
 
 class ReplaceContinuous(Pass):

@@ -16,7 +16,7 @@ from typing import BinaryIO
 
 from twinform.confinement import confine
 from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
-from twinform.passes.mesh_jobs.limits import limit_reading, reading_seconds
+from twinform.passes.mesh_jobs.job_limits import limit_reading, reading_seconds
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError
 
 _JOBS = {

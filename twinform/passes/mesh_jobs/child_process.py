@@ -9,7 +9,7 @@ from typing import BinaryIO, cast
 
 from twinform.child_python import python_command
 from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult
-from twinform.passes.mesh_jobs.limits import MEMORY
+from twinform.passes.mesh_jobs.job_limits import MEMORY
 
 # Seconds of the wall clock, on a busy machine, after which a job is given up; its limit of
 # processor time is shorter.

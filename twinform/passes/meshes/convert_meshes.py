@@ -8,11 +8,11 @@ from pydantic import Field, model_validator
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import CHANGED_MESH, KEPT_MESH
 from twinform.ir import Collision, Document, Geometry, Link, Mesh, Visual, rewrite
-from twinform.passes.analyses.meshes import MeshError
+from twinform.passes.analyses.mesh_solids import MeshError
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.mesh_jobs.formats import MeshFormat
 from twinform.passes.mesh_jobs.mesh_files import kind_of
-from twinform.passes.meshes.consumers import ConsumerName, consumers
+from twinform.passes.meshes.mesh_consumers import ConsumerName, consumers
 from twinform.passes.meshes.mesh_pass import MeshPass, Workbench, stays
 from twinform.passes.meshes.mesh_shapes import without_submesh
 from twinform.passes.meshes.mesh_source import MeshSource

@@ -10,7 +10,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import LIMITED_SENSOR, SENSOR_OVER_BUDGET
 from twinform.ir import Document, Element, Opaque, Sensor
 from twinform.passes.analyses.sensor_costs import SensorCost, image_size, images, samples, sensor_cost, sensors_in
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.meshes.map_sensors import map_sensors, with_child, with_text
 

@@ -6,7 +6,7 @@ from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 
 from twinform.diagnostics import HEAD, DiagnosticSink, rules
-from twinform.passes.analyses.meshes import MeshError
+from twinform.passes.analyses.mesh_solids import MeshError
 from twinform.passes.framework.asset_access import AssetError, Assets
 from twinform.passes.mesh_jobs.formats import MARK
 from twinform.passes.mesh_jobs.mesh_files import READ, RefusedMeshError, content_of, kind_of

@@ -7,18 +7,18 @@ from pydantic import Field, model_validator
 
 from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.ir import Document, Model, Plugin, Sensor, World, replace_node
+from twinform.passes.plugins.add_elements import add_plugin, add_visual_plugin, add_world_plugin
 from twinform.passes.plugins.base_link import base_link
 from twinform.passes.plugins.catalog import nearest, releases, system
-from twinform.passes.plugins.editing import add_plugin, add_visual_plugin, add_world_plugin
-from twinform.passes.plugins.options import MissingError, content_of, field_of, options_of
+from twinform.passes.plugins.catalog_types import PluginKind
 from twinform.passes.plugins.parameters import names_in
-from twinform.passes.plugins.parts import PluginKind
+from twinform.passes.plugins.pass_targets import find_model, find_world, missing, world_of
+from twinform.passes.plugins.plugin_options import MissingError, content_of, field_of, options_of
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sites import PluginSite, map_sensors
-from twinform.passes.plugins.targets import find_model, find_world, missing, world_of
 from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
-from twinform.passes.plugins.worlds import as_xml, lacking_for, system_plugin, with_defaults, with_systems
+from twinform.passes.plugins.world_systems import as_xml, lacking_for, system_plugin, with_defaults, with_systems
 
 _ODOMETRY_FRAMES = (("frame-id", "child-frame-id"), ("odom-frame", "robot-base-frame"))
 """The options of systems that report odometry: the frame that it is in, and that of the model."""

@@ -10,17 +10,17 @@ from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor, replace_node
 from twinform.ir.frames import WORLD
 from twinform.ir.node import NOT_CONTENT
+from twinform.passes.plugins.add_elements import add_sensor
 from twinform.passes.plugins.catalog import releases, sensor
-from twinform.passes.plugins.editing import add_sensor
-from twinform.passes.plugins.parts import SensorKind
+from twinform.passes.plugins.catalog_types import SensorKind
+from twinform.passes.plugins.parameter_types import is_topic
+from twinform.passes.plugins.pass_targets import find_model, missing, world_of
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sensor_frames import named_frame, own_frame, with_own_frame
 from twinform.passes.plugins.sensor_settings import addable, element_of, fields_of, settings_of
 from twinform.passes.plugins.sites import sensors_of
-from twinform.passes.plugins.targets import find_model, missing, world_of
-from twinform.passes.plugins.values import is_topic
-from twinform.passes.plugins.worlds import as_xml, has_element, has_system, requirements_of, with_systems
+from twinform.passes.plugins.world_systems import as_xml, has_element, has_system, requirements_of, with_systems
 from twinform.passes.transforms.nodes import unique_name
 
 _Number = Annotated[float, Field(allow_inf_nan=False)]

@@ -14,8 +14,8 @@ from importlib import resources
 from importlib.resources.abc import Traversable
 from typing import Any, Literal
 
-from twinform.passes.plugins.notation import read_plugins
-from twinform.passes.plugins.parts import PluginKind, Published, Release, SensorKind
+from twinform.passes.plugins.catalog_syntax import read_plugins
+from twinform.passes.plugins.catalog_types import PluginKind, Published, Release, SensorKind
 
 __all__ = [
     "DEFAULT_SYSTEMS",

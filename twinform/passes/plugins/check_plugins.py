@@ -6,7 +6,7 @@ from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Plugin, Sensor, World
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.plugins.catalog import (
     classic_plugins_of_file,
     is_ignition_name,
@@ -19,11 +19,11 @@ from twinform.passes.plugins.catalog import (
     systems,
     systems_of_file,
 )
+from twinform.passes.plugins.catalog_types import PluginKind, SensorKind
 from twinform.passes.plugins.parameters import ModelNames, ParameterContext, check_parameters
-from twinform.passes.plugins.parts import PluginKind, SensorKind
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sites import PluginSite, plugins_of, sensors_of
-from twinform.passes.plugins.worlds import (
+from twinform.passes.plugins.world_systems import (
     as_xml,
     has_element,
     has_system,

@@ -8,8 +8,8 @@ from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Element, Model, Plugin
 from twinform.ir.scopes import scoped_models
 from twinform.passes.plugins.catalog import nearest
-from twinform.passes.plugins.parts import PluginKind, PluginParameter
-from twinform.passes.plugins.values import problem_of
+from twinform.passes.plugins.catalog_types import PluginKind, PluginParameter
+from twinform.passes.plugins.parameter_types import problem_of
 
 
 class ModelNames:

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Self, cast
 from pydantic import ValidationError, create_model
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.plugins.catalog import UnknownNameError, nearest
 
 Fields = Mapping[str, tuple[Any, Any]]

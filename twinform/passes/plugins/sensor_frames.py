@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from twinform.ir import Element, Format, Frame, Joint, Link, Model, Opaque, Pose, Sensor
 from twinform.ir.transform import Transform
 from twinform.passes.plugins.catalog import release
-from twinform.passes.transforms.notation import in_radians
+from twinform.passes.transforms.pose_notation import in_radians
 
 _ELEMENTS = frozenset({"frame_id", "gz_frame_id", "ignition_frame_id"})
 # Cameras with nothing but images. Those with clouds stamp both with one frame, and a cloud of

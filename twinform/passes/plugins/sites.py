@@ -24,7 +24,7 @@ from twinform.ir import (
     World,
     replace_fields,
 )
-from twinform.ir.tree import node_fields
+from twinform.ir.tree_walks import node_fields
 from twinform.passes.plugins.elements import plugin_element, plugin_of, sensor_element, sensor_of
 
 AnyNode = TypeVar("AnyNode", bound=Node)

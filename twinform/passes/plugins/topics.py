@@ -8,7 +8,7 @@ from typing import Literal
 from twinform.ir import Document, Element, Format, Model, Plugin, Sensor
 from twinform.ir.node import Node
 from twinform.passes.plugins.catalog import modern_class, systems_of_file
-from twinform.passes.plugins.parts import PluginKind, Published, SensorKind, TopicChannel
+from twinform.passes.plugins.catalog_types import PluginKind, Published, SensorKind, TopicChannel
 from twinform.passes.plugins.sites import PluginSite, plugins_of, sensors_of
 from twinform.passes.plugins.topic_patterns import (
     as_valid_topic,
@@ -19,7 +19,7 @@ from twinform.passes.plugins.topic_patterns import (
     topic_of_pattern,
     without_parentheses,
 )
-from twinform.passes.plugins.worlds import custom_type, kind_of_sensor
+from twinform.passes.plugins.world_systems import custom_type, kind_of_sensor
 from twinform.passes.transforms.gazebo_tags import TRUE
 from twinform.passes.transforms.lumped_links import lumped_joints, lumped_links
 

@@ -2,13 +2,13 @@
 
 from functools import lru_cache
 
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.sdf_versions import kinds
-from twinform.passes.sdf_versions.base import known_version
 from twinform.passes.sdf_versions.early_frames import has_early_frames
 from twinform.passes.sdf_versions.put_back import PutBack
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.sdf_versions.steps import backward, forward, meaning_back, unversioned
+from twinform.passes.sdf_versions.version_pass import known_version
 from twinform.schemas import Version, parse_version, print_version, versions_of
 
 __all__ = [

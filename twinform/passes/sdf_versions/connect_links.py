@@ -8,7 +8,7 @@ from twinform.diagnostics.rules import DANGLING_FRAME
 from twinform.ir import Document, Joint, Model, Opaque, World, count_parts, rewrite
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
-from twinform.passes.sdf_versions.base import VersionPass
+from twinform.passes.sdf_versions.version_pass import VersionPass
 from twinform.passes.transforms.joint_ends import named_ends, report_self_joint, resolve_ends
 from twinform.passes.transforms.nodes import pose_piece
 

@@ -1,7 +1,7 @@
 """Frames in a version of SDF in which they mean nothing."""
 
 from twinform.ir import Document, Format, Frame, bits_of, census_of, walk
-from twinform.passes.sdf_versions.base import known_version
+from twinform.passes.sdf_versions.version_pass import known_version
 from twinform.schemas import Version, parse_version
 
 NAMED_FRAMES: Version = (1, 7)

@@ -8,7 +8,7 @@ from twinform.ir import Axis, Document, Format, Joint, Limit, Opaque, rewrite
 from twinform.ir.defaults import AXIS
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
-from twinform.passes.sdf_versions.base import VersionPass
+from twinform.passes.sdf_versions.version_pass import VersionPass
 from twinform.passes.transforms.nodes import text_piece
 from twinform.schemas import Version, format_value, print_version
 

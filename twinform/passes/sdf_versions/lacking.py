@@ -6,7 +6,7 @@ from functools import cache
 from twinform.ir import PLAIN, Document, Node, Pose, bits_of
 from twinform.ir.census import RARE, union_of
 from twinform.ir.record import fields_of
-from twinform.ir.tree import classes_in
+from twinform.ir.tree_walks import classes_in
 from twinform.passes.sdf_versions.spans import ElementContent, VersionSpan, shape
 from twinform.schemas import Version, table
 

@@ -7,10 +7,10 @@ from twinform.ir import Collision, Document, Element, Node, Opaque, Pose, Visual
 from twinform.ir.record import fields_of
 from twinform.passes.carriers.definitions import definition_of
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper, is_version_carrier
-from twinform.passes.sdf_versions.base import VersionPass, is_foreign
 from twinform.passes.sdf_versions.lacking import bits_lacking
 from twinform.passes.sdf_versions.leftovers import Leftover, node_pieces
 from twinform.passes.sdf_versions.spans import ElementContent, VersionSpan, shape, shape_of, whole
+from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign
 from twinform.schemas import Fact, Version, print_version
 
 _OF_KINDS = "shape"

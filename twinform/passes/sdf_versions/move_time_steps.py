@@ -4,8 +4,8 @@ from typing import ClassVar
 
 from twinform.ir import Document, Element, World, rewrite
 from twinform.passes.carriers.sdf_versions import VersionKeeper
-from twinform.passes.sdf_versions.base import VersionPass, map_own_elements
 from twinform.passes.sdf_versions.element_paths import has, put, take
+from twinform.passes.sdf_versions.version_pass import VersionPass, map_own_elements
 
 _RATE = "update_rate"
 _REAL_TIME_RATE = "real_time_update_rate"

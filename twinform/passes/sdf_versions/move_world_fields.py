@@ -5,8 +5,8 @@ from typing import ClassVar
 
 from twinform.ir import Document, Element, Opaque, World, rewrite
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper, version_carriers
-from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.sdf_versions.element_paths import put, take
+from twinform.passes.sdf_versions.version_pass import VersionPass
 from twinform.schemas import format_value, parse_value
 
 _SINCE = (1, 6)

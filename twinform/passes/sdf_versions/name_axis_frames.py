@@ -6,7 +6,7 @@ from typing import ClassVar
 from twinform.ir import Axis, Document, Joint, World, rewrite
 from twinform.ir.frames import MODEL, WORLD
 from twinform.passes.carriers.sdf_versions import VersionKeeper
-from twinform.passes.sdf_versions.base import VersionPass
+from twinform.passes.sdf_versions.version_pass import VersionPass
 
 _BY_NAME = (1, 7)
 """Since this version an axis names its frame."""

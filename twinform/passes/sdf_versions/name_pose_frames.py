@@ -4,7 +4,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.ir import OPAQUE, Document, Element, Model, Node, Opaque, Pose, map_children, replace_fields, rewrite
 from twinform.passes.carriers.sdf_versions import VersionKeeper
-from twinform.passes.sdf_versions.base import VersionPass, is_foreign, map_own_elements
+from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign, map_own_elements
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

@@ -23,7 +23,7 @@ from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.sdf_versions import VersionKeeper
-from twinform.passes.sdf_versions.base import VersionPass
+from twinform.passes.sdf_versions.version_pass import VersionPass
 
 Part = TypeVar("Part", Link, Joint, Frame)
 

@@ -26,8 +26,8 @@ from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper, version_carriers
-from twinform.passes.sdf_versions.base import VersionPass
 from twinform.passes.sdf_versions.early_frames import NAMED_FRAMES
+from twinform.passes.sdf_versions.version_pass import VersionPass
 from twinform.passes.transforms.element_poses import ElementPoses
 from twinform.passes.transforms.nodes import pose_piece
 from twinform.schemas import Version

@@ -6,7 +6,7 @@ from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Link, Model, rewrite
 from twinform.ir.frames import FrameGraph
 from twinform.passes.carriers.sdf_versions import VersionKeeper
-from twinform.passes.sdf_versions.base import VersionPass
+from twinform.passes.sdf_versions.version_pass import VersionPass
 
 
 class PlaceInertials(VersionPass):

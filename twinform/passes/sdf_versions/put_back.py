@@ -16,13 +16,13 @@ from twinform.ir import (
     replace_fields,
     untyped_elements,
 )
-from twinform.ir.verify.joints import verify_mimics
+from twinform.ir.verify.verify_joints import verify_mimics
 from twinform.passes.carriers.absorb import CarrierError, absorb, is_already_there
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours
 from twinform.passes.carriers.sdf_versions import DIALECT, VersionKeeper, carried, condition_of, is_version_carrier
-from twinform.passes.sdf_versions.base import VersionPass, is_foreign
-from twinform.passes.sdf_versions.comparison import same, without_carriers
+from twinform.passes.sdf_versions.document_comparison import same, without_carriers
 from twinform.passes.sdf_versions.steps import backward
+from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign
 from twinform.schemas import Version, parse_version
 
 AnyNode = TypeVar("AnyNode", bound=Node)

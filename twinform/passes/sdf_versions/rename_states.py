@@ -5,7 +5,7 @@ from typing import ClassVar
 
 from twinform.ir import Document, Element, World, rewrite
 from twinform.passes.carriers.sdf_versions import VersionKeeper
-from twinform.passes.sdf_versions.base import VersionPass, is_foreign, map_own_elements
+from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign, map_own_elements
 from twinform.schemas import Fact, Version, table
 
 _NAMES = {

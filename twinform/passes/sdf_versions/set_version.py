@@ -5,7 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 
 
 class SetVersion(Pass):

@@ -6,8 +6,8 @@ from typing import ClassVar
 from twinform.ir import PLAIN, Document, Element, Sensor, rewrite
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.sdf_versions import VersionKeeper
-from twinform.passes.sdf_versions.base import VersionPass, map_own_elements
 from twinform.passes.sdf_versions.element_paths import has, put, take
+from twinform.passes.sdf_versions.version_pass import VersionPass, map_own_elements
 
 _MEASURED = {"rate": "angular_velocity", "accel": "linear_acceleration"}
 _NUMBERS = ("mean", "stddev", "bias_mean", "bias_stddev")

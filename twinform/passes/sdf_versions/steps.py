@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.sdf_versions import kinds
 from twinform.schemas import Version, print_version
 

@@ -8,7 +8,7 @@ from twinform.ir import Axis, Document, Element, Format, Joint, Model, Opaque, r
 from twinform.ir.defaults import AXIS, direction
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
-from twinform.passes.sdf_versions.base import VersionPass
+from twinform.passes.sdf_versions.version_pass import VersionPass
 from twinform.schemas import Version, format_value
 
 _NAMES: Version = (1, 7)

@@ -8,11 +8,11 @@ from twinform.ir import PLAIN, Document, Element, Node, Opaque, Pose, bits_of, c
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper, version_carriers
-from twinform.passes.sdf_versions.base import VersionPass, map_inside, map_own_elements
 from twinform.passes.sdf_versions.element_paths import replace
+from twinform.passes.sdf_versions.version_pass import VersionPass, map_inside, map_own_elements
 from twinform.passes.transforms.element_poses import read_pose
 from twinform.passes.transforms.nodes import pose_piece
-from twinform.passes.transforms.notation import in_radians
+from twinform.passes.transforms.pose_notation import in_radians
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 _SINCE = (1, 9)

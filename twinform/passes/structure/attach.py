@@ -12,7 +12,7 @@ from twinform.ir.scopes import outer_models
 from twinform.passes.framework.other_documents import DocumentPass, DocumentReader
 from twinform.passes.structure.join_models import Mount, join_sdf, join_urdf, root_of
 from twinform.passes.structure.model_edit import in_new_words
-from twinform.passes.structure.renaming import renamed_model
+from twinform.passes.structure.rename_parts import renamed_model
 from twinform.passes.structure.scopes import Part, scope_of
 
 

@@ -7,7 +7,7 @@ from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import REPEATED_ELEMENT
 from twinform.ir import Document, Format, Inertial, Joint, Link, Node, Opaque, replace_fields, rewrite
 from twinform.ir.visual import Collision, Material, Visual
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.schemas import Fact, table
 
 _HOLDERS: dict[type[Node], tuple[str, ...]] = {

@@ -12,7 +12,7 @@ from twinform.ir.frames import MODEL, FrameGraph
 from twinform.ir.scopes import SCOPE, nested_models, nested_names, scoped_models
 from twinform.passes.carriers.annotations import without_synthesized
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
-from twinform.passes.structure.renaming import renamed_in_world, renamed_model, with_followed
+from twinform.passes.structure.rename_parts import renamed_in_world, renamed_model, with_followed
 from twinform.passes.structure.scopes import Part, RenamedScope, report_clashes, scope_of
 from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.joint_ends import report_self_joint, resolve_ends

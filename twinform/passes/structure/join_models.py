@@ -11,7 +11,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.provenance import FROM
 from twinform.passes.includes.merge import merge_into_model
-from twinform.passes.transforms.notation import OFFSET, POSE
+from twinform.passes.transforms.pose_notation import OFFSET, POSE
 
 
 class Mount(NamedTuple):

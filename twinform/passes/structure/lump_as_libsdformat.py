@@ -25,7 +25,7 @@ from twinform.ir.defaults import AXIS, UNLIMITED
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import placed
 from twinform.ir.transform import Transform
-from twinform.passes.structure.bodies import body_of, with_guests
+from twinform.passes.structure.combined_bodies import body_of, with_guests
 from twinform.passes.structure.gazebo_blocks import (
     OF_SHAPES,
     Blocks,
@@ -44,7 +44,7 @@ from twinform.passes.structure.model_edit import EditContext
 from twinform.passes.structure.moved_plugins import moved_plugin
 from twinform.passes.structure.tagged_shapes import KINDS, shape_name
 from twinform.passes.transforms.lumped_links import is_preserved
-from twinform.passes.transforms.notation import in_radians
+from twinform.passes.transforms.pose_notation import in_radians
 
 Shape = TypeVar("Shape", Visual, Collision)
 

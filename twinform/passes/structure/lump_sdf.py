@@ -23,9 +23,9 @@ from twinform.ir.defaults import BODY
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.solids import placed
 from twinform.passes.analyses.automatic_inertias import NoInertiaError
-from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.carriers.carriers import is_ours
-from twinform.passes.structure.bodies import body_of, with_guests
+from twinform.passes.structure.combined_bodies import body_of, with_guests
 from twinform.passes.structure.lumping_plan import LumpingPlan, plan
 from twinform.passes.structure.mentions import Mentions, mentions
 from twinform.passes.structure.model_edit import EditContext

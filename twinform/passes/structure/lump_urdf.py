@@ -8,7 +8,7 @@ from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, placed
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import is_ours
-from twinform.passes.structure.bodies import body_of, with_guests
+from twinform.passes.structure.combined_bodies import body_of, with_guests
 from twinform.passes.structure.gazebo_blocks import (
     Blocks,
     blocks,
@@ -24,7 +24,7 @@ from twinform.passes.structure.mentions import Mentions, mentions
 from twinform.passes.structure.model_edit import EditContext
 from twinform.passes.transforms.lumped_links import is_preserved
 from twinform.passes.transforms.nodes import unique_name
-from twinform.passes.transforms.notation import in_radians
+from twinform.passes.transforms.pose_notation import in_radians
 
 Shape = TypeVar("Shape", Visual, Collision)
 _KINDS = {"visuals": "visual", "collisions": "collision"}

@@ -10,7 +10,7 @@ from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Model, World, replace_fields
 from twinform.ir.frames import FrameError
 from twinform.ir.scopes import outer_models
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.schemas import parse_version, versions_of
 
 FRAMES_EVERYWHERE = "1.8"

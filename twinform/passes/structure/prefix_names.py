@@ -6,7 +6,7 @@ from pydantic import Field
 
 from twinform.ir import Model, World
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
-from twinform.passes.structure.renaming import renamed_in_world, renamed_model
+from twinform.passes.structure.rename_parts import renamed_in_world, renamed_model
 from twinform.passes.structure.scopes import Part, report_clashes, scope_of
 
 

@@ -8,7 +8,7 @@ from pydantic import Field, field_validator
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Model, World
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
-from twinform.passes.structure.renaming import renamed_in_world, renamed_model
+from twinform.passes.structure.rename_parts import renamed_in_world, renamed_model
 from twinform.passes.structure.scopes import Part, every_name, report_clashes, scope_of
 
 PartName = Literal["link", "joint", "frame", "model"]

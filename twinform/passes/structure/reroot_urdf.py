@@ -9,7 +9,7 @@ from twinform.ir.frames import FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.structure.gazebo_blocks import blocks
 from twinform.passes.structure.reversal import ABOUT_A_POINT, TURNING, opposite, swapped_block, with_axis
-from twinform.passes.transforms.notation import in_radians
+from twinform.passes.transforms.pose_notation import in_radians
 
 # Meters by which a link's origin may be beside an axis that goes through it: the rounding of zero.
 _ON_AXIS = 1e-12

@@ -7,7 +7,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import GAZEBO_SHAPE_NAME
 from twinform.ir import Collision, Document, Element, Format, GazeboExtension, Link, Model, Visual, replace_fields
 from twinform.passes.carriers.lumped_names import LUMP, mentions_collisions
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.structure.tagged_shapes import (
     KINDS,
     SeenShape,

@@ -11,7 +11,7 @@ from twinform.ir.frames import FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import NAMESPACE, to_element
 from twinform.passes.transforms.nodes import map_elements
-from twinform.passes.transforms.notation import POSE, as_annotated
+from twinform.passes.transforms.pose_notation import POSE, as_annotated
 from twinform.schemas import Context, element_xml, reader, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)

@@ -7,7 +7,7 @@ from twinform.ir import Joint, Opaque, Pose
 from twinform.ir.frames import FrameGraph
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.transforms.nodes import text_piece
-from twinform.passes.transforms.notation import pose_attributes
+from twinform.passes.transforms.pose_notation import pose_attributes
 
 ENDS = "ends"
 """The annotation on a joint whose ends were frames: `<tf:ends parent="mount" child="flange"/>`."""

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from twinform.diagnostics import DiagnosticSink, Rule, rules
 from twinform.profiles.detectors.attributes import find_empty_attributes
 from twinform.profiles.detectors.engines import find_engine_faults
-from twinform.profiles.detectors.meshes import find_mesh_formats
+from twinform.profiles.detectors.mesh_formats import find_mesh_formats
 from twinform.profiles.detectors.tags import find_lost_tags
 from twinform.profiles.subject import ProfiledFile
 

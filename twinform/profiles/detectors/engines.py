@@ -21,8 +21,8 @@ from twinform.ir import Collision, Document, Format, Inertial, Joint, Link, Mate
 from twinform.ir.defaults import MOMENT
 from twinform.ir.solids import written_solid
 from twinform.ir.verify.inertia import inertia_matrix
+from twinform.passes.analyses.link_shapes import is_flat
 from twinform.passes.analyses.moving_bodies import Body, moving_bodies
-from twinform.passes.analyses.shapes import is_flat
 from twinform.passes.appearance.drop_bare_scripts import is_bare
 from twinform.passes.inertia.physical_consistency import is_doubtful
 from twinform.passes.limits.order_limits import is_usable

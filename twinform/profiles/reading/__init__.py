@@ -9,8 +9,8 @@ import re
 from collections.abc import Iterator
 
 from twinform.profiles.reading.nodes import RawNode, UnparsedError
-from twinform.profiles.reading.notation import reads
 from twinform.profiles.reading.python_xml import parse_with_expat, parse_with_lxml
+from twinform.profiles.reading.reads_notation import reads
 from twinform.profiles.reading.tinyxml import TINYXML, TINYXML_2, in_lines, parse
 from twinform.profiles.reading.walking import IsThere, Shortfall, shortfalls
 

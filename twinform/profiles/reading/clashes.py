@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping
 
 from twinform.profiles.reading.forms import number_in
-from twinform.profiles.reading.lumping import Fact
+from twinform.profiles.reading.lumped_masses import Fact
 from twinform.profiles.reading.nodes import RawNode
 
 

@@ -4,10 +4,11 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
-from twinform.profiles.reading import transmissions, tree
+from twinform.profiles.reading import transmissions
+from twinform.profiles.reading import tree_facts as tree
 from twinform.profiles.reading.forms import FORMS
 from twinform.profiles.reading.nodes import Paths, RawNode
-from twinform.profiles.reading.notation import Demand, PlaceStep, Reads
+from twinform.profiles.reading.reads_notation import Demand, PlaceStep, Reads
 
 IsThere = Callable[[str], bool]
 """Whether a URI leads to a file."""

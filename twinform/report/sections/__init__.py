@@ -5,14 +5,14 @@ from typing import NamedTuple
 
 from twinform.report.content import ModelReport
 from twinform.report.markup import Markup
-from twinform.report.sections.conversion import conversion
+from twinform.report.sections.conversion_section import conversion
 from twinform.report.sections.differences import differences
-from twinform.report.sections.findings import findings
+from twinform.report.sections.findings_section import findings
 from twinform.report.sections.masses import masses
-from twinform.report.sections.meshes import meshes
+from twinform.report.sections.meshes_section import meshes
 from twinform.report.sections.reach import reach
 from twinform.report.sections.statistics import statistics
-from twinform.report.sections.tree import tree
+from twinform.report.sections.tree_section import tree
 from twinform.report.sections.view import view
 
 

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from itertools import groupby
 
 from twinform.compiler.compare import Comparison, Difference, DifferenceSeverity
-from twinform.compiler.compare.reporters import amounts_of, heading_of, places_of, summary, what_differs
+from twinform.compiler.compare.comparison_reporters import amounts_of, heading_of, places_of, summary, what_differs
 from twinform.report.content import ModelReport
+from twinform.report.html_parts import count, folded, table
 from twinform.report.markup import Markup, Part, breakable, element, join
-from twinform.report.parts import count, folded, table
 
 _HEADS = ("Part", "What", "In A", "In B", "By", "Where")
 

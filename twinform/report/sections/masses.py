@@ -2,8 +2,8 @@
 
 from twinform.compiler.scene import SceneLink
 from twinform.report.content import ModelReport
+from twinform.report.html_parts import Cell, bar, number, table
 from twinform.report.markup import Markup, Part, element
-from twinform.report.parts import Cell, bar, number, table
 
 _HEADS = (
     "Link", "Mass (kg)", "Share of the heaviest", "x (m)", "y (m)", "z (m)", "ixx", "iyy", "izz", "ixy", "ixz", "iyz",

@@ -3,8 +3,8 @@
 import math
 
 from twinform.report.content import ModelReport
+from twinform.report.html_parts import Cell, bar, number, table
 from twinform.report.markup import Markup
-from twinform.report.parts import Cell, bar, number, table
 from twinform.report.reach import reaches
 
 _HEADS = ("Link", "At zero (m)", "At most (m)", "From 0 to the furthest")

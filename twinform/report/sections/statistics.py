@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping
 
 from twinform.compiler.statistics import ModelStatistics
 from twinform.report.content import ModelReport
+from twinform.report.html_parts import table
 from twinform.report.markup import Markup, Part, breakable, element, join
-from twinform.report.parts import table
 
 
 def statistics(report: ModelReport) -> Markup | None:

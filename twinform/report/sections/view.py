@@ -2,8 +2,8 @@
 
 from twinform.report.content import ModelReport
 from twinform.report.frame import framed
+from twinform.report.html_parts import count, table
 from twinform.report.markup import Markup, element, join
-from twinform.report.parts import count, table
 
 
 def view(report: ModelReport) -> Markup | None:

@@ -12,7 +12,7 @@ from twinform.schemas.text_output import (
     pose_numbers,
     vector3,
 )
-from twinform.schemas.values import (
+from twinform.schemas.value_types import (
     format_number,
     format_numbers,
     format_value,

@@ -8,7 +8,7 @@ from twinform.schemas.text_output import (
     in_attribute,
     vector3,
 )
-from twinform.schemas.values import (
+from twinform.schemas.value_types import (
     format_number,
     format_numbers,
 )

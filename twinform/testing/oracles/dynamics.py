@@ -15,9 +15,9 @@ from typing import Any
 import numpy as np
 
 from twinform.testing.oracles import drake
-from twinform.testing.oracles.comparison import IN_CHAINS, chained, renamed
 from twinform.testing.oracles.in_process import read_robot
 from twinform.testing.oracles.robot import Matrix, View, spread
+from twinform.testing.oracles.robot_comparison import IN_CHAINS, chained, renamed
 from twinform.testing.oracles.verdict import Alike, EngineUnreadableError, Verdict
 
 TOLERANCE = 1e-6

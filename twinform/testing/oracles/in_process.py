@@ -3,9 +3,9 @@
 from importlib import import_module
 from pathlib import Path
 
-from twinform.testing.oracles.comparison import chained, judge, renamed
 from twinform.testing.oracles.engines import required
 from twinform.testing.oracles.robot import EngineRobot, View
+from twinform.testing.oracles.robot_comparison import chained, judge, renamed
 from twinform.testing.oracles.verdict import EngineUnreadableError, Verdict
 
 

@@ -11,7 +11,7 @@ from twinform.compiler.batch.entries import ModelEntry
 from twinform.compiler.batch.jobs import Convert
 from twinform.compiler.batch.record import Outcome
 from twinform.compiler.batch.task import Done, Task, work
-from twinform.compiler.input.limits import LARGEST, Limits
+from twinform.compiler.input.size_limits import LARGEST, Limits
 from twinform.diagnostics import DiagnosticSink, Policy
 from twinform.ir import Document
 from twinform.passes import Pass, Pipeline
@@ -96,6 +96,6 @@ def test_a_fault_of_our_own_is_reported(tmp_path: Path, monkeypatch: pytest.Monk
     def fail(*_: object, **__: object) -> None:
         raise KeyError("lost")
 
-    monkeypatch.setattr("twinform.compiler.batch.jobs.convert.run_conversion", fail)
+    monkeypatch.setattr("twinform.compiler.batch.jobs.convert_job.run_conversion", fail)
     done = _done(tmp_path, GOOD)
     assert (done.outcome, done.message) == (Outcome.FAILED, "a fault of twinform: KeyError: 'lost'")

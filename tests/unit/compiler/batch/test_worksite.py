@@ -11,7 +11,7 @@ import pytest
 from twinform.compiler import ConversionRequest, LoadOptions
 from twinform.compiler.batch import Batch, Convert, ModelResult, UnfitWorkerError, batch, of_folder
 from twinform.compiler.batch.worksite import Worksite, worksite
-from twinform.compiler.search.uris import SearchPath
+from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.compiler.workers import Runner
 
 _MACHINE = "machine-7 (tcp://10.0.0.7:9)"

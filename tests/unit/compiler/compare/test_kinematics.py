@@ -2,8 +2,8 @@
 
 import pytest
 
+from twinform.compiler.compare.compared_robot import ComparedBody, ComparedRobot, JointView, Mass
 from twinform.compiler.compare.kinematics import Moving, sampled_positions
-from twinform.compiler.compare.robot import ComparedBody, ComparedRobot, JointView, Mass
 from twinform.compiler.kinematics import Degree, Leader
 from twinform.ir import Format, Pose
 from twinform.ir.transform import Transform

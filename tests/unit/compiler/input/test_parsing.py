@@ -7,8 +7,8 @@ from lxml import etree
 
 import twinform
 from twinform.compiler import check
-from twinform.compiler.input.limits import LARGEST, Limits
 from twinform.compiler.input.parsing import UnreadableError, parse, read_bytes, strip_default_namespace
+from twinform.compiler.input.size_limits import LARGEST, Limits
 from twinform.diagnostics import DiagnosticSink, Location
 
 _LINK = b'<link name="a"/>'

@@ -3,7 +3,7 @@
 import pytest
 
 from tests.unit.compiler.normal_form.snippets import compared, joint, link, robot, sdf, sdf_link
-from twinform.compiler.errors import CompileError
+from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.normal_form import normal_form
 
 POINTS = "<collision name='c'><geometry><polyline>{}</polyline></geometry></collision>"

@@ -4,7 +4,7 @@ import pytest
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Element, Plugin, Sensor
-from twinform.passes.classic.sensors import SensorMigration
+from twinform.passes.classic.migrate_sensors import SensorMigration
 from twinform.passes.plugins.catalog import release
 from twinform.passes.plugins.elements import sensor_of
 from twinform.passes.plugins.sites import PluginSite

@@ -5,7 +5,7 @@ import pytest
 from twinform.ir import Element
 from twinform.passes.classic.tables import Migration, Move, migration_of, migrations
 from twinform.passes.plugins.catalog import classic_plugins, modern_file, releases, sensors, system
-from twinform.passes.plugins.parts import PluginKind
+from twinform.passes.plugins.catalog_types import PluginKind
 
 OF_ROS = {"ros", "robotNamespace", "robot_namespace"}
 CLASSIC = {f"{family} {kind.file}": kind for family in ("noetic", "ros2") for kind in classic_plugins(family).values()}

@@ -8,7 +8,7 @@ import pytest
 from twinform.passes import find_pass, registered_passes
 from twinform.passes.framework.built_in import BUILT_IN
 from twinform.passes.framework.built_in_table import built_in_table
-from twinform.passes.framework.registry import HOME, OWN
+from twinform.passes.framework.pass_registry import HOME, OWN
 
 
 def test_the_committed_table_is_up_to_date() -> None:

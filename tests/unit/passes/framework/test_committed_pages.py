@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from twinform.passes.framework.pages import passes_page
-from twinform.passes.legalise.page import pipeline_page
+from twinform.passes.framework.passes_page import passes_page
+from twinform.passes.legalise.pipeline_page import pipeline_page
 
 _DOCS = Path(__file__).parents[4] / "docs"
 

@@ -12,7 +12,7 @@ from twinform.passes import PipelineError, parse_pipeline
 from twinform.passes.plugins.add_plugin import AddPlugin
 from twinform.passes.plugins.catalog import system, systems
 from twinform.passes.plugins.check_plugins import CheckPlugins
-from twinform.passes.plugins.options import options_of
+from twinform.passes.plugins.plugin_options import options_of
 from twinform.passes.plugins.sites import plugins_of
 
 _EXAMPLES = Path(__file__).parents[4] / "examples"

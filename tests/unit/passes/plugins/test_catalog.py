@@ -13,7 +13,7 @@ from twinform.passes.plugins.catalog import (
     system,
     systems,
 )
-from twinform.passes.plugins.parts import PluginKind, PluginParameter
+from twinform.passes.plugins.catalog_types import PluginKind, PluginParameter
 from twinform.passes.plugins.release_names import ReleaseName
 
 ALL = [

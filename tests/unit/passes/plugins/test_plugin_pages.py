@@ -1,7 +1,7 @@
 from pathlib import Path
 
 from twinform.passes.plugins.catalog import sensors, systems
-from twinform.passes.plugins.pages import plugins_page
+from twinform.passes.plugins.plugins_page import plugins_page
 
 PAGE = Path(__file__).parents[4] / "docs/reference/plugins.md"
 

@@ -4,7 +4,7 @@ import pytest
 
 import twinform
 from twinform.ir import Document, Plugin, Sensor, replace_node
-from twinform.passes.plugins.editing import add_plugin, add_sensor, add_world_plugin
+from twinform.passes.plugins.add_elements import add_plugin, add_sensor, add_world_plugin
 from twinform.passes.plugins.sites import PluginSite, map_plugins, map_sensors, plugins_of, sensors_of
 
 URDF = """<robot name="r">

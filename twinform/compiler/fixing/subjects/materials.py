@@ -1,7 +1,7 @@
 """Fixes of materials: without a name, without a color, there twice, or of another color under the same name."""
 
 from twinform.compiler.fixing.site import FindingSite, Fixers, safe, unsafe
-from twinform.compiler.fixing.subjects.names import free_name
+from twinform.compiler.fixing.subjects.fix_names import free_name
 from twinform.diagnostics import Fix, rules
 from twinform.schemas import XmlElement
 from twinform.text import same_element

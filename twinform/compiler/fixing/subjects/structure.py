@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from twinform.compiler.fixing.numbers_text import numbers_of, text_of_number
 from twinform.compiler.fixing.site import FindingSite, Fixers, display, safe, unsafe
-from twinform.compiler.fixing.subjects.names import free_name
+from twinform.compiler.fixing.subjects.fix_names import free_name
 from twinform.compiler.fixing.subjects.numbers import guesses
 from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit, rules
 from twinform.schemas import VALUE_TYPES, Fact, parse_version, print_version, table, versions_of

@@ -8,9 +8,9 @@ from typing import Any
 
 from lxml import etree
 
-from twinform.compiler.input.limits import LARGEST
-from twinform.compiler.input.options import LoadOptions
+from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
+from twinform.compiler.input.size_limits import LARGEST
 from twinform.compiler.input.xacro.conversation import ask_worker
 from twinform.diagnostics import DiagnosticSink, LineOrigins, Location, rules
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from fnmatch import fnmatchcase
 
-from twinform.compiler.input.xacro.files import DeniedError
+from twinform.compiler.input.xacro.allowed_files import DeniedError
 
 # a name does not show what is a secret: DBPASS, a connection string or the address of a web hook. So these are listed
 # one by one, and no prefix lets in what somebody else has called ROS_SOMETHING.

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.gazebo_model.folder import folder_files, reserve_names, sdf_names
-from twinform.compiler.packaging.gazebo_model.worlds import build as build_world
-from twinform.compiler.packaging.gazebo_model.worlds import is_world
+from twinform.compiler.packaging.gazebo_model.package_world import build as build_world
+from twinform.compiler.packaging.gazebo_model.package_world import is_world
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Package
 from twinform.diagnostics import DiagnosticSink

@@ -8,7 +8,7 @@ from pydantic import Field
 from twinform.compiler.packaging.ros2.systems import System, systems_of
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Element, Format, GazeboExtension, Model, Plugin, rewrite
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sites import PluginSite, map_plugins, plugins_of
 

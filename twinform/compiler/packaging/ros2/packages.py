@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from twinform.compiler.conversion import Conversion
-from twinform.compiler.errors import CompileError
+from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.gazebo_files import world_without_text
 from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.order import Built, Order

@@ -8,12 +8,12 @@ from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Model, Sensor, rewrite
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.plugins.catalog import release
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sensor_frames import frames_of, is_placed, named_frame, own_frame, with_own_frame
 from twinform.passes.plugins.sites import PluginSite, map_sensors, sensors_of
-from twinform.passes.plugins.worlds import kind_of_sensor
+from twinform.passes.plugins.world_systems import kind_of_sensor
 
 
 class NameSensorFrames(Pass):

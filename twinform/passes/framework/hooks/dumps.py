@@ -4,8 +4,8 @@ from collections.abc import Callable, Collection
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
-from twinform.passes.framework.base import Pass
 from twinform.passes.framework.instrumentation import PassInstrumentation
+from twinform.passes.framework.pass_base import Pass
 
 
 class Dumps(PassInstrumentation):

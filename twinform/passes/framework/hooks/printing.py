@@ -7,8 +7,8 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.ir.changes import ChangeKind, NodeChange, changes, count_changes
 from twinform.ir.sourced import Sourced
-from twinform.passes.framework.base import Pass
 from twinform.passes.framework.instrumentation import PassInstrumentation
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.framework.pipeline import Pipeline
 
 

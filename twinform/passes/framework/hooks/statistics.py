@@ -6,9 +6,9 @@ from time import perf_counter
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.ir.changes import Sizes, count_changes
-from twinform.passes.framework.base import Pass
-from twinform.passes.framework.errors import PassError
 from twinform.passes.framework.instrumentation import PassInstrumentation
+from twinform.passes.framework.pass_base import Pass
+from twinform.passes.framework.pass_errors import PassError
 
 NOTHING = Sizes(0, 0, 0)
 

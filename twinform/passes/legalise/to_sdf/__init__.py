@@ -1,11 +1,10 @@
 """Legalisation from URDF to SDF: the passes, in order."""
 
 from twinform.ir import Format
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
+from twinform.passes.legalise.changed_names import RestoreNames
 from twinform.passes.legalise.drop_stale import DropStale
-from twinform.passes.legalise.names import RestoreNames
 from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers
-from twinform.passes.legalise.to_sdf.bodies import UrdfBodies
 from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf
 from twinform.passes.legalise.to_sdf.declare_quaternions import DeclareQuaternions
 from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo
@@ -15,7 +14,7 @@ from twinform.passes.legalise.to_sdf.follow_lumped_names import FollowLumpedName
 from twinform.passes.legalise.to_sdf.frame_links import FrameLinks
 from twinform.passes.legalise.to_sdf.free_static_models import FreeStaticModels
 from twinform.passes.legalise.to_sdf.hide_scoped_elements import HideScopedElements
-from twinform.passes.legalise.to_sdf.joints import UrdfJoints
+from twinform.passes.legalise.to_sdf.joint_types import UrdfJoints
 from twinform.passes.legalise.to_sdf.leave_inertias import LeaveInertias
 from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris
 from twinform.passes.legalise.to_sdf.name_shapes import NameShapes
@@ -25,6 +24,7 @@ from twinform.passes.legalise.to_sdf.restore_joints import RestoreJoints
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.legalise.to_sdf.restore_shape_names import RestoreShapeNames
 from twinform.passes.legalise.to_sdf.retarget import RetargetSdf
+from twinform.passes.legalise.to_sdf.root_masses import UrdfBodies
 from twinform.passes.legalise.to_sdf.share_inertias import ShareInertias
 from twinform.passes.legalise.to_sdf.shared_materials import SharedMaterials
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames

@@ -23,7 +23,7 @@ from twinform.ir import (
 )
 from twinform.passes.carriers.carriers import DANGLING, carry, is_carrier, is_ours, unpack
 from twinform.passes.carriers.provenance import came_from
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.urdf_pieces import BALLS, OF_AN_AXIS, joints_of
 from twinform.schemas import Fact, table
 

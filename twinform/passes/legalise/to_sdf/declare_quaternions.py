@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Model, Pose, bits_of, rewrite
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 
 _QUATERNION = "quat_xyzw"
 

@@ -12,7 +12,7 @@ from twinform.passes.carriers.annotations import EXTENSION, is_synthesized, with
 from twinform.passes.carriers.carriers import DANGLING, OVERRULED, SECOND, Attributes, pack, to_element
 from twinform.passes.carriers.material_annotations import with_look
 from twinform.passes.carriers.provenance import came_from
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.free_links import are_at_one_place, placing_frames
 from twinform.passes.legalise.to_sdf.gazebo_content import read_content, with_axis, with_mass
 from twinform.passes.legalise.to_sdf.gazebo_fields import (

@@ -7,7 +7,7 @@ from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Axis, Joint, Link, Model
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.joint_chains import CHAIN, PART, TWO_AXES, chain_type, part_of
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.chains import ChainNeighbors, JointChain, StaleChainError, find_chain, folded
 
 AnyPart = TypeVar("AnyPart", Joint, Link)

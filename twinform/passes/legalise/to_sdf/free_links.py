@@ -7,8 +7,8 @@ from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import annotate_synthesized, find_annotation, is_synthesized
 from twinform.passes.carriers.provenance import came_from
-from twinform.passes.legalise.names import scoped_name
-from twinform.passes.transforms.notation import NESTED
+from twinform.passes.legalise.changed_names import scoped_name
+from twinform.passes.transforms.pose_notation import NESTED
 
 _CLOSE = 1e-9
 """How far numbers may be apart that were written from one."""

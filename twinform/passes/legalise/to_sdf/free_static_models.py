@@ -8,10 +8,10 @@ from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Element, Link, Model, Opaque
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import find_annotation, is_annotation
-from twinform.passes.framework.base import ModelPass
-from twinform.passes.legalise.names import scoped_name, scopes_in
+from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.changed_names import scoped_name, scopes_in
 from twinform.passes.legalise.to_sdf.free_links import is_static
-from twinform.passes.transforms.notation import NESTED
+from twinform.passes.transforms.pose_notation import NESTED
 
 
 class FreeStaticModels(ModelPass):

@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 from twinform.ir import Element, Node, Opaque
 from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_value
-from twinform.ir.tree import node_fields
+from twinform.ir.tree_walks import node_fields
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

@@ -6,7 +6,7 @@ from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import PLAIN, Model, Node, rewrite
 from twinform.ir.scoped_elements import scoped_parts
 from twinform.passes.carriers.carriers import carry
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 
 
 class HideScopedElements(ModelPass):

@@ -10,13 +10,13 @@ from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.solids import Solid, placed, written_solid
 from twinform.ir.transform import Transform
 from twinform.passes.analyses.automatic_inertias import COMPUTED_MASS, NoInertiaError, automatic
-from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.assets import AssetPass
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.schemas import parse_version, versions_of
 
 _SINCE = (1, 11)

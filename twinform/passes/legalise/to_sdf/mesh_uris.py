@@ -7,7 +7,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Collision, Format, Link, Mesh, Model, Visual, replace_fields
 from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
 from twinform.passes.carriers.provenance import came_from
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.transforms.uri_schemes import GAZEBO, MESH_SCHEME, ROS, TEXTURE_SCHEME, model_uri, scheme_of
 
 Shape = TypeVar("Shape", Visual, Collision)

@@ -8,8 +8,8 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Collision, Link, Model, Visual, replace_fields
 from twinform.passes.carriers.annotations import with_annotation
-from twinform.passes.framework.base import ModelPass
-from twinform.passes.legalise.names import NAME
+from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.changed_names import NAME
 
 Shape = TypeVar("Shape", Visual, Collision)
 

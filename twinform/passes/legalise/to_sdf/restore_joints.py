@@ -9,7 +9,7 @@ from twinform.ir.defaults import UNLIMITED
 from twinform.passes.carriers.annotations import SYNTHESIZED, find_annotation, without_annotation
 from twinform.passes.carriers.joint_words import CONTINUOUS, MIMIC
 from twinform.passes.carriers.provenance import came_from
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.mimic_references import with_reference
 from twinform.passes.legalise.to_sdf.reversals import without_reversals
 

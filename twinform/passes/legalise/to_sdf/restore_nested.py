@@ -13,11 +13,11 @@ from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.provenance import wrote_scopes
 from twinform.passes.carriers.sdf_versions import VersionCondition
-from twinform.passes.framework.base import ModelPass
-from twinform.passes.legalise.names import renamed
+from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.changed_names import renamed
 from twinform.passes.sdf_versions.nest_models import nest
 from twinform.passes.transforms.nested_settings import unsettle_links
-from twinform.passes.transforms.notation import NESTED
+from twinform.passes.transforms.pose_notation import NESTED
 from twinform.schemas import parse_version, versions_of
 
 AnyNode = TypeVar("AnyNode", bound=Node)

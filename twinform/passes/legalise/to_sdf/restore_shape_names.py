@@ -8,8 +8,8 @@ from twinform.ir import Collision, Format, Link, Model, Visual, replace_fields
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions
 from twinform.passes.carriers.provenance import came_from
-from twinform.passes.framework.base import ModelPass
-from twinform.passes.legalise.names import NAME
+from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.structure.tagged_shapes import seen_shapes
 
 Shape = TypeVar("Shape", Visual, Collision)

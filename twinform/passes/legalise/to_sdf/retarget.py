@@ -13,8 +13,8 @@ from twinform.passes.carriers.provenance import (
     with_provenance,
     without_provenance,
 )
-from twinform.passes.framework.base import Pass
-from twinform.passes.transforms.notation import BODY
+from twinform.passes.framework.pass_base import Pass
+from twinform.passes.transforms.pose_notation import BODY
 from twinform.schemas import versions_of
 
 

@@ -7,9 +7,9 @@ from twinform.ir import Format, Link, Model, Pose
 from twinform.ir.solids import ELEMENTS, ORIGIN, Solid
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.carriers.shared_inertia import with_share
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.shared_inertias import shared_inertias
-from twinform.passes.structure.bodies import with_solid
+from twinform.passes.structure.combined_bodies import with_solid
 
 
 class ShareInertias(ModelPass):

@@ -10,7 +10,7 @@ from twinform.ir import Link, Material, Model, Opaque, Visual, count_parts
 from twinform.passes.carriers.annotations import annotation
 from twinform.passes.carriers.carriers import pack, to_element
 from twinform.passes.carriers.material_annotations import MATERIAL, SHARED_MATERIAL, material_name
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.transforms.urdf_color import seen_by_gazebo
 
 

@@ -5,9 +5,9 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Format, Joint, Link, Model, map_references
-from twinform.passes.framework.base import ModelPass
-from twinform.passes.legalise.names import with_old_name
-from twinform.passes.structure.renaming import with_followed
+from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.changed_names import with_old_name
+from twinform.passes.structure.rename_parts import with_followed
 from twinform.passes.structure.scopes import scope_of
 
 Named = TypeVar("Named", Link, Joint, Model)

@@ -28,7 +28,7 @@ from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, is_memor
 from twinform.passes.carriers.definitions import has_first, inside, is_repeated
 from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS
 from twinform.passes.carriers.sdf_versions import VersionCondition
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.transforms.urdf_color import urdf_color
 from twinform.schemas import parse_version, versions_of
 

@@ -12,13 +12,13 @@ from twinform.passes.carriers.annotations import (
     find_annotation,
     without_annotation,
 )
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
 from twinform.passes.legalise.to_urdf.joint_tree import JointTree
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.structure.reroot_sdf import reroot_sdf
 from twinform.passes.transforms.joint_ends import joint_pose_attributes
 from twinform.passes.transforms.nodes import unique_name
-from twinform.passes.transforms.notation import POSE
+from twinform.passes.transforms.pose_notation import POSE
 
 
 class BuildTree(ToUrdfPass):

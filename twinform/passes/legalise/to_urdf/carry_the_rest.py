@@ -10,11 +10,11 @@ from twinform.passes.carriers.annotations import without_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SECOND, has_ours
 from twinform.passes.carriers.definitions import has_first, inside, is_repeated
 from twinform.passes.carriers.provenance import came_from, with_provenance, without_provenance
-from twinform.passes.framework.base import Pass
-from twinform.passes.legalise.to_urdf.base import UrdfKeeper, UrdfVersion
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.to_urdf.map_surfaces import OF_ALL_COLLISIONS
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, take_remainder, urdf_fields
-from twinform.passes.transforms.notation import BODY
+from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper, UrdfVersion
+from twinform.passes.transforms.pose_notation import BODY
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

@@ -13,9 +13,9 @@ from twinform.passes.analyses.automatic_inertias import (
     map_automatic,
     written_out,
 )
-from twinform.passes.analyses.meshes import Meshes
+from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.framework.assets import AssetPass
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 
 
 class ComputeInertias(ToUrdfPass, AssetPass):

@@ -7,7 +7,7 @@ from twinform.ir import GazeboExtension, Joint, Model, Pose, rewrite
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.legalise.to_urdf.base import UrdfKeeper
+from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper
 
 
 def cut_joints(

@@ -7,7 +7,7 @@ from twinform.ir import Axis, Format, Joint, Model
 from twinform.ir.defaults import AXIS, direction, filled
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.carriers.joint_words import OLD_NAME
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 
 _AXES = {
     **dict.fromkeys(("revolute", "continuous", "prismatic", "screw"), ("axis",)),

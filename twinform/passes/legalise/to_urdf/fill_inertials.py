@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from twinform.ir import Link, Model, replace_fields
 from twinform.ir.solids import with_written_defaults
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 
 
 class FillInertials(ToUrdfPass):

@@ -8,12 +8,12 @@ from twinform.ir import Format, Frame, Model, Opaque, count_parts
 from twinform.ir.scopes import SCOPE, nested_models
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, to_element
-from twinform.passes.legalise.names import Names, renamed, with_old_names
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.changed_names import Names, renamed, with_old_names
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.nested_settings import differing_rests, settle_links
 from twinform.passes.transforms.nodes import unique_name
-from twinform.passes.transforms.notation import NESTED, POSE, pose_attributes
+from twinform.passes.transforms.pose_notation import NESTED, POSE, pose_attributes
 from twinform.passes.transforms.static_models import with_static_models_fixed
 
 

@@ -7,8 +7,8 @@ from twinform.ir import Element, Joint, Link, Model, Opaque, Pose
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import carry
-from twinform.passes.legalise.to_sdf.joints import FLOATING
-from twinform.passes.legalise.to_urdf.base import UrdfKeeper
+from twinform.passes.legalise.to_sdf.joint_types import FLOATING
+from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper
 
 
 def with_floating_joints(model: Model, keeper: UrdfKeeper) -> Model:

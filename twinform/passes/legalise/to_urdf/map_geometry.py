@@ -15,8 +15,8 @@ from twinform.ir import (
     replace_fields,
 )
 from twinform.ir.defaults import SIZES, filled
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper, UrdfVersion
 from twinform.passes.legalise.to_urdf.remainder import urdf_fields
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper, UrdfVersion
 from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
 from twinform.passes.transforms.nodes import piece
 from twinform.passes.transforms.uri_schemes import MESH_SCHEME

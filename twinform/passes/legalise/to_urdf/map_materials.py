@@ -5,7 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics import Fate, rules
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual
 from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS, material_name
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
 from twinform.passes.transforms.gazebo_tags import SCRIPT_URI
 from twinform.passes.transforms.nodes import unique_name

@@ -4,9 +4,9 @@ from typing import ClassVar
 
 from twinform.diagnostics import rules
 from twinform.ir import Format, Joint, Model
-from twinform.passes.legalise.names import Names, renamed, with_old_name
+from twinform.passes.legalise.changed_names import Names, renamed, with_old_name
 from twinform.passes.legalise.to_sdf.unique_names import free_name
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 
 
 class NameJointsApart(ToUrdfPass):

@@ -6,8 +6,8 @@ from typing import ClassVar, NamedTuple
 from twinform.diagnostics import Location
 from twinform.diagnostics.rules import GAZEBO_SHAPE_NAME
 from twinform.ir import Model
-from twinform.passes.legalise.names import NAME
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.changed_names import NAME
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.structure.tag_shapes import AnyShape, named_for_gazebo, renaming
 
 

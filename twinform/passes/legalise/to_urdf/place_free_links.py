@@ -8,8 +8,8 @@ from twinform.passes.carriers.annotations import find_annotation, is_synthesized
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.legalise.to_sdf.frame_links import frame_as_before
 from twinform.passes.legalise.to_sdf.free_links import placing_frames
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
-from twinform.passes.transforms.notation import FRAME
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.transforms.pose_notation import FRAME
 
 
 class PlaceFreeLinks(ToUrdfPass):

@@ -23,11 +23,11 @@ from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import REVERSED, annotation, find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import part_of
-from twinform.passes.legalise.names import NAME, SCOPED_NAME
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.changed_names import NAME, SCOPED_NAME
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.transforms.element_poses import ElementPoses
 from twinform.passes.transforms.joint_ends import joint_pose_attributes
-from twinform.passes.transforms.notation import FRAME, OFFSET, POSE, in_radians, offset_attributes, pose_attributes
+from twinform.passes.transforms.pose_notation import FRAME, OFFSET, POSE, in_radians, offset_attributes, pose_attributes
 from twinform.passes.transforms.rebasing import AnyPosed, Base, Posed, Rebasing
 
 AnyNode = TypeVar("AnyNode", bound=Node)

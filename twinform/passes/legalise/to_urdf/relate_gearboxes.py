@@ -7,8 +7,8 @@ from twinform.ir import Axis, Joint, Mimic, Model, count_parts
 from twinform.ir.frames import FrameGraph
 from twinform.passes.analyses.gearboxes import GEARED, Relation, UngearedError, relation
 from twinform.passes.carriers.annotations import with_annotation
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 
 
 class RelateGearboxes(ToUrdfPass):

@@ -5,7 +5,7 @@ from typing import ClassVar
 from twinform.diagnostics import rules
 from twinform.ir import Joint, Model
 from twinform.ir.frames import WORLD, FrameGraph
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.transforms.joint_ends import ENDS, named_ends, report_self_joint, resolve_ends
 
 

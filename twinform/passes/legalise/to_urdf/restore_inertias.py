@@ -10,9 +10,9 @@ from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid
 from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.shared_inertia import SHARED, without_share
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.shared_inertias import shared_inertias
-from twinform.passes.structure.bodies import body_of
+from twinform.passes.structure.combined_bodies import body_of
 
 _CLOSE = 1e-9
 """How far numbers may be apart that were computed from the same ones: in m, and relative to the largest."""

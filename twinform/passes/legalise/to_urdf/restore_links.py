@@ -7,9 +7,9 @@ from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Collision, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.to_urdf.floating_links import with_floating_joints
-from twinform.passes.transforms.notation import LINK
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.transforms.pose_notation import LINK
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
 

@@ -6,7 +6,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Element, GazeboExtension, Model
 from twinform.passes.carriers.lumped_names import has_annotations, restored
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.follow_lumped_names import names_of_libsdformat
 
 

@@ -7,10 +7,10 @@ from twinform.ir import Collision, Format, Inertia, Inertial, Link, Model, Visua
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.carriers.token_mass import MOMENTS, has_token_inertia, has_token_mass, is_token
-from twinform.passes.framework.base import ModelPass
-from twinform.passes.legalise.names import NAME
-from twinform.passes.legalise.to_sdf.bodies import UNSAID
+from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.to_sdf.name_shapes import UNNAMED
+from twinform.passes.legalise.to_sdf.root_masses import UNSAID
 
 Shape = TypeVar("Shape", Visual, Collision)
 

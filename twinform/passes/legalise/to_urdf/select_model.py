@@ -9,7 +9,7 @@ from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Document, Format, Include, Model, Node, Opaque, World, count_parts
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.passes.analyses.candidates import ModelCandidate, candidates
-from twinform.passes.framework.base import Pass
+from twinform.passes.framework.pass_base import Pass
 
 
 class SelectModel(Pass):

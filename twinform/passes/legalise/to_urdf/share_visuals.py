@@ -9,8 +9,8 @@ from twinform.ir.record import field_values
 from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.material_annotations import LOOK, look_of
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper, UrdfVersion
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, fits, take_remainder, urdf_fields
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper, UrdfVersion
 from twinform.passes.transforms.gazebo_tags import LINK_TAGS
 
 _COLORS = ("ambient", "diffuse")

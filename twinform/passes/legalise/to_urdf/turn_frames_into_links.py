@@ -6,9 +6,9 @@ from twinform.diagnostics import rules
 from twinform.ir import Frame, Joint, Link, Model, Pose, count_parts
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.carriers.annotations import SYNTHESIZED, annotate_synthesized, is_synthesized, without_annotation
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.transforms.nodes import unique_name
-from twinform.passes.transforms.notation import FRAME, POSE, pose_attributes
+from twinform.passes.transforms.pose_notation import FRAME, POSE, pose_attributes
 
 
 class TurnFramesIntoLinks(ToUrdfPass):

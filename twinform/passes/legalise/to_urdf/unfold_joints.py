@@ -10,8 +10,8 @@ from twinform.passes.carriers.carriers import carry, is_carrier, to_element, unp
 from twinform.passes.carriers.chain_carriers import split_axes
 from twinform.passes.carriers.joint_chains import CHAIN, CHAINS, PART, PITCHES, TWO_AXES, metres_per_radian
 from twinform.passes.carriers.token_mass import CHAIN_MASS, CHAIN_TOKEN
-from twinform.passes.legalise.to_urdf.base import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.to_urdf.joint_steps import ChainStep, ball, screw, two_axes
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.urdf_pieces import BALLS
 from twinform.passes.transforms.nodes import text_piece, unique_name
 from twinform.schemas import format_value

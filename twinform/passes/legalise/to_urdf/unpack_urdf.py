@@ -9,7 +9,7 @@ from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Link, Model, Node, Opaque, map_children, rewrite
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, is_dangling, is_overruled, unpack
-from twinform.passes.framework.base import ModelPass
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_urdf.overruled_tags import with_overruled
 from twinform.passes.legalise.urdf_pieces import Standing, misfit
 

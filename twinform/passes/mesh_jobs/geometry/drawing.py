@@ -5,7 +5,7 @@ from typing import Any
 
 from twinform.passes.mesh_jobs.geometry.formats import appearance_of
 from twinform.passes.mesh_jobs.geometry.libraries import Array, np, trimesh
-from twinform.passes.mesh_jobs.geometry.parts import parts_of
+from twinform.passes.mesh_jobs.geometry.mesh_parts import parts_of
 from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 
 _SHARP = 0.6

@@ -8,10 +8,10 @@ from twinform.passes.mesh_jobs.geometry import convex, primitives
 from twinform.passes.mesh_jobs.geometry.decimation import WORTH, decimated
 from twinform.passes.mesh_jobs.geometry.formats import appearance_of, written
 from twinform.passes.mesh_jobs.geometry.libraries import np, trimesh
-from twinform.passes.mesh_jobs.geometry.parts import parts_of
+from twinform.passes.mesh_jobs.geometry.mesh_parts import parts_of
 from twinform.passes.mesh_jobs.geometry.surface import TriangleSurface, joined, scaled
 from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
-from twinform.passes.mesh_jobs.limits import allow_work
+from twinform.passes.mesh_jobs.job_limits import allow_work
 
 _ACCURACY = 0.05
 """How much more than the greatest distance that was seen may be said, as part of what is allowed."""

@@ -5,8 +5,8 @@ from typing import Any
 
 from twinform.ir.scaling import common_exponent, times_power
 from twinform.passes.mesh_jobs.geometry.libraries import np, trimesh
-from twinform.passes.mesh_jobs.geometry.parts import parts_of
-from twinform.passes.mesh_jobs.geometry.reading import scene_of
+from twinform.passes.mesh_jobs.geometry.mesh_parts import parts_of
+from twinform.passes.mesh_jobs.geometry.open_mesh import scene_of
 from twinform.passes.mesh_jobs.geometry.surface import UnusableMeshError
 from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from twinform.passes.mesh_jobs.geometry.libraries import Array, np
-from twinform.passes.mesh_jobs.geometry.reading import scene_of
+from twinform.passes.mesh_jobs.geometry.open_mesh import scene_of
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError
 
 MOST_TRIANGLES = 5_000_000

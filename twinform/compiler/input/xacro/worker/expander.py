@@ -10,8 +10,8 @@ from xml.dom import minidom
 
 from twinform.compiler.input.xacro.worker.channel import Compiler, MissingFileError
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget
+from twinform.compiler.input.xacro.worker.expressions.expression_values import ExpressionRefusedError, NameLookup, Value
 from twinform.compiler.input.xacro.worker.expressions.interpreter import Interpreter
-from twinform.compiler.input.xacro.worker.expressions.values import ExpressionRefusedError, NameLookup, Value
 from twinform.compiler.input.xacro.worker.language import xacro_functions
 from twinform.compiler.input.xacro.worker.places import FileLine, parse, place_of
 from twinform.compiler.input.xacro.worker.substitutions import Substitutions

@@ -5,7 +5,12 @@ from collections.abc import Callable
 from typing import Protocol
 
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget
-from twinform.compiler.input.xacro.worker.expressions.values import DotDict, ExpressionRefusedError, Value, text_of
+from twinform.compiler.input.xacro.worker.expressions.expression_values import (
+    DotDict,
+    ExpressionRefusedError,
+    Value,
+    text_of,
+)
 
 
 class Environment(Protocol):

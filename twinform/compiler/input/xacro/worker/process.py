@@ -8,9 +8,9 @@ from typing import Any
 
 from twinform.compiler.input.xacro.worker.channel import Compiler, WorkerChannel
 from twinform.compiler.input.xacro.worker.expander import Expander
+from twinform.compiler.input.xacro.worker.expansion_limits import limit
 from twinform.compiler.input.xacro.worker.expressions.budget import ExcessError
 from twinform.compiler.input.xacro.worker.failures import description
-from twinform.compiler.input.xacro.worker.limits import limit
 from twinform.compiler.input.xacro.worker.places import BadFileError, FileLine, places_below
 from twinform.confinement import confine
 from twinform.confinement.parent import end_with_parent

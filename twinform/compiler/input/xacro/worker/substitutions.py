@@ -6,8 +6,8 @@ from types import ModuleType
 from typing import Any
 
 from twinform.compiler.input.xacro.worker.channel import NotFoundError, TooMuchError
+from twinform.compiler.input.xacro.worker.expressions.expression_values import Value, text_of
 from twinform.compiler.input.xacro.worker.expressions.interpreter import Interpreter
-from twinform.compiler.input.xacro.worker.expressions.values import Value, text_of
 from twinform.compiler.input.xacro.worker.vocabulary import eval_vocabulary
 
 

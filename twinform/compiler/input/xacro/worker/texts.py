@@ -5,7 +5,7 @@ import re
 from collections.abc import Callable
 
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget, require_length
-from twinform.compiler.input.xacro.worker.expressions.values import NameLookup, Value, text_of
+from twinform.compiler.input.xacro.worker.expressions.expression_values import NameLookup, Value, text_of
 
 # The four tokens of xacro's own lexer (`QuickLexer` in xacro/__init__.py), in its order.
 _PART = re.compile(

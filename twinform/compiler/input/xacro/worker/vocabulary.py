@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget
+from twinform.compiler.input.xacro.worker.expressions.expression_values import SCALARS, Function, Namespace, Value
 from twinform.compiler.input.xacro.worker.expressions.functions import math_functions, paying, python_functions, refused
-from twinform.compiler.input.xacro.worker.expressions.values import SCALARS, Function, Namespace, Value
 
 _DEPRECATED = {"sorted": "python", "range": "python", "load_yaml": "xacro", "abs_filename": "xacro", "dotify": "xacro"}
 """Names that xacro still has outside of their namespaces."""

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from typing import Protocol
 
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget
+from twinform.compiler.input.xacro.worker.expressions.expression_values import ExpressionRefusedError, NameLookup, Value
 from twinform.compiler.input.xacro.worker.expressions.iterating import each, hashable
-from twinform.compiler.input.xacro.worker.expressions.values import ExpressionRefusedError, NameLookup, Value
 
 
 class Evaluator(Protocol):

@@ -9,9 +9,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget, require_items
-from twinform.compiler.input.xacro.worker.expressions.iterating import each, hashable, items
-from twinform.compiler.input.xacro.worker.expressions.operations import add
-from twinform.compiler.input.xacro.worker.expressions.values import (
+from twinform.compiler.input.xacro.worker.expressions.expression_values import (
     MAPPINGS,
     SCALARS,
     ExpressionRefusedError,
@@ -21,6 +19,8 @@ from twinform.compiler.input.xacro.worker.expressions.values import (
     text_of,
     weigh,
 )
+from twinform.compiler.input.xacro.worker.expressions.iterating import each, hashable, items
+from twinform.compiler.input.xacro.worker.expressions.operations import add
 
 # Decimal places before or behind the point; there are no floating point numbers beyond.
 _MOST_ROUNDED = 400

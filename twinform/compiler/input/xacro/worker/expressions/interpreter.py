@@ -6,11 +6,7 @@ from typing import Any
 
 from twinform.compiler.input.xacro.worker.expressions import displays
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget
-from twinform.compiler.input.xacro.worker.expressions.iterating import hashable
-from twinform.compiler.input.xacro.worker.expressions.members import callable_member, member
-from twinform.compiler.input.xacro.worker.expressions.operations import binary, compare, unary
-from twinform.compiler.input.xacro.worker.expressions.syntax import parse
-from twinform.compiler.input.xacro.worker.expressions.values import (
+from twinform.compiler.input.xacro.worker.expressions.expression_values import (
     SCALARS,
     TYPES,
     Function,
@@ -18,6 +14,10 @@ from twinform.compiler.input.xacro.worker.expressions.values import (
     Value,
     weigh,
 )
+from twinform.compiler.input.xacro.worker.expressions.iterating import hashable
+from twinform.compiler.input.xacro.worker.expressions.members import callable_member, member
+from twinform.compiler.input.xacro.worker.expressions.operations import binary, compare, unary
+from twinform.compiler.input.xacro.worker.expressions.syntax import parse
 
 
 class Interpreter:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget, require_items
-from twinform.compiler.input.xacro.worker.expressions.values import SCALARS, TYPES, Value, weigh
+from twinform.compiler.input.xacro.worker.expressions.expression_values import SCALARS, TYPES, Value, weigh
 
 
 def each(value: Value, budget: Budget) -> Iterator[Value]:

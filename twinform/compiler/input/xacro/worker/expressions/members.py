@@ -3,8 +3,7 @@
 from collections.abc import Callable
 
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget
-from twinform.compiler.input.xacro.worker.expressions.methods import METHODS
-from twinform.compiler.input.xacro.worker.expressions.values import (
+from twinform.compiler.input.xacro.worker.expressions.expression_values import (
     DotDict,
     ExpressionRefusedError,
     Function,
@@ -12,6 +11,7 @@ from twinform.compiler.input.xacro.worker.expressions.values import (
     Value,
     kind_of,
 )
+from twinform.compiler.input.xacro.worker.expressions.methods import METHODS
 
 _NAMES_OF_DICT = frozenset(dir(dict))
 

@@ -5,8 +5,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget, ExcessError, require_items, require_length
-from twinform.compiler.input.xacro.worker.expressions.iterating import hashable, items
-from twinform.compiler.input.xacro.worker.expressions.values import (
+from twinform.compiler.input.xacro.worker.expressions.expression_values import (
     SCALARS,
     DotDict,
     DotList,
@@ -15,6 +14,7 @@ from twinform.compiler.input.xacro.worker.expressions.values import (
     text_of,
     weigh,
 )
+from twinform.compiler.input.xacro.worker.expressions.iterating import hashable, items
 
 Method = Callable[..., Value]
 """Takes the value before the dot, the budget, and the arguments."""

@@ -5,8 +5,7 @@ import operator
 from collections.abc import Callable, Mapping
 
 from twinform.compiler.input.xacro.worker.expressions.budget import Budget, require_bits, require_items, require_length
-from twinform.compiler.input.xacro.worker.expressions.iterating import items
-from twinform.compiler.input.xacro.worker.expressions.values import (
+from twinform.compiler.input.xacro.worker.expressions.expression_values import (
     ITERATOR,
     SCALARS,
     SEQUENCES,
@@ -15,6 +14,7 @@ from twinform.compiler.input.xacro.worker.expressions.values import (
     Value,
     weigh,
 )
+from twinform.compiler.input.xacro.worker.expressions.iterating import items
 
 
 def binary(node: ast.operator, left: Value, right: Value, budget: Budget) -> Value:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 
 from twinform.compiler.input.xacro.worker.expressions.budget import ExcessError
-from twinform.compiler.input.xacro.worker.expressions.values import SCALARS, ExpressionRefusedError
+from twinform.compiler.input.xacro.worker.expressions.expression_values import SCALARS, ExpressionRefusedError
 
 LONGEST = 10_000
 """In characters. The longest real expression that we know has 300."""

@@ -1,0 +1,54 @@
+"""Options are declared once: Python's keywords, the command line and the configuration have the same ones."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import pytest
+
+import twinform
+from twinform.cli.config.settings import ProjectSettings
+from twinform.cli.convert import command
+from twinform.compiler import plan
+from twinform.compiler.input.load_options import FileOptions, ReadingOptions
+from twinform.compiler.option import declared_options
+from twinform.compiler.request_options import RequestOptions
+
+_ROBOT = b'<robot name="a"><link name="a"/></robot>'
+_DECLARED = {**declared_options(ReadingOptions), **declared_options(RequestOptions)}
+
+
+_CALLS: list[Callable[..., object]] = [
+    partial(twinform.check, _ROBOT),
+    partial(twinform.convert, _ROBOT, to="sdf"),
+    partial(twinform.diff, _ROBOT, _ROBOT),
+    partial(twinform.loads, _ROBOT),
+    partial(twinform.load, "a.urdf"),
+    partial(plan, twinform.loads(_ROBOT), to="sdf"),
+]
+
+
+@pytest.mark.parametrize("call", _CALLS)
+def test_a_keyword_that_is_no_option_is_refused(call: Callable[..., object]) -> None:
+    with pytest.raises(TypeError, match="there is no option 'sdf_verson'"):
+        call(sdf_verson="1.9")
+
+
+def test_a_misspelt_option_is_told_what_was_meant() -> None:
+    options: Any = {"sdf_verson": "1.9"}
+    with pytest.raises(TypeError, match=r"'sdf_verson'; did you mean 'sdf_version'\?"):
+        twinform.convert(_ROBOT, to="sdf", **options)
+
+
+def test_an_option_that_is_none_is_not_given() -> None:
+    usual = twinform.convert(_ROBOT, to="sdf").text
+    names: Any = dict.fromkeys((*FileOptions.__annotations__, *RequestOptions.__annotations__))
+    assert twinform.convert(_ROBOT, to="sdf", **names).text == usual
+
+
+@pytest.mark.parametrize("name", _DECLARED)
+def test_the_command_line_and_the_configuration_have_what_is_declared(name: str) -> None:
+    _, option = _DECLARED[name]
+    flags = {each.name: each for each in command.params}
+    assert flags[name].opts == [option.flag or f"--{name.replace('_', '-')}"]
+    assert name in ProjectSettings.model_fields or not option.setting

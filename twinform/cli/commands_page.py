@@ -1,0 +1,60 @@
+"""The page of the commands: `python -m twinform.cli.commands_page FILE [--check]` writes or checks it."""
+
+import sys
+from collections.abc import Iterator
+
+import click
+
+from twinform.cli import main as program
+from twinform.cli.command import Command
+from twinform.cli.lazy_group import LazyGroup
+from twinform.diagnostics.generated_files import main
+
+_INTRODUCTION = """\
+# Commands
+
+Every command with its options and examples, as `twinform COMMAND --help` prints them.
+This file is made by `python -m twinform.cli.commands_page docs/reference/commands.md`; do not edit it.
+"""
+_WIDTH = 10_000
+"""Of the help of an option: lines are not broken."""
+
+
+def commands_page() -> str:
+    """All commands in Markdown."""
+    return "\n".join([_INTRODUCTION, *(_chapter(name, command) for name, command in _commands(program, ()))])
+
+
+def _commands(group: LazyGroup, above: tuple[str, ...]) -> Iterator[tuple[str, click.Command]]:
+    context = click.Context(group)
+    for name in group.list_commands(context):
+        found = group.get_command(context, name)
+        if isinstance(found, LazyGroup):
+            yield from _commands(found, (*above, name))
+        elif found is not None:
+            yield " ".join(("twinform", *above, name)), found
+
+
+def _chapter(name: str, command: click.Command) -> str:
+    context = click.Context(command, info_name=name, max_content_width=_WIDTH, terminal_width=_WIDTH)
+    usage = " ".join([name, *command.collect_usage_pieces(context)])
+    records = (parameter.get_help_record(context) for parameter in command.get_params(context))
+    options = "\n".join(f"| `{_cell(names)}` | {_cell(text)} |" for names, text in filter(None, records) if text)
+    shown = command.examples.items() if isinstance(command, Command) else ()
+    examples = "\n".join(f"{what}:\n\n```sh\n{typed}\n```\n" for what, typed in shown)
+    about = "\n\n".join(_plain(part) for part in (command.help or "").split("\n\n"))
+    return f"## {name}\n\n```text\n{usage}\n```\n\n{about}\n\n| option | |\n| --- | --- |\n{options}\n\n{examples}"
+
+
+def _plain(text: str) -> str:
+    """A paragraph in one line, in which nothing is Markdown or HTML."""
+    words = " ".join(text.replace("\b", "").split())
+    return words.replace("<", "&lt;").replace("*", "\\*").replace("_", "\\_")
+
+
+def _cell(text: str) -> str:
+    return " ".join(text.split()).replace("|", "\\|").replace("<", "&lt;")
+
+
+if __name__ == "__main__":
+    sys.exit(main(commands_page(), sys.argv[1:]))

@@ -1,0 +1,113 @@
+"""A robot as it is compared: bodies, joints and frames, all in the model's frame with every joint at zero.
+
+Which frame of a file something was expressed in is gone here; what is left of names are those of links, joints, frames
+and sensors.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from twinform.compiler.compare.compared_values import Value
+from twinform.compiler.kinematics import PlacedJoint
+from twinform.diagnostics import Source
+from twinform.ir import Format, Vector3
+from twinform.ir.solids import NOTHING, Solid
+from twinform.ir.transform import Transform
+
+
+@dataclass(frozen=True, slots=True)
+class Leaf:
+    """A value and what it is where it is not written.
+
+    `only` is the one format that has an element for it. What is `carried` is there for this compiler alone.
+    """
+
+    value: Value
+    default: Value | None = None
+    where: Source | None = None
+    only: Format | None = None
+    carried: bool = False
+
+
+Leaves = Mapping[str, Leaf]
+"""Values by their path, such as `geometry/box/size`."""
+
+
+@dataclass(frozen=True, slots=True)
+class LinkPart:
+    """A thing that a link, joint or model has: a visual, a sensor, a plugin."""
+
+    kind: str
+    name: str
+    leaves: Leaves
+    where: Source | None = None
+    only: Format | None = None
+    carried: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Mass:
+    """What a body weighs, in the model's frame; an automatic one is computed by who reads it."""
+
+    solid: Solid = NOTHING
+    automatic: bool = False
+    where: Source | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ComparedBody:
+    """A link; `frame` is its own frame."""
+
+    name: str
+    frame: Transform
+    mass: Mass
+    leaves: Leaves = field(default_factory=dict[str, Leaf])
+    parts: tuple[LinkPart, ...] = ()
+    where: Source | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class JointView(PlacedJoint):
+    """A joint between two bodies, or the world."""
+
+    leaves: Leaves = field(default_factory=dict[str, Leaf])
+    parts: tuple[LinkPart, ...] = ()
+    where: Source | None = None
+
+    @property
+    def axes(self) -> tuple[Vector3, ...]:
+        """The unit vectors that are written; a ball has none."""
+        return () if self.type == "ball" else tuple(degree.axis for degree in self.degrees)
+
+
+@dataclass(frozen=True, slots=True)
+class NamedFrame:
+    """A frame that moves with a body.
+
+    `was_link` and `was_joint` say that URDF has a link without mass in its place, or the joint of one. A `lumped` one
+    is what is left of a link or joint that went into another link.
+    """
+
+    name: str
+    body: str
+    pose: Transform
+    was_link: bool = False
+    was_joint: bool = False
+    lumped: bool = False
+    where: Source | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ComparedRobot:
+    """A model; `world` is the frame of the world in the model's, and `models` are the names of nested ones."""
+
+    name: str
+    format: Format
+    world: Transform
+    bodies: Mapping[str, ComparedBody]
+    joints: Mapping[str, JointView]
+    frames: Mapping[str, NamedFrame]
+    models: frozenset[str] = frozenset()
+    leaves: Leaves = field(default_factory=dict[str, Leaf])
+    parts: tuple[LinkPart, ...] = ()
+    where: Source | None = None

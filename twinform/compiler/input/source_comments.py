@@ -1,0 +1,91 @@
+"""Takes the comments out of the tree of a file that is read, for the file that it is converted to."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+from lxml import etree
+
+from twinform.compiler.input.load_options import LoadResult, expanded_name
+from twinform.compiler.output.source_comments import Comments, SourceComment
+from twinform.ir import Document, Format
+from twinform.schemas import XmlElement
+
+_BEGINS = tuple("<!--".encode(encoding) for encoding in ("utf-8", "utf-16-le", "utf-16-be"))
+# So many comments are placed, and more stand behind the root: a hostile file may have a million at
+# one place. The most in a real file are some hundreds.
+_MOST = 5000
+# So many comments on one line are looked at for its ends.
+_LONGEST_RUN = 32
+
+
+def may_have_comments(text: bytes) -> bool:
+    """Whether there is the beginning of a comment in a file."""
+    return any(each in text for each in _BEGINS)
+
+
+def take_comments(root: XmlElement) -> Comments | None:
+    """Take the comments out of a tree; None where there are none."""
+    inside = [_found(each) if number < _MOST else _text(each) for number, each in enumerate(root.iter(etree.Comment))]
+    above = [_text(each)._replace(is_above=True) for each in root.itersiblings(etree.Comment, preceding=True)]
+    found = (*reversed(above), *inside, *map(_text, root.itersiblings(etree.Comment)))
+    etree.strip_tags(root, etree.Comment)
+    return Comments(root, found) if found else None
+
+
+def comments_of(loaded: LoadResult, document: Document, target: str, model: str | None) -> Comments | None:
+    """The comments of a file for what its document becomes in a format."""
+    if loaded.comments is None:
+        return None
+    is_other = document.format != target
+    partial = model is not None or (is_other and document.format is Format.SDF and _holds_more(document))
+    files = frozenset({loaded.path, expanded_name(loaded.path)})
+    return replace(loaded.comments, files=files, partial=partial, foreign=is_other)
+
+
+def _holds_more(document: Document) -> bool:
+    """Whether a file holds more than one model."""
+    return bool(document.worlds) or len(document.models) > 1
+
+
+def _text(comment: XmlElement) -> SourceComment:
+    return SourceComment(comment.text or "", comment.sourceline or 0)
+
+
+def _found(comment: XmlElement) -> SourceComment:
+    behind = next(comment.itersiblings("*"), None)
+    has_own_line = _begins_line(comment) or (behind is not None and not _ends_line(comment))
+    return SourceComment(
+        comment.text or "",
+        comment.sourceline or 0,
+        comment.getparent(),
+        next(comment.itersiblings("*", preceding=True), None),
+        behind,
+        has_own_line=has_own_line,
+        indent=_blanks_before(comment).rpartition("\n")[2] if has_own_line and "\n" in (comment.text or "") else None,
+    )
+
+
+def _blanks_before(comment: XmlElement) -> str:
+    before, parent = comment.getprevious(), comment.getparent()
+    text = before.tail if before is not None else parent.text if parent is not None else None
+    return text or ""
+
+
+def _begins_line(comment: XmlElement) -> bool:
+    """Whether nothing stands before it on its line but other comments that begin it."""
+    return any("\n" in _blanks_before(each) for each in _run(comment, lambda each: each.getprevious()))
+
+
+def _ends_line(comment: XmlElement) -> bool:
+    """Whether no element stands behind it on its line."""
+    return any("\n" in (each.tail or "") for each in _run(comment, lambda each: each.getnext()))
+
+
+def _run(comment: XmlElement, step: Callable[[XmlElement], XmlElement | None]) -> Iterator[XmlElement]:
+    """A comment and those that follow each other in one direction."""
+    here: XmlElement | None = comment
+    for _ in range(_LONGEST_RUN):
+        if here is None or here.tag is not etree.Comment:
+            return
+        yield here
+        here = step(here)

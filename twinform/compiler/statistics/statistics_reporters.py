@@ -1,0 +1,126 @@
+"""Reports statistics as text and as JSON."""
+
+import json as jsonlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict
+
+from twinform.compiler.statistics.collect_statistics import FileStatistics, WorldStatistics
+from twinform.compiler.statistics.cost import Cost
+from twinform.compiler.statistics.mesh_costs import MeshCost
+from twinform.compiler.statistics.model import ModelStatistics
+
+_WIDTH = 12
+
+
+def json(files: Sequence[FileStatistics]) -> str:
+    """`{"files": [{"path", "format", "version", "worlds": [{"name", "models", ...}], "models": [...]}]}`."""
+    return jsonlib.dumps({"files": [asdict(each) for each in files]}, indent=2) + "\n"
+
+
+def text(files: Sequence[FileStatistics]) -> str:
+    """A block for each model, below the heading of its file and world."""
+    return "\n".join(line for each in files for line in _file(each)) + "\n"
+
+
+REPORTERS: Mapping[str, Callable[[Sequence[FileStatistics]], str]] = {"text": text, "json": json}
+
+
+def _file(found: FileStatistics) -> Iterator[str]:
+    yield f"{found.path}: {found.format}{f' {found.version}' if found.version else ''}"
+    for world in found.worlds:
+        yield from _world(world)
+    for model in found.models:
+        yield from _model(model)
+
+
+def _world(world: WorldStatistics) -> Iterator[str]:
+    parts = [_count(len(world.models), "model"), _count(len(world.plugins), "plugin"), _count(world.lights, "light")]
+    parts += [_count(world.joints, "joint")] * bool(world.joints)
+    parts += [f"{_count(world.includes, 'include')} that were not read"] * bool(world.includes)
+    yield f"world {world.name!r}: {', '.join(parts)}"
+    for model in world.models:
+        yield from _model(model)
+
+
+def _model(model: ModelStatistics) -> Iterator[str]:
+    yield f"model {model.name!r}{' (static)' if model.static else ''}"
+    for name, words in _rows(model):
+        if words:
+            yield f"  {name:<{_WIDTH}}{words}"
+
+
+def _rows(model: ModelStatistics) -> Iterator[tuple[str, str]]:
+    yield "links", f"{model.links}, at most {_count(model.depth, 'joint')} from a root"
+    yield "joints", _kinds(model.joints)
+    yield "freedoms", _freedoms(model) if model.joints else ""
+    yield "mass", _mass(model)
+    yield "visuals", _kinds(model.visuals)
+    yield "collisions", _kinds(model.collisions)
+    if model.meshes:
+        yield "meshes", _meshes(model.meshes)
+    for mesh in model.meshes:
+        yield "", _mesh(mesh)
+    yield "sensors", _kinds(model.sensors)
+    yield "plugins", _kinds(model.plugins)
+    for name in ("lights", "frames", "models", "includes"):
+        number: int = getattr(model, name)
+        yield name, str(number) if number else ""
+    yield from _cost(model.cost)
+
+
+def _cost(cost: Cost) -> Iterator[tuple[str, str]]:
+    """What is not said elsewhere of the cost, and what can be done about it."""
+    words = [f"{cost.pixels_per_second:,.0f} pixels a second"] * bool(cost.pixels_per_second)
+    words += [f"{cost.rays_per_second:,.0f} rays a second"] * bool(cost.rays_per_second)
+    words += [f"{_count(cost.rates_assumed, 'sensor')} without an update rate at 1000 Hz"] * bool(cost.rates_assumed)
+    yield "sensing", ", ".join(words)
+    yield "textures", _count(cost.textures, "file") if cost.textures else ""
+    for each in cost.advice:
+        yield "cheaper", f"{each.category}, {each.reason}: --passes '{each.passes}'"
+
+
+def _freedoms(model: ModelStatistics) -> str:
+    closed = f", less what {_count(model.loops, 'closed loop')} take away" if model.loops else ""
+    return f"{model.dof}{closed}"
+
+
+def _mass(model: ModelStatistics) -> str:
+    words = [f"{model.mass:.6g} kg"]
+    words += [f"of it 1 kg each for {_count(model.masses_assumed, 'link')} that say none"] * bool(model.masses_assumed)
+    words += [f"without {_count(model.masses_unknown, 'link')} of unknown mass"] * bool(model.masses_unknown)
+    return ", ".join(words)
+
+
+def _kinds(counts: Mapping[str, int]) -> str:
+    if not counts:
+        return ""
+    return f"{sum(counts.values())}: {', '.join(f'{count} {kind}' for kind, count in counts.items())}"
+
+
+def _meshes(meshes: Sequence[MeshCost]) -> str:
+    size = sum(mesh.bytes or 0 for mesh in meshes)
+    drawn = sum(mesh.visuals * (mesh.triangles or 0) for mesh in meshes)
+    touched = sum(mesh.collisions * (mesh.triangles or 0) for mesh in meshes)
+    unknown = sum(mesh.triangles is None for mesh in meshes)
+    words = f"{_count(len(meshes), 'file')}, {_size(size)}, {drawn} triangles drawn, {touched} for contact"
+    return f"{words}, {unknown} not counted" if unknown else words
+
+
+def _mesh(mesh: MeshCost) -> str:
+    words = [_size(mesh.bytes)] if mesh.bytes is not None else []
+    words += [_count(mesh.triangles, "triangle")] if mesh.triangles is not None else []
+    uses = zip((mesh.visuals, mesh.collisions), ("visual", "collision"), strict=True)
+    words += [_count(number, word) for number, word in uses if number]
+    return f"{mesh.uri}: {', '.join(words)}{f' ({mesh.problem})' if mesh.problem else ''}"
+
+
+def _size(count: int) -> str:
+    """Bytes for people, in powers of 1000."""
+    size, units = float(count), ["B", "kB", "MB", "GB"]
+    while size >= 1000 and len(units) > 1:
+        size, units = size / 1000, units[1:]
+    return f"{size:.3g} {units[0]}"
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}{'' if number == 1 else 's'}"

@@ -1,0 +1,121 @@
+"""The rules of URDF, which describes one tree."""
+
+from collections.abc import Iterable, Iterator
+
+from twinform.diagnostics import DiagnosticSink, Location, Severity, did_you_mean, rules
+from twinform.ir.joint import Joint
+from twinform.ir.model import Model
+from twinform.ir.node import Node
+from twinform.ir.verify.inertia import verify_inertial
+from twinform.ir.verify.poses import verify_rotation
+from twinform.ir.verify.verify_joints import verify_joint, verify_limits_there, verify_mimics
+from twinform.ir.verify.verify_names import report_names, report_unprintable
+from twinform.ir.verify.verify_shapes import verify_shapes
+from twinform.ir.verify.verify_tree import report_loops
+from twinform.ir.visual import Material
+
+
+def verify_robot(model: Model, sink: DiagnosticSink, *, optional: bool) -> None:
+    """Report what is wrong with a robot; `optional` is whether limits may lack effort and velocity."""
+    if not model.name.strip():
+        message = "the robot has an empty name"
+        sink.report(rules.EMPTY_NAME, message, model.location, severity=Severity.WARNING)
+    report_unprintable("robot", model, sink)
+    for kind, nodes in (("link", model.links), ("joint", model.joints)):
+        report_names(kind, nodes, sink)
+    _report_materials(model, sink)
+    links = {link.name for link in model.links}
+    for joint in model.joints:
+        _verify_joint(joint, links, sink)
+        verify_rotation(joint.pose, sink)
+        verify_limits_there(joint, sink, optional=optional)
+    verify_mimics(model.joints, sink)
+    for link in model.links:
+        verify_inertial(link, None, sink)
+        verify_shapes(link, sink, geometry_is_required=True)
+        for kind, shapes in (("visual", link.visuals), ("collision", link.collisions)):
+            for shape in shapes:
+                report_unprintable(kind, shape, sink)
+                verify_rotation(shape.pose, sink)
+    _verify_tree(model, links, sink)
+    known = links | {joint.name for joint in model.joints}
+    for extension in model.extensions:
+        if extension.reference and extension.reference not in known:
+            where = extension.location.at("@reference")
+            message = f"<gazebo> refers to {extension.reference!r}, which is neither a link nor a joint"
+            hint = did_you_mean(extension.reference, known)
+            sink.report(rules.UNKNOWN_REFERENCE, message, where, found=extension.reference, help=hint)
+
+
+def _verify_joint(joint: Joint, links: set[str], sink: DiagnosticSink) -> None:
+    for end, name in (("parent", joint.parent), ("child", joint.child)):
+        if name is not None and name not in links:
+            message = f"joint {joint.name!r} has the {end} {name!r}, but there is no such link"
+            others = (each for each in links if each not in {joint.parent, joint.child})
+            sink.report(
+                rules.DANGLING_LINK, message, joint.location.at(end), found=name, help=did_you_mean(name, others)
+            )
+    verify_joint(joint, sink)
+    for part in joint.opaque:
+        if part.element and part.element.name == "dynamics" and not part.element.attributes:
+            message = f"<dynamics> of joint {joint.name!r} has neither damping nor friction"
+            sink.report(rules.EMPTY_DYNAMICS, message, part.location, expected="damping or friction")
+
+
+def _verify_tree(model: Model, links: set[str], sink: DiagnosticSink) -> None:
+    if not links:
+        sink.report(rules.NO_LINKS, f"robot {model.name!r} has no link", model.location, expected="<link>")
+        return
+    parents = report_loops([joint for joint in model.joints if joint.child in links], sink)
+    roots = list({link.name: link for link in model.links if link.name not in parents}.values())
+    if len(roots) > 1:
+        names = ", ".join(repr(link.name) for link in roots[:5])
+        message = f"robot {model.name!r} has {len(roots)} root links: {names}{', ...' if len(roots) > 5 else ''}"
+        related = tuple(link.location for link in roots[2:5])
+        sink.report(rules.SEVERAL_ROOTS, message, roots[1].location, related=related)
+
+
+def _report_materials(model: Model, sink: DiagnosticSink) -> None:
+    report_names("material", [material for material in model.materials if material.name], sink)
+    for material in model.materials:
+        if _is_bare(material):
+            message = f"the shared material {material.name!r} has neither a color nor a texture"
+            sink.report(rules.BARE_MATERIAL, message, material.location, expected="<color> or <texture>")
+    _report_unnamed(model, sink)
+    defined = {material.name: material for material in model.materials if material.name}
+    used = [visual.material for link in model.links for visual in link.visuals if visual.material]
+    for material in used:
+        if material.name and not _is_bare(material):
+            _report_conflict(material, defined.setdefault(material.name, material), sink)
+    for material in used:
+        if material.name and _is_bare(material) and material.name not in defined:
+            message = f"material {material.name!r} is not defined"
+            hint = did_you_mean(material.name, defined)
+            sink.report(rules.UNKNOWN_MATERIAL, message, material.location, found=material.name, help=hint)
+
+
+def _report_unnamed(model: Model, sink: DiagnosticSink) -> None:
+    for place in _unnamed(model, model.materials):
+        sink.report(rules.UNNAMED_MATERIAL, "a shared material has no name", place, expected="@name")
+    for visual in (visual for link in model.links for visual in link.visuals):
+        for place in _unnamed(visual, (visual.material,) if visual.material else ()):
+            message = "the material of a visual has no name"
+            sink.report(rules.UNNAMED_MATERIAL, message, place, expected="@name")
+
+
+def _unnamed(holder: Node, materials: Iterable[Material]) -> Iterator[Location]:
+    """Where materials without a name are; one with nothing in it is an opaque part of what it is in."""
+    yield from (material.location for material in materials if material.name is None)
+    blank = (part for part in holder.opaque if part.element and part.element.name == "material" and not part.at)
+    yield from (part.location for part in blank if part.element and "name" not in dict(part.element.attributes))
+
+
+def _is_bare(material: Material) -> bool:
+    return not (material.color or material.texture)
+
+
+def _report_conflict(material: Material, first: Material, sink: DiagnosticSink) -> None:
+    if (material.color, material.texture) != (first.color, first.texture):
+        message = f"material {material.name!r} has another color or texture here than in its first definition"
+        related = (first.location,)
+        sink.report(rules.CONFLICTING_MATERIAL, message, material.location, found=material.name, related=related)

@@ -1,0 +1,125 @@
+"""Registry of installed passes, found by entry points.
+
+The built-in ones are registered like all others, but there is a table of them too, so that they are found without a
+look at every package that is installed.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from typing import TYPE_CHECKING, Protocol
+
+from twinform.passes.framework.built_in import BUILT_IN
+from twinform.passes.framework.pass_base import Pass
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+GROUP = "twinform.passes"
+HOME = f"{GROUP}."
+"""What the names of all our modules with passes begin with."""
+OWN = "twinform"
+"""The distribution that brings the built-in passes."""
+
+
+class RegistryError(Exception):
+    """The installed passes contradict each other or themselves; the message names the package to correct."""
+
+
+class UnknownPassError(LookupError):
+    """No installed pass has this name."""
+
+
+class EntryPointLike(Protocol):
+    """What an entry point says: `value` is the module of a class, a colon, and its name."""
+
+    @property
+    def value(self) -> str:
+        """The text of it."""
+        ...
+
+    def load(self) -> object:
+        """Import what it names."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class _BuiltIn:
+    """A row of the table of built-in passes."""
+
+    value: str
+
+    def load(self) -> object:
+        module, _, name = self.value.partition(":")
+        return getattr(import_module(module), name)
+
+
+@dataclass(frozen=True, slots=True)
+class Registered:
+    """A pass that is installed, perhaps not imported yet. `owner` is the distribution that brings it."""
+
+    name: str
+    owner: str
+    entry: EntryPointLike
+
+    def load(self) -> type[Pass]:
+        """Import the pass.
+
+        Raises:
+            RegistryError: it cannot be imported, is no pass, or calls itself by another name.
+        """
+        try:
+            found: object = self.entry.load()
+        except (ImportError, AttributeError) as error:
+            raise RegistryError(f"{self.owner} registers {self.name} but it cannot be imported: {error}") from error
+        if not (isinstance(found, type) and issubclass(found, Pass)):
+            raise RegistryError(f"{self.owner} registers {self.name} but {self.entry.value} is no subclass of Pass")
+        if found.name != self.name:
+            raise RegistryError(f"{self.owner} registers {self.name} but {self.entry.value} calls itself {found.name}")
+        return found
+
+
+@cache
+def registered_passes() -> dict[str, Registered]:
+    """Every installed pass by name, sorted; none of them is imported.
+
+    Raises:
+        RegistryError: two passes have one name.
+    """
+    from importlib.metadata import entry_points  # noqa: PLC0415 - few commands look at every package
+
+    return collect(entry_points(group=GROUP))
+
+
+def collect(entries: "Iterable[EntryPoint]") -> dict[str, Registered]:
+    """The passes of these entry points by name, sorted.
+
+    Raises:
+        RegistryError: two passes have one name.
+    """
+    found: dict[str, Registered] = {}
+    for each in sorted(map(_registered, entries), key=lambda each: (each.name, each.owner)):
+        if each.name in found:
+            raise RegistryError(f"{found[each.name].owner} and {each.owner} both register a pass called {each.name}")
+        found[each.name] = each
+    return found
+
+
+def _registered(entry: "EntryPoint") -> Registered:
+    return Registered(entry.name, entry.dist.name if entry.dist else "an unknown distribution", entry)
+
+
+def find_pass(name: str) -> type[Pass]:
+    """The class of an installed pass. A built-in one is found without a look at other packages.
+
+    Raises:
+        UnknownPassError: there is none of this name.
+        RegistryError: it is installed, but not as it should be.
+    """
+    if name in BUILT_IN:
+        return Registered(name, OWN, _BuiltIn(HOME + BUILT_IN[name])).load()
+    found = registered_passes().get(name)
+    if found is None:
+        raise UnknownPassError(name)
+    return found.load()

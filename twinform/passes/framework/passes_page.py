@@ -1,0 +1,99 @@
+"""Generator of the reference page of passes: `python -m twinform.passes.framework.passes_page FILE [--check]`."""
+
+import sys
+from collections.abc import Iterator
+from enum import Enum
+from inspect import cleandoc
+from types import NoneType, UnionType
+from typing import Annotated, Literal, NamedTuple, Union, cast, get_args, get_origin
+
+from twinform.diagnostics.generated_files import main
+from twinform.passes.framework.pass_base import Pass
+from twinform.passes.framework.pass_options import option_value
+from twinform.passes.framework.pass_registry import OWN, registered_passes
+from twinform.passes.framework.syntax import Value, print_value
+
+_INTRODUCTION = """\
+# Passes
+
+Steps from IR to IR, sorted by name. `twinform passes NAME` prints one page, and also those of passes from other
+packages. A pipeline is text, such as `check-inertia,fill-limits{effort=100}`; quote it, as shells give braces a
+meaning. This file is made by `python -m twinform.passes.framework.passes_page docs/reference/passes.md`; do not edit
+it.
+"""
+_WORDS: dict[object, str] = {str: "text", float: "number", int: "whole number", bool: "true or false"}
+
+
+class OptionPage(NamedTuple):
+    """What a user has to know about an option.
+
+    `default` is for people and `value` for programs; where nothing is `given` by default, the user has to.
+    """
+
+    name: str
+    type: str
+    default: str
+    text: str
+    given: bool
+    value: Value
+
+
+def description(kind: type[Pass]) -> str:
+    """The docstring of a pass; its first line is the summary."""
+    return cleandoc(kind.__doc__ or "")
+
+
+def summary(kind: type[Pass]) -> str:
+    """What a pass does, in a sentence."""
+    return description(kind).partition("\n")[0]
+
+
+def options(kind: type[Pass]) -> Iterator[OptionPage]:
+    """The options in the order of the class."""
+    for name, field in kind.model_fields.items():
+        given = not field.is_required()
+        default: object = field.get_default(call_default_factory=True, validated_data={}) if given else None
+        value = option_value(default)
+        words = _default(value) if given else "has to be given"
+        yield OptionPage(field.alias or name, _words(field.annotation), words, field.description or "", given, value)
+
+
+def _default(value: Value) -> str:
+    return "not set" if value is None else print_value(value)
+
+
+def _words(annotation: object) -> str:
+    """A type in the syntax of the pipeline's grammar."""
+    inner = cast("tuple[object, ...]", get_args(annotation))
+    origin = get_origin(annotation)
+    if origin is Annotated:
+        return _words(inner[0])
+    if origin in {UnionType, Union}:
+        return " or ".join(_words(each) for each in inner if each is not NoneType)
+    if origin in {tuple, list, frozenset}:
+        return f"list of {_words(inner[0])}"
+    if origin is Literal:
+        return " or ".join(map(str, inner))
+    if isinstance(annotation, type) and issubclass(annotation, Enum):
+        return " or ".join(str(each.value) for each in annotation)
+    return _WORDS.get(cast("object", annotation), "text")
+
+
+def passes_page() -> str:
+    """Our own passes in Markdown."""
+    ours = [each.load() for each in registered_passes().values() if each.owner == OWN]
+    return "\n".join([_INTRODUCTION, *map(_chapter, ours)])
+
+
+def _chapter(kind: type[Pass]) -> str:
+    parts = [f"## {kind.name}", description(kind)]
+    rows = [f"| `{each.name}` | {each.type} | {each.default} | {each.text} |" for each in options(kind)]
+    if rows:
+        parts.append("\n".join(["| option | type | default | meaning |", "|---|---|---|---|", *rows]))
+    if kind.example:
+        parts.append(f"Example: `{kind.example}`")
+    return "\n\n".join(parts) + "\n"
+
+
+if __name__ == "__main__":
+    sys.exit(main(passes_page(), sys.argv[1:]))

@@ -1,0 +1,156 @@
+"""Names that a conversion had to change, and the annotations that restore them.
+
+    <tf:name instead_of="arm_joint">arm</tf:name>                    in SDF
+    <tf:name instead_of="arm" was="arm "/>                           where blanks are around the name
+    <tf:scoped-name instead_of="arm__hand">arm::hand</tf:name>       in URDF
+
+An annotation has the name that it was made for: where that was edited since, the edit counts.
+"""
+
+from collections.abc import Iterator
+from typing import Any, ClassVar
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules import STALE_CARRIER
+from twinform.ir import Element, Format, Frame, Joint, Link, Model
+from twinform.passes.carriers.annotations import AnyNode, find_annotation, with_annotation, without_annotation
+from twinform.passes.carriers.provenance import came_from, wrote_scopes
+from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.structure.rename_parts import renamed_model
+from twinform.passes.structure.scopes import Part, scope_of
+from twinform.passes.transforms.pose_notation import NESTED
+
+NAME = "name"
+"""The annotation on a link, joint, frame or shape of SDF with the name that it has in URDF."""
+SCOPED_NAME = "scoped-name"
+"""The annotation on a link, joint or frame of URDF with the name, such as `arm::hand`, that it has in SDF."""
+Names = dict[tuple[Part, str], str]
+"""New names by the kind of what is renamed and its old name."""
+_FIELDS: dict[Part, str] = {"link": "links", "joint": "joints", "frame": "frames"}
+
+
+def renamed(model: Model, names: Names, format_: Format) -> Model:
+    """The model by new names, and all that names them by these."""
+    scope = scope_of(model, lambda part, name: names.get((part, name), name), deep=False)
+    return renamed_model(model, scope, format_, DiagnosticSink())
+
+
+def with_old_names(model: Model, names: Names) -> Model:
+    """The model of URDF with annotations on what was renamed; it has the new names by now."""
+    old = {(part, new): name for (part, name), new in names.items()}
+
+    def annotated(part: Part, node: Link | Joint | Frame) -> Link | Joint | Frame:
+        name = old.get((part, node.name))
+        return node if name is None else with_annotation(node, SCOPED_NAME, name, {"instead_of": node.name})
+
+    update = {field: tuple(annotated(part, node) for node in getattr(model, field)) for part, field in _FIELDS.items()}
+    return model.copy(**update)
+
+
+def scoped_name(node: Link | Joint | Frame) -> str:
+    """What a link, joint or frame of URDF is called in SDF: its name, or the one in an annotation about that."""
+    found = find_annotation(node, SCOPED_NAME)
+    return found.text or "" if found and found.get("instead_of") == node.name else node.name
+
+
+class RestoreNames(ModelPass):
+    """Give links, joints and frames the names that they had in the source.
+
+    Changes: a name behind which an annotation stands becomes the one that the annotation gives, and all that names it
+    follows. With `apart`, a joint may have the name of a link, as in URDF and in SDF before 1.7.
+    Never touches: a name that was edited since, or where another part has the old name by now, or the scope in it is
+    that of no nested model any more.
+    Diagnostics: `stale-carrier` for these.
+    """
+
+    name: ClassVar[str] = "restore-names"
+    to: Format
+    apart: bool = False
+    unique: bool = False
+    """Whether no two parts may share a name, also in URDF: one of them is called as in SDF."""
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model by its old names."""
+        kind = SCOPED_NAME if self.to is Format.SDF and not self.apart else NAME
+        if kind == NAME and self.to is Format.URDF:
+            model = _model_by_its_name(model)
+        back = kind == SCOPED_NAME or came_from(model, self.to)
+        annotated = list(_annotated(model, kind)) if back else []
+        if not annotated:
+            return model
+        names: Names = {}
+        taken = {self._key(part, node.name) for part, field in _FIELDS.items() for node in getattr(model, field)}
+        scopes = _scopes(model)
+        sensed = {each.reference for each in model.extensions if any(one.name == "sensor" for one in each.content)}
+        for part, node, now, old in annotated:
+            why = None
+            if self.unique and part == "joint" and now == node.name and self._key(part, old) in taken:
+                names[part, node.name] = f"{old.strip('_')}_joint"
+                continue
+            if now != node.name:
+                why = "has another name now"
+            elif self._key(part, old) in taken:
+                why = "would share that name with another"
+            elif node.name in sensed and any(old == link.name for link in model.links):
+                why = "has a sensor now, which would be one of the link of that name"
+            elif kind == SCOPED_NAME and not (wrote_scopes(model) or scopes.issuperset(scopes_in(old))):
+                why = "is in a nested model that the file no longer describes"
+            if why:
+                message = f"{part} {node.name!r} was called {old!r}, and {why}"
+                sink.report(STALE_CARRIER, message, node.location, found=old)
+                continue
+            taken.add(self._key(part, old))
+            names[part, node.name] = old
+        update = {
+            field: tuple(without_annotation(node, kind) for node in getattr(model, field)) for field in _FIELDS.values()
+        }
+        return renamed(model.copy(**update), names, self.to)
+
+    def _key(self, part: Part, name: str) -> tuple[Part, str]:
+        return (part if (self.to is Format.URDF or self.apart) and not self.unique else "", name)
+
+
+def _scopes(model: Model) -> set[str]:
+    """The names of the models that were in this one, as far as frames still stand for them."""
+    own = [frame for frame in model.frames if find_annotation(frame, NESTED) is not None]
+    annotations = [(find_annotation(frame, SCOPED_NAME), frame.name) for frame in own]
+    return {(annotation.text or "") if annotation else name for annotation, name in annotations}
+
+
+def scopes_in(name: str) -> set[str]:
+    """The models that a scoped name is in: `a` and `a::b` of `a::b::link`."""
+    parts = name.split("::")[:-1]
+    return {"::".join(parts[: count + 1]) for count in range(len(parts))}
+
+
+def _annotated(model: Model, kind: str) -> Iterator[tuple[Part, Link | Joint | Frame, str, str]]:
+    """What has an annotation: its kind, the node, the name at the time of renaming and the one to restore."""
+    for part, field in _FIELDS.items():
+        for node in getattr(model, field):
+            found = find_annotation(node, kind)
+            old = _old_name(found) if found is not None else ""
+            if found is not None and old:
+                yield part, node, found.get("instead_of") or "", old
+
+
+def _old_name(found: Element) -> str:
+    """The name that an annotation gives back."""
+    return found.get("was") or found.text or ""
+
+
+def with_old_name(node: AnyNode, name: str) -> AnyNode:
+    """The node with its name in an annotation, since it will be renamed; a text would lose blanks."""
+    old: Any = getattr(node, "name", None)
+    is_plain = old == old.strip()
+    return with_annotation(
+        node, NAME, old if old and is_plain else None, {"instead_of": name, "was": None if is_plain else old}
+    )
+
+
+def _model_by_its_name(model: Model) -> Model:
+    """The model by the name that it had, unless it has another one by now."""
+    found = find_annotation(model, NAME)
+    if found is None:
+        return model
+    model = without_annotation(model, NAME)
+    return model.copy(name=_old_name(found)) if found.get("instead_of") == model.name else model

@@ -1,0 +1,98 @@
+"""Base class of the passes from SDF to URDF, and how they keep what URDF cannot express."""
+
+from abc import abstractmethod
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Literal, TypeVar
+
+from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule
+from twinform.ir import Document, Format, Joint, Model, Node, Opaque, replace_fields
+from twinform.ir.frames import FrameError, Kind
+from twinform.passes.carriers.annotations import with_annotation
+from twinform.passes.carriers.carriers import Attributes, carry
+from twinform.passes.carriers.provenance import came_from
+from twinform.passes.framework.pass_base import Pass
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+UrdfVersion = Literal["1.0", "1.1", "1.2"]
+
+
+@dataclass(frozen=True, slots=True)
+class UrdfKeeper:
+    """Where the parts go in one run. A model that came from URDF goes back there: how SDF wrote it need not travel."""
+
+    sink: DiagnosticSink
+    carriers: bool
+    back: bool = False
+
+    def keep(
+        self,
+        node: AnyNode,
+        pieces: Iterable[Opaque],
+        rule: Rule,
+        message: str,
+        location: Location,
+        weight: int | None = None,
+        about: Attributes = (),
+    ) -> AnyNode:
+        """The node with the pieces in carriers, and an entry in the ledger; the weight is the pieces' by default.
+
+        `about` are more attributes of the carriers.
+        """
+        listed = tuple(pieces)
+        if not listed:
+            return node
+        total = sum(piece.weight for piece in listed) if weight is None else weight
+        self.account(rule, message, location, total)
+        return carry(node, listed, "sdf", about) if self.carriers else node
+
+    def account(self, rule: Rule, message: str, location: Location, weight: int) -> None:
+        """An entry in the ledger for what annotations keep."""
+        self.sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rule, message, location, weight)
+
+    def annotate(
+        self,
+        node: AnyNode,
+        kind: str,
+        *,
+        text: str | None = None,
+        attributes: Mapping[str, str | None] | None = None,
+        always: bool = False,
+    ) -> AnyNode:
+        """The node with an annotation on how SDF wrote it; if it came from URDF, only with what is more (`always`)."""
+        return with_annotation(node, kind, text, attributes) if self.carriers and (always or not self.back) else node
+
+    def frame_of(self, link: str, joint: Joint | None) -> tuple[str, Kind]:
+        """The frame of SDF that URDF has a link in: that of the joint which holds it, unless the link has none.
+
+        In a model that came from URDF a fixed joint goes to its link: all readers have links, and nothing turns there.
+        """
+        # <origin> is what everybody reads in URDF; where a fixed joint itself is means nothing to
+        # them.
+        if joint is None or (self.back and joint.type == "fixed"):
+            return link, "link"
+        return joint.name, "joint"
+
+
+class ToUrdfPass(Pass):
+    """A pass over the one model that becomes the robot. After an error there is nothing left to do.
+
+    `carriers` is whether parts that URDF cannot express travel in carriers or only into the ledger.
+    """
+
+    carriers: bool = True
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document with its model passed through."""
+        if sink.has_errors:
+            return document
+        keeper = UrdfKeeper(sink, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
+        try:
+            return replace_fields(document, models=tuple(self.run_model(model, keeper) for model in document.models))
+        except FrameError as error:
+            error.report(sink)
+            return document
+
+    @abstractmethod
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
+        """The model after the pass."""

@@ -1,0 +1,128 @@
+"""Generator of the page of systems and sensors: `python -m twinform.passes.plugins.plugins_page FILE [--check]`."""
+
+import sys
+from collections.abc import Iterable, Iterator
+
+from twinform.diagnostics.generated_files import main
+from twinform.passes.plugins.catalog import releases, ros_message, sensors, systems
+from twinform.passes.plugins.catalog_types import PluginKind, PluginParameter, SensorKind
+from twinform.passes.plugins.plugin_options import options_of
+from twinform.passes.plugins.sensor_settings import addable, settings_of
+from twinform.passes.plugins.topic_patterns import without_parentheses
+
+_INTRODUCTION = """\
+# Systems and sensors of Gazebo
+
+What `add-plugin`, `add-sensor` and `check-plugins` know. An option of `add-plugin` is written as in the first column;
+one that may stand several times takes a list. This file is made by
+`python -m twinform.passes.plugins.plugins_page docs/reference/plugins.md`; do not edit it.
+"""
+_TIMES = {"1": "needed", "+": "needed, repeats", "?": "", "*": "repeats"}
+
+
+def plugins_page() -> str:
+    """The catalog in Markdown."""
+    settings = [_settings(type_) for type_ in addable()]
+    parts = [_INTRODUCTION, _releases(), "# Sensors\n", _sensors(), *settings, "# Systems\n"]
+    return "\n".join([*parts, *(_system(kind) for _, kind in sorted(systems().items()))])
+
+
+def _releases() -> str:
+    rows = [
+        f"| {each.name} | {each.sim} | {each.sdf} | {', '.join(each.ros) or '-'} | {'yes' if each.lts else 'no'} |"
+        for each in releases().values()
+    ]
+    return _table("| release | gz-sim | SDF | ROS 2 | long support |", rows)
+
+
+def _sensors() -> str:
+    head = "| type | also called | on | systems of the world | publishes |"
+    return _table(head, [_sensor(kind) for kind in sensors().values()])
+
+
+def _sensor(kind: SensorKind) -> str:
+    made = "; ".join(
+        f"`{without_parentheses(each.pattern)}` {each.message} ({ros_message(each.message) or 'no ROS message'})"
+        for each in kind.publishes
+    )
+    return (
+        f"| `{kind.type}`{_since(kind.releases)} | {', '.join(kind.aliases)} | {', '.join(kind.holders)} | "
+        f"{', '.join((*kind.systems, *kind.world_elements))} | {made} |"
+    )
+
+
+def _settings(type_: str) -> str:
+    """The options that `add-sensor` has for a kind of sensor."""
+    settings = settings_of(type_)
+    rows = [f"| `{option}` | {each.default or 'not set'} | {each.text} |" for option, each in settings.values.items()]
+    rows += [
+        f"| `{option}` | none, typical {each.typical:g} | {each.text} |" for option, each in settings.noises.items()
+    ]
+    lines = [
+        f"## sensor {type_}",
+        "",
+        f"`add-sensor{{type={type_}}}`: called `{settings.name}`, {settings.rate:g} Hz.",
+        "",
+    ]
+    return "\n".join([*lines, _table("| option | where it is not given | |", rows)] if rows else lines)
+
+
+def _system(kind: PluginKind) -> str:
+    lines = [
+        f"## system {kind.name}",
+        "",
+        f"`{kind.file}`, `{kind.class_name}`, in a {' or '.join(kind.scopes)}{_since(kind.releases)}.",
+        "",
+    ]
+    rows = [_row(option, path, row, kind) for option, (path, row) in _families(kind)]
+    if rows:
+        lines.append(_table("| option | parameter | type | default | |", rows))
+    for channel in kind.channels:
+        verb = "reads" if channel.direction == ">" else "writes"
+        renamed = f", or `{channel.parameter}`" if channel.parameter else ""
+        since = _since(channel.releases & kind.releases, kind.releases)
+        lines.append(f"It {verb} {channel.message} on `{without_parentheses(channel.pattern)}`{renamed}{since}.\n")
+    return "\n".join(lines)
+
+
+def _families(kind: PluginKind) -> Iterator[tuple[str, tuple[tuple[str, ...], PluginParameter]]]:
+    """The options; of a family of names only the first."""
+    seen: set[str] = set()
+    for option, (path, row) in options_of(kind).items():
+        if row.name not in seen or "[" not in row.name:
+            yield option, (path, row)
+        seen.add(row.name)
+
+
+def _row(option: str, path: tuple[str, ...], row: PluginParameter, kind: PluginKind) -> str:
+    shown = "/".join((*path[:-1], row.name))
+    choices = f": {', '.join(row.choices)}" if row.choices else ""
+    default = f"`{row.default}`" if row.default is not None else ""
+    unit = f", {' or '.join(row.unit.split('|'))}" if row.unit else ""
+    remarks = [_TIMES[row.count], _needed(row), _since(row.releases & kind.releases, kind.releases).strip(" ()")]
+    more = ", ".join(filter(None, remarks))
+    dots = ", ..." if "[" in row.name else ""
+    return f"| `{option}`{dots} | `{shown}` | {row.type}{choices}{unit} | {default} | {more} |"
+
+
+def _needed(row: PluginParameter) -> str:
+    """The releases that do not work without."""
+    listed = ", ".join(each for each in releases() if each in row.needed)
+    return f"needed in {listed}" if listed else ""
+
+
+def _since(mine: Iterable[str], all_: Iterable[str] | None = None) -> str:
+    """The releases that have it, where not all have."""
+    names, everything = set(mine), list(releases())
+    wanted = [each for each in everything if each in names]
+    if wanted == [each for each in everything if all_ is None or each in set(all_)]:
+        return ""
+    return f" ({', '.join(wanted) or 'the development branch'})"
+
+
+def _table(head: str, rows: list[str]) -> str:
+    return "\n".join([head, "|" + "---|" * (head.count("|") - 1), *rows]) + "\n"
+
+
+if __name__ == "__main__":
+    sys.exit(main(plugins_page(), sys.argv[1:]))

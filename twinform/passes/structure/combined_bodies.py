@@ -1,0 +1,70 @@
+"""Combined mass and inertia of several links."""
+
+import math
+from collections.abc import Sequence
+
+from twinform.diagnostics import DiagnosticSink, Severity
+from twinform.diagnostics.rules import INDEFINITE_INERTIA
+from twinform.ir import Format, Inertial, Link, Pose
+from twinform.ir.frames import FrameGraph
+from twinform.ir.solids import Solid, combined, placed, turned, with_tensor, written_solid
+from twinform.ir.transform import Transform
+from twinform.passes.analyses.automatic_inertias import automatic
+from twinform.passes.analyses.mesh_solids import Meshes
+from twinform.passes.framework.asset_access import NO_ASSETS
+
+_NO_MESHES = Meshes(NO_ASSETS)
+"""An inertia that is left to a mesh is not computed here: `fill-inertia` does it."""
+
+
+def body_of(link: Link, graph: FrameGraph, format_: Format, meshes: Meshes = _NO_MESHES) -> Solid:
+    """The mass, center and inertia of a link in its own frame, with the defaults of the format.
+
+    `meshes` has the files of those that an inertia is computed from.
+
+    Raises:
+        NoInertiaError: it is left to the reader, and cannot be computed.
+        FrameError: a pose is in a frame that is not known.
+    """
+    inertial = link.inertial
+    if inertial is None:
+        return written_solid(None, format_)
+    if inertial.auto:
+        return automatic(link, inertial, link.collisions, graph, meshes)
+    return placed(written_solid(inertial, format_), graph.resolve(inertial.pose, link.name, link.name))
+
+
+def with_guests(link: Link, own: Solid, guests: Sequence[Solid], sink: DiagnosticSink) -> Link:
+    """The link with the mass of others, which are in its frame. The axes of its inertia stay as they are written.
+
+    It is an error where no double holds the result.
+    """
+    heavy = [guest for guest in guests if guest.mass]
+    if not heavy:
+        return link
+    whole = combined([own, *heavy])
+    if not all(map(math.isfinite, (whole.mass, *whole.center, *whole.inertia))):
+        message = (
+            f"the mass and inertia of link {link.name!r} with all that is lumped into it are too large for a double"
+        )
+        sink.report(INDEFINITE_INERTIA, message, link.location, severity=Severity.ERROR)
+        return link
+    return link.copy(inertial=with_solid(link.inertial or Inertial(), whole))
+
+
+def with_solid(inertial: Inertial, whole: Solid) -> Inertial:
+    """The inertial with what a solid in the frame of its link has; the axes of the inertia stay as they are written."""
+    written = None if inertial.auto else inertial.pose
+    axes = Transform(rotation=Transform.from_pose(written).rotation)
+    return inertial.copy(
+        auto=None,
+        mass=whole.mass,
+        pose=_pose(written, whole),
+        inertia=with_tensor(inertial.inertia, turned(whole.inertia, axes.inverse())),
+    )
+
+
+def _pose(written: Pose | None, whole: Solid) -> Pose:
+    """The pose of an inertial with another center of mass; in the link's own frame."""
+    pose = written or Pose(rpy=(0.0, 0.0, 0.0))
+    return pose.copy(xyz=whole.center, relative_to=None)

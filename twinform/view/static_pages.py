@@ -1,0 +1,97 @@
+"""Pages with a 3D view that open without a server and ask for nothing: for reports and notebooks."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from twinform.compiler.compare.comparison import Comparison
+from twinform.compiler.input.load_options import unexpanded_name
+from twinform.compiler.scene import build_scene
+from twinform.compiler.search.resolve_uris import SearchPath
+from twinform.ir import Document
+from twinform.view.subject import ViewSubject
+from twinform.view.view_errors import ViewerMissingError
+
+if TYPE_CHECKING:
+    from twinform.view.viewer import Viewer
+
+
+class NotDrawn(NamedTuple):
+    """A shape for which a box of wire stands, and why."""
+
+    link: str
+    role: str
+    name: str
+    problem: str
+
+
+@dataclass(frozen=True, slots=True)
+class StandaloneView:
+    """A page with a 3D view, and what is not drawn in it."""
+
+    page: str
+    not_drawn: tuple[NotDrawn, ...] = ()
+
+
+def new_viewer(port: int = 0) -> "Viewer":
+    """A viewer; what it is made with is imported here.
+
+    Raises:
+        ViewerMissingError: the libraries are not installed.
+        PortTakenError: the port is not free.
+    """
+    try:
+        import viser  # noqa: F401, PLC0415 # pyright: ignore[reportUnusedImport] - an extra
+
+        from twinform.view.viewer import Viewer  # noqa: PLC0415 - it needs the extra
+    except ImportError as error:
+        raise ViewerMissingError(error.name or "viser") from error
+    return Viewer(port)
+
+
+def standalone_page(
+    first: Document,
+    second: Document | None = None,
+    comparison: Comparison | None = None,
+    *,
+    dark: bool = False,
+    search: SearchPath | None = None,
+) -> str:
+    """The text of an HTML page that shows a document, or two overlaid, with every joint at zero.
+
+    What the comparison of both found is red. Meshes are looked for beside the files that the documents were read from,
+    and in the folders of `search`.
+
+    Raises:
+        ViewerMissingError: the libraries are not installed.
+    """
+    return standalone_view(first, second, comparison, dark=dark, search=search).page
+
+
+def standalone_view(
+    first: Document,
+    second: Document | None = None,
+    comparison: Comparison | None = None,
+    *,
+    dark: bool = False,
+    search: SearchPath | None = None,
+) -> StandaloneView:
+    """Make the page of `view`, and list what could not be drawn in it.
+
+    Raises:
+        ViewerMissingError: the libraries are not installed.
+    """
+    viewer = new_viewer()
+    try:
+        folders = search or SearchPath.of()
+        viewer.show([_subject(each, folders) for each in (first, second) if each is not None], comparison)
+        found = (problem for figure in viewer.figures for problem in figure.problems())
+        not_drawn = tuple(NotDrawn(link, shape.role, shape.name, problem) for link, shape, problem in found)
+        return StandaloneView(viewer.page(dark=dark), not_drawn)
+    finally:
+        viewer.stop()
+
+
+def _subject(document: Document, search: SearchPath) -> ViewSubject:
+    file = unexpanded_name(document.location.file)
+    return ViewSubject(document, build_scene(document), file if file and Path(file).is_file() else "", search)
