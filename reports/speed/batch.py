@@ -32,7 +32,7 @@ from pathlib import Path
 from twinform.compiler.batch import Batch, Convert, Entry, batch
 from twinform.compiler.batch.places import outputs
 before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-entries = [Entry(name, name) for name in (f"robots/of/some/maker/robot_{i:07}.urdf" for i in range(200_000))]
+entries = [ModelEntry(name, name) for name in (f"robots/of/some/maker/robot_{i:07}.urdf" for i in range(200_000))]
 names = outputs((entry.name for entry in entries), "sdf")
 lines = {entry.name: (0, i) for i, entry in enumerate(entries)}
 print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) * 1024 // len(entries))

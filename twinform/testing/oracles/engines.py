@@ -47,7 +47,9 @@ def _libsdformat() -> bool:
 
 _LIST = (
     Engine("drake", _SDF | _URDF, _EXTRA, _HERE + ".drake", partial(_importable, "pydrake")),
-    Engine("libsdformat", _SDF | _COARSE_URDF, libsdformat.MISSING, _HERE + ".libsdformat.robot", _libsdformat),
+    Engine(
+        "libsdformat", _SDF | _COARSE_URDF, libsdformat.MISSING, _HERE + ".libsdformat.libsdformat_robot", _libsdformat
+    ),
     Engine("mujoco", _URDF, _EXTRA, _HERE + ".mujoco", partial(_importable, "mujoco")),
     Engine("pinocchio", _URDF, _EXTRA, _HERE + ".pinocchio", partial(_importable, "pinocchio")),
     Engine("pybullet", _COARSE_URDF, _EXTRA, _HERE + ".pybullet", partial(_importable, "pybullet")),

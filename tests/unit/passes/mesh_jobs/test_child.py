@@ -18,7 +18,7 @@ pytestmark = [
 _SCRIPT = """
 import os, socket, sys, threading
 from twinform.passes.mesh_jobs import child
-from twinform.passes.mesh_jobs.job import Job, Result
+from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 
 def tried(what):
     try:
@@ -37,11 +37,11 @@ def done(job):
         "read": lambda: open("/etc/passwd"), "list": lambda: os.listdir("/"), "write": lambda: open("/tmp/x", "w"),
         "connect": socket.socket, "fork": os.fork, "signal": lambda: os.kill(os.getppid(), 0), "thread": started,
     }
-    return Result({name: tried(each) for name, each in tries.items()})
+    return MeshResult({name: tried(each) for name, each in tries.items()})
 
 child._import_libraries()
 child.done = done
-child._done_in_fork(Job("count", {}, "stl", b""), 2**32, sys.stdout.buffer)
+child._done_in_fork(MeshJob("count", {}, "stl", b""), 2**32, sys.stdout.buffer)
 """
 _DEATHS = {
     "while True: pass": "reading it takes more than 1 seconds of the processor",
