@@ -29,7 +29,7 @@ worker has to do over what the busiest processor has to do then."""
 _PLANNED = """
 import resource, sys
 from pathlib import Path
-from twinform.compiler.batch import Batch, Convert, Entry, batch
+from twinform.compiler.batch import Batch, Convert, ModelEntry, batch
 from twinform.compiler.batch.places import outputs
 before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 entries = [ModelEntry(name, name) for name in (f"robots/of/some/maker/robot_{i:07}.urdf" for i in range(200_000))]
