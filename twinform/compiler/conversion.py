@@ -15,7 +15,7 @@ from twinform.compiler.input.loading import (
     read,
     read_tree_again,
 )
-from twinform.compiler.input.source_comments import comments_of
+from twinform.compiler.input.take_comments import comments_of
 from twinform.compiler.output.emitting import emit, emit_legal
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest

@@ -75,7 +75,7 @@ class ElementReader:
             raise ValueError(f"{fact.name}: nothing asks for {', '.join(unasked)}, which its node needs")
 
     def read(self, element: XmlElement, node: Data, context: Context, place: int) -> None:
-        """Read all of it, in the order of the file."""
+        """Read the attributes of an element, then its text and its children, into the values of a node."""
         attributes, plain = self._attributes, self._plain_attributes
         for name, text in element.items():
             if name in plain:  # `store_plain`, without a call for each attribute

@@ -13,8 +13,7 @@ from pathlib import Path
 from typing import Unpack
 
 from twinform.compiler.conversion_error import CompileError
-from twinform.compiler.input import read_sdf as sdf
-from twinform.compiler.input import read_urdf as urdf
+from twinform.compiler.input import read_sdf, read_urdf
 from twinform.compiler.input.allowances import Allowances, content_of
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.gazebo_extensions import check_extensions
@@ -36,7 +35,7 @@ from twinform.compiler.input.parsing import (
     strip_default_namespace,
 )
 from twinform.compiler.input.size_limits import LIFTED_LIMITS, USUAL_LIMITS, Limits, excess_of_json
-from twinform.compiler.input.source_comments import may_have_comments, take_comments
+from twinform.compiler.input.take_comments import may_have_comments, take_comments
 from twinform.compiler.input.unexpanded_xacro import report_unexpanded
 from twinform.compiler.input.used_up_tree import LARGE, used_up
 from twinform.compiler.option import require_options
@@ -59,8 +58,8 @@ from twinform.schemas import (
 )
 
 _ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Document | None]]] = {
-    "robot": ("urdf", urdf.build),
-    "sdf": ("sdf", sdf.build),
+    "robot": ("urdf", read_urdf.build),
+    "sdf": ("sdf", read_sdf.build),
 }
 _CONSEQUENCES = frozenset(
     {rules.MISSING_LIMIT, rules.PARTIAL_LIMIT, rules.SEVERAL_ROOTS, rules.EMPTY_MODEL, rules.UNKNOWN_MATERIAL}

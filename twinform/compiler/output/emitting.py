@@ -7,8 +7,7 @@ from dataclasses import replace
 
 from lxml import etree
 
-from twinform.compiler.output import write_sdf as sdf
-from twinform.compiler.output import write_urdf as urdf
+from twinform.compiler.output import write_sdf, write_urdf
 from twinform.compiler.output.place_comments import place_comments
 from twinform.compiler.output.source_comments import Comments
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Fate, Location, rules
@@ -38,8 +37,8 @@ _NAMED = re.compile(r"\[@name='([^']*)'\]")
 _START_TAG = re.compile("<[^/?]")
 _ROOT_TAG = re.compile(r'<[^\s/>?]+(?: xmlns:[^=]+="[^"]*")*')
 _BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str], WrittenParts | None], str]] = {
-    Format.URDF: urdf.emit,
-    Format.SDF: sdf.emit,
+    Format.URDF: write_urdf.emit,
+    Format.SDF: write_sdf.emit,
 }
 
 

@@ -92,7 +92,7 @@ class _CommentPlacing:
         self.named: dict[tuple[str, str], int] = {}
 
     def run(self) -> None:
-        """Place them all, in their order."""
+        """Find a place in the text for each comment, in the order of the file."""
         for comment in filter(self.comments.travels, self.comments.found):
             if comment.around is not None:
                 self._place(comment, comment.around)
@@ -100,7 +100,7 @@ class _CommentPlacing:
                 (self.top if comment.is_above else self.bottom).append(_shown(comment))
 
     def with_comments(self) -> str:
-        """The text with what was placed."""
+        """Return the text with the comments in it."""
         for target, inside in self.filled.items():
             opened = f">{''.join(inside)}{target.indent}</{target.tag}>"
             self.insertions.append(_Insertion(target.head - len("/>"), _BELOW, opened))

@@ -14,7 +14,7 @@ from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.includes.expanding import expand
 from twinform.compiler.includes.other_documents import OtherDocuments
 from twinform.compiler.input.loading import Input, LoadOptions, garbage_collection_paused, read
-from twinform.compiler.input.source_comments import comments_of
+from twinform.compiler.input.take_comments import comments_of
 from twinform.compiler.output.emitting import emit_legal
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest

@@ -4,9 +4,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from twinform.ir.groups import Groups
-from twinform.profiles.reading import body_facts as bodies
-from twinform.profiles.reading import clashes, colors, drives, extensions, stage
-from twinform.profiles.reading import lumped_masses as lumping
+from twinform.profiles.reading import body_facts, clashes, colors, drives, extensions, lumped_masses, stage
 from twinform.profiles.reading.forms import FORMS
 from twinform.profiles.reading.nodes import RawNode
 
@@ -294,12 +292,12 @@ FACTS: Mapping[str, Callable[[RawNode], Fact]] = {
     "open-joint": _open_joints,
     "unknown-parent": _of_nowhere(0),
     "unknown-child": _of_nowhere(1),
-    "indefinite-inertia": bodies.indefinite,
-    "unbalanced-inertia": bodies.unbalanced,
-    "uncertain-inertia": bodies.uncertain,
-    "unphysical-inertia": bodies.unphysical,
+    "indefinite-inertia": body_facts.indefinite,
+    "unbalanced-inertia": body_facts.unbalanced,
+    "uncertain-inertia": body_facts.uncertain,
+    "unphysical-inertia": body_facts.unphysical,
     "shared-name": _shared_names,
-    "weightless-body": bodies.weightless,
+    "weightless-body": body_facts.weightless,
     "reversed-limits": drives.reversed_limits,
     "equal-limits": drives.equal_limits,
     "self-mimic": drives.self_mimics,
@@ -316,7 +314,7 @@ FACTS: Mapping[str, Callable[[RawNode], Fact]] = {
     "foreign-joint": _foreign_joints,
     **clashes.FACTS,
     **colors.FACTS,
-    **lumping.FACTS,
+    **lumped_masses.FACTS,
     **extensions.FACTS,
     **stage.FACTS,
     "idle-leader": _idle_leaders,

@@ -4,8 +4,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
-from twinform.profiles.reading import transmissions
-from twinform.profiles.reading import tree_facts as tree
+from twinform.profiles.reading import transmissions, tree_facts
 from twinform.profiles.reading.forms import FORMS
 from twinform.profiles.reading.nodes import Paths, RawNode
 from twinform.profiles.reading.reads_notation import Demand, PlaceStep, Reads
@@ -45,8 +44,8 @@ def shortfalls(root: RawNode, table: Reads, is_there: IsThere) -> Iterator[Short
 
 def _unmet(root: RawNode, table: Reads, is_there: IsThere) -> Iterator[Shortfall]:
     for demand in table.demands:
-        if demand.item in tree.FACTS:
-            for node, message in tree.FACTS[demand.item](root):
+        if demand.item in tree_facts.FACTS:
+            for node, message in tree_facts.FACTS[demand.item](root):
                 yield _short(demand, "tree", message, node, fact=demand.item)
             continue
         for node in _found(root, demand.place):

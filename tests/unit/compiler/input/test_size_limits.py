@@ -10,7 +10,7 @@ import pytest
 from lxml import etree
 
 import twinform
-from twinform.compiler.input import size_limits as limits
+from twinform.compiler.input import size_limits
 from twinform.compiler.input.size_limits import (
     LIFTED_BY_SIZE,
     LIFTED_BY_TAGS,
@@ -145,13 +145,14 @@ def test_includes_have_the_same_limits(tmp_path: Path) -> None:
 
 
 def test_an_element_has_so_many_attributes_and_a_name_so_many_characters() -> None:
-    crowded = "".join(f" a{number}='{'x' * 10}'" for number in range(limits.MOST_ATTRIBUTES + 1))
+    crowded = "".join(f" a{number}='{'x' * 10}'" for number in range(size_limits.MOST_ATTRIBUTES + 1))
     text = f"<robot name='r'>\n<link name='l'><visual{crowded}/></link></robot>".encode()
     path = "/robot[@name='r']/link[@name='l']/visual"
-    words = f"<visual> has {limits.MOST_ATTRIBUTES + 1:,} attributes; the limit is {limits.MOST_ATTRIBUTES}"
+    words = f"<visual> has {size_limits.MOST_ATTRIBUTES + 1:,} attributes; the limit is {size_limits.MOST_ATTRIBUTES}"
     assert excess_of_tree(etree.fromstring(text), text) == Excess(words, Location(line=2, path=path))
-    text = f"<robot name='{'r' * (limits.LONGEST_NAME + 1)}'/>".encode()
-    words = f"<robot> has {limits.LONGEST_NAME + 1:,} characters in its name; the limit is {limits.LONGEST_NAME:,}"
+    text = f"<robot name='{'r' * (size_limits.LONGEST_NAME + 1)}'/>".encode()
+    most = size_limits.LONGEST_NAME
+    words = f"<robot> has {most + 1:,} characters in its name; the limit is {most:,}"
     assert excess_of_tree(etree.fromstring(text), text) == Excess(words, Location(line=1, path="/robot"))
 
 
@@ -162,46 +163,50 @@ def _nested(depth: int) -> bytes:
 
 def test_an_element_has_so_many_elements_in_it() -> None:
     """Each of them is a part of the model; 200,000 in one line took 14 seconds."""
-    inside = "<!-- a --><x/>" * limits.MOST_CHILDREN
+    most = size_limits.MOST_CHILDREN
+    inside = "<!-- a --><x/>" * most
     for more, message in (
         ("", None),
-        ("<x/>", f"<link> has {limits.MOST_CHILDREN + 1:,} elements in it; the limit is {limits.MOST_CHILDREN:,}"),
+        (
+            "<x/>",
+            f"<link> has {size_limits.MOST_CHILDREN + 1:,} elements in it; the limit is {size_limits.MOST_CHILDREN:,}",
+        ),
     ):
         text = f"<robot name='r'>\n<link name='l'>{inside}{more}</link></robot>".encode()
         excess = excess_of_tree(etree.fromstring(text), text)
         assert (excess and excess.message) == message
         assert excess is None or excess.location == Location(line=2, path="/robot[@name='r']/link[@name='l']")
-        assert excess_of_tree(etree.fromstring(text), text, Limits(tags=limits.MOST_TAGS + 1)) is None
+        assert excess_of_tree(etree.fromstring(text), text, Limits(tags=size_limits.MOST_TAGS + 1)) is None
 
 
 def test_a_file_has_so_many_texts_between_its_elements() -> None:
     """Each of them is carried; 80,000 in 400 kB took `diff` ten seconds."""
-    inside = "a<x>b</x>" * limits.MOST_STRAY_TEXTS
+    inside = "a<x>b</x>" * size_limits.MOST_STRAY_TEXTS
     for more, message in (("", None), ("a", "the file has 10,001 texts between its elements; the limit is 10,000")):
         text = f"<robot name='r'><link name='l'>{inside}</link>{more}</robot>".encode()
         excess = excess_of_tree(etree.fromstring(text), text)
         assert (excess and excess.message) == message
-        assert excess_of_tree(etree.fromstring(text), text, Limits(tags=limits.MOST_TAGS + 1)) is None
+        assert excess_of_tree(etree.fromstring(text), text, Limits(tags=size_limits.MOST_TAGS + 1)) is None
 
 
 def test_so_many_names_with_two_colons_are_repaired() -> None:
     """Each is repaired again in each round of fixes."""
-    checked = twinform.check(f"<robot name='r'>{'<x::y/>' * (limits.MOST_COLONS + 1)}</robot>".encode())
+    checked = twinform.check(f"<robot name='r'>{'<x::y/>' * (size_limits.MOST_COLONS + 1)}</robot>".encode())
     message = "10,001 names of the file have two colons behind their prefix; the limit is 10,000"
     assert [(each.rule.name, each.message) for each in checked.diagnostics] == [("oversized-file", message)]
 
 
 def test_models_are_so_deep_in_each_other() -> None:
-    document = twinform.loads(_nested(limits.DEEPEST_MODELS))
+    document = twinform.loads(_nested(size_limits.DEEPEST_MODELS))
     assert twinform.convert(document, to="urdf").text
     assert twinform.diff(document, document).same
-    for source in (_nested(limits.DEEPEST_MODELS + 1), _nested(250)):
+    for source in (_nested(size_limits.DEEPEST_MODELS + 1), _nested(250)):
         found = [(each.rule.name, each.message) for each in twinform.check(source).diagnostics]
         assert found == [("oversized-file", "models are in each other more than 64 deep")]
 
 
 def test_what_is_long_and_no_name_is_no_excess() -> None:
-    text = f"<robot name='r' other='{'r' * (limits.LONGEST_NAME + 1)}'/>".encode()
+    text = f"<robot name='r' other='{'r' * (size_limits.LONGEST_NAME + 1)}'/>".encode()
     assert excess_of_tree(etree.fromstring(text), text) is None
 
 

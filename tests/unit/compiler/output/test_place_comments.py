@@ -6,7 +6,7 @@ import pytest
 
 import twinform
 from twinform.compiler.input.loading import LoadOptions, read
-from twinform.compiler.input.source_comments import comments_of
+from twinform.compiler.input.take_comments import comments_of
 from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from twinform.compiler.input.xacro import allowed_files as files
+from twinform.compiler.input.xacro import allowed_files
 from twinform.compiler.input.xacro.allowed_files import AllowedFiles, DeniedError
 from twinform.compiler.input.xacro.variables import variable
 from twinform.file_access import Readable
@@ -74,7 +74,7 @@ def test_a_link_in_an_installation_leads_into_packages_only(folder: Path) -> Non
 
 @pytest.mark.usefixtures("folder")
 def test_a_large_file_is_not_read(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(files, "LARGEST", 3)
+    monkeypatch.setattr(allowed_files, "LARGEST", 3)
     with pytest.raises(DeniedError, match="larger than 3 bytes"):
         _files().read("own/a.xacro")
 
@@ -116,7 +116,7 @@ def test_a_pattern_stays_in_its_folders() -> None:
 
 @pytest.mark.usefixtures("folder")
 def test_a_pattern_does_not_look_through_everything(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(files, "_MOST_LOOKED_AT", 3)
+    monkeypatch.setattr(allowed_files, "_MOST_LOOKED_AT", 3)
     with pytest.raises(DeniedError, match="looks through more than 3 files"):
         _files().match("own/*")
 
