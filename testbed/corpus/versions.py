@@ -9,7 +9,7 @@ from twinform.diagnostics import Fate, Ledger
 from twinform.ir import Document
 from twinform.ir.changes import changes
 from twinform.passes.framework.hooks.printing import line_of
-from twinform.passes.sdf_versions.document_comparison import comparable
+from twinform.passes.sdf_versions.put_back import comparable
 
 NEWEST = "1.12"
 

@@ -4,11 +4,10 @@ from functools import lru_cache
 
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.sdf_versions import kinds
-from twinform.passes.sdf_versions.early_frames import has_early_frames
 from twinform.passes.sdf_versions.put_back import PutBack
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.sdf_versions.steps import backward, forward, meaning_back, unversioned
-from twinform.passes.sdf_versions.version_pass import known_version
+from twinform.passes.sdf_versions.version_pass import has_early_frames, known_version
 from twinform.schemas import Version, parse_version, print_version, versions_of
 
 __all__ = [
@@ -35,15 +34,14 @@ def change_version(declared: str | None, asked: str, *, carriers: bool = True) -
     if parse_version(old) < parse_version(asked):
         steps = raise_version(old, asked, carriers=carriers)
     else:
-        # Carriers of parts that the older version has come back before anything is lowered, so that
-        # they are lowered as part of the model.
+        # Carried parts of older versions come back first, so that they are lowered with the model.
         back = PutBack.unchecked(version=asked, source=old, carriers=carriers)
         steps = (back, *lower_version(old, asked, carriers=carriers))
     return (*steps, SetVersion.unchecked(version=asked))
 
 
 def raise_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
-    """The passes that upgrade an older file, with what it carries."""
+    """The passes that upgrade an older file and put back what it carries."""
     old, new = parse_version(known_version(declared)), parse_version(asked)
     back = PutBack.unchecked(version=asked, source=print_version(old), carriers=carriers)
     after: list[Pass] = []  # what came back may be in newer or older syntax
@@ -57,7 +55,7 @@ def raise_version(declared: str | None, asked: str, *, carriers: bool = True) ->
 
 @lru_cache(maxsize=64)
 def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = False) -> tuple[Pass, ...]:
-    """The passes that upgrade to the newest version, keeping names and what only older versions have.
+    """The passes that upgrade to the newest syntax, but keep names and parts that only older versions have.
 
     `mixed` means that the file has syntax of newer versions too.
     """
@@ -67,13 +65,13 @@ def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = Fa
 
 
 def raise_for_merging(declared: str, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
-    """The passes that upgrade one of several files that become one; leaving parts out waits for the whole."""
+    """The passes that upgrade one of several files that become one, which still keeps parts of older versions."""
     back = PutBack.unchecked(version=asked, source=declared, carriers=carriers)
     return (*forward(parse_version(declared), parse_version(asked)), back, SetVersion.unchecked(version=asked))
 
 
 def raise_unversioned(*, carriers: bool = True) -> tuple[Pass, ...]:
-    """The passes that upgrade old syntax where nobody has declared a version, as in `<gazebo>` elements."""
+    """The passes that upgrade old syntax in a text without a version, such as that in `<gazebo>` elements."""
     return tuple(unversioned(versions_of("sdf")[-1], carriers=carriers))
 
 
@@ -83,5 +81,5 @@ def lower_version(declared: str | None, asked: str, *, carriers: bool = True) ->
 
 
 def lower_meaning(asked: str) -> tuple[Pass, ...]:
-    """The passes for what means something else in an older version; newer syntax stays."""
+    """The passes for syntax that means something else in an older version; other newer syntax stays."""
     return tuple(meaning_back(parse_version(versions_of("sdf")[-1]), parse_version(asked)))

@@ -31,18 +31,18 @@ class BoundLimits(VersionPass):
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with finite limits."""
-        return rewrite(document, Joint, partial(_joint, keeper))
+        return rewrite(document, Joint, partial(_bound_joint, keeper))
 
 
-def _joint(keeper: VersionKeeper, joint: Joint) -> Joint:
+def _bound_joint(keeper: VersionKeeper, joint: Joint) -> Joint:
     for field in ("axis", "axis2"):
         axis: Axis | None = getattr(joint, field)
         if axis is not None and axis.limit is not None:
-            joint = _bound(keeper, joint, field, axis)
+            joint = _bound_axis(keeper, joint, field, axis)
     return joint
 
 
-def _bound(keeper: VersionKeeper, joint: Joint, field: str, axis: Axis) -> Joint:
+def _bound_axis(keeper: VersionKeeper, joint: Joint, field: str, axis: Axis) -> Joint:
     limit = axis.limit
     infinite = {name: getattr(limit, name) for name in _UNLIMITED if _is_infinite(getattr(limit, name))}
     if limit is None or not infinite:

@@ -29,24 +29,24 @@ class FitJointTypes(VersionPass):
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with joints of the version."""
-        return rewrite(document, Joint, partial(_joint, keeper, self.number))
+        return rewrite(document, Joint, partial(_fit_joint, keeper, self.number))
 
 
-def _joint(keeper: VersionKeeper, version: Version, joint: Joint) -> Joint:
+def _fit_joint(keeper: VersionKeeper, version: Version, joint: Joint) -> Joint:
     since, until = _NEWER.get(joint.type, (0, 0)), _OLDER.get(joint.type, (99, 99))
     if since <= version <= until:
         return joint
     if joint.type == "continuous":
-        return _continuous(keeper, joint)
+        return _fit_continuous(keeper, joint)
     if joint.type == "fixed":
-        return _fixed(keeper, joint)
+        return _fit_fixed(keeper, joint)
     message = f"joint {joint.name!r} is {joint.type}, a type that SDF {print_version(version)} does not have"
     keeper.sink.report(rules.JOINT_TYPE_UNSUPPORTED, message, joint.location.at("@type"), found=joint.type)
     return joint
 
 
-def _continuous(keeper: VersionKeeper, joint: Joint) -> Joint:
-    pieces = [_type(joint)]
+def _fit_continuous(keeper: VersionKeeper, joint: Joint) -> Joint:
+    pieces = [_type_piece(joint)]
     changed = joint.copy(type="revolute")
     # A range counts in a revolute joint and not in a continuous one, so it has to go before the
     # type changes.
@@ -56,24 +56,24 @@ def _continuous(keeper: VersionKeeper, joint: Joint) -> Joint:
         pieces += [text_piece(name, format_value(value), "axis/limit") for name, value in ends.items()]
         endless = limit.copy(**dict.fromkeys(ends))
         changed = changed.copy(axis=joint.axis.copy(limit=endless))
-    return _keep(keeper, changed, joint, pieces, VersionCondition(since=_NEWER["continuous"]))
+    return _keep_joint(keeper, changed, joint, pieces, VersionCondition(since=_NEWER["continuous"]))
 
 
-def _fixed(keeper: VersionKeeper, joint: Joint) -> Joint:
-    pieces = [_type(joint)]
+def _fit_fixed(keeper: VersionKeeper, joint: Joint) -> Joint:
+    pieces = [_type_piece(joint)]
     if joint.axis is not None:
         written = to_element(Joint(name="", type="fixed", axis=joint.axis), "joint", "sdf").find("axis")
         pieces += [Opaque.unchecked(element=written)] if written else []
     # What older versions of libsdformat made of a fixed joint of URDF themselves.
     changed = joint.copy(type="revolute", axis=_STILL)
-    return _keep(keeper, changed, joint, pieces, VersionCondition(since=_NEWER["fixed"], without=("axis",)))
+    return _keep_joint(keeper, changed, joint, pieces, VersionCondition(since=_NEWER["fixed"], without=("axis",)))
 
 
-def _type(joint: Joint) -> Opaque:
+def _type_piece(joint: Joint) -> Opaque:
     return Opaque.unchecked(attribute=("type", joint.type))
 
 
-def _keep(
+def _keep_joint(
     keeper: VersionKeeper, changed: Joint, joint: Joint, pieces: list[Opaque], condition: VersionCondition
 ) -> Joint:
     message = f"joint {joint.name!r} is {joint.type}, which the version calls {changed.type}"

@@ -1,24 +1,40 @@
 """Removing elements and attributes that the SDF version does not define."""
 
-from typing import Any, ClassVar
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, ClassVar, cast
 
-from twinform.diagnostics import Location, rules
-from twinform.ir import Collision, Document, Element, Node, Opaque, Pose, Visual, census_of, node_fields, replace_fields
+from twinform.diagnostics import NOWHERE, Location, Rule, rules
+from twinform.ir import (
+    Collision,
+    Document,
+    Element,
+    Node,
+    Opaque,
+    Pose,
+    Visual,
+    census_of,
+    count_parts,
+    node_fields,
+    replace_fields,
+)
+from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import fields_of
+from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.definitions import definition_of
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper, is_version_carrier
-from twinform.passes.sdf_versions.lacking import bits_lacking
-from twinform.passes.sdf_versions.leftovers import Leftover, node_pieces
-from twinform.passes.sdf_versions.spans import ElementContent, VersionSpan, shape, shape_of, whole
+from twinform.passes.sdf_versions.spans import ElementContent, VersionSpan, bits_lacking, shape, shape_of, whole
 from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign
 from twinform.schemas import Fact, Version, print_version
 
 _OF_KINDS = "shape"
 """The field that holds one of several kinds of node."""
+_ABOUT = NOT_CONTENT | {"name", "type", "kind", "format", "version", "namespaces"}
+_IDENTITY = frozenset({"name", "type", "version"})
 
 
 class LeaveOut(VersionPass):
-    """Take out what the version does not have.
+    """Take out what the version does not define.
 
     Changes: 1. elements and attributes that came later or went earlier are carried; 2. a visual or collision whose
     shape the version does not have is carried as a whole, and so is what may stand only once in it and stands again.
@@ -29,12 +45,53 @@ class LeaveOut(VersionPass):
     name: ClassVar[str] = "leave-out"
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
-        """The document with what the version has."""
+        """The document without the parts that the version lacks."""
         return _UndefinedRemover(keeper, self.number).whole_node(document, shape("sdf"))
 
 
+@dataclass(frozen=True, slots=True)
+class Leftover:
+    """A part that was taken out: an untyped one, or the value at the end of `fields` below the node that carries it."""
+
+    fields: tuple[str, ...]
+    value: object
+    condition: VersionCondition
+
+    def inside(self, field: str, tag: str) -> "Leftover":
+        """Return the leftover as part of the node around this one, which is its field `field` and element `tag`."""
+        if isinstance(self.value, Opaque):
+            at = f"{tag}/{self.value.at}" if self.value.at else tag
+            return Leftover((), self.value.copy(at=at), self.condition)
+        return Leftover((field, *self.fields), self.value, self.condition)
+
+    @property
+    def first(self) -> object:
+        """The value; of a list, from which nodes go one by one, its only item."""
+        return cast("tuple[object, ...]", self.value)[0] if isinstance(self.value, tuple) else self.value
+
+    @property
+    def location(self) -> Location:
+        """Where the part was written; nowhere for plain values."""
+        first = self.first
+        return first.location if isinstance(first, Node | Opaque) else NOWHERE
+
+    def describe(self, pieces: list[Opaque]) -> str:
+        """The names of the pieces for a message."""
+        names = [f"the attribute {piece.attribute[0]!r}" if piece.attribute else piece.name for piece in pieces]
+        name = getattr(self.first, "name", None) if isinstance(self.first, Node) else None
+        return " and ".join(dict.fromkeys(names)) + (f" {name!r}" if name else "")
+
+    @property
+    def weight(self) -> int:
+        """How many elements and attributes were taken out."""
+        first = self.first
+        if isinstance(first, Opaque):
+            return max(1, first.weight)
+        return count_parts(first) if isinstance(first, Node) else 1
+
+
 class _UndefinedRemover:
-    """One run."""
+    """Takes what a version lacks out of nodes."""
 
     def __init__(self, keeper: VersionKeeper, version: Version) -> None:
         self.keeper = keeper
@@ -44,7 +101,7 @@ class _UndefinedRemover:
         self.elements = _Elements(keeper, version)
 
     def whole_node(self, node: Any, form: ElementContent) -> Any:
-        """A node whose element can hold carriers, with all that was left over in it."""
+        """A node whose element can hold carriers, without what the version lacks and with carriers for it."""
         # Nearly all subtrees have nothing that the version lacks; a bit test skips them.
         if not census_of(node) & self.lacking:
             return node
@@ -54,7 +111,7 @@ class _UndefinedRemover:
         return changed
 
     def node(self, node: Any, form: ElementContent) -> tuple[Any, list[Leftover]]:
-        """The node without what the version lacks, and that; the last of several comes first."""
+        """The node without what the version lacks, and the parts taken out, the last of several first."""
         update: dict[str, Any] = {}
         left: list[Leftover] = []
         for field in form.lacking(self.version):
@@ -93,7 +150,7 @@ class _UndefinedRemover:
         kept: list[Any] = []
         left: list[Leftover] = []
         for index, value in enumerate(values):
-            condition = self._condition(value, span, row, index)
+            condition = self._missing_since(value, span, row, index)
             if condition is None and repetition and kept:
                 condition = repetition.condition(self.version)
             if condition is not None:
@@ -106,8 +163,8 @@ class _UndefinedRemover:
                 kept.append(value)
         return tuple(kept), left
 
-    def _condition(self, value: Any, span: VersionSpan, row: Fact | None, index: int) -> VersionCondition | None:
-        """When there is such a thing, if not in this version."""
+    def _missing_since(self, value: Any, span: VersionSpan, row: Fact | None, index: int) -> VersionCondition | None:
+        """The versions that have a node of a list, if this one does not."""
         if row is None:
             return span.condition(self.version, index)
         # A visual without its shape is invalid and a collision without it means nothing, so the
@@ -119,20 +176,13 @@ class _UndefinedRemover:
         return None
 
     def _carry(self, node: Any, pieces: list[Opaque], left: Leftover) -> Any:
-        called = left.called(pieces)
         where = left.location if left.location.line else node.location
-        message = f"SDF {print_version(self.version)} does not have {called}"
-        rule = rules.GONE_FROM_SDF
-        # A warning for what is newer, since the result lacks what the author meant. What only older
-        # versions have goes into the ledger alone: leaving it behind is what an upgrade is for.
-        if left.condition.since is not None:
-            rule = rules.OLDER_VERSION
-            self.keeper.sink.report(rule, message, where, found=called)
+        rule, message = _report_gap(self.keeper, self.version, left.condition, left.describe(pieces), where)
         return self.keeper.keep(node, pieces, left.condition, rule, message, where, left.weight)
 
 
 class _Elements:
-    """The same for untyped parts."""
+    """Takes what a version lacks out of untyped parts."""
 
     def __init__(self, keeper: VersionKeeper, version: Version) -> None:
         self.keeper = keeper
@@ -144,7 +194,7 @@ class _Elements:
         left: list[Leftover] = []
         seen: dict[tuple[str, str], int] = {}
         for part in node.opaque:
-            found = self._part(node, part, form, seen)
+            found = self._cut_part(node, part, form, seen)
             if isinstance(found, VersionCondition):
                 left.insert(0, Leftover((), part, found))
                 continue
@@ -153,10 +203,10 @@ class _Elements:
             left += attributes
         return tuple(kept), left
 
-    def _part(
+    def _cut_part(
         self, node: Node, part: Opaque, form: ElementContent, seen: dict[tuple[str, str], int]
     ) -> VersionCondition | tuple[Opaque, list[Leftover]]:
-        """The part as the version has it, or when there is such a thing."""
+        """The part as the version allows it, with lost attributes; or the versions that have the part at all."""
         name = part.element.name if part.element else f"@{part.attribute[0]}" if part.attribute else ""
         if not name or name.lstrip("@")[0] == "{" or is_version_carrier(part):
             return part, []
@@ -178,7 +228,7 @@ class _Elements:
         if repetition and number > 1:
             return repetition.condition(self.version)
         where = part.location
-        element, attributes = self._element(part.element, row, form, where)
+        element, attributes = self._cut_element(part.element, row, form, where)
         if element is part.element:
             return part, []
         at = f"{part.at}/{name}" if part.at else name
@@ -189,19 +239,19 @@ class _Elements:
         return part.copy(element=element), lifted
 
     def _is_typed(self, node: Node, row: Fact | None) -> bool:
-        """Whether the node has such a part in a field already."""
+        """Whether a field of the node already holds the element of a row."""
         return bool(row and row.place and getattr(node, row.place, None))
 
-    def _element(
+    def _cut_element(
         self, element: Element, row: Fact, form: ElementContent, where: Location
     ) -> tuple[Element, list[tuple[tuple[str, str], VersionCondition]]]:
-        """The element as the version has it; the attributes that a leaf loses have to be carried beside it."""
+        """The element as the version allows it, and the lost attributes of a leaf, to be carried beside it."""
         if form.fact.any or (row.reference in self.whole and form is shape_of(row)):
             return element, []
-        lost = [(pair, condition) for pair in element.attributes if (condition := self._missing(f"@{pair[0]}", form))]
+        lost = [(pair, condition) for pair in element.attributes if (condition := self._gap(f"@{pair[0]}", form))]
         children: list[Element] = []
         for child in element.children:
-            children += self._child(child, form, where)
+            children += self._cut_child(child, form, where)
         gone = [pair for pair, _ in lost]
         # An element of text alone can hold no carrier; its lost attributes are carried beside it.
         if form.fact.type is None:
@@ -211,7 +261,7 @@ class _Elements:
         attributes = tuple(pair for pair in element.attributes if pair not in gone)
         return replace_fields(element, attributes=attributes, children=tuple(children)), lost
 
-    def _child(self, child: Element, form: ElementContent, where: Location) -> list[Element]:
+    def _cut_child(self, child: Element, form: ElementContent, where: Location) -> list[Element]:
         span = None if is_foreign(child) else form.names.get(child.name)
         if span is None:
             return [child]
@@ -220,7 +270,7 @@ class _Elements:
             row, span = None, span.containers()  # a wrench is a value, and was a position and a force
         if row is None:
             return self._keep(Opaque.unchecked(element=child), span.condition(self.version), f"<{child.name}>", where)
-        inner, lost = self._element(child, row, span.shape(row), where)
+        inner, lost = self._cut_element(child, row, span.shape(row), where)
         beside = [
             element
             for pair, condition in lost
@@ -233,20 +283,30 @@ class _Elements:
         ]
         return [inner, *beside]
 
-    def _missing(self, name: str, form: ElementContent) -> VersionCondition | None:
+    def _gap(self, name: str, form: ElementContent) -> VersionCondition | None:
         span = form.names.get(name)
         return span.condition(self.version) if span and span.row(self.version) is None else None
 
     def _keep(self, piece: Opaque, condition: VersionCondition, called: str, where: Location) -> list[Element]:
-        message = f"SDF {print_version(self.version)} does not have {called}"
-        rule = rules.OLDER_VERSION if condition.since is not None else rules.GONE_FROM_SDF
-        if condition.since is not None:
-            self.keeper.sink.report(rule, message, where, found=called)
+        rule, message = _report_gap(self.keeper, self.version, condition, called, where)
         return list(self.keeper.keep_element(piece, condition, rule, message, where))
 
 
+def _report_gap(
+    keeper: VersionKeeper, version: Version, condition: VersionCondition, called: str, where: Location
+) -> tuple[Rule, str]:
+    """The rule and message for the ledger about a part that a version lacks; a newer part is warned about too."""
+    message = f"SDF {print_version(version)} does not have {called}"
+    # A warning for what is newer, since the result lacks what the author meant. What only older
+    # versions have goes into the ledger alone: leaving it behind is what an upgrade is for.
+    if condition.since is None:
+        return rules.GONE_FROM_SDF, message
+    keeper.sink.report(rules.OLDER_VERSION, message, where, found=called)
+    return rules.OLDER_VERSION, message
+
+
 def _is_plain_pose(value: object) -> bool:
-    """Whether it is a pose that every version can express, which is nearly every one."""
+    """Whether a value is a pose that every version can express, as nearly all are."""
     return (
         isinstance(value, Pose)
         and not value.opaque
@@ -254,3 +314,35 @@ def _is_plain_pose(value: object) -> bool:
         and value.degrees is None
         and value.rotation_format is None
     )
+
+
+def node_pieces(node: Node, left: Leftover) -> list[Opaque]:
+    """The carrier pieces of what was taken out of a node."""
+    if isinstance(left.value, Opaque):
+        return [left.value.copy(source=None)]
+    bare = _keep_only(node, left.fields, left.value)
+    definition = definition_of(node) or ""
+    return list(_pieces(to_element(bare, definition, "sdf"), "", len(left.fields) - 1))
+
+
+def _keep_only(node: Node, fields: tuple[str, ...], value: object) -> Node:
+    """The node with a value at the end of a path of fields, and nothing else."""
+    first, *rest = fields
+    inner = _keep_only(getattr(node, first), tuple(rest), value) if rest else value
+    # The writer makes the element: a node with nothing but the leftover is written, and what is in
+    # that text is the piece.
+    blank = {name: each.default for name, each in fields_of(type(node)).items() if name not in _ABOUT}
+    return node.copy(**{**blank, first: inner})
+
+
+def _pieces(element: Element, at: str, depth: int) -> Iterator[Opaque]:
+    """Attributes and children of the element `depth` levels down; each level above has one child."""
+    if depth:
+        child = element.children[0]
+        yield from _pieces(child, f"{at}/{child.name}" if at else child.name, depth - 1)
+        return
+    for pair in element.attributes:
+        if at or pair[0] not in _IDENTITY:
+            yield Opaque.unchecked(at=at, attribute=pair)
+    for child in element.children:
+        yield Opaque.unchecked(at=at, element=child)

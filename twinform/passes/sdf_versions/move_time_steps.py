@@ -2,10 +2,15 @@
 
 from typing import ClassVar
 
-from twinform.ir import Document, Element, World, rewrite
+from twinform.ir import Document, Element, World
 from twinform.passes.carriers.sdf_versions import VersionKeeper
-from twinform.passes.sdf_versions.element_paths import has, put, take
-from twinform.passes.sdf_versions.version_pass import VersionPass, map_own_elements
+from twinform.passes.sdf_versions.version_pass import (
+    VersionPass,
+    has_element,
+    map_elements_named,
+    put_element,
+    take_element,
+)
 
 _RATE = "update_rate"
 _REAL_TIME_RATE = "real_time_update_rate"
@@ -24,36 +29,28 @@ class MoveTimeSteps(VersionPass):
     back: bool = False
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
-        """The document with its steps in the syntax of the version."""
-        move = _back if self.back else _forth
-
-        def of_physics(element: Element) -> Element:
-            return move(element) if element.name == "physics" else element
-
-        def in_world(world: World) -> World:
-            return map_own_elements(world, of_physics)
-
-        return rewrite(document, World, in_world)
+        """The document with time steps in the syntax of the version."""
+        return map_elements_named("physics", document, World, _lower_steps if self.back else _raise_steps)
 
 
-def _forth(physics: Element) -> Element:
+def _raise_steps(physics: Element) -> Element:
     physics = _rename(physics, (_RATE,), _REAL_TIME_RATE)
     for path in _ENGINE_STEPS.values():
         physics = _rename(physics, path, _STEP)
     return physics
 
 
-def _back(physics: Element) -> Element:
+def _lower_steps(physics: Element) -> Element:
     physics = _rename(physics, (_REAL_TIME_RATE,), _RATE)
     *holder, name = _ENGINE_STEPS.get(physics.get("type") or "ode", _ENGINE_STEPS["ode"])
     return _rename(physics, (_STEP,), name, tuple(holder))
 
 
 def _rename(element: Element, path: tuple[str, ...], name: str, into: tuple[str, ...] = ()) -> Element:
-    """The element with the one at a path moved, unless there is one in its new place."""
+    """The element with the descendant at a path renamed and moved, unless there is one in the new place."""
     # A step that is written in both syntaxes stays where it is: the one in the version's own place
     # counts.
-    if has(element, (*into, name)):
+    if has_element(element, (*into, name)):
         return element
-    left, taken = take(element, path)
-    return element if taken is None else put(left, into, taken.copy(name=name))
+    left, taken = take_element(element, path)
+    return element if taken is None else put_element(left, into, taken.copy(name=name))

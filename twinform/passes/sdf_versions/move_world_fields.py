@@ -5,8 +5,7 @@ from typing import ClassVar
 
 from twinform.ir import Document, Element, Opaque, World, rewrite
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper, version_carriers
-from twinform.passes.sdf_versions.element_paths import put, take
-from twinform.passes.sdf_versions.version_pass import VersionPass
+from twinform.passes.sdf_versions.version_pass import VersionPass, put_element, take_element
 from twinform.schemas import format_value, parse_value
 
 _SINCE = (1, 6)
@@ -26,27 +25,27 @@ class MoveWorldFields(VersionPass):
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with the fields in their places."""
-        return rewrite(
-            document, World, partial(_back, self.carriers, self.number >= _FIELD_SINCE) if self.back else _forth
-        )
+        back = partial(_move_to_physics, self.carriers, self.number >= _FIELD_SINCE)
+        return rewrite(document, World, back if self.back else _move_to_world)
 
 
-def _forth(world: World) -> World:
+def _move_to_world(world: World) -> World:
+    """The world with gravity and magnetic field taken out of its first `<physics>`."""
     for part in world.opaque:
         # Only the first <physics> of a world counts for gravity.
         if part.element and part.element.name == "physics" and not part.at:
-            return _out_of(world, part, part.element)
+            return _take_fields(world, part, part.element)
     return world
 
 
-def _out_of(world: World, part: Opaque, physics: Element) -> World:
+def _take_fields(world: World, part: Opaque, physics: Element) -> World:
     update: dict[str, object] = {}
     moved: list[Opaque] = []
-    left, gravity = take(physics, ("gravity",))
+    left, gravity = take_element(physics, ("gravity",))
     if gravity is not None and gravity.text and world.gravity is None:
         physics, update["gravity"] = left, parse_value("vector3", gravity.text)
-    left, field = take(physics, (_FIELD,))
-    if field is not None and not _has(world, _FIELD):
+    left, field = take_element(physics, (_FIELD,))
+    if field is not None and not any(map(_is_field, world.opaque)):
         physics = left
         moved.append(Opaque.unchecked(element=field, source=part.source))
     if not update and not moved:
@@ -56,10 +55,9 @@ def _out_of(world: World, part: Opaque, physics: Element) -> World:
     return world.copy(**update)
 
 
-def _back(carriers: bool, field: bool, world: World) -> World:
-    fields = [part for part in world.opaque if part.element and part.element.name == _FIELD and not part.at]
-    if not field:
-        fields = []
+def _move_to_physics(carriers: bool, field: bool, world: World) -> World:
+    """The world with its gravity in its first `<physics>`; with `field`, its magnetic field too."""
+    fields = [part for part in world.opaque if _is_field(part)] if field else []
     moved = [part.element for part in fields if part.element]
     if world.gravity is not None:
         moved.insert(0, Element.unchecked(name="gravity", text=format_value(world.gravity)))
@@ -72,18 +70,18 @@ def _back(carriers: bool, field: bool, world: World) -> World:
         rest.append(Opaque.unchecked(element=_make_physics(carriers=carriers), source=world.source))
     physics = rest[place].element
     for element in moved:
-        physics = put(physics, (), element) if physics else None
+        physics = put_element(physics, (), element) if physics else None
     rest[place] = rest[place].copy(element=physics)
     return world.copy(gravity=None, opaque=tuple(rest))
 
 
 def _make_physics(*, carriers: bool) -> Element:
-    """A `<physics>` that is there for its gravity alone."""
-    # Marked as made, so that the conversion back takes the whole <physics> out again.
+    """A `<physics>` that holds nothing but the moved fields."""
+    # Marked as synthesized, so that the conversion back takes the whole <physics> out again.
     annotations = version_carriers([], VersionCondition(since=_SINCE, without=(".",))) if carriers else ()
     children = tuple(part.element for part in annotations if part.element)
     return Element.unchecked(name="physics", attributes=(("type", "ode"),), children=children)
 
 
-def _has(world: World, name: str) -> bool:
-    return any(part.element and part.element.name == name and not part.at for part in world.opaque)
+def _is_field(part: Opaque) -> bool:
+    return part.element is not None and part.element.name == _FIELD and not part.at

@@ -27,7 +27,9 @@ class NameAxisFrames(VersionPass):
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with axes in the syntax of the version."""
-        change = partial(_joint, always=self.source_before_1_5, named=self.number >= _BY_NAME, both=self.both)
+        change = partial(
+            _name_axis_frames, always=self.source_before_1_5, named=self.number >= _BY_NAME, both=self.both
+        )
 
         def in_world(world: World) -> World:
             if not world.joints:
@@ -37,18 +39,18 @@ class NameAxisFrames(VersionPass):
         return rewrite(rewrite(document, World, in_world), Joint, partial(change, frame=MODEL))
 
 
-def _joint(joint: Joint, *, always: bool, named: bool, both: bool, frame: str) -> Joint:
+def _name_axis_frames(joint: Joint, *, always: bool, named: bool, both: bool, frame: str) -> Joint:
     update: dict[str, object] = {}
     for field in ("axis", "axis2"):
         axis: Axis | None = getattr(joint, field)
-        if axis is not None and axis.expressed_in is None and _in_model(axis, always=always):
+        if axis is not None and axis.expressed_in is None and _is_in_model(axis, always=always):
             word = True if not named else axis.use_parent_model_frame if both else None
             name = frame if named else None
             update[field] = axis.copy(expressed_in=name, use_parent_model_frame=word)
     return joint.copy(**update) if update else joint
 
 
-def _in_model(axis: Axis, *, always: bool) -> bool:
+def _is_in_model(axis: Axis, *, always: bool) -> bool:
     # Before 1.5 every axis was in the model frame; with 1.5 the default became the joint's, and the
     # attribute came to say otherwise.
     if axis.use_parent_model_frame is None:

@@ -24,25 +24,25 @@ class NamePoseFrames(VersionPass):
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with poses in the syntax of 1.7."""
-        models = tuple(map(_renamed_model, document.models))
-        rest = map_children(document.copy(models=()), _all_renamed)
+        models = tuple(map(_rename_in_root, document.models))
+        rest = map_children(document.copy(models=()), _rename_in)
         return rest.copy(models=models)
 
 
-def _renamed_model(model: Model) -> Model:
+def _rename_in_root(model: Model) -> Model:
     """A model at the root of the file, whose own pose stays."""
-    return _all_renamed(model).copy(pose=model.pose)
+    return _rename_in(model).copy(pose=model.pose)
 
 
-def _all_renamed(node: AnyNode) -> AnyNode:
-    return rewrite(node, Node, _renamed, having=OPAQUE)
+def _rename_in(node: AnyNode) -> AnyNode:
+    return rewrite(node, Node, _rename_node, having=OPAQUE)
 
 
-def _renamed(node: Node) -> Node:
-    return _pose(node) if isinstance(node, Pose) else map_own_elements(node, _inside)
+def _rename_node(node: Node) -> Node:
+    return _rename_frame(node) if isinstance(node, Pose) else map_own_elements(node, _rename_in_element)
 
 
-def _pose(pose: Pose) -> Pose:
+def _rename_frame(pose: Pose) -> Pose:
     found = next((part for part in pose.opaque if part.attribute and part.attribute[0] == _OLD), None)
     # The specification of 1.5 and 1.6 gives `frame` an empty default, and exporters write
     # `frame=""` into every pose.
@@ -52,17 +52,17 @@ def _pose(pose: Pose) -> Pose:
     return pose.copy(**{_NEW: found.attribute[1], "opaque": rest})
 
 
-def _inside(element: Element, own: frozenset[str | None] = frozenset()) -> Element:
+def _rename_in_element(element: Element, own: frozenset[str | None] = frozenset()) -> Element:
     """An untyped element with its poses renamed; `own` are the frames of the one around it."""
     if element.name == "plugin" or is_foreign(element):
         return element
     if element.name == "pose":
-        return element if element.get(_OLD) in own else _element(element)
+        return element if element.get(_OLD) in own else _rename_attribute(element)
     frames = frozenset(child.get("name") for child in element.children if child.name == "frame")
-    return replace_fields(element, children=tuple(_inside(child, frames) for child in element.children))
+    return replace_fields(element, children=tuple(_rename_in_element(child, frames) for child in element.children))
 
 
-def _element(pose: Element) -> Element:
+def _rename_attribute(pose: Element) -> Element:
     if not pose.get(_OLD) or pose.get(_NEW) is not None:
         return pose
     attributes = tuple((_NEW if name == _OLD else name, value) for name, value in pose.attributes)

@@ -32,16 +32,18 @@ class NameTheNameless(VersionPass):
         if self.number >= _LIGHTS:
             document = rewrite(document, Light, lambda light: _name_light(light, taken, keeper.sink))
         if self.number <= _PLUGINS:
-            document = rewrite(document, Plugin, lambda plugin: _named_by_file(plugin, taken, keeper.sink))
+            document = rewrite(document, Plugin, lambda plugin: _name_plugin(plugin, taken, keeper.sink))
         return document
 
 
 def _name_light(light: Light, taken: set[str], sink: DiagnosticSink) -> Light:
-    return light if light.name else _called("light", "light", light, taken, sink)
+    return light if light.name else _give_name("light", "light", light, taken, sink)
 
 
-def _named_by_file(plugin: Plugin, taken: set[str], sink: DiagnosticSink) -> Plugin:
-    return plugin if plugin.name is not None else _called("plugin", plugin_stem(plugin.filename), plugin, taken, sink)
+def _name_plugin(plugin: Plugin, taken: set[str], sink: DiagnosticSink) -> Plugin:
+    return (
+        plugin if plugin.name is not None else _give_name("plugin", plugin_stem(plugin.filename), plugin, taken, sink)
+    )
 
 
 def plugin_stem(filename: str | None) -> str:
@@ -49,7 +51,7 @@ def plugin_stem(filename: str | None) -> str:
     return PurePosixPath(filename or "").stem.removeprefix("lib") or "plugin"
 
 
-def _called(kind: str, wish: str, node: Named, taken: set[str], sink: DiagnosticSink) -> Named:
+def _give_name(kind: str, wish: str, node: Named, taken: set[str], sink: DiagnosticSink) -> Named:
     name = unique_name(wish, taken)
     taken.add(name)
     message = f"a {kind} without a name is called {name!r}"

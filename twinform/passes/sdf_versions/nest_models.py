@@ -93,7 +93,7 @@ def nest(model: Model, sink: DiagnosticSink, among: frozenset[str] | None = None
     if not any(SCOPE in node.name for node in named):
         return model
     graph = FrameGraph(model)
-    first = partial(_first, among)
+    first = partial(_outermost_scope, among)
     inner = {name: _Inner(name) for node in named if (name := first(node.name))}
     links, joints, frames = list[Link](), list[Joint](), list[Frame]()
     for link in model.links:
@@ -118,26 +118,30 @@ def nest(model: Model, sink: DiagnosticSink, among: frozenset[str] | None = None
     for nested in model.models:
         if name := first(nested.name):
             inner[name].models.append(nested)
-    made = [_model(each, model, graph, sink, _within(each, among)) for each in inner.values() if each.holds_anything]
-    there = tuple(_merged(nested, made) for nested in models)
+    made = [
+        _make_model(each, model, graph, sink, _scopes_inside(each, among))
+        for each in inner.values()
+        if each.holds_anything
+    ]
+    there = tuple(_add_found(nested, made) for nested in models)
     new = tuple(nested for nested in made if nested.name not in {each.name for each in models})
     update = {"links": tuple(links), "joints": tuple(joints), "frames": tuple(frames), "models": (*there, *new)}
     return model.copy(**update)
 
 
-def _first(among: frozenset[str] | None, name: str) -> str:
+def _outermost_scope(among: frozenset[str] | None, name: str) -> str:
     """The model that a scoped name begins with."""
     if among is None:
         return name.partition(SCOPE)[0] if SCOPE in name else ""
     return min((path for path in among if name.startswith(path + SCOPE)), key=len, default="")
 
 
-def _within(inner: _Inner, among: frozenset[str] | None) -> frozenset[str] | None:
+def _scopes_inside(inner: _Inner, among: frozenset[str] | None) -> frozenset[str] | None:
     """The models that are to be in a nested one, by their names in that."""
     return among and frozenset(path.removeprefix(inner.prefix) for path in among if inner.holds(path))
 
 
-def _model(
+def _make_model(
     inner: _Inner, around: Model, graph: FrameGraph, sink: DiagnosticSink, among: frozenset[str] | None
 ) -> Model:
     own, base = inner.own, MODEL
@@ -155,10 +159,10 @@ def _model(
         name=inner.name,
         pose=pose,
         canonical_link=canonical,
-        links=tuple(_link(link, inner, base, graph) for link in inner.links),
-        joints=tuple(_joint(joint, inner, graph) for joint in inner.joints),
-        frames=tuple(_frame(frame, inner, base, graph) for frame in inner.frames),
-        models=tuple(_inner_model(nested, inner, base, graph) for nested in inner.models),
+        links=tuple(_move_link(link, inner, base, graph) for link in inner.links),
+        joints=tuple(_move_joint(joint, inner, graph) for joint in inner.joints),
+        frames=tuple(_move_frame(frame, inner, base, graph) for frame in inner.frames),
+        models=tuple(_move_model(nested, inner, base, graph) for nested in inner.models),
         source=next((each.source for each in (*inner.links, *inner.frames, *inner.joints)), around.source),
     )
     message = f"{len(nested.links)} links, {len(nested.joints)} joints and {len(nested.frames)} frames of model "
@@ -167,14 +171,14 @@ def _model(
     return nest(nested, sink, among)
 
 
-def _link(link: Link, inner: _Inner, base: str, graph: FrameGraph) -> Link:
+def _move_link(link: Link, inner: _Inner, base: str, graph: FrameGraph) -> Link:
     pose = link.pose
     if not inner.holds(pose.relative_to if pose else None) and (base != MODEL or (pose and pose.relative_to)):
         pose = graph.pose(link.name, base, base="frame").to_pose()
     return inner.moved(link, {"pose": pose})
 
 
-def _inner_model(model: Model, inner: _Inner, base: str, graph: FrameGraph) -> Model:
+def _move_model(model: Model, inner: _Inner, base: str, graph: FrameGraph) -> Model:
     pose = model.pose
     if not inner.holds(pose.relative_to if pose else None) and (base != MODEL or (pose and pose.relative_to)):
         where = graph.pose(model.name, base, kind="model", base="frame")
@@ -184,7 +188,7 @@ def _inner_model(model: Model, inner: _Inner, base: str, graph: FrameGraph) -> M
     return model.copy(name=inner.strip(model.name), pose=pose)
 
 
-def _frame(frame: Frame, inner: _Inner, base: str, graph: FrameGraph) -> Frame:
+def _move_frame(frame: Frame, inner: _Inner, base: str, graph: FrameGraph) -> Frame:
     pose, held = frame.pose, inner.holds(frame.attached_to)
     around = (pose.relative_to if pose else None) or frame.attached_to
     if not inner.holds(around):
@@ -195,15 +199,15 @@ def _frame(frame: Frame, inner: _Inner, base: str, graph: FrameGraph) -> Frame:
     return inner.moved(frame, {"attached_to": held_by if inner.holds(held_by) else None, "pose": pose})
 
 
-def _joint(joint: Joint, inner: _Inner, graph: FrameGraph) -> Joint:
+def _move_joint(joint: Joint, inner: _Inner, graph: FrameGraph) -> Joint:
     pose = joint.pose
     if pose is not None and pose.relative_to and not inner.holds(pose.relative_to):
         pose = graph.pose(joint.name, joint.child or "", kind="joint").to_pose()
-    axes = {field: _axis(joint, getattr(joint, field), inner, graph) for field in ("axis", "axis2")}
+    axes = {field: _move_axis(joint, getattr(joint, field), inner, graph) for field in ("axis", "axis2")}
     return inner.moved(joint, {"pose": pose, **axes})
 
 
-def _axis(joint: Joint, axis: Axis | None, inner: _Inner, graph: FrameGraph) -> Axis | None:
+def _move_axis(joint: Joint, axis: Axis | None, inner: _Inner, graph: FrameGraph) -> Axis | None:
     """The axis, turned into the joint where the frame that it is expressed in is outside."""
     if axis is None or not axis.expressed_in or inner.holds(axis.expressed_in):
         return axis
@@ -213,7 +217,7 @@ def _axis(joint: Joint, axis: Axis | None, inner: _Inner, graph: FrameGraph) -> 
     return axis.copy(xyz=turn.rotate(direction(axis, Format.SDF)), expressed_in=None)
 
 
-def _merged(nested: Model, made: list[Model]) -> Model:
+def _add_found(nested: Model, made: list[Model]) -> Model:
     """A nested model that was there already, with what was found of it in the model around it."""
     found = next((each for each in made if each.name == nested.name), None)
     if found is None:

@@ -14,7 +14,6 @@ from twinform.ir import (
     Light,
     Link,
     Model,
-    Opaque,
     Pose,
     Sensor,
     Visual,
@@ -24,12 +23,10 @@ from twinform.ir import (
 )
 from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.carriers import to_element
-from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper, version_carriers
-from twinform.passes.sdf_versions.early_frames import NAMED_FRAMES
-from twinform.passes.sdf_versions.version_pass import VersionPass
+from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
+from twinform.passes.sdf_versions.version_pass import NAMED_FRAMES, VersionPass
 from twinform.passes.transforms.element_poses import ElementPoses
-from twinform.passes.transforms.nodes import pose_piece
+from twinform.passes.transforms.nodes import piece, pose_piece
 from twinform.schemas import Version
 
 Posed = TypeVar("Posed", Visual, Collision, Sensor, Light, Inertial, Include, Link, Joint, Model)
@@ -66,7 +63,7 @@ class PlaceAbsolutely(VersionPass):
 
 @dataclass(frozen=True, slots=True)
 class _Placer:
-    """Works from the outside in, because an outer pose may be in a frame of an inner model."""
+    """Places models from the outside in, because an outer pose may be in a frame of an inner model."""
 
     keeper: VersionKeeper
     named: bool
@@ -97,7 +94,7 @@ class _Placer:
         return self._without_frames(model.copy(**update))
 
     def _members(self, holder: Holder, place: "_HolderPoses") -> dict[str, Any]:
-        """The parts that models and worlds have both."""
+        """The updated fields that models and worlds have in common."""
         update: dict[str, Any] = {"models": tuple(self.model(place.model(model)) for model in holder.models)}
         if self.named:
             return update
@@ -116,14 +113,14 @@ class _Placer:
             frame = holder.frames[index]
             message = f"frame {frame.name!r} has no place in SDF before 1.7"
             self.keeper.sink.report(rules.OLDER_VERSION, message, frame.location, found=frame.name)
-            pieces = [Opaque.unchecked(element=to_element(frame, "frame", "sdf"))]
+            pieces = [piece(frame, "frame")]
             condition = VersionCondition(since=NAMED_FRAMES, index=index)
             weight = count_parts(frame)
             holder = self.keeper.keep(holder, pieces, condition, rules.OLDER_VERSION, message, frame.location, weight)
         return holder.copy(frames=())
 
     def replace(self, node: Posed, where: Transform, relative_to: str | None) -> Posed:
-        """The node with its pose in another frame; the one that it had is carried."""
+        """The node with its pose in another frame, and the written pose in a carrier."""
         written = node.pose
         made = None if where == Transform() and relative_to is None else where.to_pose(relative_to)
         if made is not None:
@@ -140,7 +137,7 @@ class _Placer:
 
 @dataclass(frozen=True, slots=True)
 class _HolderPoses:
-    """The poses in one holder's frame, which the version takes for granted there."""
+    """Poses in the frame of one link, joint, model or world, which is the default frame there."""
 
     graph: FrameGraph
     holder: str
@@ -148,7 +145,7 @@ class _HolderPoses:
     placer: _Placer
 
     def resolved(self, node: Posed) -> Posed:
-        """A part with its pose in the holder's frame."""
+        """A part with its pose in the frame of the holder."""
         pose = node.pose
         if pose is None or pose.relative_to is None:
             return node
@@ -156,7 +153,7 @@ class _HolderPoses:
         return self.placer.replace(node, where, None)
 
     def model(self, model: Model) -> Model:
-        """A model in the holder; it stays where it is."""
+        """A nested model with its pose in the frame of the holder."""
         pose = model.pose
         base = pose.relative_to if pose and pose.relative_to and self.placer.named else None
         names = pose is not None and pose.relative_to is not None and not self.placer.named
@@ -166,7 +163,7 @@ class _HolderPoses:
         return self.placer.replace(model, where, base)
 
     def link(self, link: Link) -> Link:
-        """The link, which is posed in the model, and all in it."""
+        """The link posed in the model, with all that is in it posed in the link."""
         update: dict[str, Any] = {}
         for field in _IN_LINKS:
             parts: tuple[Any, ...] = getattr(link, field)
@@ -184,7 +181,7 @@ class _HolderPoses:
         return self.placer.replace(link, self.graph.pose(link.name, MODEL), None)
 
     def joint(self, joint: Joint) -> Joint:
-        """The joint, which is posed in its child, and its sensors."""
+        """The joint posed in its child, and its sensors in the joint."""
         if joint.sensors:
             moved = tuple(map(self.resolved, joint.sensors))
             joint = joint.copy(sensors=_sensors(joint.sensors, moved, self.elements()))
@@ -200,20 +197,17 @@ class _HolderPoses:
         return self.placer.replace(joint, self.graph.pose(joint.name, joint.child or WORLD, kind="joint"), None)
 
     def elements(self) -> ElementPoses:
-        """The poses in untyped parts of the holder."""
+        """Moves the poses in untyped parts of the holder."""
         return ElementPoses(self.graph, self.holder, (self.holder, self.kind), self._keep, self.kind)
 
     def _keep(self, message: str, pose: Pose) -> tuple[Element, ...]:
-        written = to_element(pose, "pose", "sdf")
-        self.placer.keeper.account(rules.OTHER_WORDS, message, NOWHERE, 1 + len(written.attributes))
-        carriers = version_carriers(
-            [Opaque.unchecked(element=written)], VersionCondition(since=NAMED_FRAMES, instead="pose")
-        )
-        return tuple(part.element for part in carriers if part.element) if self.placer.keeper.carriers else ()
+        """The carrier that stands beside a moved pose of an untyped element."""
+        condition = VersionCondition(since=NAMED_FRAMES, instead="pose")
+        return self.placer.keeper.keep_element(pose_piece(pose), condition, rules.OTHER_WORDS, message, NOWHERE)
 
 
 def _in_full(pose: Pose) -> Pose:
-    """The pose with the zeros that the text of SDF has in any case."""
+    """The pose with the zeros that its text in SDF has anyway."""
     update: dict[str, object] = {"xyz": pose.xyz or _ORIGIN}
     if pose.quat_xyzw is None:
         update["rpy"] = pose.rpy or _ORIGIN

@@ -13,16 +13,20 @@ from twinform.ir import (
     World,
     holds_opaque,
     map_children,
+    node_fields,
     replace_fields,
+    rewrite,
     untyped_elements,
 )
+from twinform.ir.record import field_values, fields_of
 from twinform.ir.verify.verify_joints import verify_mimics
 from twinform.passes.carriers.absorb import CarrierError, absorb, is_already_there
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours
+from twinform.passes.carriers.removal import without_parts
 from twinform.passes.carriers.sdf_versions import DIALECT, VersionKeeper, carried, condition_of, is_version_carrier
-from twinform.passes.sdf_versions.document_comparison import same, without_carriers
 from twinform.passes.sdf_versions.steps import backward
-from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign
+from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign, replace_child
+from twinform.passes.transforms.nodes import map_elements
 from twinform.schemas import Version, parse_version
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -43,7 +47,7 @@ class PutBack(VersionPass):
     source: str
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
-        """The document with its parts."""
+        """The document with carried parts back in their places."""
         if not _has_carriers(document):
             return document
         try:
@@ -51,9 +55,9 @@ class PutBack(VersionPass):
         except CarrierError as error:
             _report_unfit(document, "the file", error, keeper.sink)
             own = document
-        return map_children(own, partial(self._child, keeper))
+        return map_children(own, partial(self._restore_child, keeper))
 
-    def _child(self, keeper: VersionKeeper, node: AnyNode) -> AnyNode:
+    def _restore_child(self, keeper: VersionKeeper, node: AnyNode) -> AnyNode:
         called = f"{type(node).__name__.lower()} {getattr(node, 'name', '')!r}"
         try:
             made = restored(node, self.number)
@@ -71,7 +75,7 @@ class PutBack(VersionPass):
         return node
 
     def _means_the_same(self, made: Node, node: Node) -> bool:
-        """Whether a restored model or world, written in the file's version, equals what the file has there."""
+        """Whether a restored model or world, lowered to the version of the file, equals the one in the file."""
         if self.number < parse_version(self.source):  # parts that are gone stand for nothing else
             return True
         if isinstance(node, Model):
@@ -81,7 +85,7 @@ class PutBack(VersionPass):
         return True
 
     def _lower_again(self, node: Node, field: str) -> Document:
-        """A node in the syntax of the file's version."""
+        """A document with one model or world, in the syntax of the version of the file."""
         sink = DiagnosticSink()
         document = Document.model_validate({"format": "sdf", "version": self.version}).copy(**{field: (node,)})
         # The proof by repetition: lowered once more, the restored model has to equal the file.
@@ -96,7 +100,7 @@ def _report_unfit(node: Node, called: str, error: CarrierError, sink: Diagnostic
 
 
 def restored(node: AnyNode, version: Version) -> AnyNode:
-    """The node with every carrier that fits the version unpacked, in all that is in it too."""
+    """The node with all carriers that fit the version unpacked, at any depth."""
     if not holds_opaque(node):
         return node
     return map_children(restored_itself(node, version), lambda child: restored(child, version))
@@ -116,19 +120,19 @@ def restored_itself(node: AnyNode, version: Version) -> AnyNode:
             if any(is_already_there(node, piece, condition) for piece in carried(part)):
                 raise CarrierError("the file now has its own element for what it holds")
             node = absorb(node, carried(part), condition, version)
-    parts = (_inside(part, version) for part in node.opaque)
+    parts = (_restore_part(part, version) for part in node.opaque)
     return replace_fields(node, opaque=tuple(part for part in parts if part is not None))
 
 
-def _inside(part: Opaque, version: Version) -> Opaque | None:
+def _restore_part(part: Opaque, version: Version) -> Opaque | None:
     if part.element is None or is_foreign(part.element) or part.element.name == "plugin":
         return part
-    element = _restored_element(part.element, version)
+    element = _restore_element(part.element, version)
     return None if element is None else replace_fields(part, element=element)
 
 
-def _restored_element(element: Element, version: Version) -> Element | None:
-    """The element with what carriers in it hold; None for a synthesized one."""
+def _restore_element(element: Element, version: Version) -> Element | None:
+    """The element with its carriers unpacked; None where a conversion made it up."""
     children: list[Element] = []
     made: list[Opaque] = []
     changed = False
@@ -143,31 +147,77 @@ def _restored_element(element: Element, version: Version) -> Element | None:
             children = [each for each in children if each.name != condition.instead]
             children += [piece.element for piece in pieces if piece.element]
             continue
-        inner = child if is_foreign(child) or child.name == "plugin" else _restored_element(child, version)
+        inner = child if is_foreign(child) or child.name == "plugin" else _restore_element(child, version)
         changed = changed or inner is not child
         children += [inner] if inner else []
     if not changed:
         return element
     element = element.copy(children=tuple(children))
     for piece in made:
-        element = _with_attribute(element, piece)
+        element = _put_attribute(element, piece)
     return element
 
 
-def _with_attribute(element: Element, piece: Opaque) -> Element:
-    pair = piece.attribute
-    if pair is None:
+def _put_attribute(element: Element, piece: Opaque) -> Element:
+    """The element with the attribute of a piece, on itself or on the descendant that the piece names."""
+    if piece.attribute is None:
         return element
     if not piece.at:
-        return element.copy(attributes=(*element.attributes, pair))
+        return element.copy(attributes=(*element.attributes, piece.attribute))
     name, _, rest = piece.at.partition("/")
     child = element.find(name)
-    if child is None:
-        return element
-    inner = _with_attribute(child, piece.copy(at=rest))
-    return element.copy(children=tuple(inner if each is child else each for each in element.children))
+    return element if child is None else replace_child(element, child, _put_attribute(child, piece.copy(at=rest)))
 
 
 def _has_carriers(document: Document) -> bool:
     carrier = f"{{{NAMESPACE}}}{DIALECT}"
     return any(element.name == carrier for element in untyped_elements(document, having=bits_of_ours(DIALECT)))
+
+
+def without_carriers(node: AnyNode) -> AnyNode:
+    """The node without carriers of other versions, at any depth."""
+    return without_parts(node, is_version_carrier)
+
+
+def comparable(node: AnyNode) -> AnyNode:
+    """The node with untyped parts in a canonical order, and without empty nodes."""
+    return rewrite(node, Node, _sort_parts)
+
+
+def _sort_parts(node: Node) -> Node:
+    if len(node.opaque) > 1 or any(part.element for part in node.opaque):
+        parts = sorted(map_elements(node.opaque, _sort_element), key=_sorting_key)
+        node = node.copy(opaque=tuple(parts))
+    empty = [name for name in node_fields(type(node)) if _is_empty(getattr(node, name))]
+    return node.copy(**dict.fromkeys(empty)) if empty else node
+
+
+def _is_empty(value: object) -> bool:
+    """Whether a value is a node with no more than defaults, of which nothing would be written."""
+    if not isinstance(value, Node):
+        return False
+    fields = fields_of(type(value))
+    return all(each == fields[name].default for name, each in field_values(value).items())
+
+
+def _sorting_key(part: Opaque) -> tuple[str, ...]:
+    """The sorting key of a part: its place and name, or those of the pieces in a carrier."""
+    if not is_version_carrier(part):
+        return (part.at, part.name, "", "")
+    written = part.element.get("at") if part.element else None
+    return (part.at, part.name, written or "", " ".join(piece.name for piece in carried(part)))
+
+
+def _sort_element(element: Element) -> Element:
+    attributes = tuple(sorted(element.attributes))
+    if element.name == "plugin":  # only it knows what its order means
+        return element.copy(attributes=attributes)
+    children = sorted(map(_sort_element, element.children), key=lambda child: child.name)
+    return element.copy(attributes=attributes, children=tuple(children))
+
+
+def same(one: Node, other: Node) -> bool:
+    """Whether two nodes are equal apart from the order of untyped parts and from empty nodes; NaN equals NaN."""
+    one, other = comparable(one), comparable(other)
+    # A NaN is not equal to itself, but it has the same text.
+    return one == other or one.model_dump_json() == other.model_dump_json()

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from twinform.ir import Document, Element, World, rewrite
+from twinform.ir import Document, Element, World
 from twinform.passes.carriers.sdf_versions import VersionKeeper
-from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign, map_own_elements
+from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign, map_elements_named
 from twinform.schemas import Fact, Version, table
 
 _NAMES = {
@@ -31,27 +31,20 @@ class RenameStates(VersionPass):
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with states in the syntax of the version."""
         renaming = _Renaming(self.number, self.back)
-
-        def of_state(element: Element) -> Element:
-            return renaming.inside(element, "state") if element.name == "state" else element
-
-        def in_world(world: World) -> World:
-            return map_own_elements(world, of_state)
-
-        return rewrite(document, World, in_world)
+        return map_elements_named("state", document, World, lambda element: renaming.inside(element, "state"))
 
 
 @dataclass(frozen=True, slots=True)
 class _Renaming:
-    """To the names of a version, which has those since 1.12 or, where it goes `back`, those before."""
+    """Renames states to what they are called since 1.12, or with `back` to what they were called before."""
 
     version: Version
     back: bool
 
     def inside(self, element: Element, kind: str) -> Element:
-        """A state with its children renamed; `kind` is its new name."""
+        """A state with its children renamed; `kind` is its name since 1.12."""
         if kind == "joint_state":
-            return _second_angle_back(element) if self.back else _second_angle(element)
+            return _move_second_angle_back(element) if self.back else _move_second_angle(element)
         children = tuple(self._child(child, kind) for child in element.children)
         return element.copy(children=children)
 
@@ -74,7 +67,7 @@ class _Renaming:
         return next((row for row in rows if row.name == name and row.exists_in(self.version)), None)
 
 
-def _second_angle(joint: Element) -> Element:
+def _move_second_angle(joint: Element) -> Element:
     def moved(child: Element) -> Element:
         if child.name != "angle" or child.get("axis") != "1":
             return child
@@ -83,7 +76,7 @@ def _second_angle(joint: Element) -> Element:
     return joint.copy(children=tuple(map(moved, joint.children)))
 
 
-def _second_angle_back(joint: Element) -> Element:
+def _move_second_angle_back(joint: Element) -> Element:
     def moved(child: Element) -> Element:
         position = child.children[0] if child.name == "axis2_state" and len(child.children) == 1 else None
         if position is None or position.name != "position" or position.attributes:

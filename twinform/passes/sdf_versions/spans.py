@@ -1,9 +1,13 @@
-"""Version ranges of SDF elements and attributes, by name and by IR field."""
+"""Which versions of SDF have an element or attribute, by name, by IR field and as bits of the census."""
 
-from collections.abc import Container
+from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cache
 
+from twinform.ir import PLAIN, Document, Node, Pose, bits_of
+from twinform.ir.census import RARE, union_of
+from twinform.ir.record import fields_of
+from twinform.ir.tree_walks import classes_in
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.schemas import Fact, Version, table
 
@@ -13,26 +17,26 @@ _LAST: Version = (99, 99)
 
 @dataclass(slots=True)
 class VersionSpan:
-    """When one part exists: every row of the table that describes it, and from when to when."""
+    """The versions that have one part: the rows of the facts table that describe it, each with first and last."""
 
     rows: list[tuple[Version, Version, Fact]] = field(default_factory=list[tuple[Version, Version, Fact]])
     _found: dict[Version, Fact | None] = field(default_factory=dict[Version, Fact | None])
 
     def row(self, version: Version) -> Fact | None:
-        """The row of a version; None where it does not have the part."""
+        """The row that describes the part in a version; None where the version lacks it."""
         if version not in self._found:  # asked for each part of a model, when all rows are there
             fitting = (row for since, until, row in self.rows if since <= version <= until)
             self._found[version] = next(fitting, None)
         return self._found[version]
 
     def condition(self, version: Version, index: int | None = None) -> VersionCondition:
-        """The nearest versions that have it, on both sides of one that does not."""
+        """The condition of a carrier: the nearest versions with the part, newer and older than one without."""
         later = [since for since, _, _ in self.rows if since > version]
         earlier = [until for _, until, _ in self.rows if until < version]
         return VersionCondition(since=min(later, default=None), until=max(earlier, default=None), index=index)
 
     def repetition(self, version: Version) -> "VersionSpan | None":
-        """When it may stand more than once, if that is in other versions alone."""
+        """The versions that allow the part more than once; None where this one does, or none does."""
         row = self.row(version)
         if row is None or row.repeats:
             return None
@@ -40,16 +44,16 @@ class VersionSpan:
         return VersionSpan(repeating) if repeating else None
 
     def containers(self) -> "VersionSpan":
-        """When it has children, which in other versions may be a value."""
+        """The versions in which the part has children; in others it may be a plain value."""
         return VersionSpan([each for each in self.rows if each[2].type is None])
 
     @property
     def is_split(self) -> bool:
-        """Whether it is one thing in some versions and another one in others."""
+        """Whether versions have different definitions of the part."""
         return len({row.reference for _, _, row in self.rows}) > 1
 
     def shape(self, row: Fact) -> "ElementContent":
-        """What it may hold by the row of a version, and by those of others where it is another thing there."""
+        """The content of the part by the row of a version, and by all rows where definitions differ."""
         if not self.is_split:
             return shape_of(row)
         merged = ElementContent(shape_of(row).fact)
@@ -64,7 +68,7 @@ class VersionSpan:
 
 @dataclass(slots=True)
 class ElementContent:
-    """What an element may hold: by name (`@` for attributes), by field of the IR, and by kind for one of several."""
+    """What an element may hold: by name (`@` for attributes), by IR field, and by kind where a field has several."""
 
     fact: Fact
     names: dict[str, VersionSpan] = field(default_factory=dict[str, VersionSpan])
@@ -73,7 +77,7 @@ class ElementContent:
     _lacking: dict[Version, tuple[str, ...]] = field(default_factory=dict[Version, tuple[str, ...]])
 
     def lacking(self, version: Version) -> tuple[str, ...]:
-        """The fields of which a version may lack something, at any depth."""
+        """The IR fields in which a version may lack something, at any depth."""
         if version not in self._lacking:
             found = [name for name, span in self.fields.items() if not _has_all(span, whole(version), version)]
             if not all(_has_all(span, whole(version), version) for span in self.kinds.values()):
@@ -90,7 +94,7 @@ def _pairs_of_spans(
 
 @cache
 def shape(definition: str) -> ElementContent:
-    """The shape of a definition of SDF."""
+    """The content of a definition of SDF."""
     return _shape(table("sdf").definitions[definition])
 
 
@@ -98,7 +102,7 @@ _inner: dict[int, ElementContent] = {}
 
 
 def shape_of(row: Fact) -> ElementContent:
-    """The shape of a row, which may refer to a definition."""
+    """The content of a row, which may refer to a definition."""
     if row.reference:
         return shape(row.reference)
     if id(row) not in _inner:  # the table is made once and kept
@@ -115,7 +119,7 @@ def _shape(fact: Fact) -> ElementContent:
 
 
 def _collect(fact: Fact, made: ElementContent, since: Version, until: Version) -> None:
-    """Enter the fields that rows fill; a container without a node passes on to its rows when it exists."""
+    """Add the fields that rows fill; the rows of a container without a node last no longer than the container."""
     for row in fact.rows:
         first, last = max(since, row.since), min(until, row.until)
         if row.place == ".":
@@ -129,7 +133,7 @@ def _collect(fact: Fact, made: ElementContent, since: Version, until: Version) -
 
 @cache
 def whole(version: Version) -> frozenset[str]:
-    """The definitions of which a version has everything that any version has, all the way down."""
+    """The definitions that are complete in a version: it has all that any version has in them, at any depth."""
     definitions = table("sdf").definitions
     found = set(definitions)
     # A greatest fixed point: definitions refer to each other in circles (a model holds models), so
@@ -140,12 +144,83 @@ def whole(version: Version) -> frozenset[str]:
 
 
 def _is_whole(form: ElementContent, found: Container[str], version: Version) -> bool:
+    """Whether a version has every part of an element, given the definitions found to be complete."""
     return all(_has_all(span, found, version) for span in form.names.values())
 
 
 def _has_all(span: VersionSpan, found: Container[str], version: Version) -> bool:
-    """Whether a version has a part and, by the definitions that were found to be whole, everything in it."""
+    """Whether a version has a part with everything in it, given the definitions found to be complete."""
     row = span.row(version)
     if row is None or span.is_split or span.repetition(version):
         return False
     return row.reference in found if row.reference else _is_whole(shape_of(row), found, version)
+
+
+_Kinds = frozenset[type[Node]]
+
+
+@cache
+def bits_lacking(version: Version) -> int:
+    """The census bits of what a version lacks, allows only once or defines otherwise, and of untyped parts."""
+    # A subtree without any of these bits has nothing to leave out.
+    return PLAIN | union_of(bit for kinds, form in _shapes(version) for bit in _bits(kinds, form, version))
+
+
+def _shapes(version: Version) -> Iterator[tuple[_Kinds, ElementContent]]:
+    """Each element of a version that has a node: the classes of that node, and the content."""
+    seen: set[tuple[_Kinds, int]] = set()
+    queue: list[tuple[_Kinds, ElementContent]] = [(frozenset({Document}), shape(table("sdf").root))]
+    for kinds, form in queue:  # grows while it is walked
+        yield kinds, form
+        for inner, span in _inner_shapes(kinds, form):
+            row = span.row(version)
+            if inner and row is not None and (inner, id(row)) not in seen:
+                seen.add((inner, id(row)))
+                queue.append((inner, span.shape(row)))
+
+
+def _inner_shapes(kinds: _Kinds, form: ElementContent) -> Iterator[tuple[_Kinds, VersionSpan]]:
+    for place, span in form.fields.items():
+        if not any(_is_pose_of_its_own(kind, place) for kind in kinds):
+            yield _classes_in(_holders(kinds, place), _field(place)), span
+    for kind, span in form.kinds.items():
+        yield _of_kind(kinds, span, kind), span
+
+
+def _bits(kinds: _Kinds, form: ElementContent, version: Version) -> Iterator[int]:
+    for place, span in form.fields.items():
+        holders, field = _holders(kinds, place), _field(place)
+        if span.row(version) is None:
+            yield from (bits_of(holder, field) for holder in holders if field in fields_of(holder))
+        elif place in form.lacking(version):
+            yield from (bits_of(kind, place) for kind in kinds if _is_pose_of_its_own(kind, place))
+        if span.repetition(version):
+            yield from map(bits_of, _classes_in(holders, field))
+    for kind, span in form.kinds.items():
+        if span.row(version) is None:
+            yield from map(bits_of, _of_kind(kinds, span, kind))
+
+
+def _is_pose_of_its_own(kind: type[Node], place: str) -> bool:
+    """Whether the pose in a field has a census bit of its own, because it may say less there than elsewhere."""
+    return place in RARE.get(kind, ()) and Pose in classes_in(kind, place)
+
+
+def _holders(kinds: _Kinds, place: str) -> _Kinds:
+    """The classes of the node that has the last field of a place such as `limit.lower`."""
+    outer = place.rpartition(".")[0]
+    return _classes_in(kinds, outer) if outer else kinds
+
+
+def _field(place: str) -> str:
+    return place.rpartition(".")[2]
+
+
+def _classes_in(kinds: Iterable[type[Node]], field: str) -> _Kinds:
+    return frozenset(inner for kind in kinds if field in fields_of(kind) for inner in classes_in(kind, field))
+
+
+def _of_kind(kinds: _Kinds, span: VersionSpan, kind: str) -> _Kinds:
+    """The classes of one kind among the nodes that a field may hold."""
+    every = _classes_in(kinds, span.rows[0][2].place or "")
+    return frozenset(each for each in every if fields_of(each)["kind"].default == kind)

@@ -3,11 +3,16 @@
 from functools import partial
 from typing import ClassVar
 
-from twinform.ir import PLAIN, Document, Element, Sensor, rewrite
+from twinform.ir import Document, Element, Sensor
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.sdf_versions import VersionKeeper
-from twinform.passes.sdf_versions.element_paths import has, put, take
-from twinform.passes.sdf_versions.version_pass import VersionPass, map_own_elements
+from twinform.passes.sdf_versions.version_pass import (
+    VersionPass,
+    has_element,
+    map_elements_named,
+    put_element,
+    take_element,
+)
 
 _MEASURED = {"rate": "angular_velocity", "accel": "linear_acceleration"}
 _NUMBERS = ("mean", "stddev", "bias_mean", "bias_stddev")
@@ -30,7 +35,7 @@ class SpreadImuNoise(VersionPass):
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with noise on axes."""
-        return rewrite(document, Sensor, partial(_sensor, self.annotate), having=PLAIN)
+        return map_elements_named("imu", document, Sensor, partial(_spread, self.annotate))
 
 
 class GatherImuNoise(VersionPass):
@@ -47,16 +52,14 @@ class GatherImuNoise(VersionPass):
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with noise once for each IMU."""
 
-        def gather(element: Element) -> Element:
-            return element if self.annotated and element.find(_ANNOTATION) is None else gathered(element)
+        def gather(imu: Element) -> Element:
+            return imu if self.annotated and imu.find(_ANNOTATION) is None else _gather(imu)
 
-        return rewrite(document, Sensor, lambda sensor: map_own_elements(sensor, gather), having=PLAIN)
+        return map_elements_named("imu", document, Sensor, gather)
 
 
-def gathered(element: Element) -> Element:
-    """An `<imu>` with its noise written once; the same one where that cannot be."""
-    if element.name != "imu":
-        return element
+def _gather(element: Element) -> Element:
+    """An `<imu>` with its noise written once; unchanged where its axes differ."""
     noises = {old: _common_noise(element, new) for old, new in _MEASURED.items()}
     types = {noise.get("type") for noise in noises.values() if noise is not None}
     # The old element has one type for both measurements, and one set of numbers for the three axes
@@ -85,14 +88,9 @@ def _common_noise(imu: Element, measured: str) -> Element | None:
     return first if same and plain and [name for name, _ in first.attributes] == ["type"] else None
 
 
-def _sensor(annotate: bool, sensor: Sensor) -> Sensor:
-    return map_own_elements(sensor, partial(_imu, annotate))
-
-
-def _imu(annotate: bool, element: Element) -> Element:
-    if element.name != "imu":
-        return element
-    imu, noise = take(element, ("noise",))
+def _spread(annotate: bool, element: Element) -> Element:
+    """An `<imu>` with the noise that it has once on each of its axes."""
+    imu, noise = take_element(element, ("noise",))
     if noise is None:
         return element
     kind = noise.find("type")
@@ -104,6 +102,6 @@ def _imu(annotate: bool, element: Element) -> Element:
         for axis in ("x", "y", "z"):
             # Files with the syntax of several versions have both; the noise of an axis is the one
             # that readers of 1.6 and newer take.
-            if not has(imu, (new, axis, "noise")):
-                imu = put(imu, (new, axis), made)
+            if not has_element(imu, (new, axis, "noise")):
+                imu = put_element(imu, (new, axis), made)
     return imu.copy(children=(Element.unchecked(name=_ANNOTATION), *imu.children)) if annotate else imu

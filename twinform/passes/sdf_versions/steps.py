@@ -7,16 +7,20 @@ from twinform.passes.sdf_versions import kinds
 from twinform.schemas import Version, print_version
 
 Changes = Callable[[int], bool]
-"""Whether a minor version, with which something came, lies between the two."""
+"""Whether a change that came with a minor version lies between two versions."""
+
+
+def _changes_between(old: Version, new: Version) -> Changes:
+    return lambda minor: old < (1, minor) <= new
 
 
 def forward(old: Version, new: Version, *, names: bool = True, mixed: bool = False) -> Iterator[Pass]:
-    """The passes from an older version to a newer one, each where the change lies between the two.
+    """The passes from an older version to a newer one, for the changes that lie between the two.
 
-    `names` is whether names become what newer versions want: unlike each other, and without scopes in them; `mixed`
-    whether the file has newer syntax already.
+    With `names`, names become unique and lose their scopes, as newer versions want; `mixed` means that the file has
+    newer syntax already.
     """
-    changes: Changes = lambda minor: old < (1, minor) <= new  # noqa: E731 - a name for the lines below
+    changes = _changes_between(old, new)
     yield from _to_named_frames(changes, print_version(new), old, names=names, mixed=mixed)
     yield from _from_named_frames(changes, print_version(new), names=names)
 
@@ -52,8 +56,8 @@ def _from_named_frames(changes: Changes, version: str, *, names: bool) -> Iterat
 
 
 def unversioned(version: str, *, carriers: bool = True) -> Iterator[Pass]:
-    """The passes for syntax of any version in a text that declares none, where no newer version has another meaning."""
-    # Only old syntax that no newer version uses for something else. What depends on the version,
+    """The passes for old syntax in a text without a version, as far as it means nothing else in newer versions."""
+    # What depends on the version,
     # such as the frame of an axis without a word, is taken as the newest version has it: <gazebo>
     # declares none.
     yield kinds.SpreadImuNoise.unchecked(version=version, annotate=carriers)
@@ -62,16 +66,16 @@ def unversioned(version: str, *, carriers: bool = True) -> Iterator[Pass]:
 
 
 def backward(new: Version, old: Version, *, carriers: bool = True) -> Iterator[Pass]:
-    """The passes from a newer version to an older one, each where the change lies between the two."""
-    changes: Changes = lambda minor: old < (1, minor) <= new  # noqa: E731 - a name for the lines below
+    """The passes from a newer version to an older one, for the changes that lie between the two."""
+    changes = _changes_between(old, new)
     yield from _models_back(changes, print_version(old), print_version(new), carriers=carriers)
     yield from _values_back(changes, print_version(old), carriers=carriers)
     yield kinds.LeaveOut.unchecked(version=print_version(old), carriers=carriers)
 
 
 def meaning_back(new: Version, old: Version) -> Iterator[Pass]:
-    """The passes from a newer version to an older one for syntax that both have, and that mean something else there."""
-    changes: Changes = lambda minor: old < (1, minor) <= new  # noqa: E731 - a name for the lines below
+    """The passes from a newer version to an older one for syntax that both have with another meaning."""
+    changes = _changes_between(old, new)
     version = print_version(old)
     if changes(5):
         yield kinds.TurnAxes.unchecked(version=version)
@@ -84,7 +88,7 @@ def meaning_back(new: Version, old: Version) -> Iterator[Pass]:
 
 
 def _models_back(changes: Changes, version: str, source: str, *, carriers: bool) -> Iterator[Pass]:
-    """What is where, from the outside in."""
+    """The passes that place models, joints and poses, from the outside in."""
     if changes(12):
         yield kinds.RenameStates.unchecked(version=version, carriers=carriers, back=True)
     if changes(11):
@@ -102,7 +106,7 @@ def _models_back(changes: Changes, version: str, source: str, *, carriers: bool)
 
 
 def _values_back(changes: Changes, version: str, *, carriers: bool) -> Iterator[Pass]:
-    """How it is written."""
+    """The passes that rewrite values where they stand."""
     if changes(9):
         yield kinds.WritePlainPoses.unchecked(version=version, carriers=carriers)
     if any(map(changes, (4, 5, 6))):

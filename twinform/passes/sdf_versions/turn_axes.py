@@ -28,10 +28,10 @@ class TurnAxes(VersionPass):
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with axes in the syntax of the version."""
-        return rewrite(document, Model, partial(_model, keeper, self.number >= _SINCE))
+        return rewrite(document, Model, partial(_turn_in_model, keeper, self.number >= _SINCE))
 
 
-def _model(keeper: VersionKeeper, has_attribute: bool, model: Model) -> Model:
+def _turn_in_model(keeper: VersionKeeper, has_attribute: bool, model: Model) -> Model:
     axes = [axis for joint in model.joints for axis in (joint.axis, joint.axis2) if axis]
     if all(axis.expressed_in is None and has_attribute for axis in axes):
         return model
@@ -51,10 +51,10 @@ class _Turner:
         for field in ("axis", "axis2"):
             axis: Axis | None = getattr(joint, field)
             if axis is not None:
-                joint = self._axis(joint, field, axis)
+                joint = self._turn_axis(joint, field, axis)
         return joint
 
-    def _axis(self, joint: Joint, field: str, axis: Axis) -> Joint:
+    def _turn_axis(self, joint: Joint, field: str, axis: Axis) -> Joint:
         frame = axis.expressed_in
         if self.has_attribute and frame == MODEL:
             values = axis.copy(expressed_in=None, use_parent_model_frame=True)
@@ -62,10 +62,10 @@ class _Turner:
         if not self.has_attribute:
             plain = axis.copy(expressed_in=None, use_parent_model_frame=None)
             in_model = frame == MODEL or axis.use_parent_model_frame
-            return joint.copy(**{field: plain}) if in_model else self._turned(joint, field, axis, MODEL)
-        return joint if frame is None else self._turned(joint, field, axis, joint.name)
+            return joint.copy(**{field: plain}) if in_model else self._express(joint, field, axis, MODEL)
+        return joint if frame is None else self._express(joint, field, axis, joint.name)
 
-    def _turned(self, joint: Joint, field: str, axis: Axis, base: str) -> Joint:
+    def _express(self, joint: Joint, field: str, axis: Axis, base: str) -> Joint:
         """The joint with the axis in another frame, and the axis that it had in a carrier."""
         to_model = base == MODEL
         turn = self.graph.pose(

@@ -28,11 +28,11 @@ class WriteInertias(VersionPass, AssetPass):
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with every inertia written out."""
-        write = partial(_write, keeper, Meshes(self._assets))
+        write = partial(_write_inertia, keeper, Meshes(self._assets))
         return rewrite(document, Model, lambda model: map_automatic(model, write))
 
 
-def _write(keeper: VersionKeeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
+def _write_inertia(keeper: VersionKeeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
     try:
         found = automatic(link, inertial, link.collisions, graph, meshes)
     except NoInertiaError:

@@ -7,9 +7,8 @@ from twinform.diagnostics import NOWHERE, rules
 from twinform.ir import PLAIN, Document, Element, Node, Opaque, Pose, bits_of, count_parts, map_children, rewrite
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper, version_carriers
-from twinform.passes.sdf_versions.element_paths import replace
-from twinform.passes.sdf_versions.version_pass import VersionPass, map_inside, map_own_elements
+from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
+from twinform.passes.sdf_versions.version_pass import VersionPass, map_inside, map_own_elements, replace_child
 from twinform.passes.transforms.element_poses import read_pose
 from twinform.passes.transforms.nodes import pose_piece
 from twinform.passes.transforms.pose_notation import in_radians
@@ -31,11 +30,11 @@ class WritePlainPoses(VersionPass):
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with plain poses."""
-        return map_children(document, lambda child: rewrite(child, Node, partial(_plain, keeper), having=_HAVING))
+        return map_children(document, lambda child: rewrite(child, Node, partial(_write_plain, keeper), having=_HAVING))
 
 
-def _plain(keeper: VersionKeeper, node: Node) -> Node:
-    node = map_own_elements(node, partial(map_inside, change=partial(_element, keeper)))
+def _write_plain(keeper: VersionKeeper, node: Node) -> Node:
+    node = map_own_elements(node, partial(map_inside, change=partial(_write_plain_in, keeper)))
     pose: Pose | None = getattr(node, "pose", None)
     if pose is None or not (pose.quat_xyzw or pose.degrees is not None or pose.rotation_format is not None):
         return node
@@ -48,7 +47,8 @@ def _plain(keeper: VersionKeeper, node: Node) -> Node:
     return keeper.keep(changed, [pose_piece(pose)], condition, rules.OTHER_WORDS, message, pose.location, weight)
 
 
-def _element(keeper: VersionKeeper, element: Element) -> Element:
+def _write_plain_in(keeper: VersionKeeper, element: Element) -> Element:
+    """An untyped element with its own pose in radians, and the one that it had in a carrier."""
     pose = element.find("pose")
     if pose is None or all(pose.get(word) is None for word in _ATTRIBUTES):
         return element
@@ -57,10 +57,7 @@ def _element(keeper: VersionKeeper, element: Element) -> Element:
     rest = tuple(pair for pair in pose.attributes if pair[0] not in (*_ATTRIBUTES, "relative_to"))
     plain = plain.copy(attributes=(*plain.attributes, *rest))
     message = f"the pose of <{element.name}> is written in degrees or as a quaternion"
-    keeper.account(rules.OTHER_WORDS, message, NOWHERE, 1 + len(pose.attributes))
-    changed = replace(element, pose, plain)
-    if not keeper.carriers:
-        return changed
-    carriers = version_carriers([Opaque.unchecked(element=pose)], VersionCondition(since=_SINCE, instead="pose"))
-    children = (*changed.children, *(part.element for part in carriers if part.element))
-    return changed.copy(children=children)
+    condition = VersionCondition(since=_SINCE, instead="pose")
+    carriers = keeper.keep_element(Opaque.unchecked(element=pose), condition, rules.OTHER_WORDS, message, NOWHERE)
+    changed = replace_child(element, pose, plain)
+    return changed.copy(children=(*changed.children, *carriers))

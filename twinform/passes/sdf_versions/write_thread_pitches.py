@@ -30,10 +30,10 @@ class WriteThreadPitches(VersionPass):
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with screws in the syntax of the version."""
-        return rewrite(document, Joint, partial(_back, keeper) if self.back else _forth)
+        return rewrite(document, Joint, partial(_write_old_pitch, keeper) if self.back else _write_default_pitch)
 
 
-def _forth(joint: Joint) -> Joint:
+def _write_default_pitch(joint: Joint) -> Joint:
     if joint.type != "screw" or joint.thread_pitch is not None or joint.screw_thread_pitch is not None:
         return joint
     # Since 1.10 an absent pitch means 1 m per turn by the new element; before, it meant 1 rad/m by
@@ -41,7 +41,7 @@ def _forth(joint: Joint) -> Joint:
     return joint.copy(thread_pitch=_DEFAULT)
 
 
-def _back(keeper: VersionKeeper, joint: Joint) -> Joint:
+def _write_old_pitch(keeper: VersionKeeper, joint: Joint) -> Joint:
     written = joint.screw_thread_pitch
     if joint.type != "screw" or (written is None and joint.thread_pitch is not None):
         return joint

@@ -7,7 +7,7 @@ import twinform
 from testbed.corpus.versions import first_difference
 from twinform.diagnostics import Fate
 from twinform.passes.carriers.carriers import NAMESPACE
-from twinform.passes.sdf_versions.document_comparison import comparable
+from twinform.passes.sdf_versions.put_back import comparable
 
 TF = {"tf": NAMESPACE}
 LINKS = "<link name='a'/><link name='b'><pose>1 0 0 0 0 0</pose></link>"

@@ -1,7 +1,7 @@
 """The census has a bit for all that a version may lack."""
 
 from twinform.ir.census import PLANS, RARE
-from twinform.passes.sdf_versions.lacking import bits_lacking
+from twinform.passes.sdf_versions.spans import bits_lacking
 from twinform.schemas import parse_version, table
 
 OF_URDF = {
