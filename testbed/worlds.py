@@ -18,7 +18,7 @@ import twinform
 from testbed.corpus.examine import rules_of
 from twinform.compiler import ConversionRequest, Language, LoadOptions, split
 from twinform.compiler.search.resolve_uris import SearchPath
-from twinform.file_access.roots import folders_around
+from twinform.file_access import folders_around
 from twinform.ir import Document
 from twinform.testing.oracles import libsdformat
 from twinform.testing.oracles.libsdformat.compare_worlds import differences

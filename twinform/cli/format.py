@@ -26,7 +26,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.reporters import FileFindings
 from twinform.text import SourceText
 from twinform.text.formatting import FormatOptions
-from twinform.text.line_diff import line_diff
+from twinform.text.source_text import line_diff
 
 _WIDEST = 16
 

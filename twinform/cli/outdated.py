@@ -8,7 +8,7 @@ import click
 from twinform.cli.failure import FINDINGS, Unusable
 from twinform.cli.printing import print_line
 from twinform.file_access import Readable
-from twinform.text.line_diff import line_diff
+from twinform.text.source_text import line_diff
 
 _MOST_LINES = 400
 """Lines of a difference that are printed."""

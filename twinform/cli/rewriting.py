@@ -12,7 +12,7 @@ from twinform.cli.source import InputSource
 from twinform.compiler import write_all_atomically
 from twinform.diagnostics import SideFile
 from twinform.text import SourceText, UndecodableError
-from twinform.text.line_diff import line_diff
+from twinform.text.source_text import line_diff
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,15 +1,22 @@
 """Findings as values: rules, diagnostics, the ledger, and reporters that only format them."""
 
 from twinform.diagnostics.catalog import catalog
-from twinform.diagnostics.diagnostic import Diagnostic
+from twinform.diagnostics.diagnostic import (
+    NOWHERE,
+    Diagnostic,
+    Fix,
+    LineOrigins,
+    Location,
+    Rule,
+    Safety,
+    Severity,
+    Source,
+    Span,
+    TextEdit,
+)
 from twinform.diagnostics.did_you_mean import did_you_mean, meant_name, nearest_name
-from twinform.diagnostics.fix import Fix, Safety
 from twinform.diagnostics.ledger import Fate, Ledger, LedgerEntry, PhysicsChange, ValueChange
-from twinform.diagnostics.location import NOWHERE, LineOrigins, Location, Source
-from twinform.diagnostics.policy import Policy
-from twinform.diagnostics.rule import Rule, Severity
-from twinform.diagnostics.sink import HEAD, DiagnosticSink, SideFile
-from twinform.diagnostics.text_edit import Span, TextEdit
+from twinform.diagnostics.sink import HEAD, DiagnosticSink, Policy, SideFile
 
 __all__ = [
     "HEAD",

@@ -11,8 +11,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, cast
 
-from twinform.diagnostics.diagnostic import Diagnostic
-from twinform.diagnostics.rule import Severity
+from twinform.diagnostics.diagnostic import Diagnostic, Severity
 
 _MARK = "twinform-baseline"
 _VERSION = 1

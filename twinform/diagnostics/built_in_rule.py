@@ -2,8 +2,7 @@
 
 from collections.abc import Mapping
 
-from twinform.diagnostics.fix import Safety
-from twinform.diagnostics.rule import Rule, Severity
+from twinform.diagnostics.diagnostic import Rule, Safety, Severity
 
 
 def rule(

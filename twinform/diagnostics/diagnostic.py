@@ -1,10 +1,167 @@
-"""`Diagnostic`: a finding as a value."""
+"""Findings as values: `Rule`, `Location`, `Fix` and `Diagnostic`."""
 
-from dataclasses import dataclass
+from bisect import bisect_right
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from enum import IntEnum, StrEnum
+from typing import NamedTuple, Self
 
-from twinform.diagnostics.fix import Fix
-from twinform.diagnostics.location import NOWHERE, Location
-from twinform.diagnostics.rule import Rule, Severity
+
+class Location(NamedTuple):
+    """A place in a source file; every part may be unknown.
+
+    `line` counts from 1, and 0 means unknown. `path` is an XPath that finds the element or attribute again, such as
+    `/robot/joint[@name='hip']/limit/@lower`. The columns, and the end of the piece of text, which does not belong to it
+    any more, are known only where somebody has asked for them (`compiler/input/finding_spans.py`).
+    """
+
+    file: str = ""
+    line: int = 0
+    path: str = ""
+    column: int = 0
+    end_line: int = 0
+    end_column: int = 0
+
+    def at(self, step: str) -> "Location":
+        """Return the location one step further down the path, on the same line."""
+        return Location(self.file, self.line, f"{self.path}/{step}")
+
+
+NOWHERE = Location()
+
+
+class Source(NamedTuple):
+    """Where a part of a document was read, in a form that is cheap to keep: the path is made when it is asked for.
+
+    `above` is the source of the node around it, `step` the element names from there, and `key` the name of the last
+    one or its place among its like, where it needs one to be found.
+    """
+
+    file: str
+    line: int
+    above: "Source | None"
+    step: str
+    key: str | int | None = None
+
+    @property
+    def path(self) -> str:
+        """An XPath from the root of the file."""
+        steps: list[str] = []
+        here: Source | None = self
+        while here is not None:
+            steps.append(here.last_step)
+            here = here.above
+        return "/" + "/".join(reversed(steps))
+
+    @property
+    def last_step(self) -> str:
+        """The step from the node around it to this part."""
+        if self.key is None:
+            return self.step
+        return f"{self.step}[{self.key}]" if isinstance(self.key, int) else f"{self.step}[@name='{self.key}']"
+
+    @property
+    def location(self) -> Location:
+        """The `Location` of this place."""
+        return Location(self.file, self.line, self.path)
+
+
+@dataclass(frozen=True, slots=True)
+class LineOrigins:
+    """For each line of an expanded text that starts an element, the file and line that the element was written on."""
+
+    lines: tuple[int, ...] = ()
+    places: tuple[Location, ...] = ()
+
+    @classmethod
+    def of(cls, pairs: Iterable[tuple[int, Location]]) -> Self:
+        """From lines and places in any order; the first of a line counts."""
+        first: dict[int, Location] = {}
+        for line, place in pairs:
+            first.setdefault(line, place)
+        ordered = sorted(first.items())
+        return cls(tuple(line for line, _ in ordered), tuple(place for _, place in ordered))
+
+    def place(self, line: int) -> Location | None:
+        """Where the element was written that stands on a line or, where none starts there, on the last one before."""
+        index = bisect_right(self.lines, line) - 1
+        return self.places[index] if index >= 0 else None
+
+
+class Span(NamedTuple):
+    """A piece of text, from `start` up to but not including `end`; offsets count characters from 0."""
+
+    start: int
+    end: int
+
+    def of(self, text: str) -> str:
+        """The piece itself."""
+        return text[self.start : self.end]
+
+
+class TextEdit(NamedTuple):
+    """The piece of the text at `span` becomes `new`; an empty span is where it is inserted."""
+
+    span: Span
+    new: str
+
+
+class Safety(StrEnum):
+    """What a fix may change. Only a safe one is made without being asked for, and one for display never is."""
+
+    SAFE = "safe"
+    """The model means the same afterwards: what every reader takes it for is only written down."""
+    UNSAFE = "unsafe"
+    """The model may mean something else, or the fix is a guess."""
+    DISPLAY = "display"
+    """An idea: something in it has to be filled in."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """Edits of the text that a finding is about, none of which overlaps another; `title` is a command to a person."""
+
+    title: str
+    edits: tuple[TextEdit, ...]
+    safety: Safety = Safety.SAFE
+
+
+class Severity(IntEnum):
+    """How bad a finding is; only an error stops a conversion."""
+
+    INFO = 1
+    WARNING = 2
+    ERROR = 3
+
+    def __str__(self) -> str:
+        return self.name.lower()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rule:
+    """A kind of finding. Its name describes the thing found, reads well after "allow", and is never used again.
+
+    `strict` is the severity under `--strict`; it is the plain one where it is not given. `fix` says how safe
+    its fixes are at best, if there are any. What is `fatal` leaves nothing to go on with, and cannot be allowed.
+    What is `unsound` is no tree: `check` may allow it, and nothing can be made of it.
+    The other fields are the rule's page, as `twinform explain` prints it; two rules are not told apart by it.
+    """
+
+    name: str
+    severity: Severity
+    finds: str = field(compare=False, repr=False)
+    matters: str = field(compare=False, repr=False)
+    example: str = field(compare=False, repr=False)
+    better: str = field(compare=False, repr=False)
+    references: str = field(default="", compare=False, repr=False)
+    strict: Severity | None = None
+    fix: Safety | None = None
+    fatal: bool = False
+    unsound: bool = False
+
+    def severity_in(self, *, strict: bool) -> Severity:
+        """The severity of a finding in this mode."""
+        return self.strict if strict and self.strict is not None else self.severity
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple, cast
 
-from twinform.diagnostics.location import NOWHERE, Location
-from twinform.diagnostics.rule import Rule
+from twinform.diagnostics.diagnostic import NOWHERE, Location, Rule
 
 
 class Fate(StrEnum):

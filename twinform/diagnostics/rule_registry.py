@@ -6,7 +6,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from twinform.diagnostics.catalog import catalog
-from twinform.diagnostics.rule import Rule
+from twinform.diagnostics.diagnostic import Rule
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint

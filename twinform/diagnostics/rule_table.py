@@ -5,9 +5,8 @@
 
 import sys
 
-from twinform.diagnostics.fix import Safety
+from twinform.diagnostics.diagnostic import Safety, Severity
 from twinform.diagnostics.generated_files import main
-from twinform.diagnostics.rule import Severity
 from twinform.diagnostics.rule_files import read_head, rule_names
 
 _BEGINNING = '''\
@@ -17,8 +16,8 @@ Made by `make generate` from the heads of these files; do not edit it.
 """
 
 from twinform.diagnostics.built_in_rule import rule
-from twinform.diagnostics.fix import Safety
-from twinform.diagnostics.rule import Severity
+from twinform.diagnostics.diagnostic import Safety
+from twinform.diagnostics.diagnostic import Severity
 
 '''
 _SEVERITIES = {str(each): f"Severity.{each.name}" for each in Severity}

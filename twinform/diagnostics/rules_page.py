@@ -4,9 +4,8 @@ import sys
 from collections.abc import Iterator
 
 from twinform.diagnostics.catalog import catalog
-from twinform.diagnostics.fix import Safety
+from twinform.diagnostics.diagnostic import Rule, Safety
 from twinform.diagnostics.generated_files import main
-from twinform.diagnostics.rule import Rule
 
 _INTRODUCTION = """\
 # Rules

@@ -1,13 +1,11 @@
-"""The sink into which each stage of the compiler writes diagnostics, ledger entries and side files."""
+"""The sink into which each stage of the compiler writes diagnostics, and the policy that a project has for them."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-from twinform.diagnostics.diagnostic import Diagnostic
+from twinform.diagnostics.diagnostic import NOWHERE, Diagnostic, LineOrigins, Location, Rule, Severity
 from twinform.diagnostics.ledger import Fate, LedgerEntry
-from twinform.diagnostics.location import NOWHERE, LineOrigins, Location
-from twinform.diagnostics.rule import Rule, Severity
 
 
 class SideFile(NamedTuple):
@@ -160,3 +158,21 @@ class DiagnosticSink:
 
 def _shortened(text: str) -> str:
     return text if len(text) <= LONGEST else f"{text[: LONGEST // 2]} ... {text[-LONGEST // 4 :]}"
+
+
+@dataclass(frozen=True, slots=True)
+class Policy:
+    """Findings of `allow` are left out, unless they are errors: those stay. Findings of `deny` are errors."""
+
+    allow: frozenset[str] = frozenset()
+    deny: frozenset[str] = frozenset()
+
+    def apply(self, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+        """The findings as the project wants to see them."""
+        return tuple(
+            self._with_severity(each) for each in diagnostics if each.is_error or each.rule.name not in self.allow
+        )
+
+    def _with_severity(self, diagnostic: Diagnostic) -> Diagnostic:
+        """Return a finding as an error if its rule is denied."""
+        return replace(diagnostic, severity=Severity.ERROR) if diagnostic.rule.name in self.deny else diagnostic

@@ -8,20 +8,18 @@ from functools import cache, lru_cache
 from typing import Any, NamedTuple
 from zlib import crc32
 
+from twinform.ir.document import World
 from twinform.ir.element import Element, Opaque
-from twinform.ir.extension import GazeboExtension
 from twinform.ir.geometry import Capsule
 from twinform.ir.joint import Axis, Dynamics, Joint, Limit
-from twinform.ir.light import Light
 from twinform.ir.link import Inertial, Link
-from twinform.ir.model import Include, Model
+from twinform.ir.model import GazeboExtension, Include, Model
 from twinform.ir.node import Node
 from twinform.ir.pose import Frame, Pose
 from twinform.ir.record import Record
-from twinform.ir.sensor import Sensor
+from twinform.ir.sensor import Light, Sensor
 from twinform.ir.tree_walks import children_of, node_fields
 from twinform.ir.visual import Material, Visual
-from twinform.ir.world import World
 
 # A bit for each of the 298 fields would make every census dear, and nobody asks for most of them.
 # What is listed is derived from the facts tables and held to them by a test.

@@ -1,6 +1,6 @@
-"""Untyped XML elements, which the IR keeps as they are."""
+"""Untyped XML elements, which the IR keeps as they are, and the namespaces of documents."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Self
 
 from twinform.diagnostics import Location
@@ -92,3 +92,16 @@ class Opaque(Sourced):
             return self.location
         name = self.element.name if self.element else f"@{self.attribute[0]}" if self.attribute else ""
         return holder.location.at("/".join(filter(None, (self.at, name)))) if self.at or name else holder.location
+
+
+Namespaces = tuple[tuple[str, str], ...]
+"""Prefixes, each with its namespace; the empty prefix is the default."""
+
+
+def joined(first: Namespaces, others: Iterable[Namespaces]) -> Namespaces:
+    """Merge namespace declarations: those of the first document win; others add prefixes that are still free."""
+    found, known = dict(first), {uri for _, uri in first}
+    for prefix, uri in (pair for each in others for pair in each):
+        if prefix and uri not in known and found.setdefault(prefix, uri) == uri:
+            known.add(uri)
+    return tuple(found.items())

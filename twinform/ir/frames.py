@@ -5,12 +5,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 from twinform.diagnostics import NOWHERE, DiagnosticSink, Location, Rule, Source, rules
+from twinform.ir.document import World
 from twinform.ir.joint import Joint
 from twinform.ir.link import Link
 from twinform.ir.model import Include, Model
 from twinform.ir.pose import Frame, Pose
 from twinform.ir.transform import Transform
-from twinform.ir.world import World
 
 Kind = Literal["link", "joint", "frame", "model", "world"]
 MODEL = "__model__"

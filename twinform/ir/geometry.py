@@ -2,9 +2,9 @@
 
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from twinform.ir.annotations import Constraint
 from twinform.ir.node import Node, Vector3
 from twinform.ir.record import fields_of, record
+from twinform.ir.sourced import Constraint
 
 if TYPE_CHECKING:
     from pydantic import GetCoreSchemaHandler, SerializerFunctionWrapHandler

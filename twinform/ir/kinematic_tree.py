@@ -4,14 +4,13 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple, TypeVar
 
+from twinform.ir.document import World
 from twinform.ir.frames import WORLD, FrameGraph
 from twinform.ir.joint import Joint
 from twinform.ir.link import Link
-from twinform.ir.lookup import look_up
-from twinform.ir.model import Model
+from twinform.ir.model import Model, look_up
 from twinform.ir.motion import spanning_tree
 from twinform.ir.scopes import SCOPE, scoped_models
-from twinform.ir.world import World
 
 AnyPart = TypeVar("AnyPart")
 

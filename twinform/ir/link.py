@@ -1,10 +1,9 @@
 """Links: rigid bodies, and their mass and inertia."""
 
-from twinform.ir.light import Light
 from twinform.ir.node import Node
 from twinform.ir.pose import Pose
 from twinform.ir.record import record
-from twinform.ir.sensor import Sensor
+from twinform.ir.sensor import Light, Sensor
 from twinform.ir.visual import Collision, Visual
 
 

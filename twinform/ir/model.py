@@ -1,16 +1,30 @@
-"""Models: links, joints, frames and nested models."""
+"""Models: links, joints, frames, nested models, and the `<gazebo>` elements of URDF."""
 
-from typing import Self
+from collections.abc import Mapping
+from typing import Self, TypeVar
 
-from twinform.ir.extension import GazeboExtension
+from twinform.diagnostics.did_you_mean import did_you_mean
+from twinform.ir.element import Element
 from twinform.ir.joint import Joint
 from twinform.ir.link import Link
-from twinform.ir.lookup import look_up
 from twinform.ir.node import Node
-from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Frame, Pose
 from twinform.ir.record import record
+from twinform.ir.sensor import Plugin
 from twinform.ir.visual import Material
+
+
+@record
+class GazeboExtension(Node):
+    """A `<gazebo>` element: what URDF has no elements for and Gazebo reads.
+
+    Attributes:
+        reference: the link or joint that it is about; `None` for the model.
+        content: the elements in it, in their order.
+    """
+
+    reference: str | None = None
+    content: tuple[Element, ...] = ()
 
 
 @record
@@ -99,3 +113,18 @@ class Model(Node):
             KeyError: there is none; the message has the name that may be meant.
         """
         return look_up({each.name: each for each in reversed(self.frames)}, name, "frame")
+
+
+AnyPart = TypeVar("AnyPart")
+
+
+def look_up(parts: Mapping[str, AnyPart], name: str, kind: str) -> AnyPart:
+    """The part of a name.
+
+    Raises:
+        KeyError: there is none; the message has the name that may be meant.
+    """
+    if name in parts:
+        return parts[name]
+    help_ = did_you_mean(name, parts)
+    raise KeyError(f"there is no {kind} {name!r}{f'; {help_}' if help_ else ''}")

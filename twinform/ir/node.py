@@ -4,10 +4,9 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import Annotated
 
-from twinform.ir.annotations import Constraint, Unseen
 from twinform.ir.element import Opaque
 from twinform.ir.record import fields_of, record
-from twinform.ir.sourced import Sourced
+from twinform.ir.sourced import Constraint, Sourced, Unseen
 
 Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]

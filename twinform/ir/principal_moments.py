@@ -2,7 +2,7 @@
 
 import math
 
-from twinform.ir.scaling import common_exponent, times_power
+from twinform.ir.transform import common_exponent, times_power
 
 Symmetric = tuple[float, float, float, float, float, float]
 """xx, yy, zz, xy, xz, yz of a symmetric 3x3 matrix."""

@@ -6,10 +6,9 @@ from functools import cache
 from typing import Literal, TypeVar
 
 from twinform.ir.document import Format
-from twinform.ir.extension import GazeboExtension
 from twinform.ir.joint import Axis, Joint, Mimic
 from twinform.ir.link import Link
-from twinform.ir.model import Include, Model
+from twinform.ir.model import GazeboExtension, Include, Model
 from twinform.ir.node import Node
 from twinform.ir.pose import Frame, Pose
 from twinform.ir.rewrite import map_children

@@ -3,9 +3,14 @@
 from collections.abc import Iterator
 from itertools import chain
 
+from twinform.ir.census import PLAIN, census_of
 from twinform.ir.document import Document
+from twinform.ir.element import Element, Opaque
 from twinform.ir.link import Link
 from twinform.ir.model import Include, Model
+from twinform.ir.node import Node
+from twinform.ir.sensor import Plugin
+from twinform.ir.tree_walks import children_of
 
 SCOPE = "::"
 """What stands between the name of a model and that of a part of it."""
@@ -46,3 +51,33 @@ def scoped_links(model: Model) -> Iterator[tuple[str, Link]]:
 def nested_includes(model: Model) -> Iterator[Include]:
     """The includes of a model and of all models nested in it."""
     return (include for each in nested_models(model) for include in each.includes)
+
+
+_PLUGIN = "plugin"
+
+
+def scoped_elements(element: Element) -> Iterator[Element]:
+    """The element and those in it that libsdformat refuses for their names."""
+    if element.name == _PLUGIN or ":" in element.name:
+        return
+    if SCOPE in (element.get("name") or ""):
+        yield element
+    for child in element.children:
+        yield from scoped_elements(child)
+
+
+def scoped_parts(node: Node) -> tuple[Opaque, ...]:
+    """The opaque parts of a node in which there are such elements; plugins may have them."""
+    if not node.opaque or isinstance(node, Plugin):
+        return ()
+    return tuple(part for part in node.opaque if part.element and any(scoped_elements(part.element)))
+
+
+def scoped_parts_below(node: Node) -> Iterator[Opaque]:
+    """Yield the scoped untyped parts of a node and of all nodes inside it."""
+    stack = [node]
+    while stack:
+        node = stack.pop()
+        if census_of(node) & PLAIN:
+            yield from scoped_parts(node)
+            stack += reversed([*children_of(node)])

@@ -1,11 +1,29 @@
-"""Sensors."""
+"""Sensors, lights, and plugins, which a simulator loads with a model."""
 
 from collections.abc import Mapping
 
-from twinform.ir.node import Node
-from twinform.ir.plugin import Plugin
+from twinform.ir.element import Element
+from twinform.ir.node import Color, Node, Vector3
 from twinform.ir.pose import Pose
 from twinform.ir.record import record
+
+
+@record
+class Plugin(Node):
+    """Code that a simulator loads, with parameters that only the plugin understands.
+
+    Attributes:
+        name: in Gazebo the class in the library; in Gazebo Classic any name.
+        filename: the shared library.
+        text: the text in it, where it is not made of elements.
+        content: its parameters, in their order.
+    """
+
+    name: str | None = None
+    filename: str | None = None
+    text: str | None = None
+    content: tuple[Element, ...] = ()
+
 
 _CAMERAS = (
     "boundingbox", "boundingbox_camera", "camera", "depth", "depth_camera", "multicamera", "rgbd", "rgbd_camera",
@@ -57,3 +75,28 @@ class Sensor(Node):
     frame_id: str | None = None
     enable_metrics: bool | None = None
     plugins: tuple[Plugin, ...] = ()
+
+
+@record
+class Light(Node):
+    """A light of a world or on a link.
+
+    Attributes:
+        name: unique in its holder.
+        type: `point`, `directional` or `spot`.
+        pose: of the light, in the frame of its holder unless it names another.
+        cast_shadows: whether it does.
+        intensity: a factor of both colors; without a unit.
+        diffuse: the color of what it lights; red, green, blue and perhaps alpha, each from 0 to 1.
+        specular: the color of its reflections; red, green, blue and perhaps alpha, each from 0 to 1.
+        direction: where it shines, in the frame of the light; without a unit.
+    """
+
+    name: str | None = None
+    type: str | None = None
+    pose: Pose | None = None
+    cast_shadows: bool | None = None
+    intensity: float | None = None
+    diffuse: Color | None = None
+    specular: Color | None = None
+    direction: Vector3 | None = None

@@ -12,8 +12,7 @@ from twinform.ir.link import Inertia, Inertial
 from twinform.ir.node import Vector3
 from twinform.ir.principal_moments import Symmetric, times_each
 from twinform.ir.rewrite import replace_fields
-from twinform.ir.scaling import common_exponent, safe_sum, times_power
-from twinform.ir.transform import Transform
+from twinform.ir.transform import Transform, common_exponent, safe_sum, times_power
 
 ELEMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 """The fields of an inertia in the order of a tensor."""

@@ -1,11 +1,47 @@
-"""`Sourced`: the base class of parts of a document."""
+"""`Sourced`, the base class of parts of a document, and what Pydantic is told about fields beside their types."""
 
 from dataclasses import field
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from twinform.diagnostics import NOWHERE, Location, Source
-from twinform.ir.annotations import Unseen
 from twinform.ir.record import Record, record
+
+if TYPE_CHECKING:
+    from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+    from pydantic.json_schema import JsonSchemaValue
+    from pydantic_core import CoreSchema
+
+
+class Constraint:
+    """What `pydantic.Field` is told: a discriminator, or how long a tuple may be."""
+
+    def __init__(self, **options: Any) -> None:
+        self._options = options
+
+    def __repr__(self) -> str:
+        return f"Constraint({', '.join(f'{name}={value!r}' for name, value in self._options.items())})"
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: "GetCoreSchemaHandler") -> "CoreSchema":
+        from pydantic import Field  # noqa: PLC0415 - only Pydantic calls this
+
+        return handler.generate_schema(Annotated[source, Field(**self._options)])
+
+
+class Unseen:
+    """A field of Python alone: any value is taken, and JSON and its schema do not have it."""
+
+    def __repr__(self) -> str:
+        return "Unseen()"
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: "GetCoreSchemaHandler") -> "CoreSchema":
+        from pydantic_core import core_schema  # noqa: PLC0415 - only Pydantic calls this
+
+        return core_schema.json_or_python_schema(core_schema.none_schema(), core_schema.any_schema())
+
+    def __get_pydantic_json_schema__(self, schema: "CoreSchema", handler: "GetJsonSchemaHandler") -> "JsonSchemaValue":
+        from pydantic_core import PydanticOmit  # noqa: PLC0415 - only Pydantic calls this
+
+        raise PydanticOmit
 
 
 @record

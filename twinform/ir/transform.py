@@ -1,12 +1,12 @@
-"""Rigid transforms."""
+"""Rigid transforms, vectors, and sums that neither overflow nor underflow on the way."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Self
 
 from twinform.ir.node import Quaternion, Vector3
 from twinform.ir.pose import Pose
-from twinform.ir.scaling import common_exponent
 
 Matrix3 = tuple[float, float, float, float, float, float, float, float, float]
 """A rotation, row by row."""
@@ -204,3 +204,48 @@ def _product(a: Matrix3, b: Matrix3) -> Matrix3:
         a10 * b00 + a11 * b10 + a12 * b20, a10 * b01 + a11 * b11 + a12 * b21, a10 * b02 + a11 * b12 + a12 * b22,
         a20 * b00 + a21 * b10 + a22 * b20, a20 * b01 + a21 * b11 + a22 * b21, a20 * b02 + a21 * b12 + a22 * b22,
     )  # fmt: skip
+
+
+def dot(a: Vector3, b: Vector3) -> float:
+    """The inner product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Vector3, b: Vector3) -> Vector3:
+    """The vector product."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def minus(a: Vector3, b: Vector3) -> Vector3:
+    """From b to a."""
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def across(axis: Vector3, arm: Vector3) -> Vector3:
+    """The part of a vector that is square to a unit vector."""
+    along = dot(axis, arm)
+    return minus(arm, (axis[0] * along, axis[1] * along, axis[2] * along))
+
+
+# Products of masses and squares of lengths leave the range of doubles long before their results do,
+# and Python raises at some of these places (`**`, `fsum`, `ldexp`) and not at others.
+def common_exponent(numbers: Iterable[float]) -> int:
+    """The power of two that brings the largest of some numbers to between a half and one; 0 where all are zero."""
+    return math.frexp(max(map(abs, numbers), default=0.0))[1]
+
+
+def times_power(number: float, exponent: int) -> float:
+    """A number times a power of two; infinite where no double is large enough."""
+    try:
+        return math.ldexp(number, exponent)
+    except OverflowError:
+        return math.copysign(math.inf, number)
+
+
+def safe_sum(numbers: Iterable[float]) -> float:
+    """The sum without rounding on the way; infinite or not a number where no double is large enough."""
+    listed = tuple(numbers)
+    try:
+        return math.fsum(listed)
+    except (OverflowError, ValueError):  # it raises on the way to infinity, and where two infinities cancel
+        return sum(listed)

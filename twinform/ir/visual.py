@@ -2,9 +2,9 @@
 
 from twinform.ir.geometry import Geometry
 from twinform.ir.node import Color, Node, Vector3
-from twinform.ir.plugin import Plugin
 from twinform.ir.pose import Pose
 from twinform.ir.record import record
+from twinform.ir.sensor import Plugin
 
 
 @record

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from twinform.diagnostics import Diagnostic, Severity
-from twinform.diagnostics.reporters.grouping import Group, grouped
+from twinform.diagnostics.reporters.file_findings import Group, grouped
 from twinform.report.content import ReportSubject
 
 MOST = 300

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from twinform.compiler.graph import build_graph
 from twinform.compiler.graph.svg import svg
 from twinform.diagnostics import Fate, Severity
-from twinform.diagnostics.reporters.grouping import grouped
+from twinform.diagnostics.reporters.file_findings import grouped
 from twinform.ir import Document
 from twinform.report.html_parts import count, place
 from twinform.report.markup import Markup, element, join

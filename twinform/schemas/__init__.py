@@ -12,11 +12,11 @@ from twinform.schemas.facts import (
     versions_of,
 )
 from twinform.schemas.messages import Context
+from twinform.schemas.node_makers import LAST_LINE, element_xml
 from twinform.schemas.packaged import json_schema_text, schema_text
 from twinform.schemas.reader import SchemaReader, reader
 from twinform.schemas.text_output import Item, WrittenParts, end_of_element, in_attribute
 from twinform.schemas.text_writer import node_xml, parse_written, root_text
-from twinform.schemas.untyped_parts import LAST_LINE, element_xml
 from twinform.schemas.validator import (
     Engine,
     SchemaError,

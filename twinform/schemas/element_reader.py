@@ -1,18 +1,75 @@
 """Reads the inside of one element by its facts, and reports every finding that there is about it."""
 
-from collections.abc import Callable, Mapping
-from typing import TypeVar
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, NamedTuple, TypeVar
 
 from twinform.ir import Node
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Version, rows_by_name
 from twinform.schemas.messages import Context
-from twinform.schemas.node_makers import Data, required_words
-from twinform.schemas.plain_values import NOT_PLAIN, plain_values, store_plain
-from twinform.schemas.row_findings import ReadChild
-from twinform.schemas.untyped_parts import keep_attribute, keep_content, keep_element, keep_text
-from twinform.schemas.value_readers import Types, attribute_reader, text_reader
-from twinform.schemas.xml import BLANKS, XmlElement
+from twinform.schemas.node_makers import Data, keep_attribute, keep_content, keep_element, keep_text, required_words
+from twinform.schemas.value_readers import SCALARS, Types, attribute_reader, bounds, own_field, stripped, text_reader
+from twinform.schemas.xml import BLANKS, XmlElement, is_blank
+
+ReadChild = Callable[[XmlElement, Data, Context, int], None]
+"""Reads a child: (child, values of the node around it, context, place among its like)"""
+
+
+def with_row_findings(
+    row: Fact, version: Version, read: ReadChild, at: str, *, has_text: bool, keep: bool
+) -> ReadChild:
+    """The reader of a child in a version, with the diagnostics of every such child.
+
+    `at` is the path from the node to the element around it, `has_text` whether its element has text by the facts, and
+    `keep` whether what has no field is kept.
+    """
+    if row.deprecated and row.exists_in(version):
+        return _after(messages.deprecated, read)
+    if row.dialect:
+        dialect = row.dialect
+        return _after(lambda context, child: messages.dialect_element(context, child, dialect), _aside(read))
+    if row.aside:
+        return _aside(read)
+    if row.exists_in(version):
+        return read
+    read_other = _after(lambda context, child: messages.outside_version(context, child, row), read)
+    return read_other if has_text or row.place else _unless_another(read_other, at, keep=keep)
+
+
+def _unless_another(read: ReadChild, at: str, *, keep: bool) -> ReadChild:
+    """Wrap a reader: an element with text that only shares its name with another version's is unknown."""
+
+    def read_or_keep(child: XmlElement, node: Data, context: Context, place: int) -> None:
+        if len(child) or is_blank(child.text or ""):
+            read(child, node, context, place)
+            return
+        messages.unknown_element(context, child, ())
+        if keep:
+            keep_element(child, node, at, context)
+
+    return read_or_keep
+
+
+def _after(say: Callable[[Context, XmlElement], None], read: ReadChild) -> ReadChild:
+    """Wrap a reader: report something about the child before it is read."""
+
+    def read_after(child: XmlElement, node: Data, context: Context, place: int) -> None:
+        say(context, child)
+        read(child, node, context, place)
+
+    return read_after
+
+
+def _aside(read: ReadChild) -> ReadChild:
+    """Wrap a reader for an element outside of the robot's description, whose faults are warnings."""
+
+    def read_aside(child: XmlElement, node: Data, context: Context, place: int) -> None:
+        before, context.aside = context.aside, True
+        read(child, node, context, place)
+        context.aside = before
+
+    return read_aside
+
 
 _INSTANCE = "{http://www.w3.org/2001/XMLSchema-instance}"
 # Left in, an `xsi:type` would let a file choose the type that it is validated by.
@@ -163,3 +220,61 @@ class ElementReader:
             messages.prefixed_element(context, child)
         if self._keep:
             keep_element(child, node, self._at, context)
+
+
+NOT_PLAIN = (ValueError, KeyError, TypeError, AttributeError)
+"""What a parser raises; the last two where there is no text."""
+_USUAL_BOOLS = {"true": True, "false": False}
+"""Of the others, the node remembers the spelling."""
+
+
+class PlainValue(NamedTuple):
+    """How the values of a row are recognized as plain.
+
+    `parse` raises one of `NOT_PLAIN` for other texts; where `is_usual` is there, a value is plain if that says so.
+    """
+
+    field: str
+    parse: Callable[[Any], Any]
+    is_usual: Callable[[Any], bool] | None
+
+
+def plain_values(rows: Iterable[Fact], types: Types, version: Version) -> dict[str, PlainValue]:
+    """The rows of attributes or children that need no finding themselves and have nothing but a value, by name."""
+    return {
+        row.name.removeprefix("@"): PlainValue(field, _parser(row, types), _usual_values(row))
+        for row in rows
+        if row.exists_in(version) and not (row.dialect or row.deprecated or row.aside or row.rows)
+        if row.type not in {None, "pose"} and (field := own_field(row))
+    }
+
+
+def store_plain(plain: PlainValue, text: str | None, node: Data) -> bool:
+    """Store the value of a text, if it is plain; whether it was."""
+    field, parse, is_usual = plain
+    try:
+        value = parse(text)
+    except NOT_PLAIN:
+        return False
+    if is_usual is not None and not is_usual(value):
+        return False
+    node[field] = value
+    return True
+
+
+def _parser(row: Fact, types: Types) -> Callable[[Any], Any]:
+    if row.type == "string":
+        return str if row.is_attribute else stripped
+    return _USUAL_BOOLS.__getitem__ if row.type == "bool" else types[str(row.type)].parse
+
+
+def _usual_values(row: Fact) -> Callable[[Any], bool] | None:
+    """What tells that nothing is wrong with a value; None where nothing can be."""
+    if row.enum:
+        return frozenset(row.enum).__contains__
+    if row.min is None and row.max is None:
+        return bool if row.type == "string" and not row.is_attribute else None  # blank text may need a finding
+    low, high = bounds(row)
+    if row.type in SCALARS:
+        return lambda value: low <= value <= high
+    return lambda value: low <= min(value) and max(value) <= high

@@ -12,10 +12,9 @@ from dataclasses import dataclass, field
 from itertools import groupby
 from typing import Any
 
-from twinform.schemas.documentation import Documentation
 from twinform.schemas.facts import Fact, Table, parse_version, table
 from twinform.schemas.json_values import IDENTIFIER, SHARED, value_schema
-from twinform.schemas.meanings import Path
+from twinform.schemas.meanings import Documentation, Path
 from twinform.schemas.written_rows import repeated_fields
 
 Json = dict[str, Any]

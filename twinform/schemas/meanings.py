@@ -1,4 +1,4 @@
-"""The meanings of elements and attributes, which are the documentation in the XSDs and in the JSON Schema.
+"""The meanings of elements and attributes, as the documentation in the XSDs and in the JSON Schema.
 
 Beside each `.facts` file lies a `.meanings` file with the same definitions and rows in the same indentation, and a text
 behind each name instead of its facts:
@@ -15,11 +15,11 @@ name that has several rows, one for each version, has one text.
 """
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 
 from twinform.package_files import package_files
-from twinform.schemas.facts import Fact, Table, table
+from twinform.schemas.facts import Fact, Table, parse_version, print_version, table
 
 Path = tuple[str, ...]
 """The names from a definition down to a row."""
@@ -83,3 +83,47 @@ def _parsed(lines: Iterable[str], name: str) -> Iterator[tuple[Path, str, Path]]
             continue
         path[depth:] = [match["name"]]
         yield tuple(path), match["text"], ()
+
+
+_UNIT_WORDS = {"kg*m^2": "kg m^2", "N*m": "N m", "kg*m": "kg m"}
+
+
+class Documentation:
+    """The documentation of one format."""
+
+    def __init__(self, facts: Table) -> None:
+        self.table = facts
+        self.texts = meanings(facts.format)
+
+    def of(self, path: Path, row: Fact, like: Sequence[Fact] = ()) -> str:
+        """The documentation of a row; `like` are all rows of its name, one for each group of versions."""
+        sentences = [self.texts.get(path, "")]
+        if row.unit is not None:
+            sentences.append(f"Unit: {_UNIT_WORDS.get(row.unit, row.unit)}.")
+        if row.default is not None:
+            sentences.append(f"Default: {row.default}.")
+        sentences += self._range(row)
+        sentences += self._versions(like or (row,))
+        if row.deprecated:
+            sentences.append("Deprecated.")
+        return " ".join(filter(None, sentences))
+
+    def of_definition(self, name: str) -> str:
+        """The documentation of a definition, wherever it is used."""
+        return self.texts.get((name,), "")
+
+    def _range(self, row: Fact) -> Iterable[str]:
+        if row.min is not None and row.max is not None:
+            yield f"From {row.min:g} to {row.max:g}."
+        elif row.min is not None:
+            yield f"At least {row.min:g}."
+        elif row.max is not None:
+            yield f"At most {row.max:g}."
+
+    def _versions(self, rows: Sequence[Fact]) -> Iterable[str]:
+        since, until = min(row.since for row in rows), max(row.until for row in rows)
+        name, first = self.table.format.upper(), parse_version(self.table.versions[0])
+        if since > first:
+            yield f"Since {name} {print_version(since)}."
+        if until < self.table.newest:
+            yield f"Until {name} {print_version(until)}."

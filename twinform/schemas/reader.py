@@ -14,12 +14,10 @@ from functools import cache, partial
 
 from twinform.diagnostics import Source
 from twinform.ir import Document, Model, Node
-from twinform.schemas.element_reader import ElementReader
+from twinform.schemas.element_reader import ElementReader, ReadChild, with_row_findings
 from twinform.schemas.facts import Fact, Table, Version, table
 from twinform.schemas.messages import Context
-from twinform.schemas.node_makers import Data, NodeMaker, node_class, require_place
-from twinform.schemas.row_findings import ReadChild, with_row_findings
-from twinform.schemas.untyped_parts import keep_element, locate
+from twinform.schemas.node_makers import Data, NodeMaker, keep_element, locate, node_class, require_place
 from twinform.schemas.value_readers import text_reader
 from twinform.schemas.value_types import VALUE_TYPES
 from twinform.schemas.xml import XmlElement, is_blank

@@ -7,8 +7,7 @@ from twinform.diagnostics import Source
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Version
 from twinform.schemas.messages import Context
-from twinform.schemas.node_makers import Data
-from twinform.schemas.untyped_parts import keep_attribute, locate
+from twinform.schemas.node_makers import Data, keep_attribute, locate
 from twinform.schemas.value_types import ValueType
 from twinform.schemas.xml import BLANKS, XmlElement, is_blank
 

@@ -13,14 +13,12 @@ expressions instead of values, and looks into xacro's elements (`xacro_xsd.py`).
 
 from lxml import etree
 
-from twinform.schemas.documentation import Documentation
 from twinform.schemas.facts import Fact, Table, Version, print_version, rows_by_name, table
-from twinform.schemas.meanings import Path
+from twinform.schemas.meanings import Documentation, Path
 from twinform.schemas.packaged import XsdVersion
 from twinform.schemas.xacro_xsd import import_xacro, unambiguous
 from twinform.schemas.xml import XmlElement
-from twinform.schemas.xsd_assertions import declare_assertions
-from twinform.schemas.xsd_names import declare_names
+from twinform.schemas.xsd_assertions import declare_assertions, declare_names
 from twinform.schemas.xsd_values import XS, Values, allow_attributes, annotate, xs
 
 # XSD 1.0 has no way to take any element beside those that it knows; 1.1 has. Of 1,374 accepted

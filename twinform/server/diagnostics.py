@@ -6,7 +6,7 @@ from pathlib import Path
 from lsprotocol import types
 
 from twinform.diagnostics import Diagnostic, Location, Severity, Span, catalog
-from twinform.diagnostics.addresses import rule_address
+from twinform.diagnostics.catalog import rule_address
 from twinform.server.documents import TextDocument
 from twinform.server.tolerant_tree import TolerantNode, Tree
 

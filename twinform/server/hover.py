@@ -10,7 +10,7 @@ from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule
 from twinform.passes.plugins.catalog import systems
 from twinform.passes.plugins.catalog_types import PluginKind
 from twinform.schemas import table
-from twinform.schemas.documentation import Documentation
+from twinform.schemas.meanings import Documentation
 from twinform.server.cursor import Cursor, CursorKind, cursor_at
 from twinform.server.diagnostics import span_of
 from twinform.server.document_names import name_at

@@ -17,7 +17,7 @@ from typing import Literal
 from twinform.compiler import CompileError, Conversion, convert
 from twinform.diagnostics import Diagnostic, LedgerEntry
 from twinform.testing.case_files import Case, Finding, cases, findings
-from twinform.text.asides import IN_COMMENT
+from twinform.text.tokens import IN_COMMENT
 
 _PASSES = re.compile(rf"<!--\s*+passes:(?P<pipeline>{IN_COMMENT})(?:-->)?")
 _FORMATS: dict[str, Literal["sdf", "urdf"]] = {".urdf": "urdf", ".sdf": "sdf"}

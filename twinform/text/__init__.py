@@ -6,27 +6,23 @@ from twinform.lazy import lazy_attributes
 
 if TYPE_CHECKING:
     from twinform.text.alignment import same_element
-    from twinform.text.applying import OverlapError, apply
-    from twinform.text.element_edits import Editor
-    from twinform.text.masking import masked
     from twinform.text.merging import Conflict, Merge, merge
-    from twinform.text.patching import edits, patch
-    from twinform.text.positions import AttributeSpan, ElementSpan, LineColumn, Lines, UnplacedError, spans
-    from twinform.text.source_text import SourceText, UndecodableError
-    from twinform.text.surroundings import TextSurroundings
+    from twinform.text.patching import Editor, edits, patch
+    from twinform.text.positions import AttributeSpan, ElementSpan, LineColumn, Lines, spans
+    from twinform.text.serializing import TextSurroundings
+    from twinform.text.source_text import OverlapError, SourceText, UndecodableError, apply
+    from twinform.text.tokens import UnplacedError, masked
 else:
     __getattr__ = lazy_attributes(
         __name__,
         {
             "twinform.text.alignment": "same_element",
-            "twinform.text.applying": "OverlapError apply",
-            "twinform.text.element_edits": "Editor",
-            "twinform.text.masking": "masked",
+            "twinform.text.source_text": "OverlapError apply SourceText UndecodableError",
+            "twinform.text.patching": "Editor edits patch",
+            "twinform.text.tokens": "UnplacedError masked",
             "twinform.text.merging": "Conflict Merge merge",
-            "twinform.text.patching": "edits patch",
-            "twinform.text.positions": "AttributeSpan ElementSpan LineColumn Lines UnplacedError spans",
-            "twinform.text.source_text": "SourceText UndecodableError",
-            "twinform.text.surroundings": "TextSurroundings",
+            "twinform.text.positions": "AttributeSpan ElementSpan LineColumn Lines spans",
+            "twinform.text.serializing": "TextSurroundings",
         },
     )
 

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from twinform.text.asides import COMMENT, IN_COMMENT, INSTRUCTION, SECTION
 from twinform.text.positions import indentation
+from twinform.text.tokens import COMMENT, IN_COMMENT, INSTRUCTION, SECTION
 
 _TOKEN = re.compile(
     rf"<!--(?P<comment>{IN_COMMENT})-->"

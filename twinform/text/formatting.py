@@ -19,12 +19,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
-from twinform.text.numbers import all_numbers, shortest
 from twinform.text.positions import Lines
 from twinform.text.source_text import SourceText
-from twinform.text.start_tags import TAB, StartTag, name_of
+from twinform.text.start_tags import TAB, StartTag, all_numbers, name_of, shortest, usage
 from twinform.text.tokens import TokenKind, Tokens
-from twinform.text.usage import usage
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
 # 205 of 2,249 real files separate their sections by two blank lines.

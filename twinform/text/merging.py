@@ -21,8 +21,8 @@ from twinform.text.alignment import (
     spelled_alike,
     stripped,
     texts,
+    with_renamed,
 )
-from twinform.text.renamed_elements import with_renamed
 
 
 class Conflict(NamedTuple):

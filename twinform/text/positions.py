@@ -1,4 +1,4 @@
-"""Where each element, tag, attribute and text stands in the text of a file.
+"""Where each element, tag, attribute and text stands in the text of a file, also of one that is not well-formed.
 
 Offsets count characters of the text, from 0; lines and columns count from 1. Positions are made when something asks
 for them, by expat, which knows where each tag begins.
@@ -8,10 +8,12 @@ import re
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 from xml.parsers import expat
 
 from twinform.diagnostics import Span
+from twinform.text.tokens import COMMENT, INSTRUCTION, SECTION, UnplacedError
 
 _ATTRIBUTE = re.compile(r"""\s+([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
 _NAME = re.compile(r"</?([^\s<>/]+)")
@@ -87,17 +89,6 @@ class ElementSpan:
 # libxml2 knows the line of an element and nothing else; expat gives the byte at which each tag
 # begins. It also refuses what libxml2 repairs, so a file that is not well-formed cannot be changed
 # in its place.
-class UnplacedError(ValueError):
-    """The text is not well-formed, or has a document type declaration: nothing is known of its places.
-
-    `line` and `column` are where a parser stopped, from 1, and 0 where that is not known.
-    """
-
-    def __init__(self, message: str, line: int = 0, column: int = 0) -> None:
-        super().__init__(message)
-        self.line, self.column = line, column
-
-
 def indentation(text: str, offset: int) -> str | None:
     """The blanks before what begins its line; None for what does not."""
     start = offset
@@ -215,3 +206,78 @@ def start_tag(text: str, start: int) -> ElementSpan:
     end = _END_OF_TAG.match(text, here)
     assert end is not None  # noqa: S101 - as above
     return ElementSpan(Span(start, end.end()), name, attributes)
+
+
+_TOKEN = re.compile(
+    rf"(?P<aside>{COMMENT}|{INSTRUCTION})|{SECTION}"
+    r"|<(?P<end>/)?[^\s<>/!?][^<>\"']*+(?:\"[^\"]*+\"[^<>\"']*+|'[^']*+'[^<>\"']*+)*+>"
+)
+_TAG_NAME = re.compile(r"<([^\s<>/]+)")
+_MOST = 4000
+"""So many tags are looked at for one element: a hostile file has hundreds of them around a million others."""
+_START, _END, _ASIDE = range(3)
+
+
+class Tags:
+    """The elements of a text by their place among all, in the order of their start tags."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        self._tokens = [
+            (_ASIDE if found.lastgroup == "aside" else _END if found.lastgroup == "end" else _START, *found.span())
+            for found in _TOKEN.finditer(text)
+            if found.lastgroup or not found[0].startswith("<![CDATA[")
+        ]
+        self._starts = [number for number, (kind, _, _) in enumerate(self._tokens) if kind == _START]
+        self._made: dict[int, ElementSpan] = {}
+
+    @cached_property
+    def starts(self) -> list[int]:
+        """The offset of each start tag."""
+        return [self._tokens[number][1] for number in self._starts]
+
+    def __len__(self) -> int:
+        return len(self._starts)
+
+    def name(self, place: int) -> str:
+        """The name of an element, with its prefix."""
+        return start_tag_name(self.text, self.starts[place])
+
+    def element(self, place: int) -> ElementSpan:
+        """An element with all in it; of one that has very much in it, the start tag alone.
+
+        Raises:
+            UnplacedError: its end is not found.
+        """
+        if place not in self._made:
+            self._made[place] = self._element(self._starts[place])
+        return self._made[place]
+
+    def _element(self, number: int) -> ElementSpan:
+        open_: list[ElementSpan] = []
+        for here in range(number, len(self._tokens)):
+            if here - number > _MOST:
+                return start_tag(self.text, self._tokens[number][1])
+            kind, start, end = self._tokens[here]
+            if kind == _ASIDE:
+                open_[-1].asides.append(Span(start, end))
+                continue
+            if kind == _START:
+                element = start_tag(self.text, start)
+                if open_:
+                    open_[-1].children.append(element)
+                open_.append(element)
+                if self.text[end - 2] != "/":
+                    continue
+            else:
+                open_[-1].end_tag = Span(start, end)
+            element = open_.pop()
+            if not open_:
+                return element
+        raise UnplacedError("an element has no end")
+
+
+def start_tag_name(text: str, start: int) -> str:
+    """The name in the start tag at an offset."""
+    found = _TAG_NAME.match(text, start)
+    return found[1] if found else ""

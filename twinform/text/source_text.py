@@ -1,9 +1,14 @@
-"""The text of a file and the bytes that it came from: encoding, byte order mark and line ends stay as they are."""
+"""The text of a file and the bytes that it came from; edits that are applied to it, and its unified diff."""
 
 import codecs
 import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from difflib import unified_diff
 from typing import Self
+
+from twinform.diagnostics import TextEdit
+from twinform.diagnostics.reporters import printable
 
 _MARKS = (
     (codecs.BOM_UTF8, "utf-8"),
@@ -66,3 +71,39 @@ def _encoding(data: bytes) -> tuple[bytes, str]:
             return b"", encoding
     declared = _DECLARED.match(data)
     return b"", declared[1].decode() if declared else "utf-8"
+
+
+class OverlapError(ValueError):
+    """Two edits want to change the same piece."""
+
+
+def apply(text: str, edits: Iterable[TextEdit]) -> str:
+    """The text after all edits; those at one place are made in the order in which they are given.
+
+    Raises:
+        OverlapError: two of them overlap.
+    """
+    pieces: list[str] = []
+    here = 0
+    for span, new in sorted(edits, key=lambda edit: edit.span):
+        if span.start < here:
+            raise OverlapError(f"two edits overlap at offset {span.start}")
+        pieces += (text[here : span.start], new)
+        here = span.end
+    return "".join((*pieces, text[here:]))
+
+
+_NO_END = "\n\\ No newline at end of file\n"
+
+
+def line_diff(name: str, before: str, after: str) -> Iterator[str]:
+    """The lines of the diff, with their line ends; none where both texts are equal."""
+    if before != after:
+        for line in unified_diff(_lines(before), _lines(after), printable(name), printable(name)):
+            yield line if line.endswith("\n") else line + _NO_END
+
+
+def _lines(text: str) -> list[str]:
+    r"""The lines, ended by `\n` alone, as those programs see them."""
+    lines = [f"{line}\n" for line in text.split("\n")]
+    return [*lines[:-1], lines[-1][:-1]] if lines[-1] != "\n" else lines[:-1]

@@ -1,13 +1,17 @@
-"""The layout of start tags: blanks between attributes, lines that an author has broken, tables made by hand.
+"""The layout of start tags: blanks between attributes, their order and lines, and the shortest spelling of numbers.
 
 A tag on one line has one blank before each attribute. In a tag of several lines each attribute stays on its line, and
 the lines are aligned below the first attribute, or below another one where the author has aligned them there.
 """
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from functools import cache
+from math import isfinite
+from typing import NamedTuple, TypeVar
+
+from twinform.schemas import Fact, table
 
 _NAME = re.compile(r"<([^\s/>]++)")
 _ATTRIBUTE = re.compile(r"""(\s*+)([^\s=<>/"']++)\s*+=\s*+("[^"]*+"|'[^']*+')""")
@@ -161,3 +165,90 @@ class _Aligning:
         self.old += len(text)
         self.new += len(text)
         self.known = self.known and _LINE_END.search(text) is None  # behind a value of several lines nobody aligns
+
+
+_NUMBERS = frozenset({"double", "vector2d", "vector3", "quaternion", "color", "color4", "pose"})
+_FORMATS = ("urdf", "sdf")
+_Key = TypeVar("_Key", bound=Hashable)
+
+
+@dataclass(frozen=True, slots=True)
+class Usage:
+    """Names of elements, and of attributes in them.
+
+    `opaque` are the elements with contents of their own, such as plugins, in which nothing is known.
+    """
+
+    numeric_attributes: frozenset[tuple[str, str]]
+    numeric_texts: frozenset[str]
+    opaque: frozenset[str]
+    order: dict[str, tuple[str, ...]]
+
+    def rank(self, element: str, attribute: str) -> int:
+        """A number that is smaller for what usually stands further in front."""
+        if attribute == "name":
+            return -1
+        known = self.order.get(element, ())
+        return known.index(attribute) if attribute in known else len(known)
+
+
+@cache
+def usage() -> Usage:
+    """Return the usage of names in both formats and all versions."""
+    elements = [element for format in _FORMATS for element in _elements(format)]
+    order: dict[str, dict[str, None]] = {}
+    for name, _, fact in elements:
+        order.setdefault(name, {}).update((row.name[1:], None) for row in fact.attributes)
+    return Usage(
+        _numeric(((name, row.name[1:]), row.type) for name, _, fact in elements for row in fact.attributes),
+        _numeric((name, type) for name, type, _ in elements),
+        frozenset(name for name, _, fact in elements if fact.any),
+        {name: tuple(attributes) for name, attributes in order.items()},
+    )
+
+
+def _numeric(typed: Iterable[tuple[_Key, str | None]]) -> frozenset[_Key]:
+    """What has numbers wherever it has a value."""
+    found = list(typed)
+    others = {key for key, type in found if type and type not in _NUMBERS}
+    return frozenset({key for key, type in found if type} - others)
+
+
+def _elements(format: str) -> Iterator[tuple[str, str | None, Fact]]:
+    """Each element of a format by its name, with the type of its text and the fact that holds its rows."""
+    facts = table(format)
+    pending = [facts.definitions[facts.root]]
+    seen: set[int] = set()
+    yield facts.root, None, pending[0]
+    while pending:
+        fact = pending.pop()
+        if id(fact) in seen:
+            continue
+        seen.add(id(fact))
+        for row in fact.children:
+            inner = facts.resolve(row)
+            yield row.name, row.type or inner.type, inner
+            pending.append(inner)
+
+
+_NUMBER = re.compile(r"[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
+_EXPONENT = re.compile(r"e([-+])0*(\d+)")
+_ONLY_NUMBERS = re.compile(rf"\s*+(?:{_NUMBER.pattern}(?:\s++|$))++", re.ASCII)
+
+
+def all_numbers(text: str) -> bool:
+    """Whether a text is of nothing but numbers, and has one."""
+    return _ONLY_NUMBERS.fullmatch(text) is not None
+
+
+def shortest(text: str) -> str:
+    """The text with each number spelled in the fewest characters, where it is of nothing but numbers."""
+    return _NUMBER.sub(lambda found: _shortest(found.group()), text) if all_numbers(text) else text
+
+
+def _shortest(number: str) -> str:
+    value = float(number)
+    if not isfinite(value):
+        return number
+    spelled = _EXPONENT.sub(r"e\1\2", repr(value)).replace("e+", "e").removesuffix(".0")
+    return spelled if len(spelled) < len(number) and float(spelled) == value else number

@@ -9,10 +9,29 @@ from array import array
 from enum import IntEnum
 from xml.parsers import expat
 
-from twinform.text.asides import COMMENT, INSTRUCTION, SECTION
-from twinform.text.positions import UnplacedError
+# Possessive repetitions (Python 3.11): they never give back what they took, so no text makes them
+# quadratic.
+IN_COMMENT = r"[^-]*+(?:-(?!->)[^-]*+)*+"
+IN_SECTION = r"[^\]]*+(?:\](?!\]>)[^\]]*+)*+"
+IN_INSTRUCTION = r"[^?]*+(?:\?(?!>)[^?]*+)*+"
+
+COMMENT = rf"<!--{IN_COMMENT}(?:-->)?"
+SECTION = rf"<!\[CDATA\[{IN_SECTION}(?:\]\]>)?"
+INSTRUCTION = rf"<\?{IN_INSTRUCTION}(?:\?>)?"
+
 
 _TOKEN = re.compile(rf"""{COMMENT}|{INSTRUCTION}|{SECTION}|<(?:[^"'<>]++|"[^"]*+"|'[^']*+')*+>|[^<]++""")
+
+
+class UnplacedError(ValueError):
+    """The text is not well-formed, or has a document type declaration: nothing is known of its places.
+
+    `line` and `column` are where a parser stopped, from 1, and 0 where that is not known.
+    """
+
+    def __init__(self, message: str, line: int = 0, column: int = 0) -> None:
+        super().__init__(message)
+        self.line, self.column = line, column
 
 
 class TokenKind(IntEnum):
@@ -80,3 +99,24 @@ def _require_well_formed(text: str) -> None:
 
 def _refuse_doctype(*_: object) -> None:
     raise UnplacedError("the document has a DOCTYPE")
+
+
+_ASIDE = re.compile(
+    rf"{SECTION}|<!--(?P<comment>{IN_COMMENT})-->|{COMMENT}|(?P<declaration><\?xml\s{IN_INSTRUCTION}\?>)"
+    rf"|{INSTRUCTION}",
+    re.IGNORECASE,
+)
+_VISIBLE = re.compile(r"[^\r\n]")
+
+
+def masked(text: str) -> str:
+    """A text of the same length and lines, with blanks for declarations and for what stands in comments."""
+    return _ASIDE.sub(_blank, text)
+
+
+def _blank(found: re.Match[str]) -> str:
+    if found["declaration"]:
+        return _VISIBLE.sub(" ", found[0])
+    if found["comment"] is None:
+        return found[0]
+    return f"<!--{_VISIBLE.sub(' ', found['comment'])}-->"

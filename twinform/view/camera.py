@@ -7,8 +7,7 @@ from typing import Any
 
 from twinform.ir import Quaternion, Vector3
 from twinform.ir.motion import unit
-from twinform.ir.transform import Transform
-from twinform.ir.vectors import cross, minus
+from twinform.ir.transform import Transform, cross, minus
 
 np: Any = importlib.import_module("numpy")
 Array = Any

@@ -7,8 +7,7 @@ from typing import Any
 
 from twinform.compiler.scene import Degree, Positions, SceneJoint
 from twinform.ir import Vector3
-from twinform.ir.transform import Transform
-from twinform.ir.vectors import across, cross, dot, minus
+from twinform.ir.transform import Transform, across, cross, dot, minus
 from twinform.view.figure import Figure
 
 MODIFIER = "shift"

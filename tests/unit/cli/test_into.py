@@ -10,9 +10,9 @@ from typing import Any
 
 import pytest
 
+from twinform import file_access
 from twinform.compiler import in_place, into
 from twinform.compiler.into import convert_into
-from twinform.file_access import readable
 from twinform.schemas import XmlElement
 from twinform.text import Merge
 
@@ -193,7 +193,7 @@ def test_a_file_that_cannot_be_read_any_more_is_an_error_with_a_message(
     source: str, into: str, old: str, new: str, run: Run, twins: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     _edit(source, old, new)
-    before, really = Path(into).read_text(), readable.read_regular
+    before, really = Path(into).read_text(), file_access.read_regular
     failed = 0
     for number in range(1, 9):
         calls = count(1)
@@ -203,7 +203,7 @@ def test_a_file_that_cannot_be_read_any_more_is_an_error_with_a_message(
                 raise OSError(errno.EIO, os.strerror(errno.EIO))
             return really(*given)
 
-        monkeypatch.setattr(readable, "read_regular", failing)
+        monkeypatch.setattr(file_access, "read_regular", failing)
         done = run("convert", source, "--into", into)
         if done.exit_code:  # a look at what a file is may fail: it is read after that
             failed += 1

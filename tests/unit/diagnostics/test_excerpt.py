@@ -3,7 +3,7 @@
 import pytest
 
 from twinform.diagnostics import Location
-from twinform.diagnostics.reporters.excerpt import excerpt
+from twinform.diagnostics.reporters.text import excerpt
 
 
 def shown(line: str | None, column: int, end_column: int, end_line: int = 7) -> list[str]:

@@ -1,7 +1,7 @@
 """Which findings have one cause."""
 
 from twinform.diagnostics import Diagnostic, Location, Rule, Severity
-from twinform.diagnostics.reporters.grouping import grouped
+from twinform.diagnostics.reporters.file_findings import grouped
 
 RULE = Rule(name="odd", severity=Severity.ERROR, finds="Odd.", matters="So.", example="3", better="2")
 

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from tests.profile import examples
 from twinform.ir import Frame, Joint, Link, Model, Pose
 from twinform.ir.frames import FrameGraph
-from twinform.ir.verify.plain_frames import has_plain_frames
+from twinform.ir.verify.verify_sdf import has_plain_frames
 from twinform.testing import strategies
 
 NAMES = ("a", "b", "c", "j", "k", "f", "g", "__model__", "world", "nobody")

@@ -8,9 +8,8 @@ import pytest
 from lxml import etree
 
 from twinform.schemas import json_schema_text, parse_version, schema_text, table
-from twinform.schemas.documentation import Documentation
 from twinform.schemas.json_check import is_array, is_object
-from twinform.schemas.meanings import meanings, rows_with_paths, unmatched
+from twinform.schemas.meanings import Documentation, meanings, rows_with_paths, unmatched
 from twinform.schemas.packaged import XsdVersion
 from twinform.schemas.xsd_values import XS
 

@@ -7,8 +7,7 @@ import xmlschema
 from lxml import etree
 
 from twinform.schemas.facts import table
-from twinform.schemas.xacro_elements import ELEMENTS, NAMESPACES
-from twinform.schemas.xacro_xsd import imported_schemas, unambiguous
+from twinform.schemas.xacro_xsd import ELEMENTS, NAMESPACES, imported_schemas, unambiguous
 from twinform.schemas.xsd import generate_schema
 
 NAMESPACE = NAMESPACES[0]

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from twinform.text import SourceText, UnplacedError, spans
-from twinform.text.tags import Tags
+from twinform.text.positions import Tags
 
 _CASES = Path(__file__).parents[2] / "cases"
 _FILES = sorted([*_CASES.glob("check/*.*df"), *_CASES.glob("whole/*.*df"), *_CASES.glob("elements/*.*df")])

@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import cast
 
 from twinform.cli.config.config_error import ConfigError
-from twinform.file_access import Readable
-from twinform.file_access.roots import REPOSITORY, folders_above, has_any
+from twinform.file_access import REPOSITORY, Readable, folders_above, has_any
 
 OWN = "twinform.toml"
 _SHARED = "pyproject.toml"

@@ -6,8 +6,7 @@ from typing import Self
 
 from twinform.cli.files.exclusion import PatternError
 from twinform.cli.files.patterns import PathPatterns
-from twinform.file_access import read_regular
-from twinform.file_access.roots import REPOSITORY, has_any
+from twinform.file_access import REPOSITORY, has_any, read_regular
 
 _LARGEST = 2**20
 """Bytes of a file of patterns; a larger one is none."""

@@ -9,7 +9,7 @@ from itertools import islice
 
 from twinform.diagnostics import Diagnostic, Rule, Span, nearest_name, rules
 from twinform.text import AttributeSpan, ElementSpan
-from twinform.text.asides import COMMENT, INSTRUCTION
+from twinform.text.tokens import COMMENT, INSTRUCTION
 
 _NAMES: frozenset[Rule] = frozenset(
     {

@@ -20,8 +20,7 @@ from twinform.compiler.input.source_files import SourceFiles
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Span, rules
 from twinform.schemas import LAST_LINE, XmlElement
 from twinform.text import ElementSpan, Lines, SourceText
-from twinform.text.positions import start_tag
-from twinform.text.tags import Tags
+from twinform.text.positions import Tags, start_tag
 
 _WORD = re.compile(r"[\w:.-]+")
 _OF_ROOT = frozenset({rules.UNKNOWN_ROOT, rules.OLD_ROOT})

@@ -10,7 +10,7 @@ from lxml import etree
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.schemas import XmlElement, path_of
 from twinform.schemas.xml import Places
-from twinform.text.asides import COMMENT, INSTRUCTION, SECTION
+from twinform.text.tokens import COMMENT, INSTRUCTION, SECTION
 
 _KINDS = bytes.maketrans(b"\t\r123456789", b"\n\n000000000")
 """One digit and one break stand for all."""

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from twinform.compiler.input.xml_recovery import XmlError
 from twinform.diagnostics import Location, Span
 from twinform.text import Lines, SourceText
-from twinform.text.asides import COMMENT, INSTRUCTION
+from twinform.text.tokens import COMMENT, INSTRUCTION
 
 _WORDS: Mapping[str, str] = {
     "ERR_TAG_NAME_MISMATCH": r"and (?P<word>\S+)$",

@@ -10,8 +10,7 @@ from urllib.parse import unquote
 from twinform.compiler.search.packages import MODEL_CONFIG, package_name
 from twinform.compiler.search.resolve_uris import SearchPath, UriError, exists
 from twinform.diagnostics import nearest_name
-from twinform.file_access import Readable
-from twinform.file_access.roots import folders_around
+from twinform.file_access import Readable, folders_around
 
 _MOST_ENTRIES = 2000
 """Entries of a folder that are looked at."""

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from twinform.compiler.scene.build_scene import build_scene
 from twinform.ir import Document
-from twinform.ir.lookup import look_up
+from twinform.ir.model import look_up
 from twinform.ir.transform import Transform
 
 

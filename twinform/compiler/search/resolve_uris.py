@@ -11,8 +11,7 @@ from urllib.parse import unquote, urlsplit
 from twinform.compiler.search import fuel
 from twinform.compiler.search.packages import MODEL_CONFIG, PackageIndex, package_name
 from twinform.diagnostics import rules
-from twinform.file_access import OutsideError, Readable
-from twinform.file_access.roots import find_root, folders_around, neighborhood
+from twinform.file_access import OutsideError, Readable, find_root, folders_around, neighborhood
 from twinform.passes import AssetError
 
 _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH", "GAZEBO_MODEL_PATH")

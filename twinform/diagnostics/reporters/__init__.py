@@ -3,11 +3,10 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from twinform.diagnostics.reporters.file_findings import NO_TEXTS, FileFindings, FileTexts, Reporter
+from twinform.diagnostics.reporters.file_findings import NO_TEXTS, FileFindings, FileTexts, Reporter, printable
 from twinform.diagnostics.reporters.github import github
 from twinform.diagnostics.reporters.json import json
 from twinform.diagnostics.reporters.junit import junit
-from twinform.diagnostics.reporters.printable import printable
 from twinform.diagnostics.reporters.sarif import sarif
 from twinform.diagnostics.reporters.text import Paint, concise, text
 

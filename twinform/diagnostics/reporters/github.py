@@ -2,11 +2,8 @@
 
 from collections.abc import Sequence
 
-from twinform.diagnostics.diagnostic import Diagnostic
-from twinform.diagnostics.location import Location
-from twinform.diagnostics.reporters.file_findings import FileFindings
-from twinform.diagnostics.reporters.printable import printable
-from twinform.diagnostics.rule import Severity
+from twinform.diagnostics.diagnostic import Diagnostic, Location, Severity
+from twinform.diagnostics.reporters.file_findings import FileFindings, printable
 
 _COMMANDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "notice"}
 

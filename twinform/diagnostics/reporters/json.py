@@ -2,8 +2,7 @@
 
 from collections.abc import Sequence
 
-from twinform.diagnostics.diagnostic import Diagnostic
-from twinform.diagnostics.location import Location
+from twinform.diagnostics.diagnostic import Diagnostic, Location
 from twinform.diagnostics.reporters.file_findings import NO_TEXTS, FileFindings, FileTexts, placed_edits
 
 

@@ -2,10 +2,8 @@
 
 from collections.abc import Sequence
 
-from twinform.diagnostics.diagnostic import Diagnostic
-from twinform.diagnostics.reporters.file_findings import FileFindings
-from twinform.diagnostics.reporters.printable import printable
-from twinform.diagnostics.rule import Severity
+from twinform.diagnostics.diagnostic import Diagnostic, Severity
+from twinform.diagnostics.reporters.file_findings import FileFindings, printable
 
 _ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})
 

@@ -5,12 +5,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import quote
 
-from twinform.diagnostics.addresses import HOME, rule_address
-from twinform.diagnostics.catalog import catalog
-from twinform.diagnostics.diagnostic import Diagnostic
-from twinform.diagnostics.location import Location
+from twinform.diagnostics.catalog import HOME, catalog, rule_address
+from twinform.diagnostics.diagnostic import Diagnostic, Location, Rule, Severity
 from twinform.diagnostics.reporters.file_findings import FileFindings, placed_edits
-from twinform.diagnostics.rule import Rule, Severity
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 _FINGERPRINT = "finding/v1"

@@ -1,25 +1,21 @@
 """The rules of SDF: models in models, whose links, joints and frames share one scope of names."""
 
+from collections.abc import Mapping
+
 from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.ir import Format
 from twinform.ir.defaults import MOMENT
-from twinform.ir.document import Document
-from twinform.ir.frames import FrameError, FrameGraph
+from twinform.ir.document import Document, World
+from twinform.ir.frames import MODEL, FrameError, FrameGraph, base_of
 from twinform.ir.joint import Joint
 from twinform.ir.link import Link
 from twinform.ir.model import Include, Model
 from twinform.ir.pose import Pose
 from twinform.ir.scopes import SCOPE, outer_models, scoped_models
-from twinform.ir.verify.inertia import verify_inertial
-from twinform.ir.verify.plain_frames import has_plain_frames
-from twinform.ir.verify.poses import verify_rotation
-from twinform.ir.verify.references import References
-from twinform.ir.verify.verify_joints import verify_joint, verify_mimics
+from twinform.ir.verify.verify_bodies import verify_inertial, verify_rotation, verify_shapes
+from twinform.ir.verify.verify_joints import report_loops, verify_joint, verify_mimics
 from twinform.ir.verify.verify_names import Kinds, report_names, report_reserved, report_scope, report_scoped_elements
-from twinform.ir.verify.verify_sensors import verify_grippers, verify_joint_sensors, verify_sensors
-from twinform.ir.verify.verify_shapes import verify_shapes
-from twinform.ir.verify.verify_tree import report_loops
-from twinform.ir.world import World
+from twinform.ir.verify.verify_references import References, verify_grippers, verify_joint_sensors, verify_sensors
 
 # In these versions links and joints are no frames yet, and two with one name are only bad style.
 _BEFORE_FRAMES = frozenset({"1.2", "1.3", "1.4", "1.5", "1.6"})
@@ -210,3 +206,46 @@ def _names_frames(world: World) -> bool:
 
 def _is_relative(pose: Pose | None) -> bool:
     return pose is not None and bool(pose.relative_to)
+
+
+_NOTHING = ""
+
+
+def has_plain_frames(model: Model) -> bool:
+    """Whether every pose and body leads to the model or a link of it, and every joint connects two links.
+
+    False says nothing: names may be there twice or be those of other models, which only a `FrameGraph` can tell.
+    """
+    # A graph of all frames was built only to find circles, and nearly every model is a tree at
+    # first sight.
+    if model.models or model.includes or model.placement_frame:
+        return False
+    bases: dict[str, str] = {MODEL: _NOTHING}
+    bodies: dict[str, str] = {MODEL: _NOTHING}
+    for link in model.links:
+        bases[link.name], bodies[link.name] = base_of(link.pose, MODEL), _NOTHING
+    for joint in model.joints:
+        child = joint.child or MODEL
+        if bodies.get(child) is not _NOTHING or bodies.get(joint.parent or "") is not _NOTHING:
+            return False
+        bases[joint.name] = base_of(joint.pose, child)
+    for frame in model.frames:
+        holder = frame.attached_to or MODEL
+        bases[frame.name], bodies[frame.name] = base_of(frame.pose, holder), holder
+    count = 1 + len(model.links) + len(model.joints) + len(model.frames)
+    return len(bases) == count and _lead_somewhere(bases) and _lead_somewhere(bodies)
+
+
+def _lead_somewhere(edges: Mapping[str, str]) -> bool:
+    """Whether no way ends at an unknown name or goes round in a circle."""
+    visited: dict[str, int] = {_NOTHING: -1}
+    for number, start in enumerate(edges):
+        name, steps = start, 0
+        while name not in visited:
+            visited[name], steps = number, steps + 1
+            if name not in edges:
+                return False
+            name = edges[name]
+        if steps and visited[name] == number:
+            return False
+    return True

@@ -6,12 +6,9 @@ from twinform.diagnostics import DiagnosticSink, Location, Severity, did_you_mea
 from twinform.ir.joint import Joint
 from twinform.ir.model import Model
 from twinform.ir.node import Node
-from twinform.ir.verify.inertia import verify_inertial
-from twinform.ir.verify.poses import verify_rotation
-from twinform.ir.verify.verify_joints import verify_joint, verify_limits_there, verify_mimics
+from twinform.ir.verify.verify_bodies import verify_inertial, verify_rotation, verify_shapes
+from twinform.ir.verify.verify_joints import report_loops, verify_joint, verify_limits_there, verify_mimics
 from twinform.ir.verify.verify_names import report_names, report_unprintable
-from twinform.ir.verify.verify_shapes import verify_shapes
-from twinform.ir.verify.verify_tree import report_loops
 from twinform.ir.visual import Material
 
 

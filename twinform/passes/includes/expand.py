@@ -6,7 +6,7 @@ from typing import TypeVar
 
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Include, Model, World, replace_fields
-from twinform.ir.namespaces import joined
+from twinform.ir.element import joined
 from twinform.ir.scopes import nested_includes, outer_models
 from twinform.ir.transform import Transform
 from twinform.passes.includes.merge import merge_into_model, merge_into_world

@@ -10,9 +10,9 @@ from twinform.diagnostics.rules import BALANCED_INERTIA, UNBALANCED_INERTIA
 from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.defaults import MOMENT
 from twinform.ir.principal_moments import Symmetric, principal_moments, times_each
-from twinform.ir.scaling import common_exponent, times_power
 from twinform.ir.solids import with_tensor
-from twinform.ir.verify.inertia import inertia_matrix
+from twinform.ir.transform import common_exponent, times_power
+from twinform.ir.verify.verify_bodies import inertia_matrix
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.inertia.physical_consistency import distance, has_mass, is_clearly_possible, nearest_possible

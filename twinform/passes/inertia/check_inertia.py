@@ -9,7 +9,7 @@ from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules import MASS_RATIO, MISSING_INERTIAL, NON_POSITIVE_MASS
 from twinform.ir import Document, Format, Inertial, Link
 from twinform.ir.defaults import MOMENT
-from twinform.ir.verify.inertia import inertia_matrix, report_moments
+from twinform.ir.verify.verify_bodies import inertia_matrix, report_moments
 from twinform.passes.analyses.link_shapes import ShapePlaces
 from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.analyses.moving_bodies import Body, ConnectedBodies, movable_models, moving_bodies, neighbors

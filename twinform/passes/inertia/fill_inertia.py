@@ -10,8 +10,8 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import FILLED_INERTIA, UNFILLED_INERTIA
 from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.frames import FrameError
-from twinform.ir.scaling import common_exponent, times_power
 from twinform.ir.solids import Solid, combined, with_mass
+from twinform.ir.transform import common_exponent, times_power
 from twinform.passes.analyses.link_shapes import Kind, NoSolidError, PlacedShape, ShapePlaces, inertial_of, solid_of
 from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.analyses.moving_bodies import movable_models, moving_bodies

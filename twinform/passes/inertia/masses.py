@@ -9,7 +9,7 @@ from twinform.ir.frames import FrameGraph
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.scopes import outer_models, scoped_links
 from twinform.ir.solids import NOTHING, ORIGIN, Solid, placed, with_mass, with_tensor
-from twinform.ir.verify.inertia import inertia_matrix
+from twinform.ir.verify.verify_bodies import inertia_matrix
 from twinform.passes.analyses.link_shapes import inertial_of
 from twinform.passes.inertia.physical_consistency import is_possible
 

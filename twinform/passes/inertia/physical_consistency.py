@@ -13,8 +13,8 @@ import math
 from twinform.ir import Format, Inertial
 from twinform.ir.defaults import MOMENT
 from twinform.ir.principal_moments import Axes, Symmetric, principal_axes, relative_moments, times_each
-from twinform.ir.scaling import common_exponent
-from twinform.ir.verify.inertia import inertia_matrix
+from twinform.ir.transform import common_exponent
+from twinform.ir.verify.verify_bodies import inertia_matrix
 
 ROUNDING = 1e-15
 """What ten operations on doubles leave of a moment that is exactly zero, as a part of the trace."""

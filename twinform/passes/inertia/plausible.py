@@ -11,7 +11,7 @@ from twinform.ir.bounds import Bounds
 from twinform.ir.frames import FrameError
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import ORIGIN, Solid, combined, placed
-from twinform.ir.verify.inertia import inertia_matrix
+from twinform.ir.verify.verify_bodies import inertia_matrix
 from twinform.passes.analyses.link_shapes import (
     NoSolidError,
     PlacedShape,

@@ -17,7 +17,7 @@ from twinform.ir import Format, Link, Model
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import Solid, combined, placed, turned, with_mass
-from twinform.ir.verify.inertia import inertia_matrix, is_plain
+from twinform.ir.verify.verify_bodies import inertia_matrix, is_plain
 from twinform.passes.inertia.physical_consistency import (
     clearances,
     doubt,

@@ -11,8 +11,7 @@ from operator import itemgetter
 from twinform.ir import Capsule, Cylinder, Format, Joint, Model, Shape, Sphere, Vector3
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
-from twinform.ir.transform import Transform
-from twinform.ir.vectors import cross, dot
+from twinform.ir.transform import Transform, cross, dot
 
 _PARALLEL = 0.999
 """The cosine above which two directions are taken as one."""

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Model, replace_node
-from twinform.ir.namespaces import joined
+from twinform.ir.element import joined
 from twinform.ir.node import Vector3
 from twinform.ir.scopes import outer_models
 from twinform.passes.framework.other_documents import DocumentPass, DocumentReader

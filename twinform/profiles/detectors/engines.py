@@ -20,7 +20,7 @@ from twinform.diagnostics.rules import (
 from twinform.ir import Collision, Document, Format, Inertial, Joint, Link, Material, Model, Sensor, walk
 from twinform.ir.defaults import MOMENT
 from twinform.ir.solids import written_solid
-from twinform.ir.verify.inertia import inertia_matrix
+from twinform.ir.verify.verify_bodies import inertia_matrix
 from twinform.passes.analyses.link_shapes import is_flat
 from twinform.passes.analyses.moving_bodies import Body, moving_bodies
 from twinform.passes.appearance.drop_bare_scripts import is_bare

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 
 from twinform.diagnostics import Diagnostic, Severity
-from twinform.diagnostics.reporters.excerpt import excerpt
-from twinform.diagnostics.reporters.grouping import Group
+from twinform.diagnostics.reporters.file_findings import Group
+from twinform.diagnostics.reporters.text import excerpt
 from twinform.report.content import ModelReport, ReportSubject
 from twinform.report.html_parts import count, folded, place
 from twinform.report.listed_findings import MOST, WORDS, anchor, groups_of

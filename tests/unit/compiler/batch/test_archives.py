@@ -119,7 +119,7 @@ def test_a_cut_archive_is_refused(tmp_path: Path) -> None:
 
 
 def test_nothing_is_looked_for_above_an_archive(tmp_path: Path) -> None:
-    from twinform.file_access.roots import folders_around  # noqa: PLC0415 - only here
+    from twinform.file_access import folders_around  # noqa: PLC0415 - only here
 
     with unpacked(_tar(tmp_path / "a.tar.gz", [("a/b.urdf", b"")])) as made:
         assert folders_around(made.folder / "a/b.urdf") == (made.folder / "a", made.folder)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import twinform
 from twinform.ir.principal_moments import Symmetric, principal_axes
-from twinform.ir.verify.inertia import inertia_matrix
+from twinform.ir.verify.verify_bodies import inertia_matrix
 from twinform.passes import parse_pipeline
 from twinform.passes.inertia.physical_consistency import (
     is_clearly_possible,

@@ -13,7 +13,7 @@ from twinform.compiler.fixing.site import FixableFile, TextFixers, safe, unsafe
 from twinform.compiler.input.xml_recovery import REPAIRS
 from twinform.diagnostics import Diagnostic, Fix, Span, TextEdit, nearest_name, rules
 from twinform.schemas import usual_namespace
-from twinform.text.asides import COMMENT, IN_COMMENT, INSTRUCTION, SECTION
+from twinform.text.tokens import COMMENT, IN_COMMENT, INSTRUCTION, SECTION
 
 _COMMENT = re.compile(rf"<!--(?P<inside>{IN_COMMENT})(?:-->)?")
 _ASIDE = re.compile(f"{COMMENT}|{SECTION}|{INSTRUCTION}")

@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import PLAIN, Model, Node, rewrite
-from twinform.ir.scoped_elements import scoped_parts
+from twinform.ir.scopes import scoped_parts
 from twinform.passes.carriers.carriers import carry
 from twinform.passes.framework.pass_base import ModelPass
 

@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Model, Node, Opaque, replace_fields, rewrite
-from twinform.ir.scoped_elements import scoped_elements
+from twinform.ir.scopes import scoped_elements
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, unpack
 from twinform.passes.framework.pass_base import ModelPass
 

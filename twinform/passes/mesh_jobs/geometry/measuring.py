@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from twinform.ir.scaling import common_exponent, times_power
+from twinform.ir.transform import common_exponent, times_power
 from twinform.passes.mesh_jobs.geometry.libraries import np, trimesh
 from twinform.passes.mesh_jobs.geometry.mesh_parts import parts_of
 from twinform.passes.mesh_jobs.geometry.open_mesh import scene_of

@@ -7,7 +7,7 @@ from lxml import etree
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.schemas import Context, Fact
-from twinform.schemas.plain_values import plain_values, store_plain
+from twinform.schemas.element_reader import plain_values, store_plain
 from twinform.schemas.value_readers import attribute_reader, text_reader
 from twinform.schemas.value_types import VALUE_TYPES
 

@@ -1,12 +1,14 @@
-"""Verifies masses and inertias: no real body has a negative or unbalanced one."""
+"""Verifies links: masses and inertias that a real body can have, rotations, and shapes with a size."""
 
 import math
 
 from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, rules
+from twinform.ir.geometry import Geometry, Plane
 from twinform.ir.link import Inertia, Inertial, Link
+from twinform.ir.pose import Pose
 from twinform.ir.principal_moments import Symmetric, principal_moments, relative_moments
 from twinform.ir.solids import tensor
-from twinform.ir.verify.poses import verify_rotation
+from twinform.ir.visual import Collision, Visual
 
 # Ten times the rounding of a double, relative to half the trace: libsdformat forgives no more. Real
 # files cut digits off and are refused for it: 26 of 1,448 in the corpus. `check` warns of exactly
@@ -110,3 +112,99 @@ def _place(inertial: Inertial) -> Location:
     """Where the moments are written."""
     inertia = inertial.inertia
     return inertia.location if inertia is not None and inertia.source else inertial.location
+
+
+# Two turns, in radians. An angle beyond is one in degrees: one in 1,489 corpus files has such an
+# angle.
+_MOST = 4 * math.pi
+# How far the length of a quaternion may be from 1: files write three digits.
+_QUATERNION_ROUNDING = 1e-3
+
+
+def verify_rotation(pose: Pose | None, sink: DiagnosticSink) -> None:
+    """Report what is wrong with the rotation of a pose."""
+    if pose is None:
+        return
+    rpy, quaternion = pose.rpy, pose.quat_xyzw
+    if rpy is not None:
+        if not pose.degrees and (max(rpy) > _MOST or min(rpy) < -_MOST):
+            _degrees(pose, max(rpy, key=abs), sink)
+    elif quaternion is not None:
+        x, y, z, w = quaternion
+        if abs(math.sqrt(x * x + y * y + z * z + w * w) - 1) > _QUATERNION_ROUNDING:
+            _length(pose, math.hypot(*quaternion), sink)
+
+
+def _degrees(pose: Pose, angle: float, sink: DiagnosticSink) -> None:
+    message = f"an angle of {angle:g} is read as radians, and is more than two turns; are these degrees?"
+    is_urdf = bool(pose.source and pose.source.step.endswith("origin"))
+    instead = f"write {math.radians(angle):.6g} radians"
+    hint = instead if is_urdf else f"{instead}, or from SDF 1.9 on <pose degrees='true'>"
+    expected = f"at most {_MOST:.4g}"
+    sink.report(rules.ANGLE_IN_DEGREES, message, pose.location, found=f"{angle:g}", expected=expected, help=hint)
+
+
+def _length(pose: Pose, length: float, sink: DiagnosticSink) -> None:
+    found = f"{length:.4g}"
+    if length:
+        message = f"a quaternion has the length {found}; some readers normalize it, others scale by it"
+    else:
+        message = "a quaternion of length zero is not a rotation"
+    sink.report(rules.UNNORMALISED_QUATERNION, message, pose.location, found=found, expected="1")
+
+
+_ROUND = ("radius", "length")
+_SIZES = {
+    "box": ("size",),
+    "sphere": ("radius",),
+    "ellipsoid": ("radii",),
+    "mesh": ("scale",),
+    **dict.fromkeys(("cylinder", "capsule", "cone"), _ROUND),
+}
+
+
+def verify_shapes(link: Link, sink: DiagnosticSink, *, geometry_is_required: bool) -> None:
+    """Report shapes that are missing or without extent.
+
+    Where the schema requires `<geometry>`, its absence is reported already.
+    """
+    for shape in link.visuals:
+        _verify_shape("visual", shape, link, sink, required=geometry_is_required)
+    for shape in link.collisions:
+        _verify_shape("collision", shape, link, sink, required=geometry_is_required)
+
+
+def _verify_shape(kind: str, shape: Visual | Collision, link: Link, sink: DiagnosticSink, *, required: bool) -> None:
+    geometry = shape.geometry
+    if geometry is not None and geometry.shape is not None:
+        _verify_sizes(geometry, kind, link, sink)
+    elif _is_empty(shape, required=required):
+        message = f"a {kind} of link {link.name!r} has no shape"
+        sink.report(rules.MISSING_SHAPE, message, shape.location, expected="<geometry> with a shape in it")
+
+
+def _is_empty(shape: Visual | Collision, *, required: bool) -> bool:
+    """Whether no shape is written, not even one that the schema does not know."""
+    if shape.geometry is not None:
+        return not any(part.element for part in shape.geometry.opaque)
+    empty = [part.element for part in shape.opaque if part.element and part.element.name == "geometry"]
+    return not empty[0].children if empty else not required
+
+
+def _verify_sizes(geometry: Geometry, kind: str, link: Link, sink: DiagnosticSink) -> None:
+    shape = geometry.shape
+    if shape is None:
+        return
+    if isinstance(shape, Plane):
+        if shape.normal is not None and not any(shape.normal):
+            _flat(f"the normal of a plane of link {link.name!r} has length zero", shape.location, sink)
+        return
+    for name in _SIZES.get(shape.kind, ()):
+        value: float | tuple[float, ...] | None = getattr(shape, name)
+        if value is not None and (0.0 in value if isinstance(value, tuple) else value == 0.0):
+            message = f"the {name} of a {kind} of link {link.name!r}, a {shape.kind}, is zero"
+            _flat(message, shape.location, sink)
+
+
+def _flat(message: str, where: Location, sink: DiagnosticSink) -> None:
+    sink.report(rules.ZERO_SIZE, message, where, found="0")
