@@ -16,8 +16,7 @@ Made by `make generate` from the heads of these files; do not edit it.
 """
 
 from twinform.diagnostics.built_in_rule import rule
-from twinform.diagnostics.diagnostic import Safety
-from twinform.diagnostics.diagnostic import Severity
+from twinform.diagnostics.diagnostic import Safety, Severity
 
 '''
 _SEVERITIES = {str(each): f"Severity.{each.name}" for each in Severity}

@@ -4,8 +4,7 @@ Made by `make generate` from the heads of these files; do not edit it.
 """
 
 from twinform.diagnostics.built_in_rule import rule
-from twinform.diagnostics.diagnostic import Safety
-from twinform.diagnostics.diagnostic import Severity
+from twinform.diagnostics.diagnostic import Safety, Severity
 
 ADDED_WORLD_SYSTEM = rule("added-world-system", Severity.INFO)
 ALREADY_HELD = rule("already-held", Severity.INFO)
