@@ -14,8 +14,7 @@ from tests.profile import DEEP, examples
 from twinform.compiler import CompileError
 from twinform.compiler.request_options import Language
 from twinform.ir import Document, Node, census_of
-from twinform.ir.census import ANYTHING
-from twinform.ir.rewrite import map_children
+from twinform.ir.rewrite import ANYTHING, map_children
 from twinform.testing import strategies
 
 TARGETS: list[tuple[Language, str | None]] = [("urdf", None), ("sdf", "1.4"), ("sdf", "1.7"), ("sdf", "1.11")]
@@ -39,7 +38,7 @@ def _anything(_: Node) -> int:
 
 def _unpruned(source: Path | Document, to: Language, version: str | None) -> object:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("twinform.ir.census._count", _anything)
+        patch.setattr("twinform.ir.rewrite._count", _anything)
         return _outcome(source, to, version)
 
 

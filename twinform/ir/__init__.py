@@ -1,6 +1,5 @@
 """The intermediate representation: frozen nodes, one family in each file, and pure functions over them."""
 
-from twinform.ir.census import OPAQUE, PLAIN, PREFIXED, bits_named, bits_of, census_of, holds_opaque, untyped_elements
 from twinform.ir.document import Document, Format, World
 from twinform.ir.element import Element, Opaque
 from twinform.ir.geometry import (
@@ -26,7 +25,20 @@ from twinform.ir.node import Color, Node, Quaternion, Vector3
 from twinform.ir.pose import Frame, Pose
 from twinform.ir.record import field_values
 from twinform.ir.references import IN_MODELS, ReferenceChange, ReferenceKind, map_references
-from twinform.ir.rewrite import map_children, replace_fields, replace_node, rewrite
+from twinform.ir.rewrite import (
+    OPAQUE,
+    PLAIN,
+    PREFIXED,
+    bits_named,
+    bits_of,
+    census_of,
+    holds_opaque,
+    map_children,
+    replace_fields,
+    replace_node,
+    rewrite,
+    untyped_elements,
+)
 from twinform.ir.sensor import Light, Plugin, Sensor
 from twinform.ir.tree_walks import children_of, count_parts, node_fields, node_values, walk
 from twinform.ir.visual import Collision, Material, Script, Surface, Visual

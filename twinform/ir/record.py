@@ -52,7 +52,7 @@ class Record:
     Objects are equal if they are of one class and their fields are, but for those with `compare=False`.
     """
 
-    __slots__ = ("_census",)  # what `twinform.ir.census` has found, once it was asked
+    __slots__ = ("_census",)  # what `twinform.ir.rewrite` has found, once it was asked
 
     field_names: ClassVar[tuple[str, ...]]
     compared_values: "ClassVar[attrgetter[Any]]"

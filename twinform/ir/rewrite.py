@@ -1,14 +1,28 @@
-"""Rewriting a tree of nodes. What a change leaves alone stays the same object: a whole tree, or each part of one."""
+"""Rewriting a tree of nodes. What a change leaves alone stays the same object: a whole tree, or each part of one.
 
-from collections.abc import Callable
-from functools import cache, partial
+The census of a subtree has bits for what is somewhere in it, and is cached, so that passes skip what does not concern
+them. There is a bit for each class of nodes, one for each field that few models write, and some for untyped parts.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache, lru_cache, partial
 from operator import is_
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
+from zlib import crc32
 
-from twinform.ir.census import ANYTHING, bits_of, census_of
+from twinform.ir.document import World
+from twinform.ir.element import Element, Opaque
+from twinform.ir.geometry import Capsule
+from twinform.ir.joint import Axis, Dynamics, Joint, Limit
+from twinform.ir.link import Inertial, Link
+from twinform.ir.model import GazeboExtension, Include, Model
 from twinform.ir.node import Node
+from twinform.ir.pose import Frame, Pose
+from twinform.ir.record import Record
+from twinform.ir.sensor import Light, Sensor
 from twinform.ir.sourced import Sourced
-from twinform.ir.tree_walks import classes_below, classes_in, node_fields
+from twinform.ir.tree_walks import children_of, classes_below, classes_in, node_fields
+from twinform.ir.visual import Material, Visual
 
 AnyPart = TypeVar("AnyPart", bound=Sourced)
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -91,3 +105,187 @@ def _plan(kind: type[Node], wanted: type[Node]) -> tuple[tuple[str, ...], bool]:
 
 def _may_hold(kind: type[Node], field: str, wanted: type[Node]) -> bool:
     return any(issubclass(each, wanted) for inner in classes_in(kind, field) for each in classes_below(inner))
+
+
+# A bit for each of the 298 fields would make every census dear, and nobody asks for most of them.
+# What is listed is derived from the facts tables and held to them by a test.
+RARE: dict[type[Node], tuple[str, ...]] = {
+    Axis: ("expressed_in", "mimic", "use_parent_model_frame"),
+    Capsule: ("length", "radius"),
+    Dynamics: ("spring_reference", "spring_stiffness"),
+    Frame: ("attached_to",),
+    Include: ("merge", "placement_frame"),
+    Inertial: ("auto", "pose"),
+    Joint: ("gearbox_ratio", "gearbox_reference_body", "screw_thread_pitch", "sensors"),
+    Light: ("intensity",),
+    Limit: ("acceleration", "deceleration", "dissipation", "jerk", "stiffness"),
+    Link: ("enable_wind", "lights"),
+    Material: ("albedo_map",),
+    Model: ("canonical_link", "enable_wind", "frames", "models", "placement_frame", "self_collide"),
+    Pose: ("degrees", "quat_xyzw", "relative_to", "rotation_format"),
+    Sensor: ("enable_metrics", "frame_id"),
+    Visual: ("plugins",),
+    World: ("frames", "gravity", "joints"),
+}
+"""The fields that have a bit: those that not every version of their format has, and poses that are less in some.
+
+A pose counts where it says more than six numbers.
+"""
+
+PLAIN = 1
+"""Opaque parts, and the content of `<gazebo>` elements: text, and names without a namespace."""
+# A file may have any number of names, so names share bits by a hash. Two that share one cost time
+# and change nothing. A bit that is missing would leave a part unconverted without a word, so a test
+# converts files with and without the census and asks for the same bytes.
+_BUCKETS = 128
+PREFIXED = (1 << _BUCKETS) - 1 << 1
+"""The same with names in a namespace: many names share a bit, since there may be any number of them."""
+OPAQUE = PLAIN | PREFIXED
+ANYTHING = -1
+_FIRST_BIT = 1 + _BUCKETS
+
+# Where a node keeps its census. Nodes that Pydantic has made have an empty slot.
+_SLOT: Any = Record.__dict__["_census"]
+_get, _set = _SLOT.__get__, _SLOT.__set__
+
+
+class _Plan(NamedTuple):
+    """What to look at in the nodes of a class; `bits` are its own bit and those of the classes it is derived from."""
+
+    own: int
+    bits: int
+    children: tuple[str, ...]
+    rare: tuple[tuple[str, int], ...]
+
+
+class _Plans(dict[type[Node], _Plan]):
+    """The plan of each class, made when it is first needed; bits are handed out in that order."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._used = _FIRST_BIT
+
+    def __missing__(self, kind: type[Node]) -> _Plan:
+        inherited = [self[base] for base in kind.__bases__ if issubclass(base, Node) and base is not Node]
+        own = RARE.get(kind, ())
+        bits = [1 << (self._used + number) for number in range(len(own) + 1)]
+        self._used += len(bits)
+        rare = [*zip(own, bits[1:], strict=True), *(pair for plan in inherited for pair in plan.rare)]
+        classes = bits[0] | union_of(plan.bits for plan in inherited)
+        plan = self[kind] = _Plan(bits[0], classes, node_fields(kind), tuple(rare))
+        return plan
+
+
+PLANS = _Plans()
+
+
+@lru_cache(maxsize=4096)
+def _shared(found: int) -> int:
+    """One object for equal ones: most nodes have one of few."""
+    return found
+
+
+def census_of(node: Node) -> int:
+    """The bits of what is in a node, itself included."""
+    try:
+        found: int | None = _get(node)
+    except AttributeError:  # Pydantic has made it
+        found = None
+    if found is None:
+        # Nodes are frozen, so a census never goes stale; a copy starts without one.
+        found = _count(node)
+        _set(node, _shared(found))
+    return found
+
+
+def _count(node: Node) -> int:
+    _, found, children, rare = PLANS[node.__class__]
+    for name in children:
+        value: Any = getattr(node, name)
+        if not value:
+            continue
+        for each in value if value.__class__ is tuple else (value,):
+            try:
+                found |= _get(each) or census_of(each)
+            except AttributeError:  # Pydantic has made it
+                found |= census_of(each)
+    for name, bit in rare:
+        value = getattr(node, name)
+        if value is not None and value != () and not (value.__class__ is Pose and _is_plain(value)):
+            found |= bit
+    if node.opaque or node.__class__ is GazeboExtension:
+        found |= _count_untyped(node)
+    return found
+
+
+def _is_plain(pose: Pose) -> bool:
+    """Whether it is six numbers, which every version can express."""
+    return not (census_of(pose) & (OPAQUE | bits_of(Pose, *RARE[Pose])))
+
+
+def _count_untyped(node: Node) -> int:
+    if isinstance(node, GazeboExtension):
+        return OPAQUE
+    return union_of(map(_bit_of_part, node.opaque))
+
+
+def _bit_of_part(part: Opaque) -> int:
+    if part.element:
+        return _bits_of_element(part.element)
+    return PREFIXED if part.attribute and part.attribute[0].startswith("{") else PLAIN
+
+
+def _bits_of_element(element: Element) -> int:
+    """The bit of an element, and those of names in a namespace in it."""
+    found = _bit_of_name(element.name) if element.name.startswith("{") else PLAIN
+    if element.children:
+        found |= union_of(_bits_of_element(child) & PREFIXED for child in element.children)
+    return found
+
+
+@lru_cache(maxsize=1024)
+def _bit_of_name(name: str) -> int:
+    # Not `hash`, which differs from process to process.
+    return 1 << 1 + crc32(name.encode()) % _BUCKETS
+
+
+def bits_named(*names: str) -> int:
+    """The bits of elements of these names, `{namespace}name`; a census may have them for other parts as well."""
+    return union_of(map(_bit_of_name, names))
+
+
+@cache
+def bits_of(kind: type[Node], *fields: str) -> int:
+    """The bit of the nodes of a class and of those derived from it; or those of some fields, each one of `RARE`."""
+    plan = PLANS[kind]
+    bits = dict(plan.rare)
+    return union_of(bits[field] for field in fields) if fields else plan.own
+
+
+def union_of(bits: Iterable[int]) -> int:
+    """All bits of several sets of them."""
+    found = 0
+    for each in bits:
+        found |= each
+    return found
+
+
+def holds_opaque(node: Node) -> bool:
+    """Whether a node, or one inside it, has opaque parts or the untyped content of a `<gazebo>` element."""
+    return census_of(node) & OPAQUE != 0
+
+
+def untyped_elements(node: Node, *, having: int = OPAQUE) -> Iterator[Element]:
+    """Every element in the opaque parts and `<gazebo>` content of a node and of all inside it, and all in these.
+
+    Nodes without any of the bits `having` are passed over.
+    """
+    stack = [node]
+    while stack:
+        node = stack.pop()
+        if not census_of(node) & having:
+            continue
+        own = (part.element for part in node.opaque if part.element)
+        for element in (*own, *(node.content if isinstance(node, GazeboExtension) else ())):
+            yield from element.walk()
+        stack += reversed([*children_of(node)])

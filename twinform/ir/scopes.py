@@ -3,12 +3,12 @@
 from collections.abc import Iterator
 from itertools import chain
 
-from twinform.ir.census import PLAIN, census_of
 from twinform.ir.document import Document
 from twinform.ir.element import Element, Opaque
 from twinform.ir.link import Link
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Node
+from twinform.ir.rewrite import PLAIN, census_of
 from twinform.ir.sensor import Plugin
 from twinform.ir.tree_walks import children_of
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import UNPACKAGED_PARAMETER
 from twinform.ir import Document, Element, Plugin, rewrite
-from twinform.ir.census import untyped_elements
+from twinform.ir.rewrite import untyped_elements
 
 _FILE = re.compile(r"(?:package|model|file)://\S+|\$\(find [^)]*\)\S*")
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from functools import cache
 
 from twinform.ir import PLAIN, Document, Node, Pose, bits_of
-from twinform.ir.census import RARE, union_of
 from twinform.ir.record import fields_of
+from twinform.ir.rewrite import RARE, union_of
 from twinform.ir.tree_walks import classes_in
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.schemas import Fact, Version, table

@@ -20,7 +20,7 @@ from twinform.ir import (
     bits_of,
     rewrite,
 )
-from twinform.ir.census import union_of
+from twinform.ir.rewrite import union_of
 from twinform.passes.transforms.nodes import map_elements
 
 Kind = Literal["mesh", "texture", "include"]

@@ -1,6 +1,6 @@
 """The census has a bit for all that a version may lack."""
 
-from twinform.ir.census import PLANS, RARE
+from twinform.ir.rewrite import PLANS, RARE
 from twinform.passes.sdf_versions.spans import bits_lacking
 from twinform.schemas import parse_version, table
 
