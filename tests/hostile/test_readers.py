@@ -46,7 +46,7 @@ OTHERS = {
     "passes/classic/tables.py": DATA,
     "passes/mesh_jobs/child.py": NOWHERE,
     "passes/mesh_jobs/job_limits.py": "what the kernel says of this process",
-    "passes/meshes/mesh_consumers.py": DATA,
+    "passes/meshes/convert_meshes.py": DATA,
     "passes/meshes/results_cache.py": "results of its own, in the cache of the user",
     "passes/plugins/catalog.py": DATA,
     "passes/plugins/sensor_settings.py": DATA,

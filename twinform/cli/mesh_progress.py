@@ -18,7 +18,7 @@ def mesh_progress(passes: Iterable[Pass]) -> Generator[None]:
     from rich.console import Console  # noqa: PLC0415 - scripts do without
     from rich.markup import escape  # noqa: PLC0415 - as above
 
-    from twinform.passes.meshes.progress import watched_by  # noqa: PLC0415 - few runs have meshes
+    from twinform.passes.meshes.mesh_pass import watched_by  # noqa: PLC0415 - few runs have meshes
 
     with Console(stderr=True).status("passes") as status:
 

@@ -1,1 +1,1 @@
-"""Jobs on mesh files, which a confined child process does: what goes there, what comes back, and the work itself."""
+"""Jobs on mesh files, done in a confined child process: the messages, the process, and the geometry."""

@@ -1,8 +1,8 @@
 """`python -m twinform.passes.mesh_jobs.child`: does jobs on mesh files until its input ends.
 
-Mesh files are untrusted, and the libraries that read them are large. On Linux each job is done by a fork of this
-process, in which they are imported already: limited in time and memory, without files, connections and other processes.
-What goes wrong there is the end of the fork. On other systems the job is done here, with limits on memory.
+Mesh files are untrusted, and the libraries that read them are large. On Linux a fork of this process does each job: it
+has imported the libraries already, and has limited time and memory, no files, no connections and no child processes.
+Whatever goes wrong there ends only the fork. On other systems the job is do_job here, with a limit on memory.
 """
 
 import os
@@ -20,25 +20,112 @@ from twinform.passes.mesh_jobs.job_limits import limit_reading, reading_seconds
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError
 
 _JOBS = {
-    "count": "measuring", "convert": "jobs", "decimate": "jobs", "draw": "drawing", "measure": "measuring",
-    "simplify": "jobs", "surface": "measuring",
+    "count": "measuring", "convert": "mesh_making", "decimate": "mesh_making", "draw": "measuring",
+    "measure": "measuring", "simplify": "mesh_making", "surface": "measuring",
 }  # fmt: skip
-"""In which module of `geometry` the function of a job is, which is called like the job."""
+"""The module that has the function of a job, which has the name of the job."""
 _LIBRARIES = frozenset({"coacd", "collada", "fast_simplification", "numpy", "scipy", "trimesh"})
-"""What the extra brings, as it is imported."""
+"""The import names of the libraries that the extra installs."""
 # Readers import these when they meet certain files, and could not do so once the process is
 # confined.
 _NEEDED_LATER = (
     "collada", "lxml.etree", "PIL.Image", "scipy.optimize", "scipy.spatial", "trimesh.exchange.load",
     "unicodedata", "encodings.idna", "encodings.latin_1", "encodings.utf_16", "encodings.cp437",
 )  # fmt: skip
+_LONGEST = 500
+"""Characters of a message of a library, which may repeat the file."""
+_SET_DEATH_SIGNAL = 1
+"""PR_SET_PDEATHSIG of prctl(2)."""
 
 
-def done(job: MeshJob) -> MeshResult:
-    """What comes of a job; no fault of a mesh or of a library gets out."""
+def main() -> None:
+    """Read jobs from standard input and write their results until there are no more jobs."""
+    if hasattr(select, "poll"):  # Windows has none
+        threading.Thread(target=_end_with_parent, daemon=True).start()
+    memory, replies = int(sys.argv[1]), _open_replies()
+    forks = sys.platform.startswith("linux")
+    if forks:
+        _import_libraries()
+    while (job := MeshJob.read(sys.stdin.buffer)) is not None:
+        if forks:
+            _do_in_fork(job, memory, replies)
+        else:
+            limit_reading(2**28, memory)
+            replies.write(do_job(job).to_bytes())
+            replies.flush()
+
+
+def _open_replies() -> BinaryIO:
+    """A stream for results in the place of standard output; what libraries print is discarded."""
+    own = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    silence = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(silence, sys.stdout.fileno())
+    os.dup2(silence, sys.stderr.fileno())
+    return own
+
+
+def _end_with_parent() -> None:
+    """End this process, even in the middle of a job, once nobody can write to its standard input any more."""
+    hung_up = select.poll()
+    hung_up.register(sys.stdin.fileno(), 0)  # that it is closed at the other end is reported in any case
+    hung_up.poll()
+    os._exit(1)
+
+
+def _import_libraries() -> None:
+    """Import all that a job may need, as far as it is installed."""
+    # After `confine` nothing can be opened, so whatever a reader imports late has to be there.
+    for name in (*_NEEDED_LATER, *(f"twinform.passes.mesh_jobs.{name}" for name in sorted({*_JOBS.values()}))):
+        with suppress(ImportError):
+            import_module(name)
+    with suppress(ImportError):
+        image = import_module("PIL.Image")
+        image.init()  # the readers of all formats
+
+
+def _do_in_fork(job: MeshJob, memory: int, replies: BinaryIO) -> None:
+    """Do a job in a confined fork, which writes the result; if the fork dies, write a result that says so."""
+    # A COLLADA file of 2 kB whose nodes stand for each other twice took 2.6 GB in the compiler's
+    # process. In a fork, the libraries are imported already (that takes a second), and nothing that
+    # a mesh does to one of them outlives its job.
+    child = os.fork()
+    if not child:
+        answered = False
+        try:
+            _end_fork_with_parent()
+            limit_reading(job.size, memory)
+            # Threads for CoACD.
+            confine(threads=True)
+            replies.write(do_job(job).to_bytes())
+            replies.flush()
+            answered = True
+        finally:
+            os._exit(not answered)
+    _, status = os.waitpid(child, 0)
+    if status:
+        replies.write(MeshResult({}, trouble="unreadable", message=_explain_death(status, job)).to_bytes())
+        replies.flush()
+
+
+def _end_fork_with_parent() -> None:
+    """Have the system kill this fork when its parent ends."""
+    with suppress(ImportError):
+        ctypes = import_module("ctypes")
+        ctypes.CDLL(None).prctl(_SET_DEATH_SIGNAL, signal.SIGKILL, 0, 0, 0)
+
+
+def _explain_death(status: int, job: MeshJob) -> str:
+    """Why a fork ended without a result, from its exit status."""
+    if os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGXCPU:
+        return f"reading it takes more than {reading_seconds(job.size)} seconds of the processor"
+    return "the process that looks into it died, as it does where it needs too much memory"
+
+
+def do_job(job: MeshJob) -> MeshResult:
+    """The result of a job; errors of the mesh and of the libraries become a result with `trouble`."""
     try:
         # the libraries may not be installed, and only some jobs need all of them
-        module = import_module(f"twinform.passes.mesh_jobs.geometry.{_JOBS[job.name]}")
+        module = import_module(f"twinform.passes.mesh_jobs.{_JOBS[job.name]}")
         return getattr(module, job.name)(job)
     except ImportError as error:
         library = (error.name or "").partition(".")[0]
@@ -52,96 +139,6 @@ def done(job: MeshJob) -> MeshResult:
     except Exception as error:  # noqa: BLE001 - readers of six formats raise whatever they like
         message = f"its reader stops at it ({type(error).__name__}: {str(error)[:_LONGEST]})"
         return MeshResult({}, trouble="unreadable", message=message)
-
-
-_LONGEST = 500
-"""Characters of a message of a library, which may repeat the file."""
-
-
-def _replies() -> BinaryIO:
-    """Where results go; what libraries print goes nowhere."""
-    own = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
-    silence = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(silence, sys.stdout.fileno())
-    os.dup2(silence, sys.stderr.fileno())
-    return own
-
-
-def _import_libraries() -> None:
-    """Import whatever a job may need, as far as it is installed."""
-    # After `confine` nothing can be opened, so whatever a reader imports late has to be there.
-    for name in (*_NEEDED_LATER, *(f"twinform.passes.mesh_jobs.geometry.{name}" for name in sorted({*_JOBS.values()}))):
-        with suppress(ImportError):
-            import_module(name)
-    with suppress(ImportError):
-        image = import_module("PIL.Image")
-        image.init()  # the readers of all formats
-
-
-def _done_in_fork(job: MeshJob, memory: int, replies: BinaryIO) -> None:
-    """Do a job in a confined process of its own, which answers; where it dies, say so in its place."""
-    # A COLLADA file of 2 kB whose nodes stand for each other twice took 2.6 GB in the compiler's
-    # process. In a fork, the libraries are imported already (that takes a second), and nothing that
-    # a mesh does to one of them outlives its job.
-    child = os.fork()
-    if not child:
-        answered = False
-        try:
-            _end_with_server()
-            limit_reading(job.size, memory)
-            # Threads for CoACD.
-            confine(threads=True)
-            replies.write(done(job).to_bytes())
-            replies.flush()
-            answered = True
-        finally:
-            os._exit(not answered)
-    _, status = os.waitpid(child, 0)
-    if status:
-        replies.write(MeshResult({}, trouble="unreadable", message=_death(status, job)).to_bytes())
-        replies.flush()
-
-
-def _end_with_server() -> None:
-    """Have the system end this fork when the process that it was forked from ends."""
-    with suppress(ImportError):
-        ctypes = import_module("ctypes")
-        ctypes.CDLL(None).prctl(_SET_DEATH_SIGNAL, signal.SIGKILL, 0, 0, 0)
-
-
-_SET_DEATH_SIGNAL = 1
-
-
-def _death(status: int, job: MeshJob) -> str:
-    """Why a fork did not answer."""
-    if os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGXCPU:
-        return f"reading it takes more than {reading_seconds(job.size)} seconds of the processor"
-    return "the process that looks into it died, as it does where it needs too much memory"
-
-
-def _end_with_parent() -> None:
-    """Wait until nobody can write to standard input any more, and end this process, also in the middle of a job."""
-    hung_up = select.poll()
-    hung_up.register(sys.stdin.fileno(), 0)  # that it is closed at the other end is reported in any case
-    hung_up.poll()
-    os._exit(1)
-
-
-def main() -> None:
-    """Do jobs until there are no more."""
-    if hasattr(select, "poll"):  # Windows has none
-        threading.Thread(target=_end_with_parent, daemon=True).start()
-    memory, replies = int(sys.argv[1]), _replies()
-    forks = sys.platform.startswith("linux")
-    if forks:
-        _import_libraries()
-    while (job := MeshJob.read(sys.stdin.buffer)) is not None:
-        if forks:
-            _done_in_fork(job, memory, replies)
-        else:
-            limit_reading(2**28, memory)
-            replies.write(done(job).to_bytes())
-            replies.flush()
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Hands jobs on mesh files to a child process, which is started once and ends with this one."""
+"""The child process that does jobs on mesh files: started once, for all passes, and ended with this process."""
 
 import atexit
 import os
@@ -20,7 +20,7 @@ _ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR
 
 @dataclass(slots=True)
 class MeshProcess:
-    """A process that does one job after the other; one that dies takes only its job along."""
+    """A child process that does one job after the other; a crash loses only the job that caused it."""
 
     memory: int = MEMORY
     seconds: float = _PATIENCE
@@ -28,17 +28,17 @@ class MeshProcess:
     _lock: threading.Lock = field(default_factory=threading.Lock)
 
     def do(self, job: MeshJob) -> MeshResult:
-        """What comes of a job."""
+        """The result of a job, done by the child process."""
         with self._lock:
             late = threading.Event()
             try:
-                child = self._running()
-                timer = _started_timer(self.seconds, child, late)
+                child = self._running_child()
+                timer = _start_timer(self.seconds, child, late)
             except (OSError, RuntimeError) as error:  # RuntimeError: the machine refuses another thread
                 why = f"the process that looks into it cannot be started ({getattr(error, 'strerror', error)})"
                 return MeshResult({}, trouble="unreadable", message=why)
             try:
-                return _asked(child, job)
+                return _ask_child(child, job)
             except (OSError, BadMessageError):
                 self.end()
                 why = f"it takes longer than {self.seconds:g} seconds" if late.is_set() else _DEATH
@@ -50,13 +50,14 @@ class MeshProcess:
                 timer.cancel()
 
     def end(self) -> None:
-        """End the process, if there is one."""
+        """End the child process, if there is one."""
         if self._child is not None:
             self._child.kill()
             self._child.communicate()
             self._child = None
 
-    def _running(self) -> "subprocess.Popen[bytes]":
+    def _running_child(self) -> "subprocess.Popen[bytes]":
+        """The child process, started if there is none or if it has died."""
         if self._child is not None and self._child.poll() is not None:
             self.end()  # it has died since, and its pipes are still open
         if self._child is None:
@@ -75,7 +76,8 @@ class MeshProcess:
 _DEATH = "the process that looks into it died, as it does where it needs too much memory"
 
 
-def _started_timer(seconds: float, child: "subprocess.Popen[bytes]", late: threading.Event) -> threading.Timer:
+def _start_timer(seconds: float, child: "subprocess.Popen[bytes]", late: threading.Event) -> threading.Timer:
+    """A running timer that gives a child up after some seconds."""
     timer = threading.Timer(seconds, _give_up, (child, late))
     timer.daemon = True
     timer.start()
@@ -83,11 +85,13 @@ def _started_timer(seconds: float, child: "subprocess.Popen[bytes]", late: threa
 
 
 def _give_up(child: "subprocess.Popen[bytes]", late: threading.Event) -> None:
+    """Kill a child, and note that it was late."""
     late.set()
     child.kill()
 
 
-def _asked(child: "subprocess.Popen[bytes]", job: MeshJob) -> MeshResult:
+def _ask_child(child: "subprocess.Popen[bytes]", job: MeshJob) -> MeshResult:
+    """Send a job to the child, and wait for its result."""
     if child.stdin is None or child.stdout is None:
         raise OSError("it has no pipes")
     child.stdin.write(job.to_bytes())
@@ -95,15 +99,15 @@ def _asked(child: "subprocess.Popen[bytes]", job: MeshJob) -> MeshResult:
     return MeshResult.read(cast("BinaryIO", child.stdout))
 
 
-_usual = MeshProcess()
-atexit.register(_usual.end)
+_shared = MeshProcess()
+atexit.register(_shared.end)
 
 
 def shared() -> MeshProcess:
-    """The process that all passes share."""
-    return _usual
+    """The child process that all passes share."""
+    return _shared
 
 
 def do(job: MeshJob) -> MeshResult:
-    """What comes of a job, by that process."""
-    return _usual.do(job)
+    """The result of a job, done by the shared child process."""
+    return _shared.do(job)

@@ -1,6 +1,6 @@
-"""Jobs on one mesh file, and what comes of them, as messages of bytes: for the process that does them and the cache.
+"""Jobs on one mesh file and their results, as messages of bytes: for the child process and for the cache.
 
-A message is the length of a JSON text in eight bytes, that text, and the bytes of files, whose lengths it has.
+A message is the length of a JSON text in eight bytes, the JSON text, and the bytes of the files whose sizes it lists.
 """
 
 import hashlib
@@ -16,17 +16,17 @@ Trouble = Literal["missing", "unreadable"]
 
 _PREFIX = 8
 _LONGEST_TEXT = 2**26
-# Of all files of a message. The process that sends it may have been taken over by a mesh.
+# All files of a message together. The process that sends it may have been taken over by a mesh.
 _MOST_BYTES = 2**30
 
 
 class BadMessageError(ValueError):
-    """Bytes that are no message, such as half of one."""
+    """Bytes that are not a whole message."""
 
 
 @dataclass(frozen=True, slots=True)
 class MeshJob:
-    """What is to be done with a mesh file: the `kind` is its format, `companions` the files that it names itself."""
+    """A job on a mesh file: `kind` is the format of the file, `companions` the files that it names."""
 
     name: str
     options: Options
@@ -36,22 +36,22 @@ class MeshJob:
 
     @property
     def size(self) -> int:
-        """The bytes that are read."""
+        """How many bytes a job has to read."""
         return len(self.content) + sum(map(len, self.companions.values()))
 
     def to_bytes(self) -> bytes:
-        """The message."""
+        """The job as a message."""
         head = {"name": self.name, "options": dict(self.options), "kind": self.kind, "companions": [*self.companions]}
-        return packed(head, [self.content, *self.companions.values()])
+        return pack_message(head, [self.content, *self.companions.values()])
 
     @classmethod
     def read(cls, stream: BinaryIO) -> "MeshJob | None":
-        """The next one of a stream; None at its end.
+        """Read the next job of a stream; None at the end of the stream.
 
         Raises:
-            BadMessageError: the stream ends in the middle of one.
+            BadMessageError: the stream ends in the middle of a message.
         """
-        message = unpacked(stream)
+        message = unpack_message(stream)
         if message is None:
             return None
         head, (content, *companions) = message
@@ -60,7 +60,7 @@ class MeshJob:
         return cls(str(head["name"]), options, str(head["kind"]), content, dict(zip(names, companions, strict=True)))
 
     def digest(self, versions: Mapping[str, str]) -> str:
-        """What a result is known by: everything that it depends on."""
+        """A digest of everything that the result depends on: the job, and the versions of the libraries."""
         head = [self.name, sorted(self.options.items()), self.kind, sorted(self.companions), sorted(versions.items())]
         parts = [json.dumps(head).encode(), self.content, *(self.companions[name] for name in sorted(self.companions))]
         return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
@@ -68,7 +68,7 @@ class MeshJob:
 
 @dataclass(frozen=True, slots=True)
 class MeshResult:
-    """What came of a job: numbers and words about it, and files, by what their names end in."""
+    """The result of a job: facts about the mesh, and files by the endings of their names."""
 
     facts: Mapping[str, object]
     files: Mapping[str, bytes] = field(default_factory=dict[str, bytes], repr=False)
@@ -76,18 +76,18 @@ class MeshResult:
     message: str = ""
 
     def to_bytes(self) -> bytes:
-        """The message."""
+        """The result as a message."""
         head = {"facts": dict(self.facts), "files": [*self.files], "trouble": self.trouble, "message": self.message}
-        return packed(head, [*self.files.values()])
+        return pack_message(head, [*self.files.values()])
 
     @classmethod
     def read(cls, stream: BinaryIO) -> "MeshResult":
-        """The next one of a stream.
+        """Read the next result of a stream.
 
         Raises:
-            BadMessageError: there is none, or half of one.
+            BadMessageError: the stream ends before or in the middle of the message.
         """
-        message = unpacked(stream)
+        message = unpack_message(stream)
         if message is None:
             raise BadMessageError("nothing came back")
         head, files = message
@@ -97,19 +97,19 @@ class MeshResult:
         )
 
 
-def packed(head: Mapping[str, object], files: Sequence[bytes]) -> bytes:
-    """A message."""
+def pack_message(head: Mapping[str, object], files: Sequence[bytes]) -> bytes:
+    """Join a head and files to a message."""
     # No pickles: the cache holds nothing that can be executed when it is read, and the process at
     # the other end may be taken over by a mesh.
     text = json.dumps({**head, "sizes": [len(each) for each in files]}).encode()
     return b"".join((len(text).to_bytes(_PREFIX, "big"), text, *files))
 
 
-def unpacked(stream: BinaryIO) -> tuple[dict[str, object], list[bytes]] | None:
-    """The next message of a stream; None at its end.
+def unpack_message(stream: BinaryIO) -> tuple[dict[str, object], list[bytes]] | None:
+    """Read the next message of a stream: its head and its files; None at the end of the stream.
 
     Raises:
-        BadMessageError: the stream ends in the middle of one, or has something else.
+        BadMessageError: the stream ends in the middle of a message, or has something else.
     """
     prefix = stream.read(_PREFIX)
     if not prefix:
@@ -118,16 +118,17 @@ def unpacked(stream: BinaryIO) -> tuple[dict[str, object], list[bytes]] | None:
     if len(prefix) < _PREFIX or length > _LONGEST_TEXT:
         raise BadMessageError("no message")
     try:
-        head = json.loads(_exactly(stream, length))
+        head = json.loads(_read_exactly(stream, length))
         sizes = [int(size) for size in head.pop("sizes")]
         if min(sizes, default=0) < 0 or sum(sizes) > _MOST_BYTES:
             raise BadMessageError("a message with too much")
-        return head, [_exactly(stream, size) for size in sizes]
+        return head, [_read_exactly(stream, size) for size in sizes]
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise BadMessageError(str(error)) from error
 
 
-def _exactly(stream: BinaryIO, count: int) -> bytes:
+def _read_exactly(stream: BinaryIO, count: int) -> bytes:
+    """Read that many bytes, or raise BadMessageError."""
     found = stream.read(count)
     if len(found) < count:
         raise BadMessageError("it ends too early")

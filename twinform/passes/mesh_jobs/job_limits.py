@@ -1,4 +1,4 @@
-"""What one job on a mesh may cost: time of the processor and memory, by the size of what is read."""
+"""How much processor time and memory a job on a mesh may take, by the size of the files that it reads."""
 
 import mmap
 from pathlib import Path
@@ -6,22 +6,22 @@ from pathlib import Path
 from twinform.confinement.resources import Kind, limits, set_limit
 
 MEMORY = 4 * 2**30
-"""Bytes of address space for the work on a mesh that has been read."""
+"""Bytes of address space for a job once its mesh has been read."""
 SECONDS = 600
-"""Of processor time, for the same."""
+"""Seconds of processor time for a job once its mesh has been read."""
 _READING_MEMORY, _READING_SECONDS = 3 * 2**26, 1
-"""What reading a small file may take beside the libraries."""
+"""What reading a small file may take, in bytes beyond those of the libraries and in seconds."""
 # How that grows with the size. The slowest reader takes a fifth of a second for this much text.
 _MEMORY_PER_BYTE, _BYTES_PER_SECOND = 16, 2**21
 
 
 def reading_seconds(size: int) -> int:
-    """The seconds that reading so many bytes may take."""
+    """How many seconds of processor time reading this many bytes may take."""
     return _READING_SECONDS + size // _BYTES_PER_SECOND
 
 
 def limit_reading(size: int, memory: int = MEMORY) -> None:
-    """Hold this process to what reading so many bytes may take; `allow_work` lifts it up to `memory` bytes."""
+    """Limit this process to what reading this many bytes may take; `allow_work` lifts that up to `memory` bytes."""
     set_limit("CORE", 0)
     set_limit("AS", memory)
     set_limit("CPU", SECONDS)
@@ -32,7 +32,7 @@ def limit_reading(size: int, memory: int = MEMORY) -> None:
 
 
 def allow_work() -> None:
-    """Let the work on what has been read take more than reading it."""
+    """Raise the limits of this process, once the mesh has been read, to those of a whole job."""
     resource = limits()
     if resource is not None:
         # Only once a mesh has been read: a file that takes a reader long is refused after about a
@@ -43,7 +43,7 @@ def allow_work() -> None:
 
 
 def _lower(kind: Kind, most: int) -> None:
-    """Lower a limit so that it can be raised again."""
+    """Lower the soft limit of a resource, so that it can be raised again."""
     resource = limits()
     if resource is not None:
         number = getattr(resource, f"RLIMIT_{kind}")
@@ -53,7 +53,7 @@ def _lower(kind: Kind, most: int) -> None:
 
 
 def _address_space() -> int | None:
-    """The bytes that this process has reserved, libraries among them; None where the system does not say."""
+    """How many bytes this process has reserved, including its libraries; None where the system does not say."""
     try:
         return int(Path("/proc/self/statm").read_text().split()[0]) * mmap.PAGESIZE
     except OSError:

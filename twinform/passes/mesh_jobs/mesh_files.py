@@ -1,41 +1,45 @@
-"""Mesh files as bytes: which formats are read, and what is refused before any reader sees it."""
+"""Mesh files as bytes: the formats that are read and written, and the files that are refused before they are read."""
 
 from pathlib import Path, PurePath
+from typing import Literal
 
 from twinform.file_access import read_regular
 
 READ = frozenset({"stl", "obj", "dae", "ply", "off", "glb"})
-"""Formats that hold all of a mesh in one file, or what else they name is only its appearance."""
+"""Formats whose triangles are all in one file; other files that they name hold only the appearance."""
 EXTRA = "pip install 'twinform[meshes]'"
 LARGEST = 2**28
-"""A file of a quarter of a gigabyte has five million triangles."""
+"""In bytes. A binary STL of this size has five million triangles."""
 POINTER = "a pointer of Git LFS and not the file itself"
-_POINTER = b"version https://git-lfs.github.com/spec/"
+_POINTER_START = b"version https://git-lfs.github.com/spec/"
+MARK = "made by twinform"
+"""Stands in the first bytes of every mesh that is written; only a file that has it is ever written over."""
+MeshFormat = Literal["obj", "stl", "glb"]
 
 
 class RefusedMeshError(ValueError):
-    """A mesh file that is not given to any reader, or that nothing can be made of; the message has the reason."""
+    """Why a mesh file is not read, or why nothing can be made of it."""
 
 
 def kind_of(path: PurePath) -> str:
-    """The format of a file, by its name."""
+    """The format of a file by its suffix, in lower case without the dot."""
     return path.suffix.lower().removeprefix(".")
 
 
 def is_pointer(content: bytes) -> bool:
-    """Whether a file only says which one Git LFS would put in its place: that was never fetched."""
-    return content.startswith(_POINTER)
+    """Whether a file is a pointer of Git LFS, whose real content was never fetched."""
+    return content.startswith(_POINTER_START)
 
 
 def content_of(path: Path) -> bytes:
-    """The bytes of a mesh file.
+    """Read a mesh file.
 
     Raises:
         OSError: the file cannot be read.
-        RefusedMeshError: it is no file, is too large, or is a pointer of Git LFS.
+        RefusedMeshError: it is not a regular file, is too large, or is a pointer of Git LFS.
     """
     if path.exists() and not path.is_file():
-        raise RefusedMeshError("it is no file")  # whoever opens a pipe may wait for ever
+        raise RefusedMeshError("it is no file")  # opening a pipe may wait for ever
     if path.stat().st_size > LARGEST:
         raise RefusedMeshError(f"it is larger than {LARGEST >> 20} MiB")
     content = read_regular(path, LARGEST)

@@ -1,1 +1,1 @@
-"""Passes that make meshes and sensors cheaper, and meshes readable; another process works on the triangles."""
+"""Passes that make cheaper or other mesh files, and that limit what sensors cost."""

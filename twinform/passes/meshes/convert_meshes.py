@@ -1,22 +1,23 @@
 """Write the meshes of a model in a format that a program reads."""
 
+import tomllib
+from functools import cache
 from pathlib import PurePosixPath
-from typing import ClassVar, Literal, Self, cast
+from typing import ClassVar, Literal, NamedTuple, Self, cast
 
 from pydantic import Field, model_validator
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import CHANGED_MESH, KEPT_MESH
 from twinform.ir import Collision, Document, Geometry, Link, Mesh, Visual, rewrite
+from twinform.package_files import package_files
 from twinform.passes.analyses.mesh_solids import MeshError
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
-from twinform.passes.mesh_jobs.formats import MeshFormat
-from twinform.passes.mesh_jobs.mesh_files import kind_of
-from twinform.passes.meshes.mesh_consumers import ConsumerName, consumers
-from twinform.passes.meshes.mesh_pass import MeshPass, Workbench, stays
-from twinform.passes.meshes.mesh_shapes import without_submesh
+from twinform.passes.mesh_jobs.mesh_files import MeshFormat, kind_of
+from twinform.passes.meshes.mesh_pass import MeshPass, Workbench, report_kept_mesh, without_submesh
 from twinform.passes.meshes.mesh_source import MeshSource
 
+ConsumerName = Literal["gazebo", "gazebo-fortress", "rviz", "mujoco", "pybullet", "drake", "pinocchio", "web"]
 Shapes = Literal["visual", "collision", "all"]
 AnyShape = Visual | Collision
 
@@ -55,8 +56,8 @@ class ConvertMeshes(MeshPass):
         return self
 
     @property
-    def _kinds(self) -> tuple[frozenset[str], MeshFormat, str]:
-        """Formats that stay, the one to write, and which axis is up in a glTF file."""
+    def _formats(self) -> tuple[frozenset[str], MeshFormat, str]:
+        """Formats that are kept, the format to write, and the axis that is up in a glTF file."""
         if self.consumer is None:
             kind = cast("MeshFormat", self.to)
             return frozenset({kind}), kind, self.gltf_up
@@ -65,44 +66,44 @@ class ConvertMeshes(MeshPass):
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with other mesh files."""
-        bench, told = self.workbench(sink), set[str]()
+        bench, reported = self.workbench(sink), set[str]()
 
         def change(link: Link) -> Link:
             if not matches(link.name, self.links):
                 return link
             update: dict[str, tuple[AnyShape, ...]] = {}
             if self.shapes != "collision":
-                update["visuals"] = tuple(self._shape(each, bench, told) for each in link.visuals)
+                update["visuals"] = tuple(self._convert_shape(each, bench, reported) for each in link.visuals)
             if self.shapes != "visual":
-                update["collisions"] = tuple(self._shape(each, bench, told) for each in link.collisions)
+                update["collisions"] = tuple(self._convert_shape(each, bench, reported) for each in link.collisions)
             changed = {name: new for name, new in update.items() if new != getattr(link, name)}
             return link.copy(**changed) if changed else link
 
         return rewrite(document, Link, change)
 
-    def _shape(self, shape: AnyShape, bench: Workbench, told: set[str]) -> AnyShape:
+    def _convert_shape(self, shape: AnyShape, bench: Workbench, reported: set[str]) -> AnyShape:
         mesh = shape.geometry.shape if shape.geometry else None
         uri = (mesh.uri or "").strip() if isinstance(mesh, Mesh) else ""
         if not isinstance(mesh, Mesh) or not uri or uri.startswith("__"):
             return shape
         try:
-            changed = self._converted(shape, mesh, bench, told)
+            changed = self._convert_mesh(shape, mesh, bench, reported)
         except MeshError as error:
-            if uri not in told:
-                stays(bench.sink, error, f"mesh {uri!r}", shape.location)
-            told.add(uri)
+            if uri not in reported:
+                report_kept_mesh(bench.sink, error, f"mesh {uri!r}", shape.location)
+            reported.add(uri)
             return shape
         geometry = (shape.geometry or Geometry()).copy(shape=changed)
         return shape if changed is mesh else shape.copy(geometry=geometry)
 
-    def _converted(self, shape: AnyShape, mesh: Mesh, bench: Workbench, told: set[str]) -> Mesh:
-        """The mesh with another file; itself where it needs none.
+    def _convert_mesh(self, shape: AnyShape, mesh: Mesh, bench: Workbench, reported: set[str]) -> Mesh:
+        """The mesh with a new file; the mesh itself where it needs none.
 
         Raises:
-            MeshError: it has to stay.
+            MeshError: the mesh has to stay.
         """
         uri = (mesh.uri or "").strip()
-        kept, kind, gltf_up = self._kinds
+        kept, kind, gltf_up = self._formats
         if kind_of(PurePosixPath(uri)) in kept:
             return mesh
         source = bench.sources.find(uri)
@@ -118,19 +119,43 @@ class ConvertMeshes(MeshPass):
             message = f"{kind} has no {' and '.join(lost)}, which {uri!r} has"
             raise MeshError(KEPT_MESH, message, "choose another format, or give drop-appearance=true")
         new = bench.add(outcome.stem, outcome.result.files)
-        if uri not in told:
+        if uri not in reported:
             bench.sink.report(CHANGED_MESH, f"mesh {uri!r} is written as {new!r}", shape.location, found=source.kind)
-        told.add(uri)
+        reported.add(uri)
         return without_submesh(mesh).copy(uri=new)
 
 
 def _require_whole(source: MeshSource, uri: str, looks_count: bool) -> None:
-    """Raise where a file that a mesh names is not there.
+    """Raise where files that a mesh names are missing and needed.
 
     Raises:
-        MeshError: its textures, its materials, or the buffers that it is made of.
+        MeshError: textures, materials or buffers are missing.
     """
     missing = [name for name in source.missing if looks_count or name.endswith(".bin")]
     if missing:
         message = f"{missing[0]!r}, which {uri!r} names, is not found, or leads out of the folder of the mesh"
         raise MeshError(KEPT_MESH, message, "put it there, or give drop-appearance=true")
+
+
+class Consumer(NamedTuple):
+    """A program: its `formats`, the best one first, the versions that were `seen`, and the axis that is up in glTF."""
+
+    title: str
+    seen: str
+    formats: tuple[str, ...]
+    gltf_up: str
+
+    @property
+    def written(self) -> MeshFormat:
+        """The best format among those that are written here."""
+        return next(cast("MeshFormat", each) for each in self.formats if each in {"obj", "stl", "glb"})
+
+
+@cache
+def consumers() -> dict[str, Consumer]:
+    """All programs by their names, from the table `data/consumers.toml`."""
+    text = package_files("twinform.passes.meshes").joinpath("data", "consumers.toml").read_text(encoding="utf-8")
+    return {
+        name: Consumer(row["title"], row["seen"], tuple(row["formats"]), row.get("gltf_up", "z"))
+        for name, row in tomllib.loads(text).items()
+    }

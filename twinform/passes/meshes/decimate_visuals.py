@@ -1,4 +1,4 @@
-"""Replace the meshes of visuals by ones of fewer triangles, within a distance; levels of detail."""
+"""Replace the meshes of visuals by ones with fewer triangles, within a distance; levels of detail."""
 
 import re
 from typing import ClassVar, Self, cast
@@ -11,8 +11,15 @@ from twinform.ir import Document, Geometry, Link, Mesh, Visual, rewrite
 from twinform.passes.analyses.mesh_solids import MeshError
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.mesh_jobs.job import Options
-from twinform.passes.meshes.mesh_pass import MeshOutcome, MeshPass, Workbench, length, number, stays
-from twinform.passes.meshes.mesh_shapes import without_submesh
+from twinform.passes.meshes.mesh_pass import (
+    MeshOutcome,
+    MeshPass,
+    Workbench,
+    as_number,
+    format_length,
+    report_kept_mesh,
+    without_submesh,
+)
 
 _MADE = re.compile(r"_lod\d+$")
 _MOST_LEVELS = 8
@@ -65,7 +72,7 @@ class DecimateVisuals(MeshPass):
         def change(link: Link) -> Link:
             if not matches(link.name, self.links):
                 return link
-            visuals = tuple(self._visual(link, each, bench, matched) for each in link.visuals)
+            visuals = tuple(self._decimate_visual(link, each, bench, matched) for each in link.visuals)
             return link if visuals == link.visuals else link.copy(visuals=visuals)
 
         made = rewrite(document, Link, change)
@@ -74,7 +81,7 @@ class DecimateVisuals(MeshPass):
             sink.report(NOTHING_MATCHED, message, document.location, found=", ".join(self.visuals))
         return made
 
-    def _visual(self, link: Link, visual: Visual, bench: Workbench, matched: list[Visual]) -> Visual:
+    def _decimate_visual(self, link: Link, visual: Visual, bench: Workbench, matched: list[Visual]) -> Visual:
         mesh = visual.geometry.shape if visual.geometry else None
         if not isinstance(mesh, Mesh) or not matches(visual.name, self.visuals):
             return visual
@@ -84,9 +91,9 @@ class DecimateVisuals(MeshPass):
             if bench.sources.find((mesh.uri or "").strip()).is_made(_MADE):
                 return visual
             outcome = bench.outcome("decimate", mesh, self._options(mesh))
-            return self._changed(visual, mesh, what, outcome, bench)
+            return self._use_levels(visual, mesh, what, outcome, bench)
         except MeshError as error:
-            stays(bench.sink, error, what, visual.location)
+            report_kept_mesh(bench.sink, error, what, visual.location)
             return visual
 
     def _options(self, mesh: Mesh) -> Options:
@@ -96,8 +103,9 @@ class DecimateVisuals(MeshPass):
             "scale": list(mesh.scale or (1.0, 1.0, 1.0)),
         }  # fmt: skip
 
-    def _changed(self, visual: Visual, mesh: Mesh, what: str, outcome: MeshOutcome, bench: Workbench) -> Visual:
-        facts, before = outcome.result.facts, number(outcome.result.facts["before"])
+    def _use_levels(self, visual: Visual, mesh: Mesh, what: str, outcome: MeshOutcome, bench: Workbench) -> Visual:
+        """The visual with the level that the document is to name; reports all levels."""
+        facts, before = outcome.result.facts, as_number(outcome.result.facts["before"])
         if "kept" in facts:
             message = f"{what} stays as it is: {facts['kept']}"
             bench.sink.report(KEPT_MESH, message, visual.location, found=f"{before:.0f} triangles")
@@ -109,7 +117,7 @@ class DecimateVisuals(MeshPass):
             # An element of ours for levels of detail would be read by nobody. The files are for
             # whoever packs the model for a renderer.
             uris.append(bench.add(outcome.stem, files))
-        words = [f"{each['triangles']:.0f} at most {length(each['error'])} off" for each in levels]
+        words = [f"{each['triangles']:.0f} at most {format_length(each['error'])} off" for each in levels]
         rest = ", and no coarser level is within the distance" if len(levels) < self.levels else ""
         message = f"{what}: {before:.0f} triangles became {', '.join(words)}{rest}"
         bench.sink.report(CHANGED_MESH, message, visual.location)

@@ -8,15 +8,23 @@ from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import LIMITED_SENSOR, SENSOR_OVER_BUDGET
-from twinform.ir import Document, Element, Opaque, Sensor
-from twinform.passes.analyses.sensor_costs import SensorCost, image_size, images, samples, sensor_cost, sensors_in
+from twinform.ir import Document, Element, GazeboExtension, Node, Opaque, Sensor, bits_of, rewrite
+from twinform.passes.analyses.sensor_costs import (
+    SensorCost,
+    image_size,
+    images,
+    samples,
+    sensor_cost,
+    sensor_of,
+    sensors_in,
+)
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
-from twinform.passes.meshes.map_sensors import map_sensors, with_child, with_text
 
-_BUDGETS = ("pixels", "rays")
+_KINDS = ("pixels", "rays")
 _FINE = 1000
-"""Rates are written to a thousandth of a Hz."""
+"""Rates are written to 1/1000 Hz."""
+_HAVING = bits_of(Sensor) | bits_of(GazeboExtension)
 
 
 class LimitSensors(Pass):
@@ -55,34 +63,34 @@ class LimitSensors(Pass):
         olds = sensors_in(document)
 
         def limit(sensor: Sensor) -> Sensor:
-            return self._limited(sensor) if matches(sensor.name, self.sensors) and _has_cost(sensor) else sensor
+            return self._limit_sensor(sensor) if matches(sensor.name, self.sensors) and _has_cost(sensor) else sensor
 
-        limited = map_sensors(document, limit)
-        factors = {name: self._factor(limited, name, sink) for name in _BUDGETS}
+        limited = _map_sensors(document, limit)
+        factors = {name: self._rate_factor(limited, name, sink) for name in _KINDS}
 
         def slow(sensor: Sensor) -> Sensor:
             old = next(olds)
-            made = self._slowed(sensor, factors) if matches(sensor.name, self.sensors) else sensor
+            made = self._lower_rate(sensor, factors) if matches(sensor.name, self.sensors) else sensor
             if sensor_cost(made) != sensor_cost(old):
-                _report(old, made, sink)
+                _report_limited(old, made, sink)
             return made
 
-        return map_sensors(limited, slow)
+        return _map_sensors(limited, slow)
 
-    def _limited(self, sensor: Sensor) -> Sensor:
+    def _limit_sensor(self, sensor: Sensor) -> Sensor:
         made = sensor
         if self.max_pixels is not None and any(width * height > self.max_pixels for width, height in images(sensor)):
-            made = _with_parts(made, "camera", lambda element: _smaller_image(element, self.max_pixels or 1))
+            made = _change_elements(made, "camera", lambda element: _shrink_image(element, self.max_pixels or 1))
         if self.max_rays is not None and sensor_cost(sensor).rays > self.max_rays:
             for name in ("ray", "lidar"):
-                made = _with_parts(made, name, lambda element: _fewer_rays(element, self.max_rays or 1))
+                made = _change_elements(made, name, lambda element: _reduce_rays(element, self.max_rays or 1))
         cost = sensor_cost(sensor)
         if self.max_rate is not None and cost.rate > self.max_rate:
             made = made.copy(update_rate=self.max_rate)
         return made
 
-    def _factor(self, document: Document, kind: str, sink: DiagnosticSink) -> float:
-        """By how much the rates of what makes pixels or rays are lowered."""
+    def _rate_factor(self, document: Document, kind: str, sink: DiagnosticSink) -> float:
+        """The factor for the rates of sensors that make pixels, or rays, so that these stay within the budget."""
         budget: float | None = getattr(self, f"{kind}_per_second")
         if budget is None:
             return 1.0
@@ -97,20 +105,21 @@ class LimitSensors(Pass):
             fixed = sum(min(cost.rate, self.min_rate) * getattr(cost, kind) for cost in low)
             free = sum(_per_second(cost, kind) for cost in costs if cost not in low)
             factor = max(0.0, (budget - fixed) / free) if free else 0.0
-        left = sum(_slower(cost.rate, factor, self.min_rate) * getattr(cost, kind) for cost in costs)
+        left = sum(_scaled_rate(cost.rate, factor, self.min_rate) * getattr(cost, kind) for cost in costs)
         if left > budget * (1 + 1e-9):
             message = f"sensors make {left:,.0f} {kind} a second at {self.min_rate:g} Hz, and are to make {budget:,.0f}"
             sink.report(SENSOR_OVER_BUDGET, message, document.location, found=f"{left:.0f}", expected=f"{budget:g}")
         return factor
 
-    def _slowed(self, sensor: Sensor, factors: dict[str, float]) -> Sensor:
+    def _lower_rate(self, sensor: Sensor, factors: dict[str, float]) -> Sensor:
         cost = sensor_cost(sensor)
-        factor = min((factors[kind] for kind in _BUDGETS if getattr(cost, kind)), default=1.0)
-        rate = _slower(cost.rate, factor, self.min_rate)
+        factor = min((factors[kind] for kind in _KINDS if getattr(cost, kind)), default=1.0)
+        rate = _scaled_rate(cost.rate, factor, self.min_rate)
         return sensor if factor >= 1 or rate >= cost.rate else sensor.copy(update_rate=rate)
 
 
-def _slower(rate: float, factor: float, least: float) -> float:
+def _scaled_rate(rate: float, factor: float, least: float) -> float:
+    """A rate times a factor, but not below the least rate."""
     return rate if factor >= 1 else max(math.floor(rate * factor * _FINE) / _FINE, min(rate, least))
 
 
@@ -123,11 +132,11 @@ def _has_cost(sensor: Sensor) -> bool:
     return bool(cost.pixels or cost.rays)
 
 
-def _report(old: Sensor, new: Sensor, sink: DiagnosticSink) -> None:
+def _report_limited(old: Sensor, new: Sensor, sink: DiagnosticSink) -> None:
     was, now = sensor_cost(old), sensor_cost(new)
     words = [
         f"{_per_second(was, kind):,.0f} {kind} a second became {_per_second(now, kind):,.0f}"
-        for kind in _BUDGETS
+        for kind in _KINDS
         if getattr(was, kind)
     ]
     rates = f"{was.rate:g} Hz{' (not written)' if was.assumed else ''}, now {now.rate:g} Hz"
@@ -135,8 +144,8 @@ def _report(old: Sensor, new: Sensor, sink: DiagnosticSink) -> None:
     sink.report(LIMITED_SENSOR, f"{name}: {', '.join(words)} ({rates})", old.location)
 
 
-def _with_parts(sensor: Sensor, name: str, change: Callable[[Element], Element]) -> Sensor:
-    """The sensor with each of its elements of a name changed."""
+def _change_elements(sensor: Sensor, name: str, change: Callable[[Element], Element]) -> Sensor:
+    """The sensor with all of its elements of a name changed."""
 
     def part(one: Opaque) -> Opaque:
         element = one.element
@@ -145,7 +154,8 @@ def _with_parts(sensor: Sensor, name: str, change: Callable[[Element], Element])
     return sensor.copy(opaque=tuple(map(part, sensor.opaque)))
 
 
-def _smaller_image(camera: Element, most: int) -> Element:
+def _shrink_image(camera: Element, most: int) -> Element:
+    """The camera with an image of at most so many pixels, of about the same shape."""
     image = camera.find("image") or Element(name="image")
     width, height = image_size(image)
     if width * height <= most:
@@ -153,10 +163,11 @@ def _smaller_image(camera: Element, most: int) -> Element:
     factor = math.sqrt(most / (width * height))
     wide, high = max(1, int(width * factor)), max(1, int(height * factor))
     wide, high = (min(wide, most), 1) if high == 1 else (wide, high)
-    return with_child(camera, _with_number(_with_number(image, "width", wide), "height", high))
+    return _set_child(camera, _set_number(_set_number(image, "width", wide), "height", high))
 
 
-def _fewer_rays(lidar: Element, most: int) -> Element:
+def _reduce_rays(lidar: Element, most: int) -> Element:
+    """The lidar with at most so many rays, in the same proportion along both directions."""
     counts = samples(lidar)
     if math.prod(counts.values()) <= most:
         return lidar
@@ -165,9 +176,56 @@ def _fewer_rays(lidar: Element, most: int) -> Element:
     for name, count in counts.items():
         fewer = max(1, int(count * factor)) if count > 1 else count
         if fewer != count:
-            scan = with_child(scan, _with_number(scan.find(name) or Element(name=name), "samples", fewer))
-    return with_child(lidar, scan)
+            scan = _set_child(scan, _set_number(scan.find(name) or Element(name=name), "samples", fewer))
+    return _set_child(lidar, scan)
 
 
-def _with_number(element: Element, name: str, value: int) -> Element:
-    return with_child(element, with_text(name, str(value), element))
+def _map_sensors(document: Document, change: Callable[[Sensor], Sensor]) -> Document:
+    """The document with every sensor changed, also those in `<gazebo>`, in the order of `sensors_in`."""
+
+    def changed(node: Node) -> Node:
+        if isinstance(node, Sensor):
+            return change(node)
+        if not isinstance(node, GazeboExtension):
+            return node
+        content = tuple(_map_in_element(each, node, change) for each in node.content)
+        same = all(new is old for new, old in zip(content, node.content, strict=True))
+        return node if same else node.copy(content=content)
+
+    return rewrite(document, Node, changed, having=_HAVING)
+
+
+def _map_in_element(element: Element, around: GazeboExtension, change: Callable[[Sensor], Sensor]) -> Element:
+    """The element with the sensors in it changed, itself if it is one."""
+    if element.name == "sensor":
+        old = sensor_of(element, around.source)
+        new = change(old)
+        element = element if new is old else _write_changes(element, old, new)
+    children = tuple(_map_in_element(each, around, change) for each in element.children)
+    same = all(new is old for new, old in zip(children, element.children, strict=True))
+    return element if same else element.copy(children=children)
+
+
+def _write_changes(element: Element, old: Sensor, new: Sensor) -> Element:
+    """The element of a sensor, with the differences between the old and the new sensor written into it."""
+    if new.update_rate != old.update_rate:
+        element = _set_child(element, _child_with_text("update_rate", f"{new.update_rate:.10g}", element))
+    changed = {part.element.name: part.element for part in new.opaque if part.element}
+    children = tuple(changed.get(child.name, child) for child in element.children)
+    return element.copy(children=children)
+
+
+def _set_number(element: Element, name: str, value: int) -> Element:
+    return _set_child(element, _child_with_text(name, str(value), element))
+
+
+def _child_with_text(name: str, text: str, holder: Element) -> Element:
+    """The first child of this name, or a new one, with this text."""
+    return (holder.find(name) or Element(name=name)).copy(text=text)
+
+
+def _set_child(holder: Element, child: Element) -> Element:
+    """The element with a child in place of the first one of its name, or at the end."""
+    at = next((index for index, each in enumerate(holder.children) if each.name == child.name), None)
+    before, after = (holder.children, ()) if at is None else (holder.children[:at], holder.children[at + 1 :])
+    return holder.copy(children=(*before, child, *after))

@@ -1,7 +1,9 @@
-"""The base class of passes that make mesh files, and what they share: jobs, names of files, and what is reported."""
+"""The base class of passes that make mesh files, and what they share: jobs, the names of files, and reports."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Generator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
 from pathlib import PurePosixPath
 from typing import Literal, NamedTuple, Self
@@ -14,19 +16,17 @@ from twinform.passes.analyses.mesh_solids import MeshError, submesh_of
 from twinform.passes.framework.assets import AssetPass
 from twinform.passes.framework.side_files import CompanionPath, FilesPass
 from twinform.passes.mesh_jobs.child_process import do
-from twinform.passes.mesh_jobs.formats import MARK
 from twinform.passes.mesh_jobs.job import MeshJob, MeshResult, Options
-from twinform.passes.mesh_jobs.mesh_files import EXTRA
+from twinform.passes.mesh_jobs.mesh_files import EXTRA, MARK
 from twinform.passes.meshes.mesh_source import MeshSource, MeshSources
-from twinform.passes.meshes.progress import working_on
 from twinform.passes.meshes.results_cache import ResultsCache
 
-_UNUSUAL = re.compile(r"[^\w.-]+")
-_UNMARKED = (".png", ".jpg", ".jpeg", ".bin")
+_UNUSUAL_IN_NAMES = re.compile(r"[^\w.-]+")
+_WITHOUT_MARK = (".png", ".jpg", ".jpeg", ".bin")
 
 
 class MeshOutcome(NamedTuple):
-    """What came of a mesh, and the file that it was made of."""
+    """The result of a job on a mesh, the file that it was made of, and the stem for the names of new files."""
 
     result: MeshResult
     source: MeshSource
@@ -35,7 +35,7 @@ class MeshOutcome(NamedTuple):
 
 @dataclass(slots=True)
 class Workbench:
-    """One run of a pass on a document: it knows its meshes, does jobs on them, and names what they make."""
+    """One run of a pass on a document: finds its meshes, does jobs on them, and names the new files."""
 
     sink: DiagnosticSink
     sources: MeshSources
@@ -43,13 +43,13 @@ class Workbench:
     prefix: str
     cache: ResultsCache = field(default_factory=ResultsCache.usual)
     _stems: dict[str, str] = field(default_factory=dict[str, str])
-    """Digests of jobs by what their files are called, in lower case."""
+    """Digests of jobs by the stems of their files, in lower case."""
 
     def outcome(self, name: str, mesh: Mesh, options: Options) -> MeshOutcome:
-        """What comes of the mesh of a shape.
+        """Do a job on the mesh of a shape, or take the result from the cache.
 
         Raises:
-            MeshError: it is not found, or cannot be read, or a library is not installed.
+            MeshError: the mesh is not found or cannot be read, or a library is not installed.
         """
         uri = (mesh.uri or "").strip()
         source = self.sources.find(uri)
@@ -57,7 +57,7 @@ class Workbench:
         job = MeshJob(
             name, {**options, "submesh": submesh, "center": center}, source.kind, source.content, source.companions
         )
-        stem = self._stem(job, source.stem if submesh is None else f"{source.stem}_{submesh}")
+        stem = self._choose_stem(job, source.stem if submesh is None else f"{source.stem}_{submesh}")
         job = replace(job, options={**job.options, "stem": stem})
         result = self.cache.get(job)
         if result is None:
@@ -71,10 +71,10 @@ class Workbench:
             raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be used: {result.message}")
         return MeshOutcome(result, source, stem)
 
-    def _stem(self, job: MeshJob, words: str) -> str:
-        """What files made of a mesh are called, before what tells them apart; those of another mesh, otherwise."""
+    def _choose_stem(self, job: MeshJob, words: str) -> str:
+        """What the names of files made of a mesh begin with; other meshes never get the same stem."""
         # `NAME_hull.obj` can be read and reviewed; a digest in the name cannot.
-        usual = _UNUSUAL.sub("_", words).lstrip("._") or "mesh"
+        usual = _UNUSUAL_IN_NAMES.sub("_", words).lstrip("._") or "mesh"
         own, stem, count = job.digest({}), usual, 1
         while self._stems.setdefault(stem.casefold(), own) != own:
             count += 1
@@ -82,10 +82,10 @@ class Workbench:
         return stem
 
     def add(self, stem: str, files: Mapping[str, bytes]) -> str:
-        """Put files beside the result, by what follows the stem in their names; gives the URI of the first one.
+        """Put files beside the result, by what follows the stem in their names; the URI of the first one.
 
         Raises:
-            MeshError: a pass before this one has made another file of the name.
+            MeshError: an earlier pass has made a different file of this name.
         """
         placed = {str(PurePosixPath(self.folder, stem + suffix)): data for suffix, data in files.items()}
         known = {each.path.casefold(): each.data for each in self.sink.side_files}
@@ -96,17 +96,17 @@ class Workbench:
             if path.casefold() not in known:
                 # Images have no place for a mark: of these, only a file with the same bytes is
                 # written over.
-                mark = None if path.lower().endswith(_UNMARKED) else MARK.encode()
+                mark = None if path.lower().endswith(_WITHOUT_MARK) else MARK.encode()
                 self.sink.side_files.append(SideFile(path, data, mark))
         return self.uri(next(iter(placed)))
 
     def uri(self, path: str) -> str:
-        """How the document names a file that is made."""
+        """The URI by which the document names a new file."""
         return f"{self.prefix.rstrip('/')}/{path}" if self.prefix else path
 
 
 class MeshPass(AssetPass, FilesPass):
-    """A pass that makes mesh files, which lie below the folder of the result and are named there by relative paths."""
+    """A pass that makes mesh files below the folder of the result, which the document names by relative paths."""
 
     folder: CompanionPath = Field(
         default="meshes", description="Where files are written, below the folder of the result."
@@ -127,33 +127,70 @@ class MeshPass(AssetPass, FilesPass):
 
     @property
     def place(self) -> str:
-        """The folder of its files."""
+        """The folder of the new files."""
         return self.folder
 
     def below(self, folder: str) -> Self:
-        """Return the pass with its files in a folder of this name inside its own folder."""
-        return self.model_copy(update={"folder": f"{self.folder}/{_UNUSUAL.sub('_', folder).lstrip('._') or 'model'}"})
+        """The pass with its files in a folder of this name inside of its own folder."""
+        return self.model_copy(
+            update={"folder": f"{self.folder}/{_UNUSUAL_IN_NAMES.sub('_', folder).lstrip('._') or 'model'}"}
+        )
 
     @property
     def read_options(self) -> Options:
-        """How the files are to be read."""
+        """Options of jobs that say how to read the files."""
         return {"gltf_up": self.gltf_up}
 
     def workbench(self, sink: DiagnosticSink) -> Workbench:
-        """What a run on a document needs."""
+        """The workbench for a run on a document."""
         return Workbench(sink, MeshSources(self._assets, sink, self.prefix), self.folder, self.prefix)
 
 
-def stays(sink: DiagnosticSink, error: MeshError, what: str, location: Location) -> None:
-    """Say that a shape keeps its mesh, and why."""
+Watcher = Callable[[str | None], None]
+"""Called with the URI of a mesh when work on it begins, and with None when that is done."""
+_watcher: ContextVar[Watcher | None] = ContextVar("mesh_watcher", default=None)
+
+
+@contextmanager
+def watched_by(watcher: Watcher) -> Generator[None]:
+    """Have a watcher called for each mesh that is worked on in this context."""
+    token = _watcher.set(watcher)
+    try:
+        yield
+    finally:
+        _watcher.reset(token)
+
+
+@contextmanager
+def working_on(uri: str) -> Generator[None]:
+    """Call the watcher, if there is one, at the begin and the end of the work on a mesh."""
+    watcher = _watcher.get()
+    if watcher is None:
+        yield
+        return
+    watcher(uri)
+    try:
+        yield
+    finally:
+        watcher(None)
+
+
+def report_kept_mesh(sink: DiagnosticSink, error: MeshError, what: str, location: Location) -> None:
+    """Report that a shape keeps its mesh, and why."""
     sink.report(error.rule, f"{what} stays as it is: {error.message}", location, help=error.help)
 
 
-def length(meters: float) -> str:
+def format_length(meters: float) -> str:
     """A length for people; less than a nanometer is rounding, and differs from machine to machine."""
     return f"{max(1000 * meters, 1e-6):.3g} mm" if meters < 1 else f"{meters:.3g} m"
 
 
-def number(value: object) -> float:
-    """A number among the facts of a result."""
+def as_number(value: object) -> float:
+    """A fact of a result as a number; 0 where it is none."""
     return float(value) if isinstance(value, int | float) else 0.0
+
+
+def without_submesh(mesh: Mesh) -> Mesh:
+    """The mesh without its `<submesh>`: a file that was made of one part has no others."""
+    kept = tuple(part for part in mesh.opaque if not (part.element and part.element.name == "submesh"))
+    return mesh if len(kept) == len(mesh.opaque) else mesh.copy(opaque=kept)

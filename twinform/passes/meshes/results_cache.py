@@ -1,7 +1,7 @@
-"""A folder of the user's in which the results of jobs on meshes stay, by the digest of all that they depend on.
+"""A cache folder of the user for the results of jobs on meshes, by a digest of everything that they depend on.
 
-It is `$XDG_CACHE_HOME/twinform/meshes`, or what `TWINFORM_MESH_CACHE` names; the word `off` there is for none. A result
-appears all at once, under a name that says what is in it, so that several processes may use the folder at a time.
+It is `$XDG_CACHE_HOME/twinform/meshes`, or the folder that `TWINFORM_MESH_CACHE` names; `off` there disables it. A
+result appears all at once, under a name that is its digest, so several processes may use the folder at a time.
 """
 
 import hashlib
@@ -19,21 +19,21 @@ from twinform.storage.writing import write_atomically
 VARIABLE = "TWINFORM_MESH_CACHE"
 _LIBRARIES = ("twinform", "coacd", "fast-simplification", "numpy", "pycollada", "scipy", "trimesh")
 _MOST = 2**30
-"""Bytes that are kept; beyond them, what was used longest ago goes."""
+"""Bytes that are kept; beyond them, the results that were used longest ago are deleted."""
 _DIGEST = hashlib.sha256().digest_size
 FORMAT = "3"
-"""Changes where what a job makes changes otherwise than by a version."""
+"""Is raised when a job makes something else although no version of a library changed."""
 
 
 @dataclass(frozen=True, slots=True)
 class ResultsCache:
-    """Results in a folder; none are kept where it is None."""
+    """Results in a folder; nothing is kept if it is None."""
 
     folder: Path | None
 
     @classmethod
     def usual(cls) -> Self:
-        """The one of the user."""
+        """The cache of the user."""
         chosen = os.environ.get(VARIABLE, "")
         if chosen == "off":
             return cls(None)
@@ -47,7 +47,7 @@ class ResultsCache:
         return cls(home / "twinform" / "meshes")
 
     def get(self, job: MeshJob) -> MeshResult | None:
-        """What came of a job before; None where it is not known, or what is there is damaged."""
+        """The result of a job that was done before; None where there is none, or where it is damaged."""
         path = self._path(job)
         if path is None:
             return None

@@ -14,13 +14,20 @@ from twinform.ir.transform import Transform
 from twinform.passes.analyses.mesh_solids import MeshError
 from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
 from twinform.passes.mesh_jobs.job import Options
-from twinform.passes.meshes.mesh_pass import MeshOutcome, MeshPass, Workbench, length, number, stays
+from twinform.passes.meshes.mesh_pass import (
+    MeshOutcome,
+    MeshPass,
+    Workbench,
+    as_number,
+    format_length,
+    report_kept_mesh,
+)
 
 Way = Literal["primitive", "hull", "parts"]
 Kind = Literal["box", "sphere", "cylinder", "capsule"]
-_MADE = re.compile(r"_(hull|part\d+)$")
+_MADE_STEM = re.compile(r"_(hull|part\d+)$")
 _CAPSULES: dict[Format, tuple[int, ...]] = {Format.URDF: (1, 1), Format.SDF: (1, 8)}
-"""The versions since which a format has capsules."""
+"""The first version of each format that has capsules."""
 
 
 class SimplifyCollisions(MeshPass):
@@ -74,7 +81,7 @@ class SimplifyCollisions(MeshPass):
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with other collisions."""
         bench, matched = self.workbench(sink), list[Collision]()
-        made = rewrite(document, Link, lambda link: self._link(link, self._options(document), bench, matched))
+        made = rewrite(document, Link, lambda link: self._simplify_link(link, self._options(document), bench, matched))
         if not matched:
             message = f"no collision {', '.join(self.collisions)!r} on a link {', '.join(self.links)!r} has a mesh"
             sink.report(NOTHING_MATCHED, message, document.location, found=", ".join(self.collisions))
@@ -88,7 +95,7 @@ class SimplifyCollisions(MeshPass):
             "max_relative_error": self.max_relative_error, "triangles": self.triangles, "parts": self.parts,
         }  # fmt: skip
 
-    def _link(self, link: Link, options: Options, bench: Workbench, matched: list[Collision]) -> Link:
+    def _simplify_link(self, link: Link, options: Options, bench: Workbench, matched: list[Collision]) -> Link:
         if not matches(link.name, self.links):
             return link
         found: list[Collision] = []
@@ -99,49 +106,51 @@ class SimplifyCollisions(MeshPass):
                 continue
             matched.append(one)
             taken = {each.name for each in (*link.collisions, *found) if each.name}
-            found += _simplified(link, one, mesh, options, bench, taken)
+            found += _simplify_collision(link, one, mesh, options, bench, taken)
         same = len(found) == len(link.collisions) and all(a is b for a, b in zip(found, link.collisions, strict=True))
         return link if same else link.copy(collisions=tuple(found))
 
 
-def _simplified(
+def _simplify_collision(
     link: Link, collision: Collision, mesh: Mesh, options: Options, bench: Workbench, taken: set[str]
 ) -> list[Collision]:
-    """What a collision becomes: itself where it stays."""
+    """The collisions that replace one; the collision itself where it stays."""
     what = f"{f'collision {collision.name!r}' if collision.name else 'a collision'} of link {link.name!r}"
     if link.inertial and link.inertial.auto:
         message = f"{what} stays as it is: the inertia of the link is computed from it"
         bench.sink.report(KEPT_MESH, message, collision.location, help="write the inertia out with fill-inertia first")
         return [collision]
     try:
-        if bench.sources.find((mesh.uri or "").strip()).is_made(_MADE):
+        if bench.sources.find((mesh.uri or "").strip()).is_made(_MADE_STEM):
             return [collision]
         outcome = bench.outcome("simplify", mesh, {**options, "scale": list(mesh.scale or (1.0, 1.0, 1.0))})
         facts = outcome.result.facts
         if "kept" in facts:
             limit = facts["limit"]
-            within = f"within {length(number(limit))} " if limit is not None else ""
+            within = f"within {format_length(as_number(limit))} " if limit is not None else ""
             message = f"{what} stays as it is: nothing cheaper was found {within}({facts['kept']})"
-            bench.sink.report(KEPT_MESH, message, collision.location, found=f"{number(facts['before']):.0f} triangles")
+            bench.sink.report(
+                KEPT_MESH, message, collision.location, found=f"{as_number(facts['before']):.0f} triangles"
+            )
             return [collision]
         is_primitive = facts["how"] == "primitive"
-        made = _primitive(collision, outcome) if is_primitive else _parts(collision, outcome, bench, taken)
+        made = _as_primitive(collision, outcome) if is_primitive else _as_convex_parts(collision, outcome, bench, taken)
     except MeshError as error:
-        stays(bench.sink, error, what, collision.location)
+        report_kept_mesh(bench.sink, error, what, collision.location)
         return [collision]
-    became = f"a {facts['kind']}" if is_primitive else _convex(made, number(facts["after"]))
-    off = length(number(facts["error"]))
-    message = f"{what}: {number(facts['before']):.0f} triangles became {became}, at most {off} off"
+    became = f"a {facts['kind']}" if is_primitive else _describe_convex(made, as_number(facts["after"]))
+    off = format_length(as_number(facts["error"]))
+    message = f"{what}: {as_number(facts['before']):.0f} triangles became {became}, at most {off} off"
     bench.sink.report(CHANGED_MESH, message, collision.location)
     return made
 
 
-def _convex(made: Sequence[Collision], triangles: float) -> str:
+def _describe_convex(made: Sequence[Collision], triangles: float) -> str:
     what = "a convex hull" if len(made) == 1 else f"{len(made)} convex parts"
     return f"{what} of {triangles:.0f}"
 
 
-def _primitive(collision: Collision, outcome: MeshOutcome) -> list[Collision]:
+def _as_primitive(collision: Collision, outcome: MeshOutcome) -> list[Collision]:
     facts = outcome.result.facts
     sizes, center, rows = (cast("list[float]", facts[key]) for key in ("sizes", "center", "rotation"))
     a, b, c, d, e, f, g, h, i = rows
@@ -149,10 +158,10 @@ def _primitive(collision: Collision, outcome: MeshOutcome) -> list[Collision]:
     pose = collision.pose
     placed = Transform.from_pose(pose).compose(inner)
     named = pose.relative_to if pose else None
-    return [_with(collision, _shape(str(facts["kind"]), sizes), pose=placed.to_pose(named))]
+    return [_with_shape(collision, _primitive_shape(str(facts["kind"]), sizes), pose=placed.to_pose(named))]
 
 
-def _shape(kind: str, sizes: Sequence[float]) -> Shape:
+def _primitive_shape(kind: str, sizes: Sequence[float]) -> Shape:
     if kind == "box":
         return Box(size=(sizes[0], sizes[1], sizes[2]))
     if kind == "sphere":
@@ -161,21 +170,21 @@ def _shape(kind: str, sizes: Sequence[float]) -> Shape:
     return made(radius=sizes[0], length=sizes[1])
 
 
-def _parts(collision: Collision, outcome: MeshOutcome, bench: Workbench, taken: set[str]) -> list[Collision]:
-    """A collision for each file; the first keeps the name."""
+def _as_convex_parts(collision: Collision, outcome: MeshOutcome, bench: Workbench, taken: set[str]) -> list[Collision]:
+    """A collision for each file of convex parts; the first keeps the name of the old one."""
     files = [*outcome.result.files.values()]
     found: list[Collision] = []
     for index, data in enumerate(files, 1):
         suffix = "_hull.obj" if len(files) == 1 else f"_part{index}.obj"
         uri = bench.add(outcome.stem, {suffix: data})
-        one = _with(collision, Mesh(uri=uri))
+        one = _with_shape(collision, Mesh(uri=uri))
         if index > 1 and collision.name:
-            one = one.copy(name=_free(collision.name, index, taken))
+            one = one.copy(name=_free_name(collision.name, index, taken))
         found.append(one)
     return found
 
 
-def _free(name: str, index: int, taken: set[str]) -> str:
+def _free_name(name: str, index: int, taken: set[str]) -> str:
     free = f"{name}_part{index}"
     while free in taken:
         free += "_"
@@ -183,6 +192,6 @@ def _free(name: str, index: int, taken: set[str]) -> str:
     return free
 
 
-def _with(collision: Collision, shape: Shape, **fields: object) -> Collision:
+def _with_shape(collision: Collision, shape: Shape, **fields: object) -> Collision:
     geometry = (collision.geometry or Geometry()).copy(shape=shape)
     return collision.copy(**{"geometry": geometry, **fields})

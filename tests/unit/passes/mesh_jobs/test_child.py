@@ -7,9 +7,9 @@ import sys
 
 import pytest
 
-from twinform.passes.mesh_jobs.child import done
+from twinform.passes.mesh_jobs.child import do_job
 from twinform.passes.mesh_jobs.child_process import MeshProcess
-from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult, packed, unpacked
+from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult, pack_message, unpack_message
 
 pytestmark = [
     pytest.mark.slow,
@@ -32,7 +32,7 @@ def started():
     thread.start()
     thread.join()
 
-def done(job):
+def do_job(job):
     tries = {
         "read": lambda: open("/etc/passwd"), "list": lambda: os.listdir("/"), "write": lambda: open("/tmp/x", "w"),
         "connect": socket.socket, "fork": os.fork, "signal": lambda: os.kill(os.getppid(), 0), "thread": started,
@@ -40,8 +40,8 @@ def done(job):
     return MeshResult({name: tried(each) for name, each in tries.items()})
 
 child._import_libraries()
-child.done = done
-child._done_in_fork(MeshJob("count", {}, "stl", b""), 2**32, sys.stdout.buffer)
+child.do_job = do_job
+child._do_in_fork(MeshJob("count", {}, "stl", b""), 2**32, sys.stdout.buffer)
 """
 _DEATHS = {
     "while True: pass": "reading it takes more than 1 seconds of the processor",
@@ -70,7 +70,7 @@ def test_it_opens_nothing_and_starts_nothing_but_threads() -> None:
 
 @pytest.mark.parametrize("code", _DEATHS)
 def test_a_death_is_told_from_another(code: str) -> None:
-    dying = f"def done(job):\n    {code}\n"
+    dying = f"def do_job(job):\n    {code}\n"
     script = f"{_SCRIPT[: _SCRIPT.index('def tried')]}{dying}{_SCRIPT[_SCRIPT.index('child._import') :]}"
     result = _replied(script)
     assert (result.trouble, result.message[: len(_DEATHS[code])]) == ("unreadable", _DEATHS[code])
@@ -93,11 +93,11 @@ def test_one_death_ends_no_other_job() -> None:
 def test_a_message_with_too_much_is_none(sizes: list[object]) -> None:
     text = json.dumps({"sizes": sizes}).encode()
     with pytest.raises(BadMessageError):
-        unpacked(io.BytesIO(len(text).to_bytes(8, "big") + text))
-    assert unpacked(io.BytesIO(packed({"a": 1}, [b"x"]))) == ({"a": 1}, [b"x"])
+        unpack_message(io.BytesIO(len(text).to_bytes(8, "big") + text))
+    assert unpack_message(io.BytesIO(pack_message({"a": 1}, [b"x"]))) == ({"a": 1}, [b"x"])
 
 
 def test_a_long_message_of_a_library_is_cut() -> None:
-    found = done(MeshJob("count", {}, "off", b"OFF\n" + b"x" * 10_000))
+    found = do_job(MeshJob("count", {}, "off", b"OFF\n" + b"x" * 10_000))
     assert found.trouble == "unreadable"
     assert len(found.message) < 1000

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from twinform.passes.mesh_jobs.child import done
+from twinform.passes.mesh_jobs.child import do_job
 from twinform.passes.mesh_jobs.child_process import MeshProcess
 from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult, Options
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError, content_of
@@ -42,7 +42,7 @@ def test_jobs_and_results_are_the_same_after_the_way_there_and_back() -> None:
 
 
 def test_a_box_is_a_box_and_nothing_else() -> None:
-    facts = done(job()).facts
+    facts = do_job(job()).facts
     assert (facts["kind"], facts["sizes"], facts["error"]) == ("box", [1.0, 2.0, 3.0], 0.0)
 
 
@@ -62,14 +62,14 @@ def test_a_box_is_a_box_and_nothing_else() -> None:
     ],
 )
 def test_a_hostile_mesh_is_trouble_and_no_more(content: bytes, kind: str, why: str) -> None:
-    result = done(job(content, kind))
+    result = do_job(job(content, kind))
     assert result.trouble == "unreadable"
     assert result.message
     assert why in result.message
 
 
 def test_scales_that_leave_nothing_are_trouble() -> None:
-    result = done(MeshJob("simplify", {**OPTIONS, "scale": [1, 0, 1]}, "stl", BOX))
+    result = do_job(MeshJob("simplify", {**OPTIONS, "scale": [1, 0, 1]}, "stl", BOX))
     assert result.trouble == "unreadable"
     assert "scale" in result.message
 
@@ -168,9 +168,9 @@ def test_a_folder_that_cannot_be_written_to_is_no_reason_to_fail(tmp_path: Path)
 
 
 def test_what_stops_a_reader_is_said_as_that() -> None:
-    found = done(job(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n", "obj"))
+    found = do_job(job(b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n", "obj"))
     assert found.message.startswith("its reader stops at it (IndexError: ")
-    assert done(job(b"", "stl")).message == "it has no triangles"
+    assert do_job(job(b"", "stl")).message == "it has no triangles"
 
 
 def test_a_pointer_of_git_lfs_is_no_mesh(tmp_path: Path) -> None:

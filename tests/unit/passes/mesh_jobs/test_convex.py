@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.profile import examples
-from twinform.passes.mesh_jobs.geometry.convex import hull, reduced
-from twinform.passes.mesh_jobs.geometry.jobs import simplify
+from twinform.passes.mesh_jobs.convex import hull, reduce_hull
 from twinform.passes.mesh_jobs.job import MeshJob, Options
+from twinform.passes.mesh_jobs.mesh_making import simplify
 
 pytestmark = pytest.mark.slow
 
@@ -45,7 +45,7 @@ def _channel() -> Any:
 @given(st.integers(0, 10_000), st.sampled_from([0.3, 0.1, 0.02]))
 def test_a_reduced_hull_is_inside_and_no_corner_is_left_out_by_more(seed: int, distance: float) -> None:
     points = np.random.default_rng(seed).normal(size=(80, 3))
-    whole, made = hull(points), reduced(hull(points), distance)
+    whole, made = hull(points), reduce_hull(hull(points), distance)
     assert {tuple(point) for point in made.points} <= {tuple(point) for point in whole.points}
     sides = made.points[made.faces]
     normals = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
@@ -56,7 +56,7 @@ def test_a_reduced_hull_is_inside_and_no_corner_is_left_out_by_more(seed: int, d
 
 @pytest.mark.parametrize("budget", [4, 8, 60])
 def test_a_reduced_hull_keeps_a_budget(budget: int) -> None:
-    made = reduced(hull(trimesh.creation.icosphere(3).vertices), 0.0, budget)
+    made = reduce_hull(hull(trimesh.creation.icosphere(3).vertices), 0.0, budget)
     assert 4 <= len(made.faces) <= budget
 
 

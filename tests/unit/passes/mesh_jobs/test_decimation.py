@@ -6,9 +6,9 @@ from typing import Any, cast
 
 import pytest
 
-from twinform.passes.mesh_jobs.geometry.decimation import decimated
-from twinform.passes.mesh_jobs.geometry.jobs import decimate
+from twinform.passes.mesh_jobs.decimation import decimate_parts
 from twinform.passes.mesh_jobs.job import MeshJob, Options
+from twinform.passes.mesh_jobs.mesh_making import decimate
 
 pytestmark = pytest.mark.slow
 
@@ -28,7 +28,7 @@ def _levels(mesh: Any, **options: Any) -> list[dict[str, float]]:
 def test_a_flat_part_keeps_its_border() -> None:
     whole = trimesh.creation.cylinder(1, 1, sections=32).subdivide().subdivide()
     lids = whole.submesh([np.abs(whole.face_normals[:, 2]) > 0.5], append=True)
-    found = decimated([("lids", lids)], 0.25, 0.0005, 0.005)
+    found = decimate_parts([("lids", lids)], 0.25, 0.0005, 0.005)
     assert found is not None
     assert found.error <= 0.005
     assert found.triangles < 0.4 * len(lids.faces)

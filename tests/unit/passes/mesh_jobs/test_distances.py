@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from tests.profile import examples
 from tests.unit.passes.mesh_jobs.judge import distances, drawn
-from twinform.passes.mesh_jobs.geometry.convex import error_of, hull
-from twinform.passes.mesh_jobs.geometry.distances import Nearest, farthest
-from twinform.passes.mesh_jobs.geometry.surface import TriangleSurface, merged
+from twinform.passes.mesh_jobs.convex import error_of, hull
+from twinform.passes.mesh_jobs.distances import Nearest, farthest
+from twinform.passes.mesh_jobs.surface import TriangleSurface, merge_points
 
 np: Any = importlib.import_module("numpy")
 trimesh: Any = importlib.import_module("trimesh")
@@ -19,7 +19,7 @@ trimesh: Any = importlib.import_module("trimesh")
 _numbers = st.integers(-20, 20).map(lambda number: number / 10)
 _points = st.tuples(_numbers, _numbers, _numbers)
 soups = st.lists(st.tuples(_points, _points, _points), min_size=1, max_size=8).map(
-    lambda triangles: merged(np.array(triangles, dtype=float))
+    lambda triangles: merge_points(np.array(triangles, dtype=float))
 ).filter(lambda surface: len(surface.faces) > 0)  # fmt: skip
 
 
@@ -50,7 +50,7 @@ def test_a_surface_is_at_no_distance_from_itself(surface: TriangleSurface) -> No
 
 
 def test_a_limit_that_is_exceeded_says_infinity() -> None:
-    a, b = (merged(np.array([[[0, 0, z], [1, 0, z], [0, 1, z]]], dtype=float)) for z in (0.0, 0.5))
+    a, b = (merge_points(np.array([[[0, 0, z], [1, 0, z], [0, 1, z]]], dtype=float)) for z in (0.0, 0.5))
     assert farthest(a, Nearest(b), 0.01) == 0.5
     assert farthest(a, Nearest(b), 0.01, limit=0.4) == math.inf
     assert farthest(a, Nearest(b), 0.01, limit=0.5) == 0.5
@@ -58,14 +58,14 @@ def test_a_limit_that_is_exceeded_says_infinity() -> None:
 
 def test_what_a_hull_hides_does_not_count_and_what_it_covers_does() -> None:
     outer, inner = trimesh.creation.box((1, 1, 1)), trimesh.creation.box((0.2, 0.2, 0.2))
-    both = merged(np.concatenate([outer.triangles, inner.triangles]))
+    both = merge_points(np.concatenate([outer.triangles, inner.triangles]))
     assert error_of(both, [hull(both.points)], 0.001) <= 0.001
-    open_box = merged(np.asarray(outer.triangles)[outer.face_normals[:, 2] < 0.5])
+    open_box = merge_points(np.asarray(outer.triangles)[outer.face_normals[:, 2] < 0.5])
     assert math.isclose(error_of(open_box, [hull(open_box.points)], 0.001), 0.5, abs_tol=0.002)
 
 
 def test_faces_between_convex_parts_are_inside() -> None:
     whole = trimesh.creation.box((2, 1, 1))
     parts = [hull(trimesh.creation.box((1, 1, 1)).vertices + np.array((x, 0, 0))) for x in (-0.5, 0.5)]
-    assert error_of(merged(np.asarray(whole.triangles)), parts, 0.001) <= 0.002
-    assert math.isclose(error_of(merged(np.asarray(whole.triangles)), parts[:1], 0.001), 1.0, abs_tol=0.002)
+    assert error_of(merge_points(np.asarray(whole.triangles)), parts, 0.001) <= 0.002
+    assert math.isclose(error_of(merge_points(np.asarray(whole.triangles)), parts[:1], 0.001), 1.0, abs_tol=0.002)

@@ -9,8 +9,8 @@ import pytest
 import twinform
 from twinform.ir import Collision, Document, Inertial, Link, Visual, rewrite
 from twinform.passes import PipelineError, parse_pipeline
-from twinform.passes.mesh_jobs.formats import MARK
-from twinform.passes.meshes.companions import companions_of
+from twinform.passes.mesh_jobs.mesh_files import MARK
+from twinform.passes.meshes.mesh_source import companions_of
 
 trimesh: Any = importlib.import_module("trimesh")
 ROBOT = """<robot name="r"><link name="base"/>

@@ -1,4 +1,4 @@
-"""Libraries without types, or with other ones, as `Any`. What few jobs need is imported where it is used."""
+"""Numerical libraries as `Any`, because they have no types or other ones. What few jobs need is imported elsewhere."""
 
 import importlib
 from typing import Any

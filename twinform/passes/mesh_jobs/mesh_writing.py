@@ -1,25 +1,22 @@
-"""Writing meshes: OBJ with its materials, binary STL and binary glTF, each with the mark of who wrote it."""
+"""Writes meshes as OBJ with materials, binary STL or binary glTF, each with our mark in it, and says how they look."""
 
 import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from twinform.passes.mesh_jobs.formats import MARK
-from twinform.passes.mesh_jobs.geometry.libraries import np, trimesh
+from twinform.passes.mesh_jobs.libraries import np, trimesh
+from twinform.passes.mesh_jobs.mesh_files import MARK
 
 _DIGITS = 9
 _STL_HEADER = 80
 _Y_UP = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]], dtype=float)
-"""Turns what has z up so that y is up."""
+"""Turns a mesh whose z axis points up so that its y axis does."""
 
 Parts = Sequence[tuple[str, Any]]
 
 
-def written(parts: Parts, kind: str, *, stem: str = "mesh", y_up: bool = False) -> dict[str, bytes]:
-    """The files of some meshes; the first is the one of the format, the others are named by it.
-
-    Each is known by what follows the stem in its name.
-    """
+def write_mesh(parts: Parts, kind: str, *, stem: str = "mesh", y_up: bool = False) -> dict[str, bytes]:
+    """Write meshes in a format; the files by what follows the stem in their names, the one of the format first."""
     return _WRITERS[kind](parts, stem, y_up)
 
 
@@ -33,14 +30,14 @@ def _obj(parts: Parts, stem: str, y_up: bool) -> dict[str, bytes]:
         files[".obj"] = re.sub(rb"(?m)^(mtllib|usemtl) .*\n", b"", files[".obj"])
     for name, data in others.items():
         if name.endswith(".mtl"):
-            files[".mtl"] = _renamed(data, others, stem)
+            files[".mtl"] = _rename_textures(data, others, stem)
         else:
             files[f"_{name}"] = data
     return files
 
 
-def _renamed(material: bytes, others: Mapping[str, bytes], stem: str) -> bytes:
-    """The text of materials, in which textures are called as their files will be."""
+def _rename_textures(material: bytes, others: Mapping[str, bytes], stem: str) -> bytes:
+    """The text of an MTL file, with textures under the names that their files will have."""
     for name in others:
         material = re.sub(
             rb"(?m)(\s)" + re.escape(name.encode()) + rb"$", rb"\g<1>" + f"{stem}_{name}".encode(), material
@@ -50,10 +47,10 @@ def _renamed(material: bytes, others: Mapping[str, bytes], stem: str) -> bytes:
 
 def _stl(parts: Parts, stem: str, y_up: bool) -> dict[str, bytes]:
     del stem, y_up
-    whole = trimesh.util.concatenate([_plain(part) for _, part in parts])
+    whole = trimesh.util.concatenate([_without_appearance(part) for _, part in parts])
     data = trimesh.exchange.stl.export_stl(whole)
     # OBJ, STL and glTF each have a place for who wrote them. Only a file with this mark is ever
-    # written over.
+    # write_mesh over.
     return {".stl": MARK.encode().ljust(_STL_HEADER, b" ")[:_STL_HEADER] + data[_STL_HEADER:]}
 
 
@@ -69,7 +66,7 @@ def _glb(parts: Parts, stem: str, y_up: bool) -> dict[str, bytes]:
     return {".glb": trimesh.exchange.gltf.export_glb(_scene(turned), tree_postprocessor=sign)}
 
 
-def _plain(part: Any) -> Any:
+def _without_appearance(part: Any) -> Any:
     return trimesh.Trimesh(vertices=part.vertices, faces=part.faces, process=False)
 
 
@@ -83,13 +80,13 @@ def _scene(parts: Parts) -> Any:
 _WRITERS: Mapping[str, Callable[[Parts, str, bool], dict[str, bytes]]] = {"obj": _obj, "stl": _stl, "glb": _glb}
 
 
-def upright(parts: Parts) -> list[tuple[str, Any]]:
-    """What has y up, turned so that z is up, as readers of glTF do that follow its specification."""
+def turn_z_up(parts: Parts) -> list[tuple[str, Any]]:
+    """Turn meshes of a glTF file, which has y up by its specification, so that z is up."""
     return [(name, part.copy().apply_transform(_Y_UP.T)) for name, part in parts]
 
 
 def appearance_of(parts: Parts) -> set[str]:
-    """What meshes have besides triangles: `textures`, `vertex colors`, `colors`."""
+    """What meshes have besides triangles: a set of `textures`, `vertex colors` and `colors`."""
     found: set[str] = set()
     for _, part in parts:
         visual = part.visual

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from twinform.passes.meshes.companions import companions_of
+from twinform.passes.meshes.mesh_source import companions_of
 
 
 @pytest.mark.parametrize(

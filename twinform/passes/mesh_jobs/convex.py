@@ -1,13 +1,16 @@
-"""Convex stand-ins for the mesh of a collision: its hull, and parts by CoACD, with a budget of triangles."""
+"""Convex replacements for the mesh of a collision: its hull, or several parts made by CoACD, with few triangles."""
 
+import importlib
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any
 
-from twinform.passes.mesh_jobs.geometry.distances import Nearest, farthest
-from twinform.passes.mesh_jobs.geometry.libraries import Array, np
-from twinform.passes.mesh_jobs.geometry.solver_libraries import coacd, fast_simplification, spatial
-from twinform.passes.mesh_jobs.geometry.surface import TriangleSurface, UnusableMeshError
+from twinform.passes.mesh_jobs.decimation import fast_simplification
+from twinform.passes.mesh_jobs.distances import Nearest, farthest, spatial
+from twinform.passes.mesh_jobs.libraries import Array, np
+from twinform.passes.mesh_jobs.surface import TriangleSurface, UnusableMeshError
 
+coacd: Any = importlib.import_module("coacd")
 _CONCAVITIES = (0.1, 0.05, 0.02, 0.01)
 """Thresholds of CoACD that are tried, from few parts to many."""
 # The most triangles that CoACD is given. A finer mesh is decimated first, and the error is still
@@ -16,17 +19,17 @@ _MOST_FOR_PARTS = 20_000
 # How long CoACD searches for a cut. With more the parts are much the same.
 _ITERATIONS = 60
 _AT_ONCE = 16
-"""Of a hull with this many corners, one more is added at once."""
+"""For every so many corners that a hull has, one more is added per step."""
 _ROUNDING = 1e-9
 _BESIDE = 1e-4
-"""How far beside a face it is asked whether another part lies there, as part of the size."""
+"""How far outside of a face another part is looked for, as a fraction of the size."""
 
 
 def hull(points: Array) -> TriangleSurface:
-    """The convex hull of points, its triangles looking outward.
+    """The convex hull of points, with triangles that face outward.
 
     Raises:
-        UnusableMeshError: they lie in a plane.
+        UnusableMeshError: the points lie in a plane.
     """
     try:
         found = spatial.ConvexHull(points)
@@ -44,10 +47,10 @@ def hull(points: Array) -> TriangleSurface:
 # The parts that CoACD makes have up to thousands of corners: the seven collisions of a UR5, with
 # 5,328 triangles, became 43,586. With the corners that the distance needs it is 1,820, in a third
 # of the time.
-def reduced(convex: TriangleSurface, distance: float, triangles: int | None = None) -> TriangleSurface:
-    """The hull of some corners of a hull: of as few as leave none out by more than a distance, or a budget allows.
+def reduce_hull(convex: TriangleSurface, distance: float, triangles: int | None = None) -> TriangleSurface:
+    """The hull of some corners of a hull: of so few that none is left out by more than a distance, or of a budget.
 
-    It begins with four, and what sticks out most is added; so it lies inside of the hull that is given.
+    It begins with four corners and adds those that stick out most, so it always lies inside of the given hull.
     """
     most = len(convex.points) if triangles is None else (triangles + 4) // 2  # n corners make 2 n - 4 triangles
     points, chosen = convex.points, _four_corners(convex.points)
@@ -80,8 +83,8 @@ def _four_corners(points: Array) -> Array:
 
 
 def decompositions(surface: TriangleSurface, most_parts: int) -> Iterator[list[TriangleSurface]]:
-    """Convex parts that are together about the shape, from coarse to fine; each is the hull of its points."""
-    mesh = _for_parts(surface)
+    """Convex parts that together make about the same shape, first few and coarse ones, then finer ones."""
+    mesh = _coarse_surface(surface)
     before = 0
     for concavity in _CONCAVITIES:
         coacd.set_log_level("off")
@@ -92,7 +95,7 @@ def decompositions(surface: TriangleSurface, most_parts: int) -> Iterator[list[T
             mcts_iterations=_ITERATIONS,
             seed=0,
         )
-        parts = [each for each in map(_part, made) if each is not None]
+        parts = [each for each in map(_part_hull, made) if each is not None]
         if parts and len(parts) != before:
             yield parts
         before = len(parts)
@@ -100,14 +103,16 @@ def decompositions(surface: TriangleSurface, most_parts: int) -> Iterator[list[T
             return
 
 
-def _part(made: Sequence[Array]) -> TriangleSurface | None:
+def _part_hull(made: Sequence[Array]) -> TriangleSurface | None:
+    """The hull of a part that CoACD made; None where it is flat."""
     try:
         return hull(np.asarray(made[0], dtype=float))
     except UnusableMeshError:
         return None
 
 
-def _for_parts(surface: TriangleSurface) -> TriangleSurface:
+def _coarse_surface(surface: TriangleSurface) -> TriangleSurface:
+    """The surface with as many triangles as CoACD can take."""
     if len(surface.faces) <= _MOST_FOR_PARTS:
         return surface
     points, faces = fast_simplification.simplify(
@@ -119,17 +124,17 @@ def _for_parts(surface: TriangleSurface) -> TriangleSurface:
 def error_of(
     surface: TriangleSurface, parts: Sequence[TriangleSurface], tolerance: float, limit: float = math.inf
 ) -> float:
-    """How far apart the outsides of a surface and of some convex parts are, at most.
+    """An upper bound of the distance between the outside of a surface and that of some convex parts.
 
-    It is the greater of two distances: of what is outside of all parts from them, and of what is outside of the parts
-    together from the surface. What a part hides inside of itself, or inside of another one, touches nothing.
+    It is the greater of two distances: from what lies outside of all parts to the parts, and from the outside of all
+    parts together to the surface. What a part encloses, or what lies inside of another part, is not counted.
     """
     sides = [spatial.ConvexHull(part.points).equations for part in parts]
     size = surface.diagonal
     # The surface of a housing with a motor in it is far from its hull, inside, where nothing can
     # touch it: only the outsides are compared. Faces along which convex parts meet are inside too.
     outside = farthest(
-        surface, Nearest(_together(parts)), tolerance, _Inside(sides, 1e-9 * size, grain=tolerance), limit
+        surface, Nearest(_join_surfaces(parts)), tolerance, _Inside(sides, 1e-9 * size, grain=tolerance), limit
     )
     if outside > limit:
         return outside
@@ -143,16 +148,17 @@ def error_of(
     return found
 
 
-def _together(parts: Sequence[TriangleSurface]) -> TriangleSurface:
+def _join_surfaces(parts: Sequence[TriangleSurface]) -> TriangleSurface:
+    """Surfaces as one, without merging their points."""
     starts = np.cumsum([0, *(len(part.points) for part in parts)])
     faces = [part.faces + start for part, start in zip(parts, starts, strict=False)]
     return TriangleSurface(np.concatenate([part.points for part in parts]), np.concatenate(faces))
 
 
 class _Inside:
-    """Whether triangles, moved outward by a step, lie inside of one of some convex parts, give or take a tolerance.
+    """Says which triangles, moved outward by a step, lie inside of one of some convex parts, within a tolerance.
 
-    One whose sides are shorter than a grain may have its corners in several parts: what lies between these is as small.
+    Triangles whose sides are shorter than a grain may have their corners in several parts: the gap between is as small.
     """
 
     def __init__(self, sides: Sequence[Array], tolerance: float, step: float = 0.0, grain: float = 0.0) -> None:

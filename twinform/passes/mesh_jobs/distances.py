@@ -1,57 +1,59 @@
-"""Distances between surfaces with a guarantee: no point of one is farther from the other than what is found.
+"""Upper bounds of the distance between surfaces: no point of one is farther from the other than the result.
 
-Samples alone would say how far at least. Here every triangle is closed by a bound for all of its points, and split
-where the bound is not good enough: the distance of a point to a triangle is convex, so that over a triangle it is
-greatest at a corner; and it changes by no more than one moves, so that near its middle it is that of the middle.
-Triangles to measure to are found as those of the nearest samples of the other surface; where that misses the nearest
-one the distance comes out larger, never smaller. Nothing is drawn at random.
+Samples alone would give a lower bound. Here every triangle gets a bound for all of its points, and is split where the
+bound is not good enough: the distance of a point to a triangle is convex, so over a triangle it is greatest at a
+corner; and it changes by no more than the point moves, so near the middle of a triangle it is close to that of the
+middle. The triangles to measure to are those of the nearest samples of the other surface; where these miss the nearest
+triangle, the distance comes out larger, never smaller. Nothing is random.
 """
 
+import importlib
 import math
 from collections.abc import Callable, Iterator
+from typing import Any
 
-from twinform.passes.mesh_jobs.geometry.libraries import Array, np
-from twinform.passes.mesh_jobs.geometry.solver_libraries import spatial
-from twinform.passes.mesh_jobs.geometry.surface import TriangleSurface
+from twinform.passes.mesh_jobs.libraries import Array, np
+from twinform.passes.mesh_jobs.surface import TriangleSurface
 
+spatial: Any = importlib.import_module("scipy.spatial")
 _SAMPLES = 60_000
-"""About so many samples of a surface are kept to find triangles by."""
+"""About how many samples of a surface are kept, by which near triangles are found."""
 _FINEST = 24
-"""A side of a triangle has so many samples at most."""
+"""The most samples along the side of a triangle."""
 _NEAREST, _NEAREST_TO_CORNER = 4, 2
 _CHUNK = 20_000
-# With this many triangles left to split, the bound so far has to do.
+# With this many triangles left to split, the bound found so far is taken.
 _MOST_OPEN = 300_000
 _DEEPEST = 20
 _TINY = 1e-3
 _WORTH, _ALIKE = 0.02, 3.0
-"""A triangle is cut where both sides of the cut have more than this part of its size."""
+"""A triangle is cut where both pieces have more than this fraction of its size."""
 
 Covered = Callable[[Array], Array]
-"""Which of some triangles (by their corners) lie inside of a solid, and do not count."""
+"""Says which triangles, given by their corners, lie inside of a solid and are not counted."""
 
 
 class Nearest:
-    """A surface to which distances are measured."""
+    """A surface to which distances are measured, with an index of samples."""
 
     def __init__(self, surface: TriangleSurface) -> None:
         self.triangles = surface.triangles
-        samples, self._owners = _samples(self.triangles)
+        samples, self._owners = _sample_triangles(self.triangles)
         self._tree = spatial.cKDTree(samples)
 
     def owners(self, points: Array, count: int) -> Array:
-        """The triangles of the samples that are nearest to each point."""
+        """The triangles whose samples are nearest to each point."""
         _, found = self._tree.query(points, k=min(count, len(self._owners)))
         return self._owners[found.reshape(len(points), -1)]
 
     def distances(self, points: Array) -> Array:
-        """How far points are from it, at most; nearly always exactly."""
-        parts = [self._distances(points[at : at + _CHUNK]) for at in range(0, len(points), _CHUNK)]
+        """Upper bounds of the distances of points from the surface; nearly always exact."""
+        parts = [self._chunk_distances(points[at : at + _CHUNK]) for at in range(0, len(points), _CHUNK)]
         return np.concatenate(parts) if parts else np.zeros(0)
 
-    def _distances(self, points: Array) -> Array:
+    def _chunk_distances(self, points: Array) -> Array:
         corners = self.triangles[self.owners(points, 2 * _NEAREST)]
-        return to_triangles(points[:, None], corners).min(axis=1)
+        return distances_to_triangles(points[:, None], corners).min(axis=1)
 
 
 def farthest(
@@ -61,9 +63,9 @@ def farthest(
     covered: Covered | None = None,
     limit: float = math.inf,
 ) -> float:
-    """A distance that no point of a surface exceeds, and at most about a tolerance more than one of them has.
+    """An upper bound of the distance of all points of a surface, at most about a tolerance above the greatest distance.
 
-    Once a point is farther than the limit, nobody looks for the farthest one: infinity says that it is exceeded.
+    It is infinite as soon as one point is farther away than the limit.
     """
     found, bound, triangles = 0.0, 0.0, surface.triangles
     for depth in range(_DEEPEST + 1):
@@ -72,14 +74,14 @@ def farthest(
         still: list[Array] = []
         for part in _chunks(triangles):
             at_points, bounds, below = _bounds(part, nearest)
-            found = max(found, *(_greatest(part, *each, covered) for each in at_points))
+            found = max(found, *(_greatest_counted(part, *each, covered) for each in at_points))
             if found > limit:
                 return math.inf
             closed = bounds <= found + tolerance
             if depth == _DEEPEST or len(triangles) > _MOST_OPEN:
                 closed[:] = True
             bound = max(bound, float(bounds[closed].max(initial=0.0)))
-            still.append(_split(part[~closed], below[~closed]))
+            still.append(_split_triangles(part[~closed], below[~closed]))
         triangles = np.concatenate(still) if still else np.zeros((0, 3, 3))
         if not len(triangles):
             break
@@ -90,8 +92,8 @@ def _chunks(triangles: Array) -> Iterator[Array]:
     return (triangles[at : at + _CHUNK] for at in range(0, len(triangles), _CHUNK))
 
 
-def _greatest(triangles: Array, points: Array, distances: Array, covered: Covered | None) -> float:
-    """The greatest distance of points, one of each triangle, of those where the triangle counts."""
+def _greatest_counted(triangles: Array, points: Array, distances: Array, covered: Covered | None) -> float:
+    """The greatest distance of points, one of each triangle, without those whose triangle is covered."""
     if covered is None:
         return float(distances.max(initial=0.0))
     around = points[:, None] + _TINY * (triangles - points[:, None])
@@ -99,13 +101,13 @@ def _greatest(triangles: Array, points: Array, distances: Array, covered: Covere
 
 
 def _bounds(triangles: Array, nearest: Nearest) -> tuple[list[tuple[Array, Array]], Array, Array]:
-    """The middles and corners of triangles, with distances; a distance that no point of each exceeds; what is below."""
+    """Middles and corners of triangles with their distances, a bound for each triangle, and its nearest triangle."""
     middles = triangles.mean(axis=1)
     own = nearest.owners(middles, _NEAREST)
     at_corners = [nearest.owners(triangles[:, corner], _NEAREST_TO_CORNER) for corner in range(3)]
     others = nearest.triangles[np.concatenate([own, *at_corners], axis=1)]
-    of_corners = np.stack([to_triangles(triangles[:, corner, None], others) for corner in range(3)], axis=1)
-    to_others = to_triangles(middles[:, None], others)
+    of_corners = np.stack([distances_to_triangles(triangles[:, corner, None], others) for corner in range(3)], axis=1)
+    to_others = distances_to_triangles(middles[:, None], others)
     of_middles, below = to_others.min(axis=1), others[np.arange(len(others)), to_others.argmin(axis=1)]
     radius = np.linalg.norm(triangles - middles[:, None], axis=2).max(axis=1)
     corners = [(triangles[:, at], of_corners[:, at].min(axis=1)) for at in range(3)]
@@ -115,8 +117,8 @@ def _bounds(triangles: Array, nearest: Nearest) -> tuple[list[tuple[Array, Array
     return [(middles, of_middles), *corners], bounds, below
 
 
-def _split(triangles: Array, below: Array) -> Array:
-    """Triangles cut where those below them end, so that each piece has one below it; others in four."""
+def _split_triangles(triangles: Array, below: Array) -> Array:
+    """Cut triangles where the nearest ones end, so that each piece has one nearest triangle; cut others in four."""
     sides = below - np.roll(below, 1, axis=1)
     normals = np.cross(sides, np.cross(sides[:, 0], sides[:, 1])[:, None])
     lengths = np.linalg.norm(normals, axis=2, keepdims=True)
@@ -125,14 +127,16 @@ def _split(triangles: Array, below: Array) -> Array:
     across = np.minimum(heights.max(axis=1), -heights.min(axis=1))
     best = across.argmax(axis=1)
     size = np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).max(axis=1)
-    alike = size < _ALIKE * np.linalg.norm(sides, axis=2).max(axis=1)  # of many small ones, each cut serves but one
+    alike = size < _ALIKE * np.linalg.norm(sides, axis=2).max(
+        axis=1
+    )  # beside many small triangles, each cut would help with only one of them
     cut = alike & (across.max(axis=1) > _WORTH * size)
     chosen = heights[np.arange(len(triangles)), :, best]
-    return np.concatenate([_in_four(triangles[~cut]), _in_three(triangles[cut], chosen[cut])])
+    return np.concatenate([_cut_in_four(triangles[~cut]), _cut_in_three(triangles[cut], chosen[cut])])
 
 
-def _in_three(triangles: Array, heights: Array) -> Array:
-    """Triangles cut by planes, from the heights of their corners above these."""
+def _cut_in_three(triangles: Array, heights: Array) -> Array:
+    """Cut triangles by planes, given the heights of their corners above the planes."""
     alone = np.where((heights > 0).sum(axis=1) == 1, heights.argmax(axis=1), heights.argmin(axis=1))
     rows, order = np.arange(len(triangles))[:, None], (alone[:, None] + np.arange(3)) % 3
     corners, up = triangles[rows, order], heights[rows, order]
@@ -142,19 +146,22 @@ def _in_three(triangles: Array, heights: Array) -> Array:
     return np.concatenate([np.stack(each, axis=1) for each in ((a, ab, ac), (ab, b, c), (ab, c, ac))])
 
 
-def _in_four(triangles: Array) -> Array:
+def _cut_in_four(triangles: Array) -> Array:
+    """Cut triangles at the middles of their sides."""
     a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
     ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
     quarters = ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))
     return np.concatenate([np.stack(each, axis=1) for each in quarters])
 
 
-def to_triangles(points: Array, corners: Array) -> Array:
-    """The distance of each point to the triangle of the same place."""
+def distances_to_triangles(points: Array, corners: Array) -> Array:
+    """The distance of each point to the triangle at the same index."""
     a, b, c = corners[..., 0, :], corners[..., 1, :], corners[..., 2, :]
     normal = np.cross(b - a, c - a)
     area = np.einsum("...i,...i", normal, normal)
-    beside = np.minimum(np.minimum(_to_side(points, a, b), _to_side(points, b, c)), _to_side(points, c, a))
+    beside = np.minimum(
+        np.minimum(_distances_to_side(points, a, b), _distances_to_side(points, b, c)), _distances_to_side(points, c, a)
+    )
     above = (
         (area > 0) & _is_left(points, a, b, normal) & _is_left(points, b, c, normal) & _is_left(points, c, a, normal)
     )
@@ -166,15 +173,16 @@ def _is_left(points: Array, start: Array, end: Array, normal: Array) -> Array:
     return np.einsum("...i,...i", np.cross(end - start, points - start), normal) >= 0
 
 
-def _to_side(points: Array, start: Array, end: Array) -> Array:
+def _distances_to_side(points: Array, start: Array, end: Array) -> Array:
+    """The distance of each point to a side of a triangle."""
     side = end - start
     length = np.einsum("...i,...i", side, side)
     along = np.einsum("...i,...i", points - start, side) / np.where(length > 0, length, 1.0)
     return np.linalg.norm(points - start - np.clip(along, 0.0, 1.0)[..., None] * side, axis=-1)
 
 
-def _samples(triangles: Array) -> tuple[Array, Array]:
-    """Points spread over triangles, and which triangle each is of."""
+def _sample_triangles(triangles: Array) -> tuple[Array, Array]:
+    """Points spread over triangles, and the index of the triangle that each point is on."""
     sides = np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).max(axis=1)
     areas = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1) / 2
     apart = float(np.sqrt(areas.sum() / _SAMPLES)) or 1.0
@@ -182,14 +190,14 @@ def _samples(triangles: Array) -> tuple[Array, Array]:
     points, owners = list[Array](), list[Array]()
     for count in np.unique(steps):
         of = np.flatnonzero(steps == count)
-        weights = _grid(int(count))
+        weights = _grid_weights(int(count))
         points.append(np.einsum("wk,tki->twi", weights, triangles[of]).reshape(-1, 3))
         owners.append(np.repeat(of, len(weights)))
     return np.concatenate(points), np.concatenate(owners)
 
 
-def _grid(count: int) -> Array:
-    """The middles of the equal triangles that a triangle is cut into, so many along a side, as weights of corners."""
+def _grid_weights(count: int) -> Array:
+    """The middles of the equal triangles that cut a triangle, `count` along a side, as weights of its corners."""
     upward = [(i + 1 / 3, j + 1 / 3) for i in range(count) for j in range(count - i)]
     downward = [(i + 2 / 3, j + 2 / 3) for i in range(count - 1) for j in range(count - 1 - i)]
     return np.array([(x, y, count - x - y) for x, y in (*upward, *downward)]) / count

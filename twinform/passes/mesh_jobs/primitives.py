@@ -1,24 +1,25 @@
 """The box, sphere, cylinder or capsule that is nearest to the mesh of a collision, turned as it has to be."""
 
+import importlib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from twinform.passes.mesh_jobs.geometry.convex import hull
-from twinform.passes.mesh_jobs.geometry.distances import Nearest, farthest
-from twinform.passes.mesh_jobs.geometry.libraries import Array, np, trimesh
-from twinform.passes.mesh_jobs.geometry.solver_libraries import optimize
-from twinform.passes.mesh_jobs.geometry.surface import TriangleSurface
+from twinform.passes.mesh_jobs.convex import hull
+from twinform.passes.mesh_jobs.distances import Nearest, farthest
+from twinform.passes.mesh_jobs.libraries import Array, np, trimesh
+from twinform.passes.mesh_jobs.surface import TriangleSurface
 
+optimize: Any = importlib.import_module("scipy.optimize")
 _AROUND, _FINENESS = 48, 3
-# Triangles in a round surface are deepest at their middle or at that of a side, or very near.
+# Triangles inscribed in a round surface are deepest at or near their middle, or the middle of a side.
 _MARGIN = 1.2
 _STEPS = 400
 _REFINED = 6
-"""So many of the candidates are refined."""
+"""How many of the candidates are refined."""
 _POINTS = 600
-"""About so many points of the hull are looked at for that."""
-# Of two that fit about as well, the one of the simpler kind is taken.
+"""About how many points of the hull are compared for that."""
+# Of two primitives whose misfits differ by less than this factor, the simpler one is taken.
 _AS_GOOD = 1.05
 # A primitive that fills the bounding box is preferred to a refined one unless it fits worse by more
 # than this factor: most likely it has the numbers that the mesh was made with.
@@ -29,20 +30,20 @@ _CERTIFIED = 2
 
 
 class Primitive(NamedTuple):
-    """A shape with its sizes as IR has them: a box its extents, the others radius and, if they have one, length."""
+    """A shape with its sizes as in the IR: the extents of a box, or the radius and, if it has one, the length."""
 
     kind: str
     sizes: tuple[float, ...]
     center: tuple[float, float, float]
     rotation: Array
-    """Its axes, as columns, in the frame of the mesh."""
+    """The axes of the shape, as columns, in the frame of the mesh."""
 
     def depths(self, points: Array) -> Array:
-        """How far points are outside of it; negative inside."""
+        """How far points are outside of the shape; negative inside."""
         return _DEPTHS[self.kind]((points - self.center) @ self.rotation, self.sizes)
 
     def surface(self) -> tuple[TriangleSurface, float]:
-        """Triangles of its surface, and how far these are off it at most."""
+        """Triangles of the surface, and how far these are from the true surface at most."""
         mesh = _MESHES[self.kind](self.sizes)
         points = np.asarray(mesh.vertices, dtype=float) @ self.rotation.T + self.center
         made = TriangleSurface(points, np.asarray(mesh.faces))
@@ -52,12 +53,12 @@ class Primitive(NamedTuple):
 
 
 def _box_depths(points: Array, sizes: Sequence[float]) -> Array:
-    return _outside(np.abs(points) - np.asarray(sizes) / 2)
+    return _distance_to_intervals(np.abs(points) - np.asarray(sizes) / 2)
 
 
 def _cylinder_depths(points: Array, sizes: Sequence[float]) -> Array:
     radius, length = sizes
-    return _outside(
+    return _distance_to_intervals(
         np.stack([np.linalg.norm(points[:, :2], axis=1) - radius, np.abs(points[:, 2]) - length / 2], axis=1)
     )
 
@@ -72,8 +73,8 @@ def _sphere_depths(points: Array, sizes: Sequence[float]) -> Array:
     return np.linalg.norm(points, axis=1) - sizes[0]
 
 
-def _outside(beyond: Array) -> Array:
-    """The distance to a product of intervals, from how far beyond the end of each a point is."""
+def _distance_to_intervals(beyond: Array) -> Array:
+    """The distance of points to a product of intervals, from how far they are beyond the end of each interval."""
     return np.linalg.norm(np.maximum(beyond, 0.0), axis=1) + np.minimum(beyond.max(axis=1), 0.0)
 
 
@@ -89,7 +90,7 @@ _MESHES: Mapping[str, Callable[[Sequence[float]], Any]] = {
 
 
 def error_of(surface: TriangleSurface, primitive: Primitive, tolerance: float, limit: float = math.inf) -> float:
-    """How far apart the outsides of a mesh and of a primitive are, at most: see `convex.error_of`."""
+    """An upper bound of the distance between the outside of a mesh and a primitive; see `convex.error_of`."""
     beyond = max(0.0, float(primitive.depths(surface.points[np.unique(surface.faces)]).max()))
     if beyond > limit:
         return math.inf
@@ -97,14 +98,14 @@ def error_of(surface: TriangleSurface, primitive: Primitive, tolerance: float, l
     return max(beyond, farthest(outside, Nearest(surface), tolerance, limit=limit - off) + off)
 
 
-def best(
+def best_primitive(
     surface: TriangleSurface, kinds: Sequence[str], tolerance: float, limit: float = math.inf
 ) -> tuple[Primitive, float] | None:
-    """The primitive of these kinds with the least error that was found, and its error; None without a candidate."""
+    """The best primitive of these kinds, and its error; None without a candidate."""
     around = hull(surface.points[np.unique(surface.faces)])
-    points = _spread(around)
+    points = _spread_points(around)
     near = sorted(_candidates(around, kinds), key=lambda each: _misfit(each, points))[:_REFINED]
-    pairs = [(each, _rounded(_refined(each, points), surface.diagonal)) for each in near]
+    pairs = [(each, _round_numbers(_refine(each, points), surface.diagonal)) for each in near]
     good = _AS_GOOD * min((_misfit(each, points) for _, each in pairs), default=0.0) + 1e-6 * surface.diagonal
 
     def rank(pair: tuple[Primitive, Primitive]) -> tuple[float, int, float]:
@@ -113,7 +114,7 @@ def best(
 
     measured: list[tuple[Primitive, float]] = []
     for pair in sorted(pairs, key=rank)[:_CERTIFIED]:
-        plain = _rounded(pair[0], surface.diagonal)
+        plain = _round_numbers(pair[0], surface.diagonal)
         tried = (plain, pair[1]) if _misfit(plain, points) <= _PLAIN * max(_misfit(pair[1], points), good) else pair[1:]
         for each in tried:
             measured.append((each, error_of(surface, each, tolerance, limit)))
@@ -123,15 +124,17 @@ def best(
 
 
 def _candidates(around: TriangleSurface, kinds: Sequence[str]) -> Iterator[Primitive]:
-    for axes in _frames(around.points):
+    """Primitives of these kinds that fill the bounding box, in some frames."""
+    for axes in _candidate_frames(around.points):
         at = around.points @ axes
         low, high = at.min(axis=0), at.max(axis=0)
         center = tuple(((low + high) / 2 @ axes.T).tolist())
         for kind in kinds:
-            yield from _in_frame(kind, high - low, center, axes)
+            yield from _primitives_in_frame(kind, high - low, center, axes)
 
 
-def _frames(points: Array) -> Iterator[Array]:
+def _candidate_frames(points: Array) -> Iterator[Array]:
+    """Rotations to try: that of the file, that of the smallest bounding box, and that of the principal axes."""
     yield np.eye(3)
     to_box, _ = trimesh.bounds.oriented_bounds(points, ordered=False)
     yield to_box[:3, :3].T
@@ -139,8 +142,10 @@ def _frames(points: Array) -> Iterator[Array]:
     yield rows.T if np.linalg.det(rows) > 0 else -rows.T
 
 
-def _in_frame(kind: str, extents: Array, center: tuple[float, float, float], axes: Array) -> Iterator[Primitive]:
-    """The primitives of a kind that fill a box of these extents; one with an axis along each of the three."""
+def _primitives_in_frame(
+    kind: str, extents: Array, center: tuple[float, float, float], axes: Array
+) -> Iterator[Primitive]:
+    """The primitives of a kind that fill a box of these extents: three where they have an axis, one along each side."""
     if kind == "box":
         yield Primitive("box", tuple(extents.tolist()), center, axes)
     elif kind == "sphere":
@@ -154,8 +159,8 @@ def _in_frame(kind: str, extents: Array, center: tuple[float, float, float], axe
                 yield Primitive(kind, (radius, length), center, axes[:, order])
 
 
-def _refined(primitive: Primitive, points: Array) -> Primitive:
-    """Optimize the sizes and the center of a primitive, so that its surface misses the points by less."""
+def _refine(primitive: Primitive, points: Array) -> Primitive:
+    """Change the sizes and the center of a primitive so that its surface misses the points by less."""
     size = max(primitive.sizes)
     start = np.array([*primitive.sizes, *primitive.center]) / size
     count = len(primitive.sizes)
@@ -183,7 +188,7 @@ def _refined(primitive: Primitive, points: Array) -> Primitive:
     return made if _misfit(made, points) < _misfit(primitive, points) else primitive
 
 
-def _rounded(primitive: Primitive, size: float) -> Primitive:
+def _round_numbers(primitive: Primitive, size: float) -> Primitive:
     """Round the numbers of a primitive to a millionth of its size, so that people can read them."""
     digits = 6 - math.floor(math.log10(size))
     x, y, z = (round(each, digits) + 0.0 for each in primitive.center)
@@ -192,11 +197,12 @@ def _rounded(primitive: Primitive, size: float) -> Primitive:
 
 
 def _misfit(primitive: Primitive, points: Array) -> float:
+    """The greatest distance of points from the surface of a primitive."""
     return float(np.abs(primitive.depths(points)).max())
 
 
-def _spread(around: TriangleSurface) -> Array:
-    """Points of a convex hull: its corners, and the middles of its sides and triangles."""
+def _spread_points(around: TriangleSurface) -> Array:
+    """Points on a convex hull: its corners, and the middles of its sides and triangles."""
     triangles = around.triangles
     middles = (triangles + np.roll(triangles, 1, axis=1)) / 2
     every = np.concatenate([around.points, triangles.mean(axis=1), middles.reshape(-1, 3)])
