@@ -13,7 +13,7 @@ _HIDDEN = f"{os.sep}."
 
 
 class OutsideError(PermissionError):
-    """A file must not be read: `reason` is where its name leads, and `help` what to do if that is meant."""
+    """A file must not be read: `reason` says where its name leads, and `help` what to do if that is intended."""
 
     def __init__(self, path: str, reason: str) -> None:
         super().__init__(errno.EACCES, f"it {reason}", path)
@@ -23,7 +23,7 @@ class OutsideError(PermissionError):
 
 @dataclass(frozen=True, slots=True)
 class Readable:
-    """The files that may be read: those in folders, wherever links lead, and none that are hidden in there.
+    """The files that may be read: those in certain folders, wherever links lead, except hidden ones.
 
     `around` are folders without links, and `beside` one in which only packages and models may be read. `named` are
     others, by their names: those of the command line and the environment. Of these, `installed` may have links into
@@ -57,14 +57,14 @@ class Readable:
         return cls(around, tuple(named), tuple(installed), single, beside)
 
     def allows(self, path: str | Path) -> bool:
-        """Whether a file or folder may be read, or is not there."""
+        """Tell whether a file or folder may be read, or does not exist."""
         # A link `robot.urdf -> ~/.netrc` in a downloaded repository must not make that file
         # readable, so the real place decides and not the name.
         real = os.path.realpath(path)
         return self._allows_place(real) or self._is_linked_package(path, real)
 
     def require(self, path: str | Path) -> None:
-        """Refuse a file or folder that must not be read.
+        """Raise an error for a file or folder that must not be read.
 
         Raises:
             OutsideError: it lies outside, or is hidden.
@@ -73,7 +73,7 @@ class Readable:
             raise OutsideError(str(path), self._reason(os.path.realpath(path)))
 
     def read(self, path: str | Path, size: int | None = None) -> bytes:
-        """The bytes of a file; of one that has more than `size`, one byte more than these.
+        """Read a file; of one larger than `size`, one byte more than that.
 
         Raises:
             OutsideError: it must not be read.
@@ -96,7 +96,7 @@ class Readable:
         return any(_is_visible_in(real, os.path.realpath(folder)) for folder in self.named) or self._is_beside(real)
 
     def _is_beside(self, real: str) -> bool:
-        """Whether it is a package or model, or in one, that lies beside that of the file."""
+        """Tell whether a path is in a package or model that lies beside that of the file."""
         # In a workspace, `$(find b)` in `ws/src/a` means `ws/src/b`. Keys and passwords do not lie
         # inside packages, so neighboring packages are readable and nothing else beside them is.
         if not self.beside or real == self.beside or not _is_visible_in(real, self.beside):
@@ -105,7 +105,7 @@ class Readable:
         return has_any(Path(self.beside, name), PACKAGE)
 
     def _is_linked_package(self, path: str | Path, real: str) -> bool:
-        """Whether a link in an installation leads to a package or model."""
+        """Tell whether a link in an installation leads to a package or model."""
         name = os.path.abspath(path)
         if not any(_is_visible_in(name, os.path.abspath(folder)) for folder in self.installed):
             return False
@@ -124,7 +124,7 @@ def _is_below(path: str, folder: str) -> bool:
 
 
 def _is_visible_in(path: str, folder: str) -> bool:
-    """Whether a path leads into a folder, and through nothing there whose name begins with a dot."""
+    """Tell whether a path leads into a folder without a hidden part."""
     return _is_below(path, folder) and _HIDDEN not in path[len(folder.rstrip(os.sep)) :]
 
 
@@ -143,7 +143,7 @@ _PIECE = 2**16
 
 
 def read_regular(path: Path, size: int | None = None, check: Callable[[str], object] | None = None) -> bytes:
-    """The bytes of a file, or of one that has more than `size`, one byte more than these; symbolic links are followed.
+    """Read a regular file, following symbolic links; of one larger than `size`, one byte more than that.
 
     `check` is called with the place of the file that was opened, without links, and raises where it must not be read.
 
@@ -163,7 +163,7 @@ def read_regular(path: Path, size: int | None = None, check: Callable[[str], obj
 
 
 def read_up_to(file: BinaryIO, size: int) -> bytes:
-    """What is in a file; of one that has more bytes, one byte more than these."""
+    """Read an open file; of one larger than the limit, one byte more."""
     parts: list[bytes] = []
     left = size + 1
     while left > 0:
@@ -182,7 +182,7 @@ def _require_regular(status: os.stat_result, path: Path) -> None:
 
 
 def _place_of(descriptor: int, path: Path, status: os.stat_result) -> str:
-    """Where an open file really is.
+    """Return where an open file really is.
 
     Raises:
         OSError: that is not known, since something was moved meanwhile.
@@ -210,7 +210,7 @@ _MOST_SEARCHED = 7
 
 
 def find_root(file: Path) -> Path:
-    """The folder whose files belong to a file: the top of its repository, else of its package, model or project.
+    """Return the folder that a file belongs to: the top of its repository, else of its package, model or project.
 
     Of packages, models and projects the nearest of each kind counts, and of these the highest: a model in a package
     may use all of the package. Where there is none of them, it is the file's own folder.
@@ -228,7 +228,7 @@ def find_root(file: Path) -> Path:
 
 
 def folders_around(file: Path) -> tuple[Path, ...]:
-    """The file's own folder and those above it up to its root, as far as neighbors are looked for."""
+    """Return the file's folder and those above it, up to its root, in which neighbors are searched."""
     own, root = own_folder(file), find_root(file)
     folders = [own, *(folder for folder in own.parents if folder.is_relative_to(root))][:_MOST_SEARCHED]
     name = file.parent
@@ -240,26 +240,26 @@ def folders_around(file: Path) -> tuple[Path, ...]:
 
 
 def neighborhood(root: Path) -> Path | None:
-    """The folder in which other packages and models lie beside a root; None where that is no package or model."""
+    """Return the folder in which other packages and models lie beside a root; None if it is no package or model."""
     is_alone = has_any(root, PACKAGE) and not has_any(root, REPOSITORY)
     return next(folders_above(root), None) if is_alone else None
 
 
 def package_around(file: Path) -> Path | None:
-    """The folder of the package or model that a file lies in; None where it lies in none."""
+    """Return the folder of the package or model that a file lies in; None if there is none."""
     own = own_folder(file)
     return next((folder for folder in chain((own,), folders_above(own)) if has_any(folder, PACKAGE)), None)
 
 
 def own_folder(file: Path) -> Path:
-    """The folder that a file lies in, as an absolute path by the name that was given."""
+    """Return the folder of a file as an absolute path, by the name that was given."""
     folder = file.parent
     # `link/..` is not the folder that has the link, so such a path is not shortened by its letters
     return Path(os.path.realpath(folder)) if ".." in folder.parts else folder.absolute()
 
 
 def folders_above(folder: Path) -> Iterator[Path]:
-    """The folders above one, as far as they can belong to one project.
+    """Return the folders above one that can belong to the same project.
 
     A mark in the home folder, such as the repository of somebody's settings, or in a temporary folder that all users
     share says nothing about what else is there.
@@ -277,7 +277,7 @@ def folders_above(folder: Path) -> Iterator[Path]:
 
 
 def has_any(folder: Path, names: tuple[str, ...]) -> bool:
-    """Whether one of these is in a folder."""
+    """Tell whether a folder contains one of these names."""
     place = os.fspath(folder)  # joining paths of pathlib takes longer than asking for them
     return any(os.path.lexists(f"{place}{os.sep}{name}") for name in names)
 
@@ -291,7 +291,7 @@ def _identity(folder: Path) -> tuple[int, int] | None:
 
 
 def _is_shared(folder: Path) -> bool:
-    """Whether everybody may put files into a folder, and nobody may remove those of others."""
+    """Tell whether everybody may write into a folder without removing the files of others, as in /tmp."""
     try:
         mode = folder.stat().st_mode
     except (OSError, ValueError):

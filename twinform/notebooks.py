@@ -11,7 +11,7 @@ DRAWN_BY: "dict[str, tuple[str, str]]" = {}
 
 
 def draw(kind: str, value: object) -> str:
-    """The HTML of a value of this class."""
+    """Return the HTML of a value of this class."""
     module, function = DRAWN_BY[kind]
     drawing: Callable[[object], str] = getattr(import_module(module), function)
     return drawing(value)

@@ -26,7 +26,7 @@ _exit_codes: list[int] = []
 
 @contextmanager
 def undone(undo: "Callable[[], None]") -> "Generator[None]":
-    """Call `undo` when the block ends, or when a signal ends the program before.
+    """Call `undo` at the end of the block, or before if a signal ends the program.
 
     A signal may come while `undo` runs, which is then called again: it has to look at what is there, and do the rest.
     A signal that raises an exception is raised after that.
@@ -45,7 +45,7 @@ def undone(undo: "Callable[[], None]") -> "Generator[None]":
 
 
 def end_on_signals() -> None:
-    """Let signals end this process from now on; one that it was started to ignore stays ignored."""
+    """Let signals end this process from now on; one that was ignored at the start stays ignored."""
     for number in _ENDING:
         if getsignal(number) != SIG_IGN:
             signal(number, _end)
@@ -53,7 +53,7 @@ def end_on_signals() -> None:
 
 @contextmanager
 def signals_exit_with(code: int) -> "Generator[None]":
-    """Let signals end the program with this exit code, where they end it at all: it waits for them."""
+    """Let signals that end the program at all end it with this exit code."""
     _exit_codes.append(code)
     try:
         yield
@@ -63,7 +63,7 @@ def signals_exit_with(code: int) -> "Generator[None]":
 
 @contextmanager
 def raised_signals() -> "Generator[None]":
-    """Let SIGINT raise KeyboardInterrupt, and the others SystemExit: for a loop that has results to keep."""
+    """Turn SIGINT into KeyboardInterrupt and other signals into SystemExit, for a loop that has results to keep."""
     # `batch` has finished results to keep and a summary to print, so there a signal unwinds the
     # stack.
     before = {number: getsignal(number) for number in _ENDING}

@@ -18,7 +18,7 @@ __all__ = ["confine"]
 
 
 def confine(*, threads: bool = False) -> list[str]:
-    """Give up everything but calculating and the open pipes; the names of the layers that hold from here on.
+    """Give up everything but computing and the open pipes; returns the names of the layers in force.
 
     With `threads` more of them may begin, which libraries for numbers do.
     """

@@ -20,7 +20,7 @@ class _Ruleset(ctypes.Structure):
 
 
 def renounce_files() -> bool:
-    """Open, list, make and delete nothing any more; whether the kernel holds to that."""
+    """Give up opening, listing, making and deleting files; returns whether the kernel enforces it."""
     if not sys.platform.startswith("linux"):
         return False
     libc = ctypes.CDLL(None, use_errno=True)

@@ -10,7 +10,7 @@ Kind = Literal["AS", "CORE", "CPU", "FSIZE", "NOFILE", "NPROC"]
 # A limit of zero for file sizes also stops writing through descriptors that are already open, and
 # one of zero for descriptors makes every new `open`, `socket` and `pipe` fail.
 def renounce_descriptors(*, threads: bool = False) -> bool:
-    """Open no file or connection and start no process any more; whether the system holds to that."""
+    """Give up opening files and connections and starting processes; returns whether the system enforces it."""
     set_limit("FSIZE", 0)
     if not threads:  # which count as processes
         set_limit("NPROC", 0)
@@ -18,7 +18,7 @@ def renounce_descriptors(*, threads: bool = False) -> bool:
 
 
 def set_limit(kind: Kind, most: int, grace: int = 0) -> bool:
-    """Set a limit, and how far it may be raised again; a stricter one stays. Whether the system has it."""
+    """Set a limit, and how far it may be raised again, unless it is stricter already; returns whether it exists."""
     resource = limits()
     if resource is None:
         return False
@@ -32,7 +32,7 @@ def set_limit(kind: Kind, most: int, grace: int = 0) -> bool:
 
 
 def limits() -> Any:
-    """The module `resource`; None where the system has no such limits."""
+    """Return the module `resource`; None if the system has no such limits."""
     try:
         return import_module("resource")
     except ImportError:  # Windows

@@ -52,7 +52,7 @@ class _Program(ctypes.Structure):
 
 
 def renounce_calls(*, threads: bool = False) -> bool:
-    """Make no system calls any more but those of the lists; whether the kernel holds to that."""
+    """Give up all system calls but the listed ones; returns whether the kernel enforces it."""
     if not sys.platform.startswith("linux") or sys.maxsize < 2**32:
         return False
     machine = os.uname().machine
@@ -68,7 +68,7 @@ def renounce_calls(*, threads: bool = False) -> bool:
 
 
 def program(machine: str, *, threads: bool = False) -> Iterator[tuple[int, int, int, int]]:
-    """The program: code, how many instructions to skip if true and if not, value."""
+    """Assemble the filter: code, instructions to skip if true and if false, value."""
     column = list(ARCHITECTURES).index(machine)
     plain = [numbers[column] for numbers in (CALLS | (THREAD_CALLS if threads else {})).values()]
     # The architecture comes first: numbers mean other calls in another ABI (seccomp(2)).
@@ -88,13 +88,13 @@ def program(machine: str, *, threads: bool = False) -> Iterator[tuple[int, int, 
 
 
 def _if_called(number: int, then: list[tuple[int, int, int, int]]) -> Iterator[tuple[int, int, int, int]]:
-    """What to do where a call has this number, whose number is loaded."""
+    """Return what to do if the loaded call number is this one."""
     yield _JUMP_IF_EQUAL, 0, len(then), number
     yield from then
 
 
 def _only_if(argument: int, flag: int, *, right: bool) -> list[tuple[int, int, int, int]]:
-    """Allow a call only where a flag of one of its arguments is set, or only where it is not."""
+    """Allow a call only if a flag of one of its arguments is set, or only if it is not."""
     allowed, denied = (_RETURN, 0, 0, _ALLOW), (_RETURN, 0, 0, _DENY)
     first, second = (allowed, denied) if right else (denied, allowed)
     return [(_LOAD, 0, 0, argument), (_JUMP_IF_SET, 0, 1, flag), first, second]

@@ -23,7 +23,7 @@ _LONGEST = 300
 
 
 class BaselineError(ValueError):
-    """A text is no baseline; `line` is 0 where it is not known."""
+    """A text is not a baseline; `line` is 0 if unknown."""
 
     def __init__(self, problem: str, line: int = 0) -> None:
         super().__init__(problem)
@@ -31,7 +31,7 @@ class BaselineError(ValueError):
 
 
 class KnownFinding(NamedTuple):
-    """What a finding is known by; `place` is another file than the one that was checked, if it is there."""
+    """The key of a known finding; `place` is set if the finding is in another file than the checked one."""
 
     file: str
     rule: str
@@ -52,12 +52,12 @@ class Baseline:
 
     @classmethod
     def of(cls, findings: Iterable[KnownFinding]) -> "Baseline":
-        """From every finding of some files."""
+        """Make the baseline of all findings of some files."""
         return cls(Counter(findings))
 
     @classmethod
     def parse(cls, text: str) -> "Baseline":
-        """The baseline in a text.
+        """Parse a baseline.
 
         Raises:
             BaselineError: it is none, or one of another version.
@@ -84,7 +84,7 @@ class Baseline:
         return cls(counts)
 
     def to_json(self) -> str:
-        """The text of a file: sorted, with a line for each finding."""
+        """Write the baseline as JSON, sorted, with a line for each finding."""
         rows = [json.dumps(_row(known, count), ensure_ascii=False) for known, count in sorted(self.counts.items())]
         listed = "".join(f"\n    {row}{',' if place < len(rows) else ''}" for place, row in enumerate(rows, start=1))
         return f'{{\n  "{_MARK}": {_VERSION},\n  "{_FINDINGS}": [{listed}{chr(10) + "  " if rows else ""}]\n}}\n'
@@ -98,7 +98,7 @@ class Baseline:
 
 @dataclass(slots=True)
 class BaselineRun:
-    """Holds findings to a baseline, file by file; `found` are all findings that a baseline could have."""
+    """Compares findings with a baseline, file by file; `found` collects all findings that a baseline can have."""
 
     baseline: Baseline
     relative: Relative
@@ -106,7 +106,7 @@ class BaselineRun:
     found: Counter[KnownFinding] = field(default_factory=Counter[KnownFinding])
 
     def unknown(self, path: str, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-        """The findings about a file that are not in the baseline. Notes and fatal errors never are."""
+        """Return the findings of a file that the baseline lacks; notes and fatal errors are never in one."""
         self.files.add(self.relative(path))
         return tuple(each for each in diagnostics if not self._is_known(path, each))
 
@@ -119,18 +119,18 @@ class BaselineRun:
 
     @property
     def gone(self) -> int:
-        """How many findings of the files that were seen are in the baseline and do not occur any more."""
+        """Count the findings in the baseline that no longer occur in the files that were checked."""
         counts = self.baseline.counts.items()
         return sum(max(0, count - self.found[known]) for known, count in counts if known.file in self.files)
 
     def updated(self, exists: Callable[[str], bool]) -> Baseline:
-        """The baseline of what was found; of files that were not seen it is kept if they are still there."""
+        """Return the new baseline: what was found, and the entries of existing files that were not checked."""
         whole = self.baseline.merged(Baseline(self.found), self.files)
         return Baseline({known: count for known, count in whole.counts.items() if exists(known.file)})
 
 
 def known_by(path: str, diagnostic: Diagnostic, relative: Relative) -> KnownFinding:
-    """What a finding about a file is known by."""
+    """Return the key of a finding about a file."""
     where = diagnostic.location
     place = relative(where.file) if where.file and where.file != path else ""
     # Other tools keep hashes, which nobody can review, or lines, which move with every edit. The
@@ -157,6 +157,6 @@ def _parsed(row: object, line: int) -> tuple[KnownFinding, int]:
 
 
 def _line_of(text: str, start: str, number: int) -> int:
-    """The line on which something begins for the n-th time; 0 where the file is laid out in another way."""
+    """Return the line on which the n-th entry begins; 0 if the file is laid out differently."""
     lines = (line for line, content in enumerate(text.splitlines(), start=1) if content.strip().startswith(start))
     return next((line for place, line in enumerate(lines, start=1) if place == number), 0)

@@ -14,14 +14,14 @@ def rule(
     fatal: bool = False,
     unsound: bool = False,
 ) -> Rule:
-    """A rule whose page is a file of `rules/`."""
+    """Make a rule whose page is a file of `rules/`."""
     made = _BuiltInRule.__new__(_BuiltInRule)
     _fill(made, {"name": name, "severity": severity, "strict": strict, "fix": fix, "fatal": fatal, "unsound": unsound})
     return made
 
 
 class _BuiltInRule(Rule):
-    """A rule whose page stays unset until one of its texts is asked for."""
+    """A rule whose page is read when one of its texts is first asked for."""
 
     __slots__ = ()
     __module__ = "twinform.diagnostics.rules"  # where pickle looks for the constant

@@ -68,14 +68,14 @@ class Source(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class LineOrigins:
-    """For each line of an expanded text that starts an element, the file and line that the element was written on."""
+    """The file and line of origin for each line of an expanded text that starts an element."""
 
     lines: tuple[int, ...] = ()
     places: tuple[Location, ...] = ()
 
     @classmethod
     def of(cls, pairs: Iterable[tuple[int, Location]]) -> Self:
-        """From lines and places in any order; the first of a line counts."""
+        """Collect lines and origins in any order; the first origin of a line counts."""
         first: dict[int, Location] = {}
         for line, place in pairs:
             first.setdefault(line, place)
@@ -83,13 +83,13 @@ class LineOrigins:
         return cls(tuple(line for line, _ in ordered), tuple(place for _, place in ordered))
 
     def place(self, line: int) -> Location | None:
-        """Where the element was written that stands on a line or, where none starts there, on the last one before."""
+        """Return the origin of the element that starts on a line, or on the last line before it that starts one."""
         index = bisect_right(self.lines, line) - 1
         return self.places[index] if index >= 0 else None
 
 
 class Span(NamedTuple):
-    """A piece of text, from `start` up to but not including `end`; offsets count characters from 0."""
+    """A piece of text from `start` up to but not including `end`, in characters from 0."""
 
     start: int
     end: int
@@ -100,14 +100,14 @@ class Span(NamedTuple):
 
 
 class TextEdit(NamedTuple):
-    """The piece of the text at `span` becomes `new`; an empty span is where it is inserted."""
+    """An edit: the text at `span` becomes `new`; an empty span inserts."""
 
     span: Span
     new: str
 
 
 class Safety(StrEnum):
-    """What a fix may change. Only a safe one is made without being asked for, and one for display never is."""
+    """How far a fix may change a robot: safe ones are made unasked, unsafe ones on request, displayed ones never."""
 
     SAFE = "safe"
     """The model means the same afterwards: what every reader takes it for is only written down."""
@@ -119,7 +119,7 @@ class Safety(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """Edits of the text that a finding is about, none of which overlaps another; `title` is a command to a person."""
+    """Edits of the text that fix a finding; `title` says what they do as a command to a person."""
 
     title: str
     edits: tuple[TextEdit, ...]

@@ -18,19 +18,19 @@ _ASKS = re.compile(r"did you mean (?P<quote>['\"]?)(?P<name>.+)(?P=quote)\?", re
 
 
 def did_you_mean(name: str, known: Iterable[str | None]) -> str | None:
-    """The sentence that asks; None where nothing is near."""
+    """Return the sentence that suggests a name; None if no name is near."""
     near = nearest_name(name, known)
     return f"did you mean {near!r}?" if near else None
 
 
 def meant_name(sentence: str | None) -> str | None:
-    """The name that such a sentence asks for; None for every other help."""
+    """Return the name that such a sentence suggests; None for any other help."""
     found = _ASKS.fullmatch(sentence or "")
     return found["name"] if found else None
 
 
 def nearest_name(name: str, known: Iterable[str | None], alike: float = _ALIKE) -> str | None:
-    """The known name that was probably meant: capitals and separators count least, then letters.
+    """Return the known name that was probably meant: capitals and separators count least, then letters.
 
     `alike` is how much of the two has to be the same, from 0 to 1. The order of what is known does not matter.
     """
@@ -50,7 +50,7 @@ def nearest_name(name: str, known: Iterable[str | None], alike: float = _ALIKE) 
 
 
 def _nearest(name: str, others: Iterable[str], alike: float) -> str:
-    """The name that is most alike; of several the last by the alphabet, and empty where none is alike enough.
+    """Return the most similar name; of several the last in the alphabet, empty if none is similar enough.
 
     Which letters there are bounds how much alike two names can be. The order of letters takes much longer to compare,
     so that is done from the highest bound on, until no other name can be nearer.
@@ -70,7 +70,7 @@ def _nearest(name: str, others: Iterable[str], alike: float) -> str:
 
 
 def _most_alike(name: str, letters: Mapping[str, int], other: str) -> float:
-    """How much alike two names can be at most, by the letters that they share; it is the `quick_ratio` of `difflib`."""
+    """Return an upper bound of similarity, by the letters that two names share: `quick_ratio` of `difflib`."""
     shared = sum(map(min, letters.values(), map(other.count, letters)))
     return 2 * shared / (len(name) + len(other))
 
@@ -84,5 +84,5 @@ def _digits(name: str) -> str:
 
 
 def _may_be(length: int, wanted: int) -> bool:
-    """Whether the lengths alone do not rule out that two names are alike."""
+    """Tell whether two names can be similar by their lengths."""
     return length <= _LONGEST and wanted * _ALIKE <= length * (2 - _ALIKE) and length * _ALIKE <= wanted * (2 - _ALIKE)

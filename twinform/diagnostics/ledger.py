@@ -10,7 +10,7 @@ from twinform.diagnostics.diagnostic import NOWHERE, Location, Rule
 
 
 class Fate(StrEnum):
-    """What became of an element or attribute that the target has no exact form of."""
+    """What happened to an element or attribute that the target cannot express exactly."""
 
     CARRIED = "carried"
     APPROXIMATED = "approximated"
@@ -18,7 +18,7 @@ class Fate(StrEnum):
 
 
 class ValueChange(NamedTuple):
-    """A value that a pass changed: its path in the JSON of its part, and None where there was or is none."""
+    """A value that a pass changed: its path in the JSON of its part, the old and the new value; None for no value."""
 
     path: str
     was: object
@@ -27,7 +27,7 @@ class ValueChange(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class PhysicsChange:
-    """What a pass changed in a part, `link` or `joint`, by its name with those of the models around it."""
+    """The changes that a pass made in a `link` or `joint`, named with the models around it."""
 
     step: str
     part: str
@@ -58,12 +58,12 @@ class Ledger:
     entries: tuple[LedgerEntry, ...] = ()
 
     def count(self, fate: Fate) -> int:
-        """How many elements and attributes met this fate; an approximation that stands for none was made up: one."""
+        """Count the elements and attributes with a fate; an approximation of nothing was made up, and counts as one."""
         least = int(fate is Fate.APPROXIMATED)
         return sum(max(entry.weight, least) for entry in self.entries if entry.fate is fate)
 
     def to_json(self) -> str:
-        """The ledger as `--ledger` writes it."""
+        """Return the ledger as `--ledger` writes it."""
         import json  # noqa: PLC0415 - few commands write it
 
         return json.dumps({"expressed": self.expressed, "entries": list(_rows(self.entries))}, indent=2) + "\n"
@@ -88,7 +88,7 @@ def _change(change: PhysicsChange) -> dict[str, object]:
 
 
 def _plain(value: object) -> object:
-    """A value as JSON has it; what it has no number for is a text."""
+    """Convert a value for JSON; NaN and infinities become text."""
     if isinstance(value, tuple):
         return [_plain(each) for each in cast("tuple[object, ...]", value)]
     if isinstance(value, float) and not math.isfinite(value):

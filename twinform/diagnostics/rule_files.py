@@ -29,7 +29,7 @@ def rule_names() -> list[str]:
 
 
 def read_head(name: str) -> dict[str, str]:
-    """The head of a rule's file: what a `Rule` has besides its name and its page.
+    """Read the head of a rule's file: the fields of `Rule` other than its name and page.
 
     Raises:
         ValueError: the file is not a head and paragraphs below each heading, in their order.
@@ -44,7 +44,7 @@ def read_head(name: str) -> dict[str, str]:
 
 
 def read_page(name: str) -> dict[str, str]:
-    """The page of a built-in rule: a text, of a line for each paragraph, by the field of `Rule` that it is."""
+    """Read the page of a built-in rule: a text for each field of `Rule`, with one line for each paragraph."""
     sections = _SECTION.findall(_text(name))
     return {"references": "", **{HEADINGS[heading]: _unwrapped(text) for heading, text in sections}}
 

@@ -16,7 +16,7 @@ OWN = "twinform"
 
 
 class RuleRegistryError(Exception):
-    """The installed rules contradict each other or themselves; the message names the package to correct."""
+    """The installed rules contradict each other or themselves; the message names the package to blame."""
 
 
 @dataclass(frozen=True, slots=True)

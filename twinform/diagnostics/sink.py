@@ -9,7 +9,7 @@ from twinform.diagnostics.ledger import Fate, LedgerEntry
 
 
 class SideFile(NamedTuple):
-    """A file that a pass made: its path below the folder of the result, and its text or bytes.
+    """A file that a pass made: its path below the output folder, and its text or bytes.
 
     Whoever writes the result writes it. It may be written over a file that begins with the same line or, where it has a
     `mark`, over one that has this among its first bytes; over any other file it is not.
@@ -25,7 +25,7 @@ class SideFile(NamedTuple):
         return self.content if isinstance(self.content, bytes) else self.content.encode()
 
     def is_earlier(self, head: bytes) -> bool:
-        """Whether a file that begins so was written by us before, so that this one may take its place."""
+        """Tell whether an existing file with this beginning was written by us and may be replaced."""
         if self.mark is not None:
             return self.mark in head
         return head.partition(b"\n")[0].rstrip() == self.data.partition(b"\n")[0].rstrip()
@@ -75,7 +75,7 @@ class DiagnosticSink:
         related: tuple[Location, ...] = (),
         severity: Severity | None = None,
     ) -> None:
-        """Add a diagnostic; its severity follows from the rule and the mode where it is not given.
+        """Add a diagnostic; without a given severity, the rule and the mode decide.
 
         Past the limit, only the first error is still kept.
         """
@@ -86,12 +86,12 @@ class DiagnosticSink:
         self._add(diagnostic)
 
     def takes(self, severity: Severity) -> bool:
-        """Whether a finding so severe is still kept."""
+        """Tell whether a finding with this severity is kept."""
         # An error beyond the limit still has to stop the conversion.
         return len(self.diagnostics) < MOST or (severity is Severity.ERROR and not self.has_errors)
 
     def has(self, rule: Rule, location: Location, least: Severity = Severity.INFO) -> bool:
-        """Whether this rule was reported at this place, at least so severely."""
+        """Tell whether this rule was reported at this place with at least this severity."""
         where = self._place(location)
         return any(
             each.rule is rule and self._place(each.location) == where and each.severity >= least
@@ -99,7 +99,7 @@ class DiagnosticSink:
         )
 
     def extend_new(self, diagnostics: Iterable[Diagnostic]) -> None:
-        """Add those whose rule was not reported at their place before."""
+        """Add the diagnostics whose rule was not reported at their place before."""
         known = {(each.rule.name, self._place(each.location)) for each in self.diagnostics}
         self.extend(each for each in diagnostics if (each.rule.name, self._place(each.location)) not in known)
 
@@ -109,7 +109,7 @@ class DiagnosticSink:
             self._add(self._traced(diagnostic))
 
     def take_out(self, allowed: Iterable[Diagnostic]) -> None:
-        """Set findings apart that are allowed."""
+        """Remove the findings that are allowed, and remember them as such."""
         self.allowed.extend(allowed)
         gone = {id(each) for each in self.allowed}
         self.diagnostics = [each for each in self.diagnostics if id(each) not in gone]
@@ -120,11 +120,11 @@ class DiagnosticSink:
         self.entries.append(LedgerEntry(fate, rule, message, self._origin(self._complete(location)), weight))
 
     def traced_entries(self) -> tuple[LedgerEntry, ...]:
-        """The ledger's entries, also those that others have made, with the places where their parts were written."""
+        """Return all entries of the ledger, with the places where their parts were written."""
         return tuple(replace(each, location=self._origin(each.location)) for each in self.entries)
 
     def _place(self, location: Location) -> tuple[str, str | int]:
-        """What a place is known by: its path, since its line may be that of the part or of the node around it."""
+        """Return the key of a place: its path, since the line may be that of the part or of the node around it."""
         where = self._origin(self._complete(location))
         return where.file, where.path or where.line
 
@@ -142,7 +142,7 @@ class DiagnosticSink:
         return location if location.file else location._replace(file=self.file)
 
     def _traced(self, diagnostic: Diagnostic) -> Diagnostic:
-        """The diagnostic with the place where its part was written first, and its place in an expanded text second."""
+        """Return the diagnostic with its place of origin first, and its place in the expanded text second."""
         if diagnostic.location.file not in self.origins:
             return diagnostic
         where = self._origin(diagnostic.location)
@@ -150,7 +150,7 @@ class DiagnosticSink:
         return replace(diagnostic, location=where, related=related)
 
     def _origin(self, location: Location) -> Location:
-        """Where a place in an expanded text was written; any other place itself."""
+        """Return where a place in an expanded text was written; any other place unchanged."""
         origins = self.origins.get(location.file)
         place = origins.place(location.line) if origins else None
         return place._replace(path=location.path) if place else location

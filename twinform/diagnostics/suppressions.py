@@ -23,7 +23,7 @@ MOST = 1000
 
 
 class Suppression(NamedTuple):
-    """The rules that a comment allows, its line, and the lines on which it allows them; all of the file where 0."""
+    """The rules that a comment allows, its line, and the lines it covers; 0 covers the whole file."""
 
     rules: tuple[str, ...]
     line: int
@@ -36,7 +36,7 @@ class Suppression(NamedTuple):
 
 
 class Flaw(NamedTuple):
-    """What is wrong with a comment that was meant to be a suppression."""
+    """A mistake in a comment that was meant to be a suppression."""
 
     line: int
     message: str
@@ -45,7 +45,7 @@ class Flaw(NamedTuple):
 
 @dataclass(slots=True)
 class Suppressions:
-    """The suppressions of one file; those that have covered a finding are `used`, as places in `entries` and rules."""
+    """The suppressions of one file; `used` are those that have covered a finding, as numbers in `entries` and rules."""
 
     entries: tuple[Suppression, ...] = ()
     flaws: tuple[Flaw, ...] = ()
@@ -58,7 +58,7 @@ class Suppressions:
         return bool(found)
 
     def unused(self) -> Iterator[tuple[Suppression, str]]:
-        """Each rule of a comment that has covered no finding, with its comment."""
+        """Yield each allowed rule that has covered no finding, with its comment."""
         for place, each in enumerate(self.entries):
             yield from ((each, rule) for rule in each.rules if (place, rule) not in self.used)
 
@@ -67,7 +67,7 @@ NO_SUPPRESSIONS = Suppressions()
 
 
 def is_meant(text: str) -> bool:
-    """Whether a comment is for us."""
+    """Tell whether a comment addresses us."""
     return _OURS.match(text) is not None
 
 

@@ -12,7 +12,7 @@ from twinform.ir.transform import Transform
 
 @dataclass(frozen=True, slots=True)
 class Bounds:
-    """All points between two corners, in meters."""
+    """An axis-aligned box between two corners, in meters."""
 
     least: Vector3
     greatest: Vector3
@@ -24,13 +24,13 @@ class Bounds:
         return x, y, z
 
     def distance(self, point: Vector3) -> float:
-        """How far a point is outside, along the axis where it is farthest; zero or less where it is inside."""
+        """Return how far a point is outside, along the worst axis; zero or less inside."""
         sides = zip(self.least, point, self.greatest, strict=True)
         return max(max(low - at, at - high) for low, at, high in sides)
 
 
 def bounds(shape: ShapeNode | None) -> Bounds | None:
-    """The box around a shape, in its own frame; None for shapes without known ends.
+    """Return the box around a shape, in the shape's frame; None for shapes without known ends.
 
     Sizes that are not written are SDF's defaults.
     """
@@ -73,7 +73,7 @@ _HALVES: dict[type[Any], Callable[..., Vector3]] = {
 
 
 def placed_bounds(box: Bounds, at: Transform) -> Bounds:
-    """The box around a box that `at` places in another frame; larger than it has to be where that is turned."""
+    """Return the box around a box that `at` places in another frame; not the smallest one if it is turned."""
     half = [size / 2 for size in box.size]
     middle = [(low + high) / 2 for low, high in zip(box.least, box.greatest, strict=True)]
     x, y, z = at.apply((middle[0], middle[1], middle[2]))
@@ -83,7 +83,7 @@ def placed_bounds(box: Bounds, at: Transform) -> Bounds:
 
 
 def united(boxes: Iterable[Bounds]) -> Bounds | None:
-    """The box around several; None around nothing."""
+    """Return the box around several boxes; None for none."""
     listed = tuple(boxes)
     if not listed:
         return None

@@ -20,7 +20,7 @@ Part = TypeVar("Part", bound=Sourced)
 
 
 class ChangeKind(StrEnum):
-    """What became of a node or value; the value is the sign that stands for it."""
+    """What happened to a node or value; its value is the sign printed for it."""
 
     ADDED = "+"
     REMOVED = "-"
@@ -29,7 +29,7 @@ class ChangeKind(StrEnum):
 
 
 class NodeChange(NamedTuple):
-    """One value or node. `node` is the path of the node that it belongs to, or of itself; `path` is its own.
+    """A change of one value or node: `node` is the path of the node, `path` that of the value or node itself.
 
     Paths are those of the JSON of a document, with names in brackets where lists have names.
     """
@@ -47,7 +47,7 @@ class NodeChange(NamedTuple):
 
 
 def changes(old: Node, new: Node) -> Iterator[NodeChange]:
-    """Every difference, from the outside in."""
+    """List every difference of two documents, from the outside in."""
     return _inside(old, new, "")
 
 
@@ -73,7 +73,7 @@ def _field(old: object, new: object, node: str, path: str) -> Iterator[NodeChang
 
 
 def _is_same(old: object, new: object) -> bool:
-    """Whether two values are equal; what is not a number is like itself here."""
+    """Tell whether two values are equal, with NaN equal to itself."""
     return old == new or (isinstance(old, float | tuple) and repr(cast("object", old)) == repr(new))
 
 
@@ -83,7 +83,7 @@ def _has_parts(value: object) -> bool:
 
 
 def _whole(how: ChangeKind, part: object, path: str) -> Iterator[NodeChange]:
-    """A node that only one document has, and all values in it."""
+    """Yield a node that only one document has, with all values in it."""
     if not isinstance(part, Node):
         return
     yield NodeChange(how, path, path)
@@ -105,7 +105,7 @@ def _value(how: ChangeKind, value: object, node: str, path: str) -> NodeChange:
 
 
 def _alone(how: ChangeKind, part: Sourced, node: str, path: str) -> Iterator[NodeChange]:
-    """A part of a list that only one document has."""
+    """Yield the change of a list element that only one document has."""
     if isinstance(part, Node):
         yield from _whole(how, part, path)
     else:
@@ -131,7 +131,7 @@ def _lists(old: Sequence[Sourced], new: Sequence[Sourced], node: str, path: str)
 
 
 def _matched(old: Sequence[Sourced], new: Sequence[Sourced]) -> dict[int, int]:
-    """Which place in the old list is which in the new one."""
+    """Return which place in the old list corresponds to which in the new one."""
     pairs = dict[int, int]()
     for key in (_name, _without_name, _kind):
         taken = set(pairs.values())
@@ -140,14 +140,14 @@ def _matched(old: Sequence[Sourced], new: Sequence[Sourced]) -> dict[int, int]:
 
 
 def _pair(old: dict[Hashable, list[int]], new: dict[Hashable, list[int]]) -> dict[int, int]:
-    """The first with the first of each key, and so on."""
+    """Pair the places with equal keys, in order."""
     return {a: b for key, places in old.items() for a, b in zip(places, new.get(key, ()), strict=False)}
 
 
 def _by(
     key: Callable[[Sourced], Hashable | None], parts: Sequence[Sourced], but: set[int]
 ) -> dict[Hashable, list[int]]:
-    """The places of the parts that have such a key."""
+    """Group the places of parts by their keys."""
     found: dict[Hashable, list[int]] = defaultdict(list)
     for at, part in enumerate(parts):
         word = None if at in but else key(part)
@@ -171,7 +171,7 @@ def _kind(part: Sourced) -> Hashable | None:
 
 
 def name_of(part: Sourced) -> str | None:
-    """What tells a node apart from others of its kind; None for what has no name."""
+    """Return what tells a node apart from its siblings; None if it has no name."""
     if not isinstance(part, Node):
         return None
     return next((name for key in _NAMES if isinstance(name := getattr(part, key, None), str)), None)
@@ -182,7 +182,7 @@ def _labels(parts: Sequence[Sourced]) -> list[str]:
 
 
 class Sizes(NamedTuple):
-    """How many nodes differ."""
+    """How many nodes changed, were added and were removed."""
 
     changed: int
     added: int
@@ -190,7 +190,7 @@ class Sizes(NamedTuple):
 
 
 def count_changes(old: Node, new: Node) -> Sizes:
-    """How many nodes have other values or another order of parts, and how many are new or gone."""
+    """Count the nodes with other values or order, the new ones, and the removed ones."""
     changed, added, removed = set[str](), 0, 0
     whole = set[str]()
     for each in changes(old, new):

@@ -55,29 +55,29 @@ SIZES: Mapping[type[Node], Mapping[str, float | Vector3]] = {
 
 
 def filled(node: AnyNode, values: Mapping[str, object]) -> AnyNode:
-    """The node with these values in the fields that are not written; the same one where there are none."""
+    """Return the node with values in the fields that were not written; the node itself if there are none."""
     missing = {name: value for name, value in values.items() if getattr(node, name) is None}
     return node.copy(**missing) if missing else node
 
 
 def with_range(limit: Limit, format_: Format) -> Limit:
-    """The limit with both ends written."""
+    """Return the limit with both ends written."""
     usual = RANGE[format_]
     return filled(limit, {"lower": usual.lower, "upper": usual.upper})
 
 
 def direction(axis: Axis | None, format_: Format) -> Vector3:
-    """Where an axis points, in the frame that it is expressed in."""
+    """Return where an axis points, in the frame that it is expressed in."""
     return (axis.xyz if axis else None) or AXIS[format_]
 
 
 def multiplier(mimic: Mimic | None) -> float:
-    """How far a joint turns for each radian of the one that it mimics."""
+    """Return how far a joint turns for each radian of the joint that it mimics."""
     return MULTIPLIER if mimic is None or mimic.multiplier is None else mimic.multiplier
 
 
 def sizes(shape: ShapeNode) -> tuple[float, ...]:
-    """The lengths of a shape in m, one after the other: x, y, z, or the radius and then the length."""
+    """Return the lengths of a shape in m: x, y, z, or the radius and then the length."""
     found: list[float] = []
     for name, usual in SIZES[type(shape)].items():
         written: float | Vector3 | None = getattr(shape, name)

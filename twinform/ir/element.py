@@ -45,7 +45,7 @@ class Element(Sourced):
         return next((child for child in self.children if child.name == name), None)
 
     def walk(self) -> Iterator[Self]:
-        """This element and all below it, in document order."""
+        """Yield this element and all below it, in document order."""
         yield self
         for child in self.children:
             yield from child.walk()
@@ -81,13 +81,13 @@ class Opaque(Sourced):
 
     @property
     def name(self) -> str:
-        """How to call it in a message."""
+        """A name for it in messages."""
         if self.element:
             return f"<{self.element.name}>"
         return f"@{self.attribute[0]}" if self.attribute else "text"
 
     def location_in(self, holder: Sourced) -> Location:
-        """Where it was read, if that is known, or else its place in the element that holds it."""
+        """Return where it was read if that is known, otherwise its place in the element that holds it."""
         if self.source is not None or holder.source is None:
             return self.location
         name = self.element.name if self.element else f"@{self.attribute[0]}" if self.attribute else ""

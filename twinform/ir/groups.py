@@ -4,20 +4,20 @@ from collections.abc import Iterable, Mapping
 
 
 class Groups:
-    """Disjoint sets of names; each name is a set of its own until it is joined with others."""
+    """Disjoint sets of names (union-find); each name begins as a set of its own."""
 
     def __init__(self) -> None:
         self._up: dict[str, str] = {}
 
     def find(self, name: str) -> str:
-        """The name that stands for the set of a name; paths are halved on the way, so that long chains stay cheap."""
+        """Return the representative of a name's set; paths are halved on the way, so that long chains stay cheap."""
         while (above := self._up.get(name, name)) != name:
             self._up[name] = self._up.get(above, above)
             name = above
         return name
 
     def join(self, one: str, other: str) -> bool:
-        """Make one set of those of two names, for which the first one's stands; returns whether they were apart."""
+        """Join the sets of two names under the first one's representative; returns whether they were apart."""
         one, other = self.find(one), self.find(other)
         if one != other:
             self._up[other] = one
@@ -25,7 +25,7 @@ class Groups:
 
 
 def tops(names: Iterable[str], above: Mapping[str, str]) -> dict[str, str]:
-    """The last name on the way up from each name; where the way is a circle, the first one that is met again.
+    """Return the topmost name above each name; in a circle, the first one that is met again.
 
     A way that is known is not walked again, so that a long chain takes linear time.
     """

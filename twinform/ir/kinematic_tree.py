@@ -16,7 +16,7 @@ AnyPart = TypeVar("AnyPart")
 
 
 class JointBetween(NamedTuple):
-    """A joint and the links that its ends move with, which differ from what it names where that is a frame."""
+    """A joint with the links that its two ends move with; a joint may name frames instead of links."""
 
     name: str
     type: str
@@ -117,7 +117,7 @@ class KinematicTree:
         return tuple(each.child for each in self.joints_below(link))
 
     def below(self, link: str) -> Iterator[str]:
-        """All links that move with a link when it moves: it, and what hangs from it at any depth, parents first.
+        """Return the link and all links that move with it, parents first.
 
         Raises:
             KeyError: there is no such link.
@@ -130,7 +130,7 @@ class KinematicTree:
             waiting += [each.child for each in reversed(self._below.get(here, ()))]
 
     def chain(self, base: str, tip: str) -> tuple[JointBetween, ...]:
-        """The joints from a link to another one that hangs from it at any depth, in their order.
+        """Return the joints between a link and a descendant of it, in order.
 
         Raises:
             KeyError: there is no such link.
@@ -152,7 +152,7 @@ class KinematicTree:
 
 
 def _scopes(holder: Model | World) -> Iterator[tuple[str, Model | World]]:
-    """A model or world and all models in it, with what stands before the names in them."""
+    """Yield a model or world and all models inside it, each with the prefix of its names."""
     yield "", holder
     for model in holder.models:
         yield from scoped_models(model, model.name + SCOPE)

@@ -17,7 +17,7 @@ WITH_TWO_AXES = frozenset({"universal", "revolute2", "gearbox"})
 
 
 class JointEnds(Protocol):
-    """A joint by the links that its ends move with."""
+    """A joint with the links that its ends move with."""
 
     @property
     def name(self) -> str:
@@ -44,7 +44,7 @@ AnyJoint = TypeVar("AnyJoint", bound=JointEnds)
 
 
 def axes_of(joint: Joint) -> tuple[Axis, ...]:
-    """The axes that a joint moves about or along, those that are not written with nothing in them."""
+    """Return the axes of a joint; an axis that is not written stands as an empty one."""
     if joint.type in WITHOUT_AXIS:
         return ()
     axes = (joint.axis, joint.axis2) if joint.type in WITH_TWO_AXES else (joint.axis,)
@@ -52,7 +52,7 @@ def axes_of(joint: Joint) -> tuple[Axis, ...]:
 
 
 def spanning_tree(joints: Iterable[AnyJoint]) -> Mapping[str, AnyJoint]:
-    """The joints that make a tree, by the links that hang from them: of several, a fixed one, or the first by name."""
+    """Choose the joints that make a tree, by child link: of several, a fixed one, or the first by name."""
     above: dict[str, AnyJoint] = {}
     groups = Groups()
     for joint in sorted(joints, key=lambda joint: (joint.type != "fixed", joint.name)):
@@ -96,7 +96,7 @@ def unit(vector: Vector3) -> Vector3:
 
 
 def plane_across(normal: Vector3) -> tuple[Vector3, Vector3]:
-    """Two unit vectors that make a right-handed frame with a normal, x and y where that is z."""
+    """Return two unit vectors that make a right-handed frame with a normal; x and y if it is z."""
     length = math.hypot(*normal)
     nx, ny, nz = (part / length for part in normal)
     smallest = min(range(3), key=lambda i: abs((nx, ny, nz)[i]))

@@ -21,7 +21,7 @@ Axes = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float
 
 
 def principal_moments(matrix: Symmetric) -> tuple[float, float, float]:
-    """The eigenvalues, smallest first, by Jacobi's rotations: small ones are as exact as large ones.
+    """Return the eigenvalues, smallest first, by Jacobi's method: small ones are as exact as large ones.
 
     All elements have to be finite; an eigenvalue that no double holds is infinite.
     """
@@ -36,18 +36,18 @@ def principal_moments(matrix: Symmetric) -> tuple[float, float, float]:
 
 
 def relative_moments(matrix: Symmetric) -> tuple[float, float, float]:
-    """The eigenvalues over one power of two, below three, so that none of them overflows, nor does their sum."""
+    """Return the eigenvalues over one power of two, each below three, so that not even their sum overflows."""
     return principal_moments(times_each(matrix, -common_exponent(matrix)))
 
 
 def times_each(matrix: Symmetric, exponent: int) -> Symmetric:
-    """The matrix times a power of two; elements that no double holds are infinite."""
+    """Multiply a matrix by a power of two; elements beyond the range of doubles become infinite."""
     xx, yy, zz, xy, xz, yz = (times_power(element, exponent) for element in matrix)
     return xx, yy, zz, xy, xz, yz
 
 
 def principal_axes(matrix: Symmetric) -> tuple[tuple[float, float, float], Axes]:
-    """The eigenvalues and the eigenvector of each, in no order; all elements have to be finite."""
+    """Return the eigenvalues with their eigenvectors, in no order; all elements must be finite."""
     exponent = common_exponent(matrix)
     entries = [*times_each(matrix, -exponent)]
     axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]

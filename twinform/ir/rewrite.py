@@ -39,7 +39,7 @@ def rewrite(
     *,
     having: int | None = None,
 ) -> AnyNode:
-    """The node with every node of a class changed, in it and then itself: from the inside out, in the order of fields.
+    """Change every node of one class in a tree, from the inside out, in the order of fields.
 
     So `change` sees a node in which all is changed already. A node without any of the bits `having` in its census stays
     as it is, with all that is in it; where none are given, those of the class are meant.
@@ -59,23 +59,23 @@ def _rewritten(kind: type[Node], change: Callable[[Any], Node], having: int, nod
 
 
 def map_children(node: AnyNode, change: Callable[[Node], Node]) -> AnyNode:
-    """The node with each node directly in it changed; it is for `change` to look further down."""
+    """Return the node with each node directly inside it changed; `change` has to descend itself."""
     return _with_changed(node, node_fields(type(node)), change)
 
 
 def replace_node(node: AnyNode, old: Wanted, new: Wanted) -> AnyNode:
-    """The node with one in it replaced by another; it is known by its identity, as equal nodes are still two."""
+    """Return the tree with one node, known by identity, replaced: equal nodes are still two."""
     return rewrite(node, type(old), lambda each: new if each is old else each)
 
 
 def replace_fields(part: AnyPart, **fields: object) -> AnyPart:
-    """The node or element with other values in some fields; itself where they hold the objects that are there."""
+    """Return the node or element with other field values; itself if it holds these objects already."""
     update = {name: new for name, new in fields.items() if not _is_same(new, getattr(part, name))}
     return part.copy(**update) if update else part
 
 
 def _is_same(new: Any, old: Any) -> bool:
-    """Whether it is one object, or two tuples that hold the same objects."""
+    """Tell whether two values are one object, or tuples of the same objects."""
     if new is old:
         return True
     return new.__class__ is tuple is old.__class__ and len(new) == len(old) and all(map(is_, new, old))

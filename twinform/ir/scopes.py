@@ -22,7 +22,7 @@ def outer_models(document: Document) -> Iterator[Model]:
 
 
 def scoped_models(model: Model, scope: str = "") -> Iterator[tuple[str, Model]]:
-    """A model and all models nested in it, from the outside in, each with the prefix that names in it have outside.
+    """Yield a model and all models nested in it, from the outside in, each with the prefix of its names outside.
 
     `scope` is the prefix of the outermost one.
     """
@@ -57,7 +57,7 @@ _PLUGIN = "plugin"
 
 
 def scoped_elements(element: Element) -> Iterator[Element]:
-    """The element and those in it that libsdformat refuses for their names."""
+    """Yield the elements, of one and all inside it, that libsdformat refuses for their names."""
     if element.name == _PLUGIN or ":" in element.name:
         return
     if SCOPE in (element.get("name") or ""):
@@ -67,7 +67,7 @@ def scoped_elements(element: Element) -> Iterator[Element]:
 
 
 def scoped_parts(node: Node) -> tuple[Opaque, ...]:
-    """The opaque parts of a node in which there are such elements; plugins may have them."""
+    """Return the opaque parts of a node that contain such elements; those in plugins are allowed."""
     if not node.opaque or isinstance(node, Plugin):
         return ()
     return tuple(part for part in node.opaque if part.element and any(scoped_elements(part.element)))

@@ -120,20 +120,20 @@ _SOLIDS: dict[type[Any], Callable[..., _Moments]] = {
 
 
 def tensor(inertia: Inertia | None, moment: float = 0.0) -> Symmetric:
-    """The inertia that is written; `moment` is what each moment is that is not, and products are zero then."""
+    """Return the written inertia, with `moment` for missing moments and zero for missing products."""
     written = inertia or Inertia()
     xx, yy, zz = (moment if value is None else value for value in (written.ixx, written.iyy, written.izz))
     return xx, yy, zz, written.ixy or 0.0, written.ixz or 0.0, written.iyz or 0.0
 
 
 def with_tensor(inertia: Inertia | None, elements: Symmetric) -> Inertia:
-    """The inertia with these elements, and with what else is written in it."""
+    """Return the inertia with these elements, keeping whatever else is written in it."""
     update: dict[str, float] = dict(zip(ELEMENTS, elements, strict=True))
     return (inertia or Inertia()).copy(**update)
 
 
 def written_solid(inertial: Inertial | None, format_: Format) -> Solid:
-    """The solid of an inertial, in its own frame, with the defaults of the format; in URDF no inertial has no mass."""
+    """Return the solid of an inertial in its own frame, by the format's defaults; in URDF, none has no mass."""
     written = inertial or Inertial()
     mass = MASS[format_] if written.mass is None else written.mass
     return Solid(mass or 0.0, ORIGIN, tensor(written.inertia, MOMENT[format_] or 0.0))
@@ -189,14 +189,14 @@ def combined(parts: Sequence[Solid]) -> Solid:
 
 
 def _steiner(mass: float, place: Sequence[float], center: Sequence[float]) -> Symmetric:
-    """What the inertia of a part about another point than its own center is more: m (d^2 - d d^T)."""
+    """Return what the parallel axis theorem adds: m (d^2 - d d^T)."""
     x, y, z = (a - b for a, b in zip(place, center, strict=True))
     m = mass
     return m * (y * y + z * z), m * (x * x + z * z), m * (x * x + y * y), -m * x * y, -m * x * z, -m * y * z
 
 
 def with_mass(one: Solid, mass: float) -> Solid:
-    """Return the solid, filled so that it has this mass."""
+    """Return the solid scaled to a mass, with the same shape."""
     (new, of_new), (old, of_old) = math.frexp(mass), math.frexp(one.mass)
     factor = new / old if old else 0.0
     xx, yy, zz, xy, xz, yz = (element * factor for element in times_each(one.inertia, -common_exponent(one.inertia)))

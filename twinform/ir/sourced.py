@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Constraint:
-    """What `pydantic.Field` is told: a discriminator, or how long a tuple may be."""
+    """Arguments for `pydantic.Field`: a discriminator, or the length of a tuple."""
 
     def __init__(self, **options: Any) -> None:
         self._options = options
@@ -28,7 +28,7 @@ class Constraint:
 
 
 class Unseen:
-    """A field of Python alone: any value is taken, and JSON and its schema do not have it."""
+    """Marks a field that exists in Python alone: any value is accepted, and JSON and its schema leave it out."""
 
     def __repr__(self) -> str:
         return "Unseen()"
@@ -60,5 +60,5 @@ class Sourced(Record):
 
     @property
     def location(self) -> Location:
-        """Where it was read; nowhere for what a pass made."""
+        """The place where it was read; unknown for what a pass made."""
         return self.source.location if self.source else NOWHERE

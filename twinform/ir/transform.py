@@ -30,7 +30,7 @@ _DIGITS, _NOISE = 12, 2e-15
 
 @dataclass(frozen=True, slots=True)
 class Transform:
-    """Where one frame is in another: a point p of it is at `rotation` p + `translation` in the other, in meters.
+    """The pose of a frame in another one: its point p is at `rotation` p + `translation` there, in meters.
 
     `notation` is the pose that these numbers were written as; composing with the identity keeps it, so that what was
     not moved is written as it was read.
@@ -48,7 +48,7 @@ class Transform:
         return cls(_plus_zero(pose.xyz or _ORIGIN), _rotation(pose), pose)
 
     def to_pose(self, relative_to: str | None = None) -> Pose:
-        """The pose, in the notation that it was read in, or else with the angles in radians. Zeros are left out."""
+        """Return the pose in the notation it was read in, otherwise in radians; zeros are left out."""
         written = self.notation
         if written is not None:
             return written.copy(relative_to=relative_to, opaque=())
@@ -73,7 +73,7 @@ class Transform:
         return self.rotation == _UNTURNED
 
     def compose(self, inner: "Transform") -> "Transform":
-        """The transform of `inner`, which is in the frame that this one places, to the frame that this one is in."""
+        """Return the transform of `inner`, which stands in the frame placed by this one, in this one's outer frame."""
         if self.is_identity:
             return inner
         if inner.is_identity:
@@ -81,7 +81,7 @@ class Transform:
         return Transform(self.apply(inner.translation), _product(self.rotation, inner.rotation))
 
     def inverse(self) -> "Transform":
-        """The other frame in this one."""
+        """Return the outer frame as seen from the inner one."""
         if self.is_identity:
             return self
         back = _transpose(self.rotation)
@@ -89,12 +89,12 @@ class Transform:
         return Transform(_plus_zero((-x, -y, -z)), back)
 
     def apply(self, point: Vector3) -> Vector3:
-        """A point of the inner frame in the outer one."""
+        """Return a point of the inner frame in the outer one."""
         x, y, z = self.rotate(point)
         return (x + self.translation[0], y + self.translation[1], z + self.translation[2])
 
     def rotate(self, direction: Vector3) -> Vector3:
-        """A direction of the inner frame in the outer one."""
+        """Return a direction of the inner frame in the outer one."""
         return _turn(self.rotation, direction)
 
     def rpy(self) -> Vector3:
@@ -125,7 +125,7 @@ class Transform:
 
 
 def rounded(vector: Vector3) -> Vector3:
-    """The vector without the noise of composing: a number next to one of few digits is that one."""
+    """Return the vector without rounding noise: a number next to one with few digits becomes that one."""
     x, y, z = vector
     return (_rounded(x), _rounded(y), _rounded(z))
 
@@ -217,12 +217,12 @@ def cross(a: Vector3, b: Vector3) -> Vector3:
 
 
 def minus(a: Vector3, b: Vector3) -> Vector3:
-    """From b to a."""
+    """Return the vector from b to a."""
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def across(axis: Vector3, arm: Vector3) -> Vector3:
-    """The part of a vector that is square to a unit vector."""
+    """Return the part of a vector perpendicular to a unit vector."""
     along = dot(axis, arm)
     return minus(arm, (axis[0] * along, axis[1] * along, axis[2] * along))
 
@@ -230,12 +230,12 @@ def across(axis: Vector3, arm: Vector3) -> Vector3:
 # Products of masses and squares of lengths leave the range of doubles long before their results do,
 # and Python raises at some of these places (`**`, `fsum`, `ldexp`) and not at others.
 def common_exponent(numbers: Iterable[float]) -> int:
-    """The power of two that brings the largest of some numbers to between a half and one; 0 where all are zero."""
+    """Return the power of two that scales the largest number to between a half and one; 0 if all are zero."""
     return math.frexp(max(map(abs, numbers), default=0.0))[1]
 
 
 def times_power(number: float, exponent: int) -> float:
-    """A number times a power of two; infinite where no double is large enough."""
+    """Multiply a number by a power of two; infinite beyond the range of doubles."""
     try:
         return math.ldexp(number, exponent)
     except OverflowError:
@@ -243,7 +243,7 @@ def times_power(number: float, exponent: int) -> float:
 
 
 def safe_sum(numbers: Iterable[float]) -> float:
-    """The sum without rounding on the way; infinite or not a number where no double is large enough."""
+    """Sum numbers without rounding on the way; infinite or NaN beyond the range of doubles."""
     listed = tuple(numbers)
     try:
         return math.fsum(listed)

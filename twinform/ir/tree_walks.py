@@ -35,7 +35,7 @@ def _classes(annotation: Any, own: type[Node]) -> Iterator[type[Node]]:
 
 @cache
 def classes_below(kind: type[Node]) -> frozenset[type[Node]]:
-    """A class of nodes with those of all nodes that may be in it, at any depth."""
+    """Return a class of nodes with the classes of all nodes that may be inside it, at any depth."""
     found = {kind}
     queue = [kind]
     for each in queue:  # grows while it is walked
@@ -46,7 +46,7 @@ def classes_below(kind: type[Node]) -> frozenset[type[Node]]:
 
 
 def node_values(node: Node) -> Iterator[tuple[str, Node | tuple[Node, ...]]]:
-    """The fields of a node that hold nodes, each with the one or the several in it."""
+    """Yield the fields of a node that hold nodes, each with its one or several nodes."""
     for name in node_fields(type(node)):
         value = getattr(node, name)
         if value:

@@ -80,7 +80,7 @@ Read = TypeVar("Read")
 
 
 class RowReaders(dict[str, Read]):
-    """The functions that read what rows describe, each made when it is first needed; `other` reads all else."""
+    """Functions that read attributes or children by name, made from rows on demand; `other` reads unknown names."""
 
     def __init__(self, rows: Mapping[str, Fact], make: Callable[[Fact], Read], other: Read) -> None:
         super().__init__()
@@ -229,7 +229,7 @@ _USUAL_BOOLS = {"true": True, "false": False}
 
 
 class PlainValue(NamedTuple):
-    """How the values of a row are recognized as plain.
+    """How to recognize the plain values of a row, which need no finding.
 
     `parse` raises one of `NOT_PLAIN` for other texts; where `is_usual` is there, a value is plain if that says so.
     """
@@ -240,7 +240,7 @@ class PlainValue(NamedTuple):
 
 
 def plain_values(rows: Iterable[Fact], types: Types, version: Version) -> dict[str, PlainValue]:
-    """The rows of attributes or children that need no finding themselves and have nothing but a value, by name."""
+    """Return, by name, the rows that hold nothing but a value and need no finding themselves."""
     return {
         row.name.removeprefix("@"): PlainValue(field, _parser(row, types), _usual_values(row))
         for row in rows
@@ -250,7 +250,7 @@ def plain_values(rows: Iterable[Fact], types: Types, version: Version) -> dict[s
 
 
 def store_plain(plain: PlainValue, text: str | None, node: Data) -> bool:
-    """Store the value of a text, if it is plain; whether it was."""
+    """Store the value of a text if it is plain; returns whether it was."""
     field, parse, is_usual = plain
     try:
         value = parse(text)
@@ -269,7 +269,7 @@ def _parser(row: Fact, types: Types) -> Callable[[Any], Any]:
 
 
 def _usual_values(row: Fact) -> Callable[[Any], bool] | None:
-    """What tells that nothing is wrong with a value; None where nothing can be."""
+    """Return a check that nothing is wrong with a value; None if nothing can be."""
     if row.enum:
         return frozenset(row.enum).__contains__
     if row.min is None and row.max is None:

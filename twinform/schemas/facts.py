@@ -88,7 +88,7 @@ class Fact:
 
     @property
     def needs_text(self) -> bool:
-        """Whether blank text is a gap, and not another way to write the default."""
+        """Whether blank text is a mistake rather than another way to write the default."""
         # The SDF specification requires 175 elements, and readers fill in nearly all of them.
         # Required here is only what has no useful default: names, types, parents, children, URIs.
         return self.required and self.default is None
@@ -114,7 +114,7 @@ class Fact:
         return [row for row in self.rows if not row.is_attribute]
 
     def exists_in(self, version: Version) -> bool:
-        """Whether this version of the format has it."""
+        """Tell whether this version of the format has it."""
         return self.since <= version <= self.until
 
 
@@ -128,7 +128,7 @@ class Table:
     definitions: dict[str, Fact]
 
     def resolve(self, row: Fact) -> Fact:
-        """The fact that holds a row's rows: the definition that it refers to, or itself."""
+        """Return the fact that holds a row's rows: the definition that it refers to, or itself."""
         return self.definitions[row.reference] if row.reference else row
 
     @property
@@ -138,7 +138,7 @@ class Table:
 
 
 def parse_version(text: str) -> Version:
-    """`1.10` as (1, 10).
+    """Parse `1.10` to (1, 10).
 
     Raises:
         ValueError: it is not two whole numbers with a dot between them.
@@ -148,7 +148,7 @@ def parse_version(text: str) -> Version:
 
 
 def print_version(version: Version) -> str:
-    """The inverse of `parse_version`."""
+    """Print a version; the inverse of `parse_version`."""
     return f"{version[0]}.{version[1]}"
 
 
@@ -258,12 +258,12 @@ def _note_other_words(fact: Fact) -> None:
 
 
 def in_version(fact: Fact, version: Version) -> Fact:
-    """A copy of the fact with only the rows that a version has, all the way down."""
+    """Copy a fact with only the rows that a version has, at every depth."""
     return replace(fact, rows=[in_version(row, version) for row in fact.rows if row.exists_in(version)])
 
 
 def rows_by_name(rows: Iterable[Fact], version: Version) -> dict[str, Fact]:
-    """One row for each name: the one of this version, or else the last of another."""
+    """Choose one row for each name: the one of this version, otherwise the last of another."""
     best: dict[str, Fact] = {}
     for row in rows:
         # A file may use an element that only another version has. It is read by that row, and

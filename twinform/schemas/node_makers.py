@@ -34,7 +34,7 @@ class NodeMaker:
         self.make = maker(kind)
 
     def complete(self, data: Data) -> None:
-        """Make tuples of what was gathered in lists, and nodes of what was gathered in dicts."""
+        """Turn gathered lists into tuples and gathered dicts into nodes."""
         for name in self._tuples:
             if name in data:
                 data[name] = tuple(data[name])
@@ -45,7 +45,7 @@ class NodeMaker:
 
 
 def required_words(kind: type[Node]) -> Mapping[str, tuple[str, ...]]:
-    """The fields without which there is no node of a class, with the words of those that take only some."""
+    """Return the required fields of a class, with the allowed words of those that take only some."""
     return {
         name: get_args(each.type) if get_origin(each.type) is Literal else ()
         for name, each in fields_of(kind).items()
@@ -54,7 +54,7 @@ def required_words(kind: type[Node]) -> Mapping[str, tuple[str, ...]]:
 
 
 def node_class(holder: type[Node], field: str, kind: str | None = None) -> type[Node]:
-    """The class of the nodes in a field, which is that of a kind where there are several.
+    """Return the class of the nodes in a field; of several, the one of a kind.
 
     Raises:
         ValueError: there is no such field, or it does not hold nodes of one class.
@@ -67,7 +67,7 @@ def node_class(holder: type[Node], field: str, kind: str | None = None) -> type[
 
 
 def require_place(holder: type[Node], place: str) -> None:
-    """Make sure that the place of a row is a field of the class that the row fills, or of a node in that.
+    """Check that the place of a row is a field of the class that the row fills, or of a node inside it.
 
     Raises:
         ValueError: it is not.
@@ -94,7 +94,7 @@ LAST_LINE = 65535
 
 
 def element_xml(element: Any, parent: XmlElement | None = None) -> XmlElement:
-    """The XML of an IR `Element`, below `parent` where one is given."""
+    """Return the XML of an IR `Element`, below `parent` if one is given."""
     attributes = dict(element.attributes)
     if parent is None:
         made = etree.Element(element.name, attributes)
@@ -109,7 +109,7 @@ def element_xml(element: Any, parent: XmlElement | None = None) -> XmlElement:
 
 
 def read_element(element: XmlElement, file: str, above: Source | None, *, kept: bool = False) -> Element:
-    """The subtree, with sources below the one that is given; one that is `kept` has no text behind it."""
+    """Read a subtree as an `Element`, with sources below the given one; a `kept` one has no text behind it."""
     tag = str(element.tag)
     if above is not None:
         above = locate(Source, (file, element.sourceline or 0, above, tag, element.get("name")))
@@ -121,12 +121,12 @@ def read_element(element: XmlElement, file: str, above: Source | None, *, kept: 
 
 
 def keep_content(child: XmlElement, node: Data, field: str, context: Context) -> None:
-    """Keep a child in a field for free content, where it knows where it was written."""
+    """Keep a child in a field for free content, which knows where it was written."""
     node.setdefault(field, []).append(read_element(child, context.file, node["source"]))
 
 
 def keep_element(child: XmlElement, node: Data, at: str, context: Context) -> None:
-    """Keep a child with all that is in it; `at` is the path from the node to the element around it."""
+    """Keep a child with all inside it; `at` is the path from the node to the element around it."""
     element = read_element(child, context.file, None, kept=True)
     _keep(child, node, context, str(child.tag), (at, element, None, None))
 

@@ -70,7 +70,7 @@ class SchemaReader:
         return self._definitions[key]
 
     def _inside(self, row: Fact, into: type[Node] | None, at: str = "") -> ElementReader:
-        """What reads the inside of a row's element into the values of a node of a class; without one it only checks.
+        """Return the reader of the inside of a row's element, for a node of a class; without one it only checks.
 
         `at` is the path from the node's own element to this one.
         """
@@ -83,7 +83,7 @@ class SchemaReader:
         return ElementReader(fact, self.types, self.version, partial(self._child, into=into, at=at), into, at)
 
     def _child(self, row: Fact, into: type[Node] | None, at: str) -> ReadChild:
-        """What reads a row's element, which stands at a path from the node that is being read."""
+        """Return the reader of a row's element at a path from the current node."""
         if into is None:
             read = self._checked(row)
         elif row.place is None:
@@ -98,7 +98,7 @@ class SchemaReader:
         return with_row_findings(row, self.version, read, at, has_text=has_text, keep=into is not None)
 
     def _checked(self, row: Fact) -> ReadChild:
-        """The reader of an element of which nothing goes into fields."""
+        """Return the reader of an element that is checked and fills no field."""
         return self._inside(row, None).read if row.type is None or row.rows else self._leaf(row, None, "")
 
     def _opaque(self, row: Fact, at: str) -> ReadChild:
@@ -111,7 +111,7 @@ class SchemaReader:
         return read
 
     def _leaf(self, row: Fact, into: type[Node] | None, at: str) -> ReadChild:
-        """The reader of an element with text, and perhaps attributes, whose value is a field of the node around it."""
+        """Return the reader of an element with text, perhaps attributes too, that fills a field of the node around it."""
         keep, has_rows = into is not None, bool(row.rows)
         read_text = text_reader(row, self.types, keep=keep)
         inside = cache(partial(self._element_reader, row, into, _below(at, row)))
@@ -125,7 +125,7 @@ class SchemaReader:
         return read
 
     def _hoisted(self, row: Fact, into: type[Node], at: str) -> ReadChild:
-        """The reader of a container whose rows fill the node around it."""
+        """Return the reader of a container whose rows fill the node around it."""
         fill = self._inside(row, into, _below(at, row)).read
 
         def read(child: XmlElement, node: Data, context: Context, place: int) -> None:
@@ -138,7 +138,7 @@ class SchemaReader:
         return read
 
     def _own_node(self, row: Fact, place: str, into: type[Node], at: str) -> ReadChild:
-        """The reader of an element that makes a node."""
+        """Return the reader of an element that makes a node."""
         outer, _, field = place.rpartition(".")
         kind = node_class(node_class(into, outer) if outer else into, field, row.kind)
         if row.kind:
@@ -168,7 +168,7 @@ class SchemaReader:
         return read
 
     def _one_of_several(self, row: Fact, kind: type[Node], field: str, at: str) -> ReadChild:
-        """The reader of an element that makes a node of a kind, unless the field has one already."""
+        """Return the reader of an element that makes a node of a kind, unless the field has one already."""
         fill, maker = self._inside(row, kind).read, self._maker(self.table.resolve(row), kind)
         gathers, complete, make = maker.gathers, maker.complete, maker.make
         keep, step = self._opaque(row, at), _below(at, row)
@@ -191,7 +191,7 @@ class SchemaReader:
         return NodeMaker(kind, {field: node_class(kind, field) for field in outer})
 
     def _places(self, fact: Fact) -> Iterator[str]:
-        """The places of the rows that fill the node of a fact, also those of containers that make none."""
+        """Return the places of the rows that fill the node of a fact, also of containers without a node."""
         for row in fact.rows:
             if row.place == "." and row.type is None:
                 yield from self._places(self.table.resolve(row))
@@ -200,11 +200,11 @@ class SchemaReader:
 
 
 def _below(at: str, row: Fact) -> str:
-    """The path to a row's element in the one at a path."""
+    """Return the path to a row's element inside the one at a path."""
     return f"{at}/{row.name}" if at else row.name
 
 
 @cache
 def reader(format: str, version: Version) -> SchemaReader:
-    """The reader of a format in a version."""
+    """Return the reader of a format in a version."""
     return SchemaReader(table(format), version)

@@ -100,7 +100,7 @@ _SHOWN_ELSE = "{format_value(value)}"
 
 
 class _WriterFunction(NamedTuple):
-    """What a function writes: the facts of a node, the path that leads to them from a definition, the element's tag.
+    """A generated function: the fact that it writes, the path to it from a definition, and the element's tag.
 
     `keep` says that the element is kept where it is empty.
     """
@@ -117,7 +117,7 @@ def generate_text_writer(facts: Table) -> str:
 
 
 class _WriterGenerator:
-    """Makes the module of a format. A function stands behind those that it calls."""
+    """Makes the module of a format; each function stands after the ones that it calls."""
 
     def __init__(self, facts: Table) -> None:
         self.table = facts
@@ -143,7 +143,7 @@ class _WriterGenerator:
         return "\n".join([f'    "{tag}": {name},' for tag, name in found.items()])
 
     def _node(self, part: _WriterFunction, longer_path: str) -> str:
-        """The name of the function that writes a node; `longer_path` names it where another one has its path."""
+        """Return the name of the function that writes a node; `longer_path` tells two of one path apart."""
         key = id(part.fact), part.tag, part.keep
         if key not in self.names:
             name = self.names[key] = self._new_name(part.path, longer_path)
@@ -160,7 +160,7 @@ class _WriterGenerator:
         return next(name for name in names if name not in self.names.values())
 
     def _function(self, name: str, path: str, head: Template, tag: str, code: str) -> str:
-        """The name of the function with this code, which is added where there is none."""
+        """Return the name of the function with this code, and add it if there is none."""
         initial = " = ".join(_written(code))
         code = (f'    {initial} = ""\n' if initial else "") + code
         code = (_INNER if "inner" in code else "") + code
@@ -217,7 +217,7 @@ class _WriterGenerator:
         return _if(row) + _ADD_NODE_BY_VERSION.substitute(names, since=row.since)
 
     def _kinds(self, rows: list[Fact], path: str) -> str:
-        """The code for rows that share a field."""
+        """Return the code for rows that share a field."""
         if not rows:
             return ""
         name = f"{path}_{rows[0].place}s".replace("/", "_").upper()
@@ -226,7 +226,7 @@ class _WriterGenerator:
         return _IF_KIND.substitute(field=rows[0].place, kinds=name) + _ADD_NODE.substitute(write="write")
 
     def _all_in_order(self, rows: list[Fact], path: str) -> str:
-        """The code for rows that there may be any number of."""
+        """Return the code for rows that may be repeated."""
         fields = [{"field": row.place, "write": self._child(row, path, keep=True)} for row in rows]
         if len(fields) < 2:
             return "".join([_ADD_ALL.substitute(field) for field in fields])
@@ -251,7 +251,7 @@ def _imports(code: str) -> str:
 
 
 def _changed(facts: Table) -> Iterator[tuple[Fact, Fact]]:
-    """The rows that are written in another way than in older versions, each with its older row.
+    """Return the rows that are written differently than in older versions, each with its older row.
 
     Raises:
         ValueError: the generator has no template for such a change.
@@ -274,18 +274,18 @@ def _facts(rows: Iterable[Fact]) -> Iterator[Fact]:
 
 
 def _way_of(row: Fact) -> tuple[object, ...]:
-    """What decides how a row is written; of two containers nothing more is known than that they are not the same."""
+    """Return what decides how a row is written; two containers are only equal if they are the same."""
     return row.place, row.kind, row.type, row.reference, row.fills_tuple, id(row) if row.rows else None
 
 
 def _if(row: Fact) -> str:
-    """The line that asks whether the field of a row has a value."""
+    """Return the line that asks whether the field of a row has a value."""
     holder, _, field = (row.place or "").rpartition(".")
     return _IF_INSIDE.substitute(holder=holder, field=field) if holder else _IF.substitute(field=field)
 
 
 def _shown(row: Fact, escape: str) -> str:
-    """The value of a row inside of an f-string."""
+    """Return the code for the value of a row inside of an f-string."""
     quote = '"' if escape == "_attribute" else "'"
     return Template(_SHOWN.get(row.type or "", _SHOWN_ELSE)).substitute(escape=escape, quote=quote, field=row.place)
 

@@ -85,13 +85,13 @@ def _spelling(node: Any, field: str) -> str:
 
 
 def vector3(values: Sequence[float]) -> str:
-    """A vector of three numbers, which nearly all are."""
+    """Write a vector; nearly all have three numbers."""
     x, y, z = values
     return f"{x!r} {y!r} {z!r} ".replace(".0 ", " ")[:-1]
 
 
 def pose_numbers(pose: Any) -> str | None:
-    """The six or seven numbers of a pose; nothing where it has none."""
+    """Return the six or seven numbers of a pose; none if it has none."""
     xyz, rotation = pose.xyz, pose.quat_xyzw
     if rotation is None:
         rotation = pose.rpy
@@ -106,7 +106,7 @@ def _namespace(name: str) -> str:
 
 
 class _PrefixNames(dict[str, str]):
-    """Names as they are written, by their names in the IR; KeyError for one in a namespace without a prefix."""
+    """Names with their prefixes, by their names in the IR; KeyError for a namespace without a prefix."""
 
     def __init__(self, prefixes: Mapping[str, str]) -> None:
         super().__init__()
@@ -122,7 +122,7 @@ class _PrefixNames(dict[str, str]):
 
 @dataclass(slots=True)
 class _Additions:
-    """What stands in an element beside what typed fields write; `inner` is what stands in its children, by their names.
+    """What is added to an element beside its typed fields; `inner` has what is added to its children, by name.
 
     `order` has what is written behind all else: untyped parts, and the names of children that may have to be made.
     """
@@ -155,7 +155,7 @@ class _Additions:
 # Building a tree with lxml, indenting and serializing it takes more than twice as long as putting
 # the same text together. A property holds that both give the same bytes.
 class TextOutput:
-    """What the writers know of a document; the arguments are those of `root_text`."""
+    """What the writers know of a document; its arguments are those of `root_text`."""
 
     def __init__(
         self,
@@ -176,7 +176,7 @@ class TextOutput:
         self._late: dict[int, list[Item]] = {}
 
     def children(self, node: Any, indent: str, *groups: tuple[Iterable[Any], Write]) -> str:
-        """The parts of a node that there may be any number of, in the order of the file."""
+        """Write the repeated parts of a node, in the order of the file."""
         items = [(child, write) for children, write in groups for child in children]
         if len(items) > 1:
             items = in_order(items)
@@ -213,7 +213,7 @@ class TextOutput:
         return _joined(tag, indent, self._mark(node) + attributes, body or "")
 
     def _filled(self, node: Any, indent: str, attributes: str, body: str, content: Iterable[Any]) -> tuple[str, str]:
-        """The attributes and the body of a node with `content` and its parts that have no typed field."""
+        """Return the attributes and the body of a node with its content and its untyped parts."""
         for element in content:
             made = self._element(element, indent, self._names)
             body += _behind(body, made, indent)
@@ -235,7 +235,7 @@ class TextOutput:
         return f"{_MARK}{len(self.parts) - 1}{_MARK}"
 
     def _added(self, attributes: str, body: str, indent: str, additions: _Additions) -> tuple[str, str]:
-        """The attributes and the body of an element with additions."""
+        """Return the attributes and the body of an element with its additions."""
         if additions.attributes:
             names, declared = self._declared([name for name, _ in additions.attributes], self._names)
             added = {names[name]: in_attribute(value) for name, value in additions.attributes}
@@ -251,7 +251,7 @@ class TextOutput:
         return attributes, body
 
     def _added_inside(self, body: str, indent: str, step: str, additions: _Additions) -> str:
-        """The body of an element whose child of this name has additions; one that there is not is made."""
+        """Return the body of an element with additions made in its child of this name, which is created if missing."""
         names, declared = self._declared([step], self._names)
         name = names[step]
         found = re.search(rf"{indent}<{re.escape(name)}(?=[ />{_MARK}])", body)
@@ -265,7 +265,7 @@ class TextOutput:
         return body + _behind(body, child, indent)
 
     def _element(self, element: Any, indent: str, names: _PrefixNames, mark: str = "") -> str:
-        """An untyped element, and the text behind it."""
+        """Write an untyped element, and the text behind it."""
         try:
             name, attributes = names[element.name], _attributes(element.attributes, names)
         except KeyError:
@@ -305,7 +305,7 @@ class TextOutput:
         return names, f' xmlns="{in_attribute(namespace)}"{declared}'
 
     def _declared(self, wanted: Iterable[str], names: _PrefixNames) -> tuple[_PrefixNames, str]:
-        """Names with a prefix for the namespace of each that is wanted, and the declarations of these prefixes."""
+        """Return prefixed names for the namespaces that are wanted, and the declarations of their prefixes."""
         made = dict[str, str]()
         for namespace in map(_namespace, wanted):
             if namespace not in names.prefixes and namespace not in made:
@@ -317,7 +317,7 @@ class TextOutput:
 
 
 def _declarations(namespaces: Mapping[str | None, str]) -> str:
-    """The declarations of namespaces, which have to be those that lxml takes."""
+    """Return the declarations of namespaces, in the form that lxml accepts."""
     holder = etree.tostring(etree.Element("holder", nsmap=namespaces), encoding="unicode")
     return holder.removeprefix("<holder").removesuffix("/>")
 
@@ -339,7 +339,7 @@ def _with_attributes(attributes: str, added: Mapping[str, str]) -> str:
 
 
 def _with_text(body: str, text: str, indent: str) -> str:
-    """A body with a text behind the one that it begins with."""
+    """Put a text into a body, behind the text that it begins with."""
     before, bracket, rest = body.partition("<")
     if before.isspace() and bracket:  # there is no text but the indent
         return body if text.isspace() else text + body.removeprefix(indent)
@@ -347,19 +347,19 @@ def _with_text(body: str, text: str, indent: str) -> str:
 
 
 def _behind(body: str, element: str, indent: str) -> str:
-    """An element as it is put behind a body: behind text it stands on the same line."""
+    """Put an element behind a body; after text it stays on the same line."""
     return element if not body or body[-1] == ">" else element.removeprefix(indent)
 
 
 def _joined(tag: str, indent: str, attributes: str, body: str) -> str:
-    """An element; a body that does not end with a tag ends with text, behind which there must be no line break."""
+    """Close an element; no line break is added after a body that ends with text."""
     if not body:
         return f"{indent}<{tag}{attributes}/>"
     return f"{indent}<{tag}{attributes}>{body}{indent if body[-1] == '>' else ''}</{tag}>"
 
 
 def end_of_element(text: str, start: int) -> int:
-    """Where an element ends that starts at a place in a text that was written here."""
+    """Return where the element ends that starts at an offset of a text written here."""
     name = re.compile(rf"[^ />{_MARK}]+").match(text, start + 1)
     depth = 0
     for tag in re.compile(rf"<(/?){re.escape(name[0] if name else '')}(?=[ />{_MARK}])[^>]*").finditer(text, start):
@@ -370,7 +370,7 @@ def end_of_element(text: str, start: int) -> int:
 
 
 def without_marks(text: str, parts: list[Any]) -> tuple[str, WrittenParts]:
-    """A text without its marks, and the parts that had one."""
+    """Remove the marks from a text, and return the parts that had one."""
     pieces = text.split(_MARK)
     return "".join(pieces[::2]), list(_placed(pieces, parts))
 

@@ -48,7 +48,7 @@ def node_xml(format: str, node: Any, definition: str) -> XmlElement:
 
 
 def parse_written(text: str) -> XmlElement:
-    """The tree of a text that was written here, with its layout. Limits are for files of others."""
+    """Parse a text that was written here, with its layout; the limits for files of others do not apply."""
     return etree.fromstring(text, _PARSER)
 
 
@@ -59,5 +59,5 @@ def _newest(format: str) -> Version:
 
 @cache
 def _module(format: str) -> Any:
-    """The writers of a format, which are not imported before something is written."""
+    """Return the writers of a format, imported when something is first written."""
     return import_module(f"twinform.schemas.generated.{format}_text")

@@ -46,7 +46,7 @@ _CROWDED = etree.XPath("descendant::*[4001] and (*[2001] or descendant::*/*[2001
 
 
 class SchemaError(NamedTuple):
-    """What an engine does not accept."""
+    """An error that an XSD engine reports."""
 
     line: int
     message: str
@@ -55,7 +55,7 @@ class SchemaError(NamedTuple):
 def validate(
     root: XmlElement, context: Context, engine: Engine = "libxml2", errors: list[SchemaError] | None = None
 ) -> None:
-    """Report whatever the schema refuses and the reader, which has filled the context, did not report.
+    """Report what the schema refuses and the reader, which has filled the context, did not report.
 
     `errors` are those of the engine for the tree, where it was asked already. Duplicate and dangling names, and what
     only assertions find, which the normative schema alone looks for, are left to later checks.
@@ -77,7 +77,7 @@ def validate(
 
 
 def libxml2_errors(root: XmlElement, format: str, version: Version) -> list[SchemaError]:
-    """What libxml2 does not accept by the XSD 1.0 projection.
+    """Return the errors of libxml2 by the XSD 1.0 projection.
 
     lxml finds a path for each error, and counts siblings for that. So where there are many, a parser is asked first
     whether there is any error; then they are counted, and if they are many too, they have no lines.
@@ -99,7 +99,7 @@ def libxml2_errors(root: XmlElement, format: str, version: Version) -> list[Sche
 
 
 def _errors_without_places(text: bytes, schema: etree.XMLSchema) -> list[SchemaError]:
-    """The errors that a parser finds on its way through a text."""
+    """Return the errors that a validating parser finds in a text, without their places."""
     parser = etree.XMLParser(schema=schema, resolve_entities=False, no_network=True, collect_ids=False)
     try:
         etree.fromstring(text, parser)
@@ -109,7 +109,7 @@ def _errors_without_places(text: bytes, schema: etree.XMLSchema) -> list[SchemaE
 
 
 def is_valid_text(text: str | bytes, format: str, version: Version) -> bool:
-    """Whether libxml2 takes the text of a file, and accepts it by the XSD 1.0 projection.
+    """Tell whether libxml2 parses the text of a file and accepts it by the XSD 1.0 projection.
 
     A parser whose target has no methods for elements makes no tree, and validates as it parses.
     """
@@ -123,10 +123,10 @@ def is_valid_text(text: str | bytes, format: str, version: Version) -> bool:
 
 
 class _Nothing:
-    """The target of a parser that makes nothing of what it reads."""
+    """A parser target that builds nothing."""
 
     def close(self) -> None:
-        """All is read."""
+        """End the parse without a result."""
 
 
 def xmlschema_errors(
@@ -137,7 +137,7 @@ def xmlschema_errors(
     names: bool = True,
     assertions: bool = False,
 ) -> list[SchemaError]:
-    """What xmlschema does not accept by the normative XSD 1.1; with or without its keys and its assertions."""
+    """Return the errors of xmlschema by the normative XSD 1.1, with or without its keys and assertions."""
     errors = islice(_xmlschema_schema(format, version, names=names, assertions=assertions).iter_errors(root), MOST)
     try:
         return [SchemaError(error.sourceline or 0, error.reason or error.message) for error in errors]
@@ -149,7 +149,7 @@ _parsers = local()  # as schemas are
 
 
 def _validating_parser(format_: str, version: Version) -> etree.XMLParser:
-    """A parser that asks a schema and makes no tree. To make one takes longer than to parse a small file with it."""
+    """Make a parser that validates and builds no tree, which would take longer than parsing a small file."""
     built = cast("dict[tuple[str, Version], etree.XMLParser]", _parsers.__dict__)
     if (format_, version) not in built:
         target = cast("ParserTarget[None]", _Nothing())  # lxml calls those of the methods that there are
@@ -186,14 +186,14 @@ def _xmlschema_schema(format_: str, version: Version, *, names: bool, assertions
 
 
 def refusals(root: XmlElement, context: Context, engine: Engine) -> list[SchemaError]:
-    """The errors of an engine for a tree."""
+    """Return the errors of an engine for a tree."""
     if engine == "xmlschema":
         return xmlschema_errors(root, context.format, context.version, names=False)
     return libxml2_errors(root, context.format, context.version)
 
 
 def _lines_with_faults(context: Context) -> set[int]:
-    """The lines of the elements that the reader found a fault in."""
+    """Return the lines of the elements in which the reader found a fault."""
     lines = {found.location.line for found in context.sink.diagnostics if found.rule.name in _FAULTS}
     # where there are faults, an error without a line may be one of them
     return lines | {0} if lines else lines
@@ -201,7 +201,7 @@ def _lines_with_faults(context: Context) -> set[int]:
 
 @contextmanager
 def _without_tolerated(context: Context) -> Generator[None]:
-    """The tree lacks what was reported and kept, and has syntax of its version; in the end it is as it was."""
+    """Take reported and kept faults out of the tree for as long as the block lasts."""
     gone = {element for element, part in context.tolerated if part is None}
     # Children are taken out and put back all at once for each parent: a hostile file has a hundred
     # thousand of them. A copy of the tree took longer than the validation itself.
@@ -228,7 +228,7 @@ def _without_tolerated(context: Context) -> Generator[None]:
 
 
 def _replace(element: XmlElement, part: str | None, word: str | None) -> None:
-    """Give an attribute or a text another value, or none."""
+    """Set an attribute or a text to another value, or to none."""
     if part == "#text":
         element.text = word
     elif part == "#tail":

@@ -28,7 +28,7 @@ SCALARS = frozenset({"double", "int", "uint"})
 def attribute_reader(
     row: Fact, types: Types, version: Version, at: str, words: tuple[str, ...] = (), *, keep: bool
 ) -> ReadAttribute:
-    """The reader of an attribute: checked, and stored in its field or kept as it is where `keep` asks for it.
+    """Return the reader of an attribute: it checks the value and stores it, or keeps the text if `keep` says so.
 
     `at` is the path from the node to the element, and `words` are those without one of which there is no node.
     """
@@ -59,7 +59,7 @@ def attribute_reader(
 
 
 def text_reader(row: Fact, types: Types, *, keep: bool) -> ReadText:
-    """The reader of an element's text; it returns whether there was any. Blank text means the default."""
+    """Return the reader of an element's text, which tells whether there was any; blank text means the default."""
     value_type = types[row.type or "string"]
     if row.type == "pose":
         return _pose_reader(row, value_type, keep=keep)
@@ -102,7 +102,7 @@ def _pose_reader(row: Fact, value_type: ValueType, *, keep: bool) -> ReadText:
 
 
 def _report_text(row: Fact, value_type: ValueType, element: XmlElement, context: Context) -> bool:
-    """Report a text that is no value of its type; whether there was any."""
+    """Report a text that is no value of its type; returns whether there was a text."""
     text = element.text or ""
     if not is_blank(text):
         messages.invalid_value(context, element, "", text.strip(), value_type.expected)
@@ -115,7 +115,7 @@ def _report_text(row: Fact, value_type: ValueType, element: XmlElement, context:
 
 
 def _blank_check(row: Fact, value_type: ValueType, others: Check | None) -> Check | None:
-    """What reports a blank text where there should be one, before other checks."""
+    """Return the check that reports blank text where a value is needed, before all other checks."""
     if not row.needs_text and not row.default:
         return others
 
@@ -135,7 +135,7 @@ def stripped(text: str) -> str:
 
 
 def value_check(row: Fact) -> Check | None:
-    """What is asked of a value beyond its type."""
+    """Return the checks of a value beyond its type."""
     if row.enum:
         return _word_check(row)
     if row.min is None and row.max is None:
@@ -156,7 +156,7 @@ def value_check(row: Fact) -> Check | None:
 
 
 def bounds(row: Fact) -> tuple[float, float]:
-    """The least and the greatest value of a row, or component of one."""
+    """Return the least and the greatest allowed number of a row, also for each component."""
     return row.min if row.min is not None else float("-inf"), row.max if row.max is not None else float("inf")
 
 
@@ -178,20 +178,20 @@ def _word_check(row: Fact) -> Check:
 
 
 def check_pose(element: XmlElement, count: int, context: Context) -> None:
-    """Report a pose whose numbers are not those of the notation that its attributes name."""
+    """Report a pose whose numbers do not fit the notation that its attributes name."""
     quaternion, degrees = element.get("rotation_format") == "quat_xyzw", element.get("degrees")
     if count != (7 if quaternion else 6) or (quaternion and (degrees or "").strip().lower() in {"true", "1"}):
         messages.mixed_rotation(context, element, count)
 
 
 def own_field(row: Fact) -> str | None:
-    """The field of the node itself that takes one value of a row, if there is one."""
+    """Return the field of the node itself that takes the one value of a row, if there is one."""
     place = row.place
     return None if not place or place[0] == "/" or "." in place or row.fills_tuple else place
 
 
 def value_store(row: Fact, place: str) -> Store:  # noqa: C901 - five small functions, one of which is chosen
-    """Puts a value where the IR has it."""
+    """Return the function that stores a value in its place in the IR."""
     outer, _, field = place.rpartition(".")
 
     def store_repeated(element: XmlElement, node: Data, value: object, text: str, context: Context) -> None:

@@ -13,7 +13,7 @@ Parser = Callable[[str], object]
 
 @dataclass(frozen=True, slots=True)
 class ValueType:
-    """A value type: its parser, and what to call it when the text does not fit."""
+    """A value type: its parser, and its name in the message about a text that does not fit."""
 
     parse: Parser
     expected: str
@@ -45,7 +45,7 @@ _FALSE = frozenset({"false", "0"})
 
 
 def _ascii(text: str) -> str:
-    """The text, if it is ASCII: blanks and digits of other scripts are none of the formats'."""
+    """Return the text if it is ASCII: the formats have no blanks and digits of other scripts."""
     if not text.isascii():
         raise ValueError
     return text
@@ -113,7 +113,7 @@ def _vector3(text: str) -> tuple[float, ...]:
 
 
 def parse_bool(text: str) -> bool:
-    """`true`, `false`, `1` or `0` in any case, as libsdformat reads them."""
+    """Parse `true`, `false`, `1` or `0` in any case, as libsdformat does."""
     word = _ascii(text).strip().lower()
     if word in _TRUE:
         return True
@@ -126,7 +126,7 @@ _INTEGER = re.compile(r"\s*(?P<hex>[-+]?0[xX][0-9a-fA-F]+)\s*|\s*(?P<decimal>[-+
 
 
 def _int(text: str) -> int:
-    """`640`, `0x280` or `640.0`, as many files have it; a fraction of zero is none."""
+    """Parse `640`, `0x280` or `640.0`; many files have whole numbers with a zero fraction."""
     found = _INTEGER.fullmatch(text)
     if not found:
         raise ValueError

@@ -11,13 +11,13 @@ _Each = TypeVar("_Each")
 
 
 def rows_to_write(rows: Iterable[Fact], version: Version) -> list[Fact]:
-    """One row with a place in the node for each name; this version's where it has one."""
+    """Choose one row with a place in the node for each name: this version's if it has one."""
     placed = (row for row in rows if row.place and row.place[0] != "/")
     return list(rows_by_name(placed, version).values())
 
 
 def makes_many(row: Fact) -> bool:
-    """Whether the field of a row holds any number of nodes, which are written in the order of the file."""
+    """Tell whether the field of a row holds any number of nodes, written in the order of the file."""
     return row.fills_tuple and row.type is None
 
 
@@ -32,7 +32,7 @@ def repeated_fields(format: str, definition: str) -> tuple[str, ...]:
 
 
 def in_order(items: list[tuple[Any, _Each]]) -> list[tuple[Any, _Each]]:
-    """Children by the line that they came from; one without a line of this file follows the one before it."""
+    """Sort children by the lines that they came from; one without a line of this file follows the one before it."""
     if len(items) < 2:
         return items
     keys: list[int] = []

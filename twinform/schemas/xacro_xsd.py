@@ -21,7 +21,7 @@ NAMESPACES = ("http://www.ros.org/wiki/xacro", "http://ros.org/wiki/xacro", "htt
 
 
 class XacroAttribute(NamedTuple):
-    """An attribute. `prefixed` means that it is in xacro's namespace too."""
+    """An attribute of a xacro element; `prefixed` ones are in xacro's namespace as well."""
 
     name: str
     meaning: str
@@ -30,7 +30,7 @@ class XacroAttribute(NamedTuple):
 
 
 class XacroElement(NamedTuple):
-    """An element. `holds_xml` means that it has content, of any kind, and not only attributes and text."""
+    """An element of xacro; `holds_xml` means that it may contain elements of any kind."""
 
     name: str
     meaning: str
@@ -145,14 +145,14 @@ def xacro_schema_text(namespace: str = NAMESPACES[0]) -> str:
 
 
 def import_xacro(schema: XmlElement) -> None:
-    """Let the schema of a format know xacro's elements."""
+    """Import the schemas of xacro's elements into the schema of a format."""
     # xacro's namespace has three names in real files, and a schema document has one.
     for namespace in NAMESPACES:
         xs(schema, "import", namespace=namespace, schemaLocation=xacro_schema_name(namespace))
 
 
 def unambiguous(facts: Table, version: Version) -> Iterator[tuple[str, str]]:
-    """The elements that mean the same wherever they stand: their names, and those of their definitions.
+    """Return the elements that mean the same wherever they stand: their names with their definitions.
 
     A macro of URDF may be the inside of a `<gazebo>`, which holds SDF: only links are no less likely to be URDF's.
     """

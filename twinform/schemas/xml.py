@@ -43,17 +43,17 @@ _PREFIXED = etree.XPath("boolean(/descendant::*/@*[namespace-uri()])")
 
 
 def children(element: XmlElement) -> Iterator[XmlElement]:
-    """Its child elements; comments and processing instructions are left out."""
+    """List the child elements, without comments and processing instructions."""
     return (child for child in element if isinstance(child.tag, str))
 
 
 def is_blank(text: str) -> bool:
-    """Whether it is only what XML calls white space; Python also counts the no-break space and others."""
+    """Tell whether a text is only white space of XML; Python's `isspace` also accepts the no-break space and others."""
     return not text or (text.isspace() and text.isascii())
 
 
 def step_of(element: XmlElement, places: Places | None = None) -> str:
-    """Its step in a path: by name where it has one, else by its place among its like."""
+    """Return an element's step in a path: its name, or else its place among siblings with its tag."""
     name, tag = element.get("name"), str(element.tag)
     prefix = prefix_of(element, tag)
     step = f"{prefix}:{tag.partition('}')[2]}" if prefix else tag
@@ -65,7 +65,7 @@ def step_of(element: XmlElement, places: Places | None = None) -> str:
 
 
 def _place_of(element: XmlElement, tag: str, places: Places) -> int:
-    """Counted back to the nearest sibling whose place is known: whoever asks for all of them in order, counts once."""
+    """Count back to the nearest sibling with a known place, so that asking for all in order counts each once."""
     between = 1
     for sibling in element.itersiblings(tag, preceding=True):
         known = places.get(sibling)
@@ -78,28 +78,28 @@ def _place_of(element: XmlElement, tag: str, places: Places) -> int:
 
 
 def path_of(element: XmlElement, places: Places | None = None) -> str:
-    """An XPath that finds it, from the root down; `places` remembers what was counted for the next one."""
+    """Return the XPath of an element from the root; `places` remembers counts for the next call."""
     steps = [step_of(element, places), *(step_of(above, places) for above in element.iterancestors())]
     return "/" + "/".join(reversed(steps))
 
 
 def undeclared_namespace(prefix: str) -> str:
-    """The namespace that stands for a prefix which nobody has declared."""
+    """Return the namespace that stands for a prefix which nothing declares."""
     return _UNDECLARED + prefix
 
 
 def undeclared_prefix(namespace: str) -> str | None:
-    """The prefix that a namespace was made for, if it was."""
+    """Return the prefix that a namespace was made for, if it was made for one."""
     return namespace.removeprefix(_UNDECLARED) if namespace.startswith(_UNDECLARED) else None
 
 
 def usual_namespace(prefix: str) -> str:
-    """The namespace that a prefix is declared with; who reads the files goes by the prefix alone."""
+    """Return the usual namespace of a prefix: readers of these files go by the prefix alone."""
     return _USUAL.get(prefix, f"urn:{prefix}")
 
 
 def in_usual_namespaces(names: str) -> str:
-    """Names, such as a path of them, with the usual namespaces of undeclared prefixes."""
+    """Replace namespaces of undeclared prefixes by their usual ones, in a name or a path of names."""
     return (
         _UNDECLARED_NAME.sub(lambda found: usual_namespace(found["prefix"]), names) if _UNDECLARED in names else names
     )
@@ -119,7 +119,7 @@ def prefix_of(element: XmlElement, name: str) -> str | None:
 
 
 def declared_namespaces(root: XmlElement) -> set[tuple[str, str]]:
-    """Every prefix that is declared in a tree, or that nobody declares, with its namespace; each once.
+    """List each prefix that a tree declares, or uses without a declaration, with its namespace.
 
     To ask each element for its `nsmap` would go up to the root, and through all that is declared there, each time.
     """
@@ -128,5 +128,5 @@ def declared_namespaces(root: XmlElement) -> set[tuple[str, str]]:
 
 
 def has_prefixed_attributes(root: XmlElement) -> bool:
-    """Whether any attribute has a namespace; some say that an element is to be checked in another way."""
+    """Tell whether any attribute has a namespace: some change how an element is checked."""
     return bool(_PREFIXED(root))

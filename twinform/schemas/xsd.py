@@ -32,7 +32,7 @@ _FOREIGN = "foreign"
 def generate_schema(
     facts: Table, version: Version, xsd: XsdVersion, *, lenient: bool = False, xacro: bool = False
 ) -> str:
-    """The text of the schema of a version of the format; one for xacro files is lenient."""
+    """Generate the schema of a version of the format; the one for xacro files is lenient."""
     schema = _XsdGenerator(facts, version, xsd, lenient=lenient or xacro, xacro=xacro).generate()
     etree.indent(schema)
     for annotation in schema.iter(XS + "annotation"):
@@ -41,7 +41,7 @@ def generate_schema(
 
 
 def lenient_schema_text(format: str, version: Version, xsd: XsdVersion = "1.0") -> str:
-    """The lenient schema of a format's version, which is made when it is asked for."""
+    """Generate the lenient schema of a format's version on demand."""
     return generate_schema(table(format), version, xsd, lenient=True)
 
 
@@ -79,7 +79,7 @@ class _XsdGenerator:
         return self.schema
 
     def _about(self) -> str:
-        """What the schema is, for whoever opens it."""
+        """Write the comment that tells a reader what the schema is."""
         name = f"{self.table.format.upper()} {print_version(self.version)}"
         if self.xacro:
             return f"{name} in xacro files: expressions may stand for values, and xacro's elements anywhere."
@@ -89,7 +89,7 @@ class _XsdGenerator:
         return strict if self.normative else f"{strict} How often elements may stand is checked by the XSD 1.1 alone."
 
     def _fill(self, fact: Fact, complex_type: XmlElement, path: Path) -> None:
-        """Declare in a complex type what an element holds. `path` also tells apart the names of the keys on the way."""
+        """Declare the content of an element in a complex type; `path` keeps the names of nested keys apart."""
         holder = complex_type
         if fact.type:
             holder = self.values.extension(fact, complex_type)
@@ -135,7 +135,7 @@ class _XsdGenerator:
         self._allow_foreign(choice)
 
     def _one_of(self, rows: list[Fact], holder: Fact, complex_type: XmlElement, path: Path) -> None:
-        """At most one of several kinds, with foreign elements around it."""
+        """Declare a choice of at most one of several kinds, with foreign elements around it."""
         sequence = xs(complex_type, "sequence")
         xs(sequence, "group", ref=_FOREIGN)
         choice = xs(sequence, "choice", minOccurs="0")
@@ -176,7 +176,7 @@ class _XsdGenerator:
             declare_names(self.table.format, element, named, ".".join(path))
 
     def _is_named(self, row: Fact) -> bool:
-        """Whether its name is what others call it by. A plugin's is not: one plugin may run twice."""
+        """Tell whether others refer to an element by its name; a plugin's does not count, since one may run twice."""
         fact = self.table.resolve(row)
         return not fact.any and any(row.name == "@name" and row.required for row in self._present(fact.attributes))
 

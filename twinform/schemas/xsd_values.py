@@ -28,7 +28,7 @@ _BOOL = "[tT][rR][uU][eE]|[fF][aA][lL][sS][eE]|0|1"
 
 @dataclass(frozen=True, slots=True)
 class TokenCount:
-    """Text of so many tokens of one pattern."""
+    """Text of a fixed number of tokens with one pattern."""
 
     pattern: str
     least: int = 1
@@ -63,12 +63,12 @@ _WORD = "word"
 
 
 def xs(parent: XmlElement, tag: str, /, **attributes: str) -> XmlElement:
-    """A new XSD element in another."""
+    """Append a new XSD element to another."""
     return etree.SubElement(parent, XS + tag, attributes)
 
 
 class Values:
-    """The value types that one schema uses. Asking for one puts it on the list of those to declare."""
+    """The value types used by one schema; asking for a type puts it on the list to declare."""
 
     def __init__(self, format: str, *, lenient: bool = False, expressions: bool = False) -> None:
         self.tokens = TOKENS[format]
@@ -79,14 +79,14 @@ class Values:
         self.leaves: set[str] = set()
 
     def attribute(self, row: Fact, attribute: XmlElement) -> None:
-        """Give an attribute its type. Its text stands as it is, blanks and all."""
+        """Give an attribute its type; its text is taken as it is, with all blanks."""
         if row.enum:
             self._words(row, xs(attribute, "simpleType"))
         else:
             attribute.set("type", self._value(row.type))
 
     def leaf(self, row: Fact, element: XmlElement) -> XmlElement | None:
-        """Give a leaf its type; where the row asks for a type of its own, the extension that its attributes go into."""
+        """Give a leaf its type; if the row has a type of its own, return the extension that its attributes go into."""
         if row.enum or row.attributes or row.needs_text:
             return self.extension(row, xs(element, "complexType"))
         self.leaves.add(row.type or "string")
@@ -107,7 +107,7 @@ class Values:
         return restriction
 
     def declare(self, schema: XmlElement) -> None:
-        """Declare in a schema what has been asked for."""
+        """Declare the types in a schema that were asked for."""
         for name in sorted(self.leaves):
             content = xs(xs(schema, "complexType", name=f"{name}-leaf"), "simpleContent")
             if name == _WORD:
@@ -140,7 +140,7 @@ class Values:
         _enumerate(xs(simple_type, "restriction", base="xs:string"), self._enum(row))
 
     def _enum(self, row: Fact) -> tuple[str, ...]:
-        """The values of an enumeration; in a lenient schema also those of dialects and of other versions."""
+        """Return the values of an enumeration; in a lenient schema also those of dialects and other versions."""
         others = (*(word for word, _ in row.also), *row.elsewhere) if self.lenient else ()
         return (*row.enum, *others)
 
@@ -159,7 +159,7 @@ class Values:
 
 
 def annotate(text: str, element: XmlElement) -> None:
-    """Tell editors and people what an element or attribute is."""
+    """Document an element or attribute for editors and people."""
     if text:
         annotation = etree.Element(XS + "annotation")
         element.insert(0, annotation)
@@ -167,7 +167,7 @@ def annotate(text: str, element: XmlElement) -> None:
 
 
 def allow_attributes(holder: XmlElement, namespace: str) -> None:
-    """Let an element carry attributes that are not looked at."""
+    """Let an element carry attributes that are not checked."""
     xs(holder, "anyAttribute", namespace=namespace, processContents="skip")
 
 
@@ -177,7 +177,7 @@ def _enumerate(restriction: XmlElement, words: tuple[str, ...]) -> None:
 
 
 def _literally(word: str) -> str:
-    """A word as a pattern."""
+    """Escape a word for a pattern."""
     return re.sub(r"([.\\?*+{}()\[\]|^-])", r"\\\1", word)
 
 

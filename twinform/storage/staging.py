@@ -29,7 +29,7 @@ _searched: set[Path] = set()
 
 
 class StagingFolder:
-    """A folder in `parent`, for this process alone."""
+    """A folder inside `parent` for this process alone."""
 
     def __init__(self, parent: Path) -> None:
         self._parent = parent
@@ -37,7 +37,7 @@ class StagingFolder:
         self._lock: int | None = None
 
     def make(self) -> Path:
-        """Make the folder; what killed processes have left beside it is removed.
+        """Make the folder, after removing what killed processes have left beside it.
 
         Raises:
             OSError: it cannot be made.
@@ -126,7 +126,7 @@ def _remove_if_left(path: Path) -> None:
 
 
 def _locked(folder: Path) -> int | None:
-    """A descriptor that holds the lock of a folder; None where there are no such locks.
+    """Return a descriptor that holds a folder's lock; None if the system has no such locks.
 
     Raises:
         FileNotFoundError: another process holds it, and is about to remove the folder.
@@ -145,7 +145,7 @@ def _locked(folder: Path) -> int | None:
 
 
 def _mark(status: os.stat_result) -> str:
-    """The name of the one folder that is in a staging folder: the number of the latter in its file system.
+    """Return the name of the single folder inside a staging folder: the inode number of the latter.
 
     Nobody knows that number before the folder is there. So no archive and no repository can bring along what passes for
     a staging folder, and a copy of one does not pass for it either.

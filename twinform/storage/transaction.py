@@ -14,7 +14,7 @@ from twinform.storage.staging import StagingFolder
 
 
 class Transaction:
-    """Moves what was staged to its places. Unless `done` is set, `end` takes everything back.
+    """Moves staged files to their places; `end` takes everything back unless `done` is set.
 
     Each step notes how it is taken back before it is made, and taking back looks at what is there. So it does not
     matter at which instruction an error or a signal comes, nor whether it comes while things are taken back.
@@ -29,7 +29,7 @@ class Transaction:
         self._numbers = count()
 
     def stage(self, folder: Path) -> Path:
-        """A new path, on the file system of a folder, for a file or folder that will be moved into it.
+        """Return a new path on the file system of a folder, for a file or folder to be moved into it.
 
         Raises:
             OSError: nothing can be written in the folder.
@@ -61,7 +61,7 @@ class Transaction:
             raise NotADirectoryError(errno.ENOTDIR, "a file stands where its folder would be") from error
 
     def move(self, new: Path, target: Path, *, keep: bool = True) -> None:
-        """Move what was staged to its place. What was there can be put back unless it need not be kept.
+        """Move a staged file to its place; what was there can be put back, unless it need not be kept.
 
         Raises:
             OSError: it cannot be moved.
@@ -77,7 +77,7 @@ class Transaction:
         new.replace(target)
 
     def move_to_new(self, new: Path, target: Path) -> None:
-        """Move what was staged to where nothing is.
+        """Move a staged file to a place where nothing is.
 
         Raises:
             FileExistsError: something is there.
@@ -97,7 +97,7 @@ class Transaction:
             self.move(new, target)
 
     def take_away(self, target: Path, folder: Path) -> None:
-        """Remove a file or link; `folder` is one that is staged for.
+        """Remove a file or link; `folder` is where something is staged for.
 
         Raises:
             OSError: it cannot be removed.
@@ -133,7 +133,7 @@ def transaction() -> Generator[Transaction]:
 
 @contextmanager
 def named_after(path: Path) -> Generator[None]:
-    """Name the file that an error is about: a failed write does not know, and that of a staged file helps nobody."""
+    """Put the final file name into an error: failed writes have none, and the staged name helps nobody."""
     try:
         yield
     except OSError as error:
@@ -142,7 +142,7 @@ def named_after(path: Path) -> Generator[None]:
 
 
 def _insist(step: Callable[[], None]) -> None:
-    """Do a step, and once more where it fails: nothing else may be left undone for its sake."""
+    """Do a step, and retry once: a failed step must not keep the others from being undone."""
     try:
         step()
     except OSError:
@@ -169,7 +169,7 @@ def _take_away_link(new: Path, target: Path) -> None:
 
 
 def _give_second_name(path: Path, name: Path) -> None:
-    """Keep a file by another name when something is moved over it; a copy where there are no links."""
+    """Keep a file under another name before it is replaced: a hard link, or a copy where there are none."""
     try:
         os.link(path, name)
     except OSError:

@@ -21,7 +21,7 @@ _THREADS = 16
 # A file is synced before it is moved, and its folder after that: 5 ms and 4 ms. Batch results and
 # caches are written without it, because both notice half a file by its size or digest.
 def write_atomically(path: str | Path, text: str | bytes, *, durably: bool = True) -> None:
-    """Put the text where `path` is, all of it or nothing: it is written beside it and then moved over it.
+    """Write a file completely or not at all: the text is written beside it and then moved over it.
 
     Folders that are missing are made. The permissions of a file that is replaced stay. A symbolic link is followed. A
     pipe or device is written into. `durably` waits until the disk has it.
@@ -35,7 +35,7 @@ def write_atomically(path: str | Path, text: str | bytes, *, durably: bool = Tru
 def write_all_atomically(
     texts: Mapping[Path, str | bytes], then: Callable[[], None] | None = None, *, durably: bool = True
 ) -> None:
-    """Put every text in its place once all of them are written beside it; folders that are missing are made.
+    """Write several files, and move them to their places once all are written; missing folders are made.
 
     `then` is called when nothing but moving them is left to do. Where that, or one of the moves, fails, those that were
     moved already are taken back. `durably` waits until the disk has them, so that not even a power cut leaves half a
@@ -59,7 +59,7 @@ def write_all_atomically(
 def stage_texts(
     files: Transaction, texts: Mapping[Path, str | bytes], *, durably: bool = True
 ) -> list[tuple[Path, Path]]:
-    """Write texts into staged files, and into pipes and devices; gives each staged file and the place where it belongs.
+    """Write texts into staged files, or directly into pipes and devices; returns each staged file with its place.
 
     Raises:
         OSError: one of them cannot be written.
@@ -77,7 +77,7 @@ def stage_texts(
 
 
 def write_new_file(path: Path, text: str | bytes) -> None:
-    """Put the text where nothing is, all of it or nothing.
+    """Write a file that must not exist yet, completely or not at all.
 
     Raises:
         FileExistsError: something is there.
@@ -93,7 +93,7 @@ def write_new_file(path: Path, text: str | bytes) -> None:
 
 
 def is_stream(path: Path) -> bool:
-    """Whether it is a pipe or device, such as /dev/null, which a file must never take the place of."""
+    """Tell whether a path is a pipe or device, such as /dev/null, which a file must never replace."""
     try:
         mode = path.stat().st_mode
     except (OSError, ValueError):
@@ -102,7 +102,7 @@ def is_stream(path: Path) -> bool:
 
 
 def sync_files(staged: Iterable[tuple[Path, Path]]) -> None:
-    """Wait until the disk has the content of files, each of which comes with the path that an error is to name.
+    """Wait until the disk has the files; each comes with the path that an error is to name.
 
     Raises:
         OSError: the disk does not take it.
@@ -126,7 +126,7 @@ def _sync(staged: tuple[Path, Path]) -> None:
 
 
 def _stage(files: Transaction, path: Path, text: str | bytes) -> tuple[Path, Path]:
-    """A text in a staged file, and the place where this belongs."""
+    """Write a text into a staged file; returns it with its place."""
     refuse_way_out(path)
     # The target of a link is replaced and not the link itself: a link may be how the user keeps the
     # file elsewhere.
@@ -157,7 +157,7 @@ def refuse_way_out(path: Path) -> None:
 
 
 def _take_over(old: Path, new: Path) -> None:
-    """Give a file the permissions of the one that it will replace, and as far as that is allowed its owner.
+    """Give a file the permissions of the one that it replaces, and its owner as far as allowed.
 
     Raises:
         FileNotFoundError: there is none.
@@ -179,5 +179,5 @@ def _write_into(path: Path, text: str | bytes) -> None:
 
 
 def _bytes(text: str | bytes) -> bytes:
-    """What is written: a text in UTF-8."""
+    """Encode a text in UTF-8; bytes stay as they are."""
     return text if isinstance(text, bytes) else text.encode()

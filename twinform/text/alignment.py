@@ -18,17 +18,17 @@ _MANY = 2000
 
 
 def stripped(text: str | None) -> str:
-    """A text without the blanks of XML around it."""
+    """Strip the white space of XML from both ends of a text; None counts as empty."""
     return (text or "").strip(BLANKS)
 
 
 def elements(parent: XmlElement) -> list[XmlElement]:
-    """The child elements, without comments and processing instructions."""
+    """List the child elements, without comments and processing instructions."""
     return [child for child in parent if isinstance(child.tag, str)]
 
 
 def spelled_alike(value: str) -> Hashable:
-    """What is equal for two spellings of one value: numbers for a text of nothing else, else the text's pieces."""
+    """Make a key that two spellings of one value share: its numbers if it has nothing else, otherwise its words."""
     pieces = tuple(value.split())
     try:
         # Python reads 1_000 as a number; no reader of robots does.
@@ -38,7 +38,7 @@ def spelled_alike(value: str) -> Hashable:
 
 
 def same_value(one: str | None, other: str | None) -> bool:
-    """Whether two values, or texts, are the same but for their spelling."""
+    """Tell whether two values differ in their spelling only."""
     if one is None or other is None:
         return one == other
     return one == other or spelled_alike(one) == spelled_alike(other)
@@ -49,7 +49,7 @@ def _as_written(value: str) -> Hashable:
 
 
 class ElementContents:
-    """The contents of elements by number, so that equal ones have the same; `value` tells which values are equal."""
+    """Numbers elements by content, so that equal ones share a number; `value` makes the key to compare values by."""
 
     def __init__(self, value: Callable[[str], Hashable] = _as_written) -> None:
         self._value = value
@@ -57,7 +57,7 @@ class ElementContents:
         self._of: dict[XmlElement, int] = {}
 
     def number(self, element: XmlElement) -> int:
-        """The number of an element's content."""
+        """Return the number of an element's content."""
         known = self._of.get(element)
         return known if known is not None else self._numbered(element)
 
@@ -75,7 +75,7 @@ class ElementContents:
 
 
 def texts(element: XmlElement) -> tuple[str, ...]:
-    """The texts directly in an element, stripped: before the first child element, and after each."""
+    """Return the stripped texts directly in an element: before its first child element, and after each."""
     found = [element.text or ""]
     for child in element:
         if isinstance(child.tag, str):
@@ -86,7 +86,7 @@ def texts(element: XmlElement) -> tuple[str, ...]:
 
 
 def aligned(before: Sequence[XmlElement], after: Sequence[XmlElement], contents: ElementContents) -> list[Pair]:
-    """Which elements of two lists belong together, in order.
+    """Pair the elements of two lists that correspond, in order, by their places in the lists.
 
     First those that are equal, then between these those with the same tag and name, then those with the same tag. What
     is on the other side under its own name, if in another place, has not changed its name.
@@ -103,12 +103,12 @@ def aligned(before: Sequence[XmlElement], after: Sequence[XmlElement], contents:
 
 
 def known_by(element: XmlElement) -> tuple[str, str | None]:
-    """What an element is known by: its name, or what it refers to as a `<gazebo>` does."""
+    """Identify an element by its tag and its name, or by what a `<gazebo>` refers to."""
     return str(element.tag), element.get("name") or element.get("reference")
 
 
 def matched(before: Sequence[XmlElement], after: Sequence[XmlElement], contents: ElementContents) -> list[Pair]:
-    """Which elements of two lists in different orders belong together.
+    """Pair the elements of two lists that correspond, whatever their order.
 
     First those that are equal, then those with the same tag and name, of several of a name the most similar ones, then
     those that have changed their names.
@@ -123,7 +123,7 @@ def matched(before: Sequence[XmlElement], after: Sequence[XmlElement], contents:
 
 
 def _left(before: Sequence[XmlElement], after: Sequence[XmlElement], pairs: Sequence[Pair]) -> tuple[Places, Places]:
-    """The places of what is in no pair."""
+    """Return the places in both lists that no pair has."""
     taken = {i for i, _ in pairs}, {j for _, j in pairs}
     return [i for i in range(len(before)) if i not in taken[0]], [j for j in range(len(after)) if j not in taken[1]]
 
@@ -135,7 +135,7 @@ def _in_groups(
     key: Callable[[XmlElement], Hashable],
     pair: Callable[[Places, Places], Iterable[Pair]],
 ) -> Iterator[Pair]:
-    """Pairs among those with the same key that are in no pair yet."""
+    """Pair elements with equal keys that no pair has yet."""
     here, there = _left(before, after, pairs)
     groups = defaultdict[Hashable, tuple[Places, Places]](lambda: ([], []))
     for i in here:
@@ -154,7 +154,7 @@ def _in_order(old: Places, new: Places) -> Iterable[Pair]:
 def _most_similar(
     before: Sequence[XmlElement], after: Sequence[XmlElement], contents: ElementContents, old: Places, new: Places
 ) -> Iterable[Pair]:
-    """Pairs of those that have most in common. Where a side has more of them, nothing in common makes no pair."""
+    """Pair the elements that have most in common; if one side has more, those with nothing in common stay alone."""
     if len(old) == len(new) == 1 or len(old) * len(new) > _MANY:
         return _in_order(old, new)
     parts = {i: _parts(before[i], contents) for i in old}, {j: _parts(after[j], contents) for j in new}
@@ -168,7 +168,7 @@ def _most_similar(
 
 
 def _parts(element: XmlElement, contents: ElementContents) -> Counter[Hashable]:
-    """What an element has: attributes, and all elements in it."""
+    """Count an element's attributes and all elements inside it."""
     inside: list[Hashable] = [contents.number(each) for each in element.iter("*") if each is not element]
     return Counter([*inside, *element.items()])
 
@@ -192,7 +192,7 @@ def _by_name(
 def _by_tag(
     before: Sequence[XmlElement], after: Sequence[XmlElement], old: list[int], new: list[int]
 ) -> Iterator[Pair]:
-    """Elements that have changed their names, where there are as many of their tag before and after."""
+    """Pair elements that were renamed, if there are as many with their tag before and after."""
     tags = [str(before[i].tag) for i in old], [str(after[j].tag) for j in new]
     counts = Counter(tags[0]), Counter(tags[1])
     # Where the number differs, nobody knows which of them has gone: guessed wrongly, one part would
@@ -210,7 +210,7 @@ def _by_tag(
 
 
 def _blocks(before: Sequence[Hashable], after: Sequence[Hashable]) -> Iterator[tuple[range, range, bool]]:
-    """Ranges of both lists in order, and whether they are equal there."""
+    """Split both lists into ranges, each with whether the lists are equal there."""
     # Most lists differ in one place. What is equal at both ends costs linear time and leaves little
     # for difflib, which takes the square.
     begin, end = _common(before, after)
@@ -228,7 +228,7 @@ def _blocks(before: Sequence[Hashable], after: Sequence[Hashable]) -> Iterator[t
 
 
 def _common(before: Sequence[Hashable], after: Sequence[Hashable]) -> tuple[int, int]:
-    """How many at the beginning are equal, and how many of the others at the end."""
+    """Count the equal elements at the beginning of both lists, and at the end of what remains."""
     most = min(len(before), len(after))
     begin = next((i for i in range(most) if before[i] != after[i]), most)
     left = most - begin
@@ -237,7 +237,7 @@ def _common(before: Sequence[Hashable], after: Sequence[Hashable]) -> tuple[int,
 
 
 def same_element(one: XmlElement, other: XmlElement) -> bool:
-    """Whether two elements say the same, but for the spelling of numbers."""
+    """Tell whether two elements differ in the spelling of numbers only."""
     contents = ElementContents(spelled_alike)
     return contents.number(one) == contents.number(other)
 
@@ -249,7 +249,7 @@ _MOST = 10_000
 
 
 def renamed(old: XmlElement, new: XmlElement, contents: ElementContents) -> bool:
-    """Whether an element is another one under a new name; one with a namespace never is."""
+    """Tell whether an element has only got another name; one in a namespace never has."""
     if "{" in f"{old.tag}{new.tag}":
         return False
     before, after = elements(old), elements(new)
@@ -262,7 +262,7 @@ def renamed(old: XmlElement, new: XmlElement, contents: ElementContents) -> bool
 def with_renamed(
     pairs: Sequence[Pair], before: Sequence[XmlElement], after: Sequence[XmlElement], contents: ElementContents
 ) -> list[Pair]:
-    """Pairs of children that belong together, in order, and between them those that were renamed."""
+    """Return the pairs with the renamed children added, in order."""
     found: list[Pair] = []
     last = (-1, -1)
     for pair in (*pairs, (len(before), len(after))):

@@ -19,7 +19,7 @@ _TOKEN = re.compile(
 
 
 class Comment(NamedTuple):
-    """A comment: what is between `<!--` and `-->`, the line on which it begins, and the lines that it is about.
+    """A comment: the text in it, the line that it begins on, and the lines that it is about.
 
     One that stands behind something on its line is about that line, with all of a tag that ends there. Another one is
     about the next element, with all in it; `first` and `last` are 0 where none follows in the element around it.
@@ -33,7 +33,7 @@ class Comment(NamedTuple):
 
 @dataclass(slots=True)
 class _UnfinishedElement:
-    """An element that has not ended, the comments before it, and those in it that wait for an element."""
+    """An open element: the comments before it, and the ones in it that still wait for an element."""
 
     before: list[int]
     line: int
@@ -41,12 +41,12 @@ class _UnfinishedElement:
 
 
 def comments(text: str) -> list[Comment]:
-    """Every comment of a text, in order."""
+    """List every comment of a text, in order."""
     return list(_CommentScan(text).run())
 
 
 class _CommentScan:
-    """One run over a text; lines end with a line feed, as in findings."""
+    """One pass over a text, with lines counted by their line feeds, as findings count them."""
 
     def __init__(self, text: str) -> None:
         self.text = text

@@ -40,7 +40,7 @@ _BETWEEN = frozenset({TokenKind.BLANK, TokenKind.COMMENT})
 
 @dataclass(frozen=True, slots=True)
 class FormatOptions:
-    """How a text is laid out; `indent` is what each level is indented by."""
+    """How a text is formatted; `indent` stands once for each level."""
 
     indent: str = "  "
     numbers: Literal["kept", "shortest"] = "kept"
@@ -48,7 +48,7 @@ class FormatOptions:
 
 
 def format_text(source: SourceText, options: FormatOptions) -> SourceText:
-    """The file, laid out.
+    """Return the file with its text formatted.
 
     Raises:
         UnplacedError: the text is not well-formed, or has a document type declaration.
@@ -58,13 +58,13 @@ def format_text(source: SourceText, options: FormatOptions) -> SourceText:
 
 
 def _line_end(text: str) -> str:
-    """What ends a line: that of the first one."""
+    """Return the line end of the first line."""
     found = _LINE_END.search(text)
     return found.group() if found else "\n"
 
 
 class _Formatting:
-    """One run over the tokens of a text."""
+    """One pass of the formatter over the tokens of a text."""
 
     def __init__(self, tokens: Tokens, options: FormatOptions, line_end: str) -> None:
         self.tokens, self.options, self.line_end = tokens, options, line_end
@@ -76,7 +76,7 @@ class _Formatting:
         self.open: list[_OpenElement] = [_OpenElement("", opaque=False)]
 
     def run(self) -> str:
-        """The whole text."""
+        """Return the formatted text."""
         kinds, fixed, number = self.tokens.kinds, self.fixed, 0
         while number < len(kinds):
             kind = kinds[number]
@@ -115,7 +115,7 @@ class _Formatting:
         self.out.append(f"</{ended.name}>")
 
     def _fixed(self, number: int, end: int) -> None:
-        """What is between two tags and stays, and the second of them."""
+        """Write the content that stays as it is, and the end tag behind it."""
         begin = self.tokens.ends[number]
         text, ended = self.tokens.text[begin : self.tokens.start(end)], self.open.pop()
         is_leaf = end == number + 2 and self.tokens.kinds[number + 1] == TokenKind.TEXT
@@ -132,13 +132,13 @@ class _Formatting:
             self.out.append(self._moved(self.tokens[number], number))
 
     def _ends_line(self, number: int) -> bool:
-        """Whether no element follows on the line of a comment."""
+        """Tell whether no element follows a comment on its line."""
         if number >= self.asked[0]:
             self.asked = self._end_of_comments(number)
         return self.asked[1]
 
     def _end_of_comments(self, number: int) -> tuple[int, bool]:
-        """The token behind the comments on a line that begin here, and whether it ends the line, or the element."""
+        """Return the first token after a run of comments, and whether it ends their line or the element."""
         kinds = self.tokens.kinds
         for here in range(number, len(kinds)):
             if kinds[here] == TokenKind.BLANK:
@@ -149,7 +149,7 @@ class _Formatting:
         return len(kinds), True
 
     def _begin_line(self, number: int) -> None:
-        """Go to a new line, where this token is to stand, behind as many blank lines as there were."""
+        """Begin the line of a token, after as many blank lines as it had, up to a limit."""
         self.open[-1].on_one_line = False
         if self.out:
             lines = min(max(self._lines_before(number), 1), _MOST_LINE_ENDS)
@@ -165,14 +165,14 @@ class _Formatting:
         return len(_LINE_END.findall(self.tokens[number - 1]))
 
     def _moved(self, text: str, number: int) -> str:
-        """A text of several lines; those indented at least as the line of the token are indented as it is now."""
+        """Indent the lines of a text anew, as far as they were indented at least as deep as its first one."""
         if "\n" not in text:
             return text
         old, new = self._old_indent(number), self._indent
         return text if old in {None, new} else re.sub(rf"\n{old}(?![\r\n])", lambda _: f"\n{new}", text)
 
     def _old_indent(self, number: int) -> str | None:
-        """The blanks before a token, where it is the first of its line."""
+        """Return the blanks before a token that begins its line; None for all others."""
         if not number:
             return ""
         before = self.tokens[number - 1]
@@ -180,7 +180,7 @@ class _Formatting:
         return _LINE_END.split(before)[-1] if is_blank and _LINE_END.search(before) else None
 
     def _tag(self, number: int) -> StartTag:
-        """A start tag, with what is asked for done in it but for its layout."""
+        """Parse a start tag, with its attributes sorted and its numbers shortened where the options ask for it."""
         tag, options = StartTag.of(self.tokens[number]), self.options
         if options.sort_attributes:
             tag = tag.sorted_by([usage().rank(tag.name, each.name) for each in tag.attributes])
@@ -196,12 +196,12 @@ class _Formatting:
         return tag.on_one_line(keep_gaps=is_wide and self._is_in_table(number, tag))
 
     def _is_in_table(self, number: int, tag: StartTag) -> bool:
-        """Whether attributes of a tag are aligned with those of the element before or behind it."""
+        """Tell whether the attributes of a tag are aligned with the element before or after it."""
         neighbors = (self.open[-1].row, self._next_row(number)) if self._is_row(number) else ()
         return any(each is not None and tag.is_aligned_with(self._tag(each)) for each in neighbors)
 
     def _is_row(self, number: int) -> bool:
-        """Whether an element has no elements in it."""
+        """Tell whether an element has no child elements."""
         return self._end_of_row(number) is not None
 
     def _end_of_row(self, number: int) -> int | None:
@@ -224,14 +224,14 @@ class _Formatting:
         return Lines(self.tokens.text)
 
     def _column(self, number: int) -> int:
-        """The column of a token, from 0, where it stood."""
+        """Return the column, from 0, at which a token stood."""
         start = self.tokens.start(number)
         line = start - self.lines.place(start).column + 1
         return len(self.tokens.text[line:start].expandtabs(TAB))
 
 
 def _fixed_contents(tokens: Tokens) -> "array[int]":
-    """For each start tag whose content stays as it is the number of its end tag, and 0 for every other token."""
+    """Return, for each start tag whose content must stay, the number of its end tag, and 0 for all other tokens."""
     fixed = array("q", bytes(8 * len(tokens)))
     open_tags: list[int] = []
     is_fixed: list[bool] = []
@@ -250,13 +250,13 @@ def _fixed_contents(tokens: Tokens) -> "array[int]":
 
 
 def _has_blanks_only(tokens: Tokens, start: int, end: int) -> bool:
-    """Whether there are blanks between two tags, on one line: somebody may want them."""
+    """Tell whether an element holds blanks on one line and nothing else: somebody may want them."""
     return end == start + 2 and tokens.kinds[start + 1] == TokenKind.BLANK and not _LINE_END.search(tokens[start + 1])
 
 
 @dataclass(slots=True)
 class _OpenElement:
-    """An element that is not ended yet.
+    """An element whose end tag has not come yet.
 
     `row` is its last child if that has no elements in it; `on_one_line` that nothing in it has begun a line.
     """

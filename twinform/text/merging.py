@@ -26,7 +26,7 @@ from twinform.text.alignment import (
 
 
 class Conflict(NamedTuple):
-    """What both sides have changed, or one has changed and the other deleted: where in the person's tree, and what."""
+    """A change that cannot be merged: the element of the person's tree that it is about, and the reason."""
 
     element: XmlElement
     message: str
@@ -34,7 +34,7 @@ class Conflict(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Merge:
-    """What came of it; `tree` means nothing where there are conflicts."""
+    """The result of a merge; `tree` must not be used if there are conflicts."""
 
     tree: XmlElement
     conflicts: tuple[Conflict, ...]
@@ -49,7 +49,7 @@ def merge(
     same: bool = False,
     additive: str | None = None,
 ) -> Merge:
-    """A copy of the tree `own` with all that has changed from `before` to `after`, in the element `at` of it.
+    """Copy the tree `own`, and make in it all changes between `before` and `after`; `at` is the element they go into.
 
     `same` means that `before` was made of `own` and says the same, so that nothing can be a conflict: what differs
     between them is how they say it. Elements called `additive` in the root add up where they are known by the same, and
@@ -64,7 +64,7 @@ def merge(
 
 
 def added_up(root: XmlElement, additive: str | None) -> XmlElement:
-    """A copy of the tree with one element where there are several that add up; itself where there are none."""
+    """Copy a tree so that elements that add up stand as one; return the tree itself if there are none."""
     groups = defaultdict[Hashable, list[XmlElement]](list)
     for child in root.iterchildren(additive) if additive else ():
         groups[known_by(child), tuple(sorted(child.items()))].append(child)
@@ -83,7 +83,7 @@ def added_up(root: XmlElement, additive: str | None) -> XmlElement:
 
 @dataclass(slots=True)
 class _Merging:
-    """One merge; `originals` are the elements of the person's tree, by those of its copy."""
+    """One merge; `originals` maps each element of the copy to the person's own."""
 
     originals: dict[XmlElement, XmlElement]
     same: bool
@@ -93,7 +93,7 @@ class _Merging:
     conflicts: list[Conflict] = field(default_factory=list[Conflict])
 
     def element(self, before: XmlElement, after: XmlElement, owns: Sequence[XmlElement]) -> None:
-        """Change one element, and all in it, which is changed in place; several where they add up."""
+        """Change an element in place, with all in it; `owns` has several if they add up."""
         # What our writer spells otherwise than the author is the same in `before` and `after`, and
         # so is never touched.
         if self.exact.number(before) == self.exact.number(after):
@@ -117,7 +117,7 @@ class _Merging:
         self.conflicts.append(Conflict(self.originals.get(own, own), message))
 
     def _is(self, old: str | None, here: str | None) -> bool:
-        """Whether a value is still what it was."""
+        """Tell whether the person's value is still the one before the change."""
         return self.same or same_value(old, here)
 
     def _attributes(self, before: XmlElement, after: XmlElement, own: XmlElement) -> None:
@@ -142,7 +142,7 @@ class _Merging:
             self._conflict(own, f"the text is {here!r} here and was {old!r}, and becomes {new!r}")
 
     def _mixed(self, before: XmlElement, after: XmlElement, own: XmlElement) -> None:
-        """Text between elements: the content is replaced as a whole."""
+        """Replace a content that has text between its elements, as a whole."""
         inside = [[texts(each), *map(self.alike.number, elements(each))] for each in (before, after, own)]
         if inside[0] == inside[1] or inside[1] == inside[2]:
             return
@@ -155,7 +155,7 @@ class _Merging:
     def _children(
         self, before: XmlElement, after: XmlElement, owns: Sequence[XmlElement]
     ) -> Iterator[tuple[XmlElement, XmlElement, Sequence[XmlElement]]]:
-        """Delete and insert children, and give those that are in all three."""
+        """Delete and insert children, and yield the ones that all three trees have."""
         old, new, mine = elements(before), elements(after), [each for own in owns for each in elements(own)]
         kept = {j: i for i, j in with_renamed(aligned(old, new, self.exact), old, new, self.exact)}
         here = {i: [mine[k], *self._like(mine, k)] for i, k in matched(old, mine, self.alike)}
@@ -181,7 +181,7 @@ class _Merging:
                 behind = self._insert(owns[0], deepcopy(moved.get(self.exact.number(each), each)), behind)
 
     def _like(self, mine: Sequence[XmlElement], k: int) -> Iterator[XmlElement]:
-        """The others that add up with one."""
+        """Yield the other elements that add up with one."""
         if mine[k].tag == self.additive:
             yield from (each for i, each in enumerate(mine) if i != k and known_by(each) == known_by(mine[k]))
 
@@ -197,7 +197,7 @@ class _Merging:
                     parent.remove(each)
 
     def _differs(self, old: XmlElement, owns: Sequence[XmlElement]) -> bool:
-        """Whether an element, or what adds up to it, is not what it was."""
+        """Tell whether the person changed an element, or one that adds up with it."""
         if len(owns) == 1:
             return self.alike.number(old) != self.alike.number(owns[0])
         inside = Counter(self.alike.number(each) for own in owns for each in elements(own))
@@ -216,7 +216,7 @@ class _Merging:
 
 
 def _keep_tail(parent: XmlElement, child: XmlElement) -> None:
-    """Let the text behind a child stay when the child goes."""
+    """Move the text behind a child to where it stays when the child is removed."""
     tail = stripped(child.tail)
     previous = child.getprevious()
     if not tail:

@@ -17,7 +17,7 @@ from twinform.text.source_text import SourceText, apply
 
 @dataclass(frozen=True, slots=True)
 class Editor:
-    """Makes edits of a well-formed text whose elements stand at these places. What an edit does not say stays."""
+    """Makes edits of a well-formed text with known element positions; nothing but the edited piece changes."""
 
     around: TextSurroundings
     places: Mapping[XmlElement, ElementSpan] = field(repr=False)
@@ -28,7 +28,7 @@ class Editor:
         return self.around.text
 
     def set_attribute(self, element: XmlElement, name: str, value: str) -> TextEdit:
-        """Write an attribute, between the quotes that it has, or behind the last one where it is not there."""
+        """Set an attribute: between its own quotes, or after the last attribute if it is new."""
         place = self.places[element]
         own = place.attributes.get(name)
         if own:
@@ -40,16 +40,16 @@ class Editor:
         return TextEdit(Span(end, end), f"{gap}{name}={quote}{value_of(value, quote)}{quote}")
 
     def rename_attribute(self, element: XmlElement, name: str, new: str) -> TextEdit:
-        """Give an attribute another name."""
+        """Rename an attribute."""
         return TextEdit(self.places[element].attributes[name].name, new)
 
     def remove_attribute(self, element: XmlElement, name: str) -> TextEdit:
-        """Take an attribute out, and the blanks before it."""
+        """Remove an attribute and the blanks before it."""
         whole = self.places[element].attributes[name].whole
         return TextEdit(Span(self.around.before_blanks(whole.start), whole.end), "")
 
     def rename(self, element: XmlElement, new: str) -> tuple[TextEdit, ...]:
-        """Give an element another name, in both of its tags."""
+        """Rename an element in its start tag and its end tag."""
         place = self.places[element]
         if place.end_tag is None:
             return (TextEdit(place.name, new),)
@@ -57,7 +57,7 @@ class Editor:
         return TextEdit(place.name, new), TextEdit(Span(start, start + len(place.name.of(self.text))), new)
 
     def remove(self, element: XmlElement) -> TextEdit:
-        """Take an element out, with its lines where nothing else is on them; the comments in it stay in its place."""
+        """Remove an element, with its lines if nothing else is on them; comments inside it stay."""
         place = self.places[element]
         comments = [aside.of(self.text) for each in place.walk() for aside in each.asides]
         if comments:
@@ -65,7 +65,7 @@ class Editor:
         return TextEdit(self.around.with_line(place.whole), "")
 
     def set_text(self, element: XmlElement, text: str) -> tuple[TextEdit, ...]:
-        """Write the text of an element without children; blanks and comments around the old one stay."""
+        """Set the text of an element without children; blanks and comments around it stay."""
         place = self.places[element]
         if place.content is None:
             return (self.fill(place, text_of(text), place.name.of(self.text)),)
@@ -82,13 +82,13 @@ class Editor:
         return tuple(edits)
 
     def fill(self, place: ElementSpan, inside: str, name: str) -> TextEdit:
-        """Give `<element/>` a content, and an end tag of that name."""
+        """Give `<element/>` a content and an end tag."""
         end = place.start_tag.end
         slash = self.text.rindex("/", place.start_tag.start, end)
         return TextEdit(Span(self.around.before_blanks(slash), end), f">{inside}</{name}>")
 
     def insert(self, parent: XmlElement, new: XmlElement, behind: XmlElement | None = None) -> TextEdit:
-        """Put a new element into another one, behind one of its children, or last; it is laid out as these are."""
+        """Insert an element after a child, or as the last one, formatted like its new siblings."""
         place = self.places[parent]
         layout, prefixes = self.around.layout_inside(place), Prefixes.at(parent)
         shown = layout.indent + serialized(new, layout, prefixes)
@@ -100,13 +100,13 @@ class Editor:
         return TextEdit(Span(end, end), shown + closing)
 
     def _end(self, place: ElementSpan, last: ElementSpan | None) -> int:
-        """Behind a child, or the last comment of an element without children, and the comments on its line."""
+        """Return the offset behind a child, or the last comment of a childless element, and comments on that line."""
         if last is not None:
             return self.around.behind(last.whole.end)
         return place.asides[-1].end if place.asides else self.around.behind(place.start_tag.end)
 
     def comment_out(self, span: Span) -> TextEdit:
-        """Make a comment of a text."""
+        """Turn a piece of the text into a comment."""
         piece = span.of(self.text)
         start = span.start + len(piece) - len(piece.lstrip())
         inside = Span(start, start + len(piece.strip()))
@@ -114,7 +114,7 @@ class Editor:
 
 
 def patch(source: SourceText, before: XmlElement, after: XmlElement) -> SourceText:
-    """The file with the smallest edits that turn the tree `before`, which it was parsed to, into `after`.
+    """Make the smallest edits that turn the tree `before`, which the file was parsed to, into `after`.
 
     Raises:
         UnplacedError: the text is not well-formed, or has a document type declaration.
@@ -123,7 +123,7 @@ def patch(source: SourceText, before: XmlElement, after: XmlElement) -> SourceTe
 
 
 def edits(source: SourceText, before: XmlElement, after: XmlElement) -> list[TextEdit]:
-    """These edits, in no particular order, none of which overlaps another.
+    """Return the edits of `patch`, in no particular order; none overlaps another.
 
     Raises:
         UnplacedError: as `patch`.
@@ -137,13 +137,13 @@ def edits(source: SourceText, before: XmlElement, after: XmlElement) -> list[Tex
 
 @dataclass(frozen=True, slots=True)
 class _Patching(Editor):
-    """One run over a text, which collects its edits."""
+    """One patch of a text, which collects its edits."""
 
     edits: list[TextEdit] = field(default_factory=list[TextEdit])
     contents: ElementContents = field(default_factory=ElementContents)
 
     def change(self, before: XmlElement, after: XmlElement) -> None:
-        """Add the edits that make an element another one."""
+        """Add the edits that turn one element into another."""
         pending = [(before, after)]
         while pending:
             old, new = pending.pop()
@@ -177,7 +177,7 @@ class _Patching(Editor):
     def _added(
         self, place: ElementSpan, added: dict[str, str], prefixes: Prefixes, new: XmlElement
     ) -> tuple[Span, str]:
-        """Where attributes are inserted, behind the last one, and their text."""
+        """Return where new attributes are inserted, after the last one, and their text."""
         missing = {name: uri for name, uri in prefixes.missing(new).items() if uri != _uri(str(new.tag))}
         prefixes = prefixes.with_(missing)
         last = max((each.whole for each in place.attributes.values()), default=None)
@@ -188,7 +188,7 @@ class _Patching(Editor):
         return Span(end, end), "".join(f"{gap}{each}" for each in shown)
 
     def _content(self, old: XmlElement, new: XmlElement) -> Iterator[tuple[XmlElement, XmlElement]]:
-        """Add the edits of what is between the tags, and give the pairs of children that differ inside."""
+        """Add the edits between the tags, and return the pairs of children that differ inside."""
         here, there, children = texts(old), texts(new), elements(old)
         place = self.places[old]
         if place.content is None and (any(there) or elements(new)):
@@ -207,7 +207,7 @@ class _Patching(Editor):
         self.edits.append(self.fill(place, inside, place.name.of(self.text) if old.tag == new.tag else str(new.tag)))
 
     def _mixed(self, old: XmlElement, new: XmlElement) -> Iterator[tuple[XmlElement, XmlElement]]:
-        """Text beside elements: it is written anew, with the comments in front, where more than a child differs."""
+        """Write a content with text beside its elements anew, comments first, if more than one child differs."""
         before, after = elements(old), elements(new)
         if texts(old) == texts(new) and [each.tag for each in before] == [each.tag for each in after]:
             yield from zip(before, after, strict=True)
@@ -248,7 +248,7 @@ class _Patching(Editor):
             self._replace(Span(end, end), self.around.layout(self.places[old]).indent)
 
     def _empty(self, old: XmlElement) -> None:
-        """Take all children out of an element; comments stay."""
+        """Remove all children of an element; comments stay."""
         place = self.places[old]
         if place.asides:
             for child in place.children:

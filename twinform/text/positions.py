@@ -28,7 +28,7 @@ class LineColumn(NamedTuple):
 
 
 class AttributeSpan(NamedTuple):
-    """Where an attribute stands; `value` is what is between the quotes."""
+    """The position of an attribute; `value` is the part between the quotes."""
 
     whole: Span
     name: Span
@@ -37,7 +37,7 @@ class AttributeSpan(NamedTuple):
 
 @dataclass(slots=True)
 class ElementSpan:
-    """Where an element stands.
+    """The position of an element.
 
     `end_tag` is None for `<element/>`. `asides` are the comments and processing instructions directly in it.
     """
@@ -56,7 +56,7 @@ class ElementSpan:
 
     @property
     def content(self) -> Span | None:
-        """What is between the tags; None for `<element/>`."""
+        """The part between the tags; None for `<element/>`."""
         return Span(self.start_tag.end, self.end_tag.start) if self.end_tag else None
 
     @property
@@ -65,7 +65,7 @@ class ElementSpan:
         return [each for name, each in self.attributes.items() if name != "xmlns" and not name.startswith("xmlns:")]
 
     def texts(self) -> Iterator[Span]:
-        """The runs of text directly in it, between children and asides: blank ones too, and CDATA sections."""
+        """The runs of text directly in the element, between children and comments, blank ones and CDATA included."""
         content = self.content
         if content is None:
             return
@@ -78,7 +78,7 @@ class ElementSpan:
             yield Span(here, content.end)
 
     def walk(self) -> Iterator["ElementSpan"]:
-        """This element and all in it, in the order of their start tags, as `iter` of lxml gives the elements."""
+        """Yield this element and all inside it in the order of their start tags, as `iter` of lxml does."""
         pending: list[ElementSpan] = [self]
         while pending:
             here = pending.pop()
@@ -90,7 +90,7 @@ class ElementSpan:
 # begins. It also refuses what libxml2 repairs, so a file that is not well-formed cannot be changed
 # in its place.
 def indentation(text: str, offset: int) -> str | None:
-    """The blanks before what begins its line; None for what does not."""
+    """Return the blanks before something that begins its line; None if something stands before it."""
     start = offset
     # a line may be the whole file, so nothing of it is looked at but the blanks
     while start and text[start - 1] in " \t":
@@ -118,7 +118,7 @@ class Lines:
 
 
 def spans(text: str) -> ElementSpan:
-    """Where the root element stands, with all in it.
+    """Find the position of the root element and of all inside it.
 
     Raises:
         UnplacedError: the text is not well-formed, or has a document type declaration.
@@ -127,7 +127,7 @@ def spans(text: str) -> ElementSpan:
 
 
 class _PositionScan:
-    """One run of expat over a text, which is given as UTF-8 whatever the file was encoded in."""
+    """One run of expat over a text, which it gets as UTF-8 whatever the encoding of the file."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -156,7 +156,7 @@ class _PositionScan:
         return self.root
 
     def _here(self) -> int:
-        """The offset in characters of the byte at which expat is; each byte is looked at once."""
+        """Return the offset in characters of expat's position in bytes; each byte is looked at once."""
         byte = self.parser.CurrentByteIndex
         if self.ascii:
             return byte
@@ -195,7 +195,7 @@ class _PositionScan:
 
 
 def start_tag(text: str, start: int) -> ElementSpan:
-    """The start tag at an offset, of an element without content."""
+    """Find the start tag at an offset, as an element without content."""
     found = _NAME.match(text, start)
     assert found is not None  # noqa: S101 - expat has found a tag there
     name, here = Span(*found.span(1)), found.end()
@@ -219,7 +219,7 @@ _START, _END, _ASIDE = range(3)
 
 
 class Tags:
-    """The elements of a text by their place among all, in the order of their start tags."""
+    """The elements of a text that need not be well-formed, by number in the order of their start tags."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -244,7 +244,7 @@ class Tags:
         return start_tag_name(self.text, self.starts[place])
 
     def element(self, place: int) -> ElementSpan:
-        """An element with all in it; of one that has very much in it, the start tag alone.
+        """Find an element with all inside it; of a very large one, the start tag alone.
 
         Raises:
             UnplacedError: its end is not found.
@@ -278,6 +278,6 @@ class Tags:
 
 
 def start_tag_name(text: str, start: int) -> str:
-    """The name in the start tag at an offset."""
+    """Return the name in the start tag at an offset."""
     found = _TAG_NAME.match(text, start)
     return found[1] if found else ""

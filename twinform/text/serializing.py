@@ -17,18 +17,18 @@ _XML = "http://www.w3.org/XML/1998/namespace"
 
 
 def text_of(value: str) -> str:
-    """A string as it is written between tags."""
+    """Escape a string for the text of an element."""
     return value.translate(_IN_TEXT)
 
 
 def value_of(value: str, quote: str = '"') -> str:
-    """A string as it is written between these quotes."""
+    """Escape a string for an attribute value between the given quotes."""
     return value.translate(str.maketrans({**_IN_VALUE, quote: _QUOTES[quote]}))
 
 
 @dataclass(frozen=True, slots=True)
 class Prefixes:
-    """The prefixes that are declared at some place, by their namespaces; "" is that of no prefix."""
+    """The prefixes declared at one place, by namespace; "" is the key without a namespace."""
 
     known: Mapping[str, str]
 
@@ -38,7 +38,7 @@ class Prefixes:
         return cls({_XML: "xml", **{uri: prefix or "" for prefix, uri in element.nsmap.items()}})
 
     def of_tag(self, name: str) -> str | None:
-        """The name with its prefix; None where the namespace is not declared."""
+        """Return the tag with its prefix; None if its namespace is not declared."""
         uri, _, local = name[1:].rpartition("}") if name.startswith("{") else ("", "", name)
         if not uri:
             return local
@@ -51,7 +51,7 @@ class Prefixes:
         return None if name.startswith("{") and shown is not None and ":" not in shown else shown
 
     def missing(self, element: XmlElement) -> dict[str, str]:
-        """The declarations that an element itself needs, by their prefixes."""
+        """Return the declarations that an element needs itself, by prefix."""
         needed = [name for name in map(str, element.attrib) if self.of_attribute(name) is None]
         needed += [str(element.tag)] * (self.of_tag(str(element.tag)) is None)
         uris = dict.fromkeys(name[1:].partition("}")[0] for name in needed)
@@ -66,13 +66,13 @@ class Prefixes:
         return made
 
     def with_(self, declarations: Mapping[str, str]) -> "Prefixes":
-        """These and more."""
+        """Return the prefixes with more declarations added."""
         return Prefixes({**self.known, **{uri: prefix for prefix, uri in declarations.items()}})
 
 
 @dataclass(frozen=True, slots=True)
 class ElementLayout:
-    """How new elements are laid out: what one stands behind, and by how much more those in it are indented.
+    """How a new element is laid out: the line end and blanks before it, and the extra indentation of its children.
 
     `indent` begins with a line end, or is what separates elements that share a line.
     """
@@ -82,12 +82,12 @@ class ElementLayout:
 
     @property
     def inner(self) -> "ElementLayout":
-        """The layout of the elements inside."""
+        """The layout of its children."""
         return ElementLayout(self.indent + self.step, self.step) if self.step else self
 
 
 def serialized(element: XmlElement, layout: ElementLayout, prefixes: Prefixes) -> str:
-    """The text of an element, without what stands before it."""
+    """Return the text of an element, without the blanks before it."""
     declarations = prefixes.missing(element)
     prefixes = prefixes.with_(declarations)
     tag = prefixes.of_tag(str(element.tag))
@@ -101,7 +101,7 @@ def serialized(element: XmlElement, layout: ElementLayout, prefixes: Prefixes) -
 
 
 def contents(element: XmlElement, layout: ElementLayout, prefixes: Prefixes) -> str:
-    """What is between the tags of an element; blanks between elements are ours unless there is text beside them."""
+    """Return the text between the tags of an element; blanks are ours unless there is text beside the elements."""
     children, (first, *others) = elements(element), texts(element)
     if not children:
         return text_of(first)
@@ -121,7 +121,7 @@ _STEP = "  "
 
 @dataclass(frozen=True, slots=True)
 class TextSurroundings:
-    """A text, what ends its lines, and by how much each level is indented more."""
+    """A text with its line end and the indentation of one level."""
 
     text: str
     line_end: str
@@ -129,17 +129,17 @@ class TextSurroundings:
 
     @classmethod
     def of(cls, source: SourceText, root: ElementSpan) -> "TextSurroundings":
-        """Find out how a file is laid out: its line ends and its usual indentation."""
+        """Find out how a file is formatted: its line ends and its usual indentation."""
         return cls(source.text, source.line_end, _usual_step(source.text, root))
 
     def before_blanks(self, offset: int) -> int:
-        """Where the blanks before an offset begin."""
+        """Return where the blanks before an offset begin."""
         while offset and self.text[offset - 1] in BLANKS:
             offset -= 1
         return offset
 
     def with_line(self, span: Span) -> Span:
-        """The span and, where nothing else is on its lines, these lines; else the blanks before it."""
+        """Extend a span to whole lines if nothing else is on them, otherwise to the blanks before it."""
         start = span.start
         while start and self.text[start - 1] in " \t":
             start -= 1
@@ -152,17 +152,17 @@ class TextSurroundings:
         return Span(start, span.end)
 
     def behind(self, end: int) -> int:
-        """Behind an element and the comments on its line."""
+        """Return the offset after an element and the comments on its line."""
         found = _REST_OF_LINE.match(self.text, end)
         return found.end() if found else end
 
     def layout(self, place: ElementSpan) -> ElementLayout:
-        """How an element itself is laid out."""
+        """Return the layout of an element itself."""
         indent = self._indent(place.whole.start)
         return ElementLayout(indent, self.step) if indent is not None else ElementLayout("", "")
 
     def layout_inside(self, place: ElementSpan) -> ElementLayout:
-        """How new children of an element are laid out: like those that it has."""
+        """Return the layout of new children of an element: like the ones that it has."""
         shown = [self._indent(child.whole.start) for child in place.children]
         own = next((indent for indent in shown if indent is not None), None)
         if own is not None:
@@ -173,13 +173,13 @@ class TextSurroundings:
         return self.layout(place).inner
 
     def _indent(self, offset: int) -> str | None:
-        """The line end and the blanks before what begins its line; None for what does not."""
+        """Return the line end and blanks before something that begins its line; None if something stands before it."""
         blanks = indentation(self.text, offset)
         return None if blanks is None else self.line_end + blanks
 
 
 def _usual_step(text: str, root: ElementSpan) -> str:
-    """By how much the first element that begins a line is indented more than the one around it."""
+    """Return how much deeper the first indented element is than the one around it."""
     for element in root.walk():
         own = indentation(text, element.whole.start)
         for child in element.children:

@@ -21,12 +21,12 @@ _WITHOUT_MARK = ((b"<\0", "utf-16-le"), (b"\0<", "utf-16-be"))
 
 
 class UndecodableError(ValueError):
-    """Bytes that are no text in the encoding that the file declares, or an encoding that is not known."""
+    """The bytes cannot be decoded by the encoding that the file declares, or the encoding is unknown."""
 
 
 @dataclass(frozen=True, slots=True)
 class SourceText:
-    """A decoded file. `data` gives its bytes again; line ends in `text` are those of the file."""
+    """A decoded file that `data` encodes again; its line ends stay as they are in the file."""
 
     text: str
     encoding: str = "utf-8"
@@ -34,7 +34,7 @@ class SourceText:
 
     @classmethod
     def of(cls, data: bytes) -> Self:
-        """The text of a file.
+        """Decode a file.
 
         Raises:
             UndecodableError: it cannot be decoded.
@@ -47,22 +47,22 @@ class SourceText:
 
     @property
     def data(self) -> bytes:
-        """The bytes of the file; a character that its encoding does not have is written as a reference."""
+        """The bytes of the file; a character that its encoding lacks becomes a character reference."""
         return self.mark + self.text.encode(self.encoding, "xmlcharrefreplace")
 
     @property
     def line_end(self) -> str:
-        """What ends a line: that of the first one."""
+        """The line end of the first line."""
         end = self.text.find("\n")
         return "\r\n" if end > 0 and self.text[end - 1] == "\r" else "\n"
 
     def with_text(self, text: str) -> Self:
-        """Another text, in the same encoding."""
+        """Return the file with another text in the same encoding."""
         return type(self)(text, self.encoding, self.mark)
 
 
 def _encoding(data: bytes) -> tuple[bytes, str]:
-    """The byte order mark and the name of the encoding."""
+    """Return the byte order mark and the name of the encoding."""
     for mark, encoding in _MARKS:
         if data.startswith(mark):
             return mark, encoding
@@ -74,11 +74,11 @@ def _encoding(data: bytes) -> tuple[bytes, str]:
 
 
 class OverlapError(ValueError):
-    """Two edits want to change the same piece."""
+    """Two edits change the same piece."""
 
 
 def apply(text: str, edits: Iterable[TextEdit]) -> str:
-    """The text after all edits; those at one place are made in the order in which they are given.
+    """Apply edits to a text; several at one place are applied in the order given.
 
     Raises:
         OverlapError: two of them overlap.
@@ -97,13 +97,13 @@ _NO_END = "\n\\ No newline at end of file\n"
 
 
 def line_diff(name: str, before: str, after: str) -> Iterator[str]:
-    """The lines of the diff, with their line ends; none where both texts are equal."""
+    """Yield the lines of a unified diff with their line ends; none if both texts are equal."""
     if before != after:
         for line in unified_diff(_lines(before), _lines(after), printable(name), printable(name)):
             yield line if line.endswith("\n") else line + _NO_END
 
 
 def _lines(text: str) -> list[str]:
-    r"""The lines, ended by `\n` alone, as those programs see them."""
+    r"""Split a text at `\n` alone, as `patch` and `git apply` do."""
     lines = [f"{line}\n" for line in text.split("\n")]
     return [*lines[:-1], lines[-1][:-1]] if lines[-1] != "\n" else lines[:-1]

@@ -22,7 +22,7 @@ TAB = 8
 
 
 class Attribute(NamedTuple):
-    """An attribute, with the blanks before it; `value` has its quotes."""
+    """An attribute with the blanks before it; `value` includes its quotes."""
 
     gap: str
     name: str
@@ -30,7 +30,7 @@ class Attribute(NamedTuple):
 
     @property
     def text(self) -> str:
-        """The attribute itself."""
+        """The attribute as it is written."""
         return f"{self.name}={self.value}"
 
 
@@ -45,7 +45,7 @@ class StartTag:
 
     @classmethod
     def of(cls, text: str) -> "StartTag":
-        """The parts of a tag that is well-formed."""
+        """Split a well-formed start tag."""
         name, found = name_of(text), list[Attribute]()
         here = len(name) + 1
         while attribute := _ATTRIBUTE.match(text, here):
@@ -57,24 +57,24 @@ class StartTag:
 
     @property
     def is_broken(self) -> bool:
-        """Whether it has several lines, not counting those in values."""
+        """Whether the tag has several lines, not counting line breaks in values."""
         return any(map(_LINE_END.search, (self.gap, *(each.gap for each in self.attributes))))
 
     def with_values(self, spelled: Callable[[str, str], str]) -> "StartTag":
-        """The tag with other spellings of values, which are made of the name of an attribute and what it has."""
+        """Return the tag with its values changed by a function of attribute name and value."""
         changed = (
             each._replace(value=_quoted(each.value, spelled(each.name, each.value[1:-1]))) for each in self.attributes
         )
         return replace(self, attributes=tuple(changed))
 
     def sorted_by(self, ranks: Sequence[int]) -> "StartTag":
-        """The tag with its attributes in the order of these numbers, in the same places."""
+        """Return the tag with its attributes sorted by the given ranks, in the same places."""
         order = sorted(range(len(ranks)), key=ranks.__getitem__)
         pairs = zip(self.attributes, (self.attributes[i] for i in order), strict=True)
         return replace(self, attributes=tuple(new._replace(gap=old.gap) for old, new in pairs))
 
     def columns(self) -> dict[int, bool]:
-        """Where each attribute begins, behind `<`, and whether more than a blank stands before it.
+        """Return where each attribute begins, and whether more than one blank stands before it.
 
         Empty for a tag of several lines.
         """
@@ -89,19 +89,19 @@ class StartTag:
         return found
 
     def is_aligned_with(self, other: "StartTag") -> bool:
-        """Whether an author has put an attribute of one below one of the other, with blanks."""
+        """Tell whether an author aligned an attribute of this tag with one of another tag."""
         columns, others = self.columns(), other.columns()
         return any(columns[each] or others[each] for each in columns.keys() & others.keys())
 
     def on_one_line(self, *, keep_gaps: bool) -> str:
-        """Its text; `keep_gaps` leaves the blanks between attributes as they are, for columns of several tags."""
+        """Write the tag on one line; `keep_gaps` keeps the blanks that align it with other tags."""
         if not keep_gaps:
             gap = " " if self.gap and self.end == "/>" else ""
             return f"{' '.join((f'<{self.name}', *(each.text for each in self.attributes)))}{gap}{self.end}"
         return f"<{self.name}{''.join(each.gap + each.text for each in self.attributes)}{self.gap}{self.end}"
 
     def on_lines(self, line: str, step: str, column: int) -> str:
-        """Its text where it is broken; `line` begins a line at its indent, and it stood at this column before."""
+        """Write a tag of several lines; `line` begins a line at its indent, and the tag stood at `column` before."""
         first_is_below = bool(self.attributes and _LINE_END.search(self.attributes[0].gap))
         aligning = _Aligning(column + len(self.name) + 1)
         below = f"{line}{step}" if first_is_below else f"{line}{' ' * (len(self.name) + 2)}"
@@ -120,7 +120,7 @@ class StartTag:
 
 
 def name_of(tag: str) -> str:
-    """The name in a start tag."""
+    """Return the name in a start tag."""
     name = _NAME.match(tag)
     assert name is not None  # noqa: S101 - as above
     return name[1]
@@ -131,7 +131,7 @@ def _quoted(old: str, value: str) -> str:
 
 
 class _Aligning:
-    """The columns of attributes in a broken tag, as they were and as they become, both from that of the first one.
+    """The old and new columns of the attributes in a tag of several lines, counted from the first one.
 
     A line that was aligned with an attribute of the lines above is aligned with it again, and any other with the first.
     """
@@ -144,7 +144,7 @@ class _Aligning:
         self.here: dict[int, int] = {}
 
     def next_line(self, gap: str) -> int:
-        """Begin a line with these blanks; gives by how much it is indented more than the first attribute."""
+        """Begin a line with these blanks; returns how much deeper it is than the first attribute."""
         self.above.update(self.here)
         self.here, self.known = {}, True
         self.old = len(_LINE_END.split(gap)[-1].expandtabs(TAB))
@@ -152,12 +152,12 @@ class _Aligning:
         return self.new
 
     def skip(self, new: str, old: str) -> None:
-        """Go on behind blanks."""
+        """Continue after blanks."""
         self.old += len(old)
         self.new += len(new) if self.first is not None else 0
 
     def put(self, text: str) -> None:
-        """Write an attribute here."""
+        """Write an attribute at the current column."""
         if self.first is None:
             self.first = self.old
         if self.known:
@@ -174,7 +174,7 @@ _Key = TypeVar("_Key", bound=Hashable)
 
 @dataclass(frozen=True, slots=True)
 class Usage:
-    """Names of elements, and of attributes in them.
+    """What the facts tables know by name alone: numeric values, and the usual order of attributes.
 
     `opaque` are the elements with contents of their own, such as plugins, in which nothing is known.
     """
@@ -185,7 +185,7 @@ class Usage:
     order: dict[str, tuple[str, ...]]
 
     def rank(self, element: str, attribute: str) -> int:
-        """A number that is smaller for what usually stands further in front."""
+        """Return a sort key: smaller for attributes that usually come first."""
         if attribute == "name":
             return -1
         known = self.order.get(element, ())
@@ -208,14 +208,14 @@ def usage() -> Usage:
 
 
 def _numeric(typed: Iterable[tuple[_Key, str | None]]) -> frozenset[_Key]:
-    """What has numbers wherever it has a value."""
+    """Return the keys that have numbers wherever they have a value."""
     found = list(typed)
     others = {key for key, type in found if type and type not in _NUMBERS}
     return frozenset({key for key, type in found if type} - others)
 
 
 def _elements(format: str) -> Iterator[tuple[str, str | None, Fact]]:
-    """Each element of a format by its name, with the type of its text and the fact that holds its rows."""
+    """Yield each element of a format: its name, the type of its text, and the fact that holds its rows."""
     facts = table(format)
     pending = [facts.definitions[facts.root]]
     seen: set[int] = set()
@@ -237,12 +237,12 @@ _ONLY_NUMBERS = re.compile(rf"\s*+(?:{_NUMBER.pattern}(?:\s++|$))++", re.ASCII)
 
 
 def all_numbers(text: str) -> bool:
-    """Whether a text is of nothing but numbers, and has one."""
+    """Tell whether a text consists of numbers, and has at least one."""
     return _ONLY_NUMBERS.fullmatch(text) is not None
 
 
 def shortest(text: str) -> str:
-    """The text with each number spelled in the fewest characters, where it is of nothing but numbers."""
+    """Spell each number of a text in the fewest characters, if the text consists of numbers."""
     return _NUMBER.sub(lambda found: _shortest(found.group()), text) if all_numbers(text) else text
 
 

@@ -24,7 +24,7 @@ _TOKEN = re.compile(rf"""{COMMENT}|{INSTRUCTION}|{SECTION}|<(?:[^"'<>]++|"[^"]*+
 
 
 class UnplacedError(ValueError):
-    """The text is not well-formed, or has a document type declaration: nothing is known of its places.
+    """The positions in a text are unknown: it is not well-formed, or has a document type declaration.
 
     `line` and `column` are where a parser stopped, from 1, and 0 where that is not known.
     """
@@ -35,7 +35,7 @@ class UnplacedError(ValueError):
 
 
 class TokenKind(IntEnum):
-    """What a token is; `BLANK` is a text of nothing but white space, and `EMPTY` a tag such as `<a/>`."""
+    """The kind of a token; `BLANK` is white space only, and `EMPTY` a tag such as `<a/>`."""
 
     BLANK = 0
     TEXT = 1
@@ -47,7 +47,7 @@ class TokenKind(IntEnum):
 
 
 class Tokens:
-    """The tokens of a text, by their numbers; the blanks before and after the root element are tokens too.
+    """The tokens of a text, by number; the blanks before and after the root element count.
 
     Raises:
         UnplacedError: the text is not well-formed, or has a document type declaration.
@@ -69,7 +69,7 @@ class Tokens:
         return self.text[self.start(number) : self.ends[number]]
 
     def start(self, number: int) -> int:
-        """Where a token begins."""
+        """Return where a token begins."""
         return self.ends[number - 1] if number else 0
 
 
@@ -88,7 +88,7 @@ def _kind(token: str) -> TokenKind:
 
 
 def _require_well_formed(text: str) -> None:
-    """Raise where another parser would not read the same tokens."""
+    """Raise an error if another parser would find other tokens."""
     parser = expat.ParserCreate("utf-8")
     parser.StartDoctypeDeclHandler = _refuse_doctype
     try:
@@ -110,7 +110,7 @@ _VISIBLE = re.compile(r"[^\r\n]")
 
 
 def masked(text: str) -> str:
-    """A text of the same length and lines, with blanks for declarations and for what stands in comments."""
+    """Blank out declarations and comments; the text keeps its length and lines."""
     return _ASIDE.sub(_blank, text)
 
 

@@ -9,10 +9,10 @@ from twinform.diagnostics.diagnostic import Diagnostic
 
 
 class FileTexts(Protocol):
-    """The texts of the files that findings are about, by their names in locations."""
+    """The texts of the files with findings, by the names in locations."""
 
     def line(self, file: str, number: int, /) -> str | None:
-        """A line, from 1, without its end; None where it is not known."""
+        """Return a line, from 1, without its end; None if unknown."""
         ...
 
     def place(self, file: str, offset: int, /) -> tuple[int, int] | None:
@@ -21,7 +21,7 @@ class FileTexts(Protocol):
 
 
 class _NoTexts:
-    """Of texts that are not at hand."""
+    """Stands for texts that are not available."""
 
     def line(self, *_: object) -> None:
         """Nothing is known."""
@@ -34,7 +34,7 @@ NO_TEXTS: FileTexts = _NoTexts()
 
 
 class FileFindings(NamedTuple):
-    """The diagnostics of one file, in the order in which they were found, and the texts that they are about."""
+    """The diagnostics of one file, in the order in which they were found, with the texts they are about."""
 
     path: str
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -50,7 +50,7 @@ class Reporter(Protocol):
 
 
 class PlacedEdit(NamedTuple):
-    """An edit of a fix: what stands between two places, as lines and columns from 1, becomes `new`."""
+    """An edit of a fix between two places, given as lines and columns from 1."""
 
     start: tuple[int, int]
     end: tuple[int, int]
@@ -58,7 +58,7 @@ class PlacedEdit(NamedTuple):
 
 
 def placed_edits(diagnostic: Diagnostic, file: str, texts: FileTexts) -> list[PlacedEdit] | None:
-    """The edits of the fix of a finding about a file; None where it has none, or their places are not known."""
+    """Return the edits of a finding's fix; None if it has none or their places are unknown."""
     if diagnostic.fix is None:
         return None
     name = diagnostic.location.file or file
@@ -72,7 +72,7 @@ def placed_edits(diagnostic: Diagnostic, file: str, texts: FileTexts) -> list[Pl
 
 
 def printable(text: str) -> str:
-    """The text with an escape for all that a terminal would obey or could not show."""
+    """Escape every character that a terminal would obey or could not show."""
     if text.isprintable():
         return text
     return "".join(each if each.isprintable() else each.encode("unicode_escape").decode() for each in text)
@@ -84,14 +84,14 @@ _NAME = re.compile(r"\[@\w+='(?:(.*?)'\](?=/|$)|.*)")
 
 
 class Group(NamedTuple):
-    """The first of some findings of one cause, and the others."""
+    """Findings with one cause: the first one, and the others."""
 
     first: Diagnostic
     others: tuple[Diagnostic, ...] = ()
 
 
 def grouped(diagnostics: Iterable[Diagnostic], *, every: bool = False) -> list[Group]:
-    """The findings in groups, each at the place of its first one; each alone where `every` one is wanted."""
+    """Group findings by cause, in the order of the first ones; with `every` each one stands alone."""
     listed = list(diagnostics)
     if every:
         return [Group(each) for each in listed]

@@ -34,7 +34,7 @@ def _command(diagnostic: Diagnostic, file: str) -> str:
 
 
 def _end(where: Location) -> dict[str, str]:
-    """The columns of a piece in one line; GitHub takes none of a piece that goes on in others."""
+    """Return the end of a piece for GitHub, which shows pieces of a single line only."""
     if where.end_line > where.line:
         return {"endLine": str(where.end_line)}
     end = {"endLine": str(where.end_line), "endColumn": str(where.end_column)} if where.end_line else {}

@@ -67,7 +67,7 @@ def _result(diagnostic: Diagnostic, file: FileFindings, order: dict[str, int], s
 
 
 def _fingerprint(diagnostic: Diagnostic, file: str, seen: Counter[str]) -> str:
-    """What stays the same where lines move: the file, the rule, the path and the message; counted where it recurs."""
+    """Return what stays when lines move: file, rule, path and message, numbered if they recur."""
     from hashlib import sha256  # noqa: PLC0415 - few runs write it
 
     where = diagnostic.location

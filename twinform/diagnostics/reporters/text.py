@@ -116,7 +116,7 @@ def _shown(character: str) -> str:
 
 
 def _width(text: str) -> int:
-    """How many columns of a terminal a text takes, as it is shown."""
+    """Return how many columns of a terminal a text takes."""
     return len(text) if text.isascii() and text.isprintable() else sum(map(_width_of, text))
 
 

@@ -54,7 +54,7 @@ def inertia_matrix(inertia: Inertia | None, default: float | None) -> Symmetric 
 
 
 def is_plain(matrix: Symmetric) -> bool:
-    """Whether there is a body with this inertia, without any doubt: a cheap question before the expensive one.
+    """Tell cheaply whether an inertia is physical beyond doubt, before the expensive question.
 
     The second moments of the mass about the three planes are J = trace/2 - I; a body has positive ones in every
     direction, which the leading minors tell.
@@ -109,7 +109,7 @@ def _report(
 
 
 def _place(inertial: Inertial) -> Location:
-    """Where the moments are written."""
+    """Return where the moments are written."""
     inertia = inertial.inertia
     return inertia.location if inertia is not None and inertia.source else inertial.location
 

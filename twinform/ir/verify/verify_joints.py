@@ -101,13 +101,13 @@ def _verify_limit(joint: Joint, limit: Limit, sink: DiagnosticSink) -> None:
 
 
 def _is_in_degrees(lower: float, upper: float) -> bool:
-    """Whether limits are such as people write in degrees, and no robot has in radians."""
+    """Tell whether limits look like degrees: people write such numbers, and no robot has them in radians."""
     most = max(-lower, upper)
     return _MOST_TURNS < most <= _WHOLE_TURN and not lower % _STEP and not upper % _STEP
 
 
 def verify_limits_there(joint: Joint, sink: DiagnosticSink, *, optional: bool) -> None:
-    """URDF asks for limits where SDF has none by default, and before 1.2 for effort and velocity in them."""
+    """Report missing limits that URDF requires where SDF has none by default; before 1.2 also effort and velocity."""
     limit = joint.axis.limit if joint.axis else None
     missing = [name for name in ("effort", "velocity") if limit and getattr(limit, name) is None]
     if limit and missing and not optional:
@@ -139,7 +139,7 @@ def verify_mimics(joints: Iterable[Joint], sink: DiagnosticSink) -> None:
 
 
 def useless_leader(joint: Joint, mimic: Mimic, joints: Mapping[str, Joint]) -> str:
-    """Why nothing moves by what a joint mimics; empty where that is another joint with an axis."""
+    """Return why nothing can follow the joint that is mimicked; empty if it is another joint with an axis."""
     leader = joints.get(mimic.joint or "")
     if leader is None:
         return "but there is no such joint"
@@ -165,7 +165,7 @@ def _report_circles(followers: list[tuple[Joint, Axis]], leaders: dict[str, str]
 
 
 def report_loops(joints: Iterable[Joint], sink: DiagnosticSink, severity: Severity | None = None) -> dict[str, Joint]:
-    """Report second parents and circles; give the first joint of each child."""
+    """Report links with two parents and circles; return the first joint of each child."""
     parents: dict[str, Joint] = {}
     groups = Groups()
     for joint in joints:
@@ -185,7 +185,7 @@ def report_loops(joints: Iterable[Joint], sink: DiagnosticSink, severity: Severi
 
 
 def _circles(parents: dict[str, Joint]) -> list[Joint]:
-    """One joint of each circle; every link is walked over once."""
+    """Yield one joint of each circle; every link is visited once."""
     settled: set[str] = set()
     found: list[Joint] = []
     for start in parents:

@@ -21,7 +21,7 @@ def name_of(node: Node) -> str:
 
 
 def report_names(kind: str, nodes: Iterable[Node], sink: DiagnosticSink) -> None:
-    """Report names that are empty or blank, cannot be printed, or are there twice."""
+    """Report names that are empty, blank, unprintable or not unique."""
     seen: dict[str, Node] = {}
     for node in nodes:
         name = name_of(node)
@@ -43,7 +43,7 @@ def report_unprintable(kind: str, node: Node, sink: DiagnosticSink) -> None:
 
 
 def report_scope(kinds: Kinds, shared: Severity, sink: DiagnosticSink) -> None:
-    """Report names that several kinds of one scope share, beside what is wrong within each kind."""
+    """Report names that several kinds of one scope share, and the faults within each kind."""
     owners: dict[str, tuple[str, Node]] = {}
     for kind, nodes in kinds:
         named = [node for node in nodes if getattr(node, "name", None) is not None]
@@ -115,7 +115,7 @@ class VerifiedScope:
             self._kinds[name] = "twice" if name in self._kinds else kind
 
     def _include(self, includes: Iterable[Include]) -> bool:
-        """Enter the includes that say their name; whether there are others, whose names only their files know."""
+        """Enter the includes with a name; returns whether others remain, whose names only their files know."""
         unread = False
         for include in includes:
             if include.name is None or include.merge:
@@ -129,7 +129,7 @@ class VerifiedScope:
         return (name for name, kind in self._kinds.items() if not kinds or kind in kinds)
 
     def find(self, name: str) -> Found | None:
-        """What a name stands for, as seen from here; None for nothing."""
+        """Return what a name stands for here; None for nothing."""
         here = self._kinds.get(name)
         if here is not None:
             return here

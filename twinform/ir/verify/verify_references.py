@@ -24,7 +24,7 @@ WORLD = "world"
 
 
 class References:
-    """Looks up the references in one model or world; `own` is how its frame is called inside it.
+    """Looks up the references in one model or world; `own` is the name of its own frame inside it.
 
     Where links and joints have a scope each, a reference means one of its own kind: nothing is ambiguous.
     """
@@ -38,7 +38,7 @@ class References:
         self._inner_frames = _NONE
 
     def verify(self) -> None:
-        """Report every reference that leads nowhere, or to two things."""
+        """Report every reference to nothing, or to two things."""
         holder = self._holder
         if isinstance(holder, Model):
             self._model(holder)
@@ -148,12 +148,12 @@ class References:
 
 
 def _old_frame(pose: Pose) -> str:
-    """The frame of a pose before 1.7, which means what `relative_to` means since."""
+    """Return the frame of a pose before SDF 1.7, which `relative_to` has replaced."""
     return next((part.attribute[1] for part in pose.opaque if part.attribute and part.attribute[0] == "frame"), "")
 
 
 def _frames_inside(link: Link) -> frozenset[str]:
-    """The frames that only what is in a link knows, as SDF 1.5 and 1.6 have them."""
+    """Return the frames that only the inside of a link knows, as in SDF 1.5 and 1.6."""
     frames = [part.element for part in link.opaque if part.element and part.element.name == "frame"]
     return frozenset(frame.get("name") or "" for frame in frames)
 

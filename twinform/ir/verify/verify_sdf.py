@@ -37,7 +37,7 @@ def verify_sdf(document: Document, sink: DiagnosticSink) -> None:
 
 
 class _Verifier:
-    """One run over one document."""
+    """One verification of one document."""
 
     def __init__(self, version: str | None, sink: DiagnosticSink) -> None:
         self.sink = sink
@@ -58,7 +58,7 @@ class _Verifier:
             self._resolve(world, before)
 
     def file(self, document: Document) -> None:
-        """What stands at the top of the file."""
+        """Verify what stands at the top of the file."""
         report_names("world", document.worlds, self.sink)
         report_names("model", document.models, self.sink)
         self._reserved((("model", document.models), ("light", document.lights)))
@@ -73,7 +73,7 @@ class _Verifier:
             report_scoped_elements(document, self.sink)
 
     def _at_top(self, model: Model) -> None:
-        """A model that stands in no world has nothing around it to be relative to."""
+        """Verify a model outside of any world, which has nothing around it to be relative to."""
         verify_rotation(model.pose, self.sink)
         if model.pose is not None and model.pose.relative_to:
             message = f"the pose of model {model.name!r} names a frame, and a model at the top has no frame around it"
@@ -137,7 +137,7 @@ class _Verifier:
             verify_sensors(link, model, self.sink)
 
     def _siblings(self, link: Link) -> None:
-        """A visual and a collision of one name: good everywhere but for `gz sdf --check`."""
+        """Report a visual and a collision with one name, which only `gz sdf --check` minds."""
         visuals = {visual.name: visual for visual in link.visuals if visual.name}
         for collision in link.collisions:
             if collision.name in visuals:
@@ -199,7 +199,7 @@ class _Verifier:
 
 
 def _names_frames(world: World) -> bool:
-    """Whether anything in the world is relative to something else: what is inside of models is looked at there."""
+    """Tell whether anything directly in the world is relative to something else."""
     placed: tuple[Model | Include, ...] = (*world.models, *world.includes)
     return bool(world.frames or world.joints) or any(_is_relative(each.pose) for each in placed)
 
@@ -212,7 +212,7 @@ _NOTHING = ""
 
 
 def has_plain_frames(model: Model) -> bool:
-    """Whether every pose and body leads to the model or a link of it, and every joint connects two links.
+    """Tell whether every pose and body leads to the model or a link of it, and every joint connects two links.
 
     False says nothing: names may be there twice or be those of other models, which only a `FrameGraph` can tell.
     """
@@ -237,7 +237,7 @@ def has_plain_frames(model: Model) -> bool:
 
 
 def _lead_somewhere(edges: Mapping[str, str]) -> bool:
-    """Whether no way ends at an unknown name or goes round in a circle."""
+    """Tell whether no way ends at an unknown name or in a circle."""
     visited: dict[str, int] = {_NOTHING: -1}
     for number, start in enumerate(edges):
         name, steps = start, 0
