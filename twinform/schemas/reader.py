@@ -111,7 +111,7 @@ class SchemaReader:
         return read
 
     def _leaf(self, row: Fact, into: type[Node] | None, at: str) -> ReadChild:
-        """Return the reader of an element with text, perhaps attributes too, that fills a field of the node around it."""
+        """Return the reader of an element with text, perhaps attributes, that fills a field of the node around it."""
         keep, has_rows = into is not None, bool(row.rows)
         read_text = text_reader(row, self.types, keep=keep)
         inside = cache(partial(self._element_reader, row, into, _below(at, row)))
