@@ -8,7 +8,7 @@ from testbed.corpus.examine import rules_of
 from twinform.diagnostics import Fate, Ledger
 from twinform.ir import Document
 from twinform.ir.changes import changes
-from twinform.passes.framework.hooks.printing import line_of
+from twinform.passes.framework.hooks import line_of
 from twinform.passes.sdf_versions.put_back import comparable
 
 NEWEST = "1.12"

@@ -14,7 +14,6 @@ PACKAGES = (
     "twinform",
     "twinform.compiler",
     "twinform.passes",
-    "twinform.passes.framework.hooks",
     "twinform.passes.sdf_versions.kinds",
     "twinform.text",
 )

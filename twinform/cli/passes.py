@@ -16,7 +16,7 @@ from twinform.passes import Pass, PipelineError, Registered, RegistryError, pars
 from twinform.passes.framework.pass_options import nearest
 from twinform.passes.framework.pass_registry import OWN
 from twinform.passes.framework.passes_page import OptionPage, description, options, summary
-from twinform.passes.framework.tables import print_tables
+from twinform.passes.framework.pipeline_text import print_tables
 
 _TABLE_NAME = "mine"
 

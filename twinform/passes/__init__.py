@@ -5,12 +5,16 @@ from typing import TYPE_CHECKING
 from twinform.lazy import lazy_attributes
 
 if TYPE_CHECKING:
-    from twinform.passes.framework.asset_access import NO_ASSETS, AssetError, Assets
-    from twinform.passes.framework.assets import AssetPass
-    from twinform.passes.framework.instrumentation import CombinedInstrumentation, PassInstrumentation
-    from twinform.passes.framework.other_documents import DocumentPass, DocumentReader
-    from twinform.passes.framework.pass_base import Pass
-    from twinform.passes.framework.pass_errors import BrokenPassError, FailedPassError, PassError
+    from twinform.passes.framework.assets import NO_ASSETS, AssetError, Assets
+    from twinform.passes.framework.pass_base import (
+        AssetPass,
+        BrokenPassError,
+        DocumentPass,
+        DocumentReader,
+        FailedPassError,
+        Pass,
+        PassError,
+    )
     from twinform.passes.framework.pass_registry import (
         GROUP,
         Registered,
@@ -20,26 +24,23 @@ if TYPE_CHECKING:
         find_pass,
         registered_passes,
     )
-    from twinform.passes.framework.pipeline import Pipeline, Verifier
+    from twinform.passes.framework.pipeline import CombinedInstrumentation, PassInstrumentation, Pipeline, Verifier
+    from twinform.passes.framework.pipeline_text import Names, UnknownPipelineError, parse_pipeline
     from twinform.passes.framework.side_files import CompanionPath, FilesPass, SideFilePass
     from twinform.passes.framework.syntax import PipelineError
-    from twinform.passes.framework.text import Names, UnknownPipelineError, parse_pipeline
 else:
     __getattr__ = lazy_attributes(
         __name__,
         {
-            "twinform.passes.framework.asset_access": "NO_ASSETS AssetError Assets",
-            "twinform.passes.framework.assets": "AssetPass",
-            "twinform.passes.framework.pass_base": "Pass",
-            "twinform.passes.framework.pass_errors": "BrokenPassError FailedPassError PassError",
-            "twinform.passes.framework.instrumentation": "CombinedInstrumentation PassInstrumentation",
-            "twinform.passes.framework.other_documents": "DocumentPass DocumentReader",
-            "twinform.passes.framework.pipeline": "Pipeline Verifier",
+            "twinform.passes.framework.pass_base": "AssetPass BrokenPassError DocumentPass DocumentReader "
+            "FailedPassError Pass PassError",
+            "twinform.passes.framework.assets": "NO_ASSETS AssetError Assets",
+            "twinform.passes.framework.pipeline": "CombinedInstrumentation PassInstrumentation Pipeline Verifier",
             "twinform.passes.framework.pass_registry": "GROUP Registered RegistryError UnknownPassError "
             "collect find_pass registered_passes",
             "twinform.passes.framework.side_files": "CompanionPath FilesPass SideFilePass",
             "twinform.passes.framework.syntax": "PipelineError",
-            "twinform.passes.framework.text": "Names UnknownPipelineError parse_pipeline",
+            "twinform.passes.framework.pipeline_text": "Names UnknownPipelineError parse_pipeline",
         },
     )
 

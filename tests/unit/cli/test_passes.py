@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from twinform.passes import parse_pipeline, registered_passes
-from twinform.passes.framework.tables import parse_tables
+from twinform.passes.framework.pipeline_text import parse_tables
 
 from .conftest import Run
 

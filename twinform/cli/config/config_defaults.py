@@ -84,7 +84,7 @@ class Project:
     @property
     def names(self) -> "Names":
         """Knows the pipelines, whoever may run them."""
-        from twinform.passes.framework.text import no_names  # noqa: PLC0415 - few commands have pipelines
+        from twinform.passes.framework.pipeline_text import no_names  # noqa: PLC0415 - few commands have pipelines
 
         return self.known or no_names
 

@@ -6,8 +6,8 @@ from pathlib import Path
 from twinform.cli.config.config_error import ConfigError
 from twinform.passes import Pipeline, PipelineError, UnknownPipelineError, parse_pipeline
 from twinform.passes.framework.pass_options import nearest
+from twinform.passes.framework.pipeline_text import TableError, parse_tables
 from twinform.passes.framework.syntax import KEY
-from twinform.passes.framework.tables import TableError, parse_tables
 
 _DEEPEST = 32
 """Pipelines that may stand for each other, one in the other."""

@@ -13,8 +13,8 @@ from twinform.compiler.search.resolve_uris import LocalAssets
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity
 from twinform.diagnostics.rules import UNPACKAGED_FILE, UNPACKAGED_INCLUDE
 from twinform.ir import Document, Format
-from twinform.passes.framework.asset_access import AssetError
-from twinform.passes.framework.assets import AssetPass
+from twinform.passes.framework.assets import AssetError
+from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.transforms.document_uris import Kind, map_uris
 
 _STANDARD = "file://media/"

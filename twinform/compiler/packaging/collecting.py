@@ -17,7 +17,7 @@ from twinform.compiler.search.resolve_uris import LocalAssets
 from twinform.diagnostics import Rule
 from twinform.diagnostics.rules import UNPACKAGED_FILE, URI_LEAVES_FOLDER
 from twinform.file_access import OutsideError
-from twinform.passes.framework.asset_access import AssetError
+from twinform.passes.framework.assets import AssetError
 from twinform.passes.mesh_jobs.mesh_files import POINTER, is_pointer
 from twinform.passes.mesh_references import FORMATS, ReferenceFormat
 

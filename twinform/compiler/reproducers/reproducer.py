@@ -13,11 +13,10 @@ from pydantic import BaseModel, ConfigDict
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.ir.verify import verify
-from twinform.passes.framework.asset_access import NO_ASSETS, Assets
-from twinform.passes.framework.other_documents import DocumentReader, Refusal
-from twinform.passes.framework.pass_errors import BrokenPassError, PassError
+from twinform.passes.framework.assets import NO_ASSETS, Assets
+from twinform.passes.framework.pass_base import BrokenPassError, DocumentReader, PassError, Refusal
 from twinform.passes.framework.pipeline import Pipeline
-from twinform.passes.framework.text import parse_pipeline
+from twinform.passes.framework.pipeline_text import parse_pipeline
 from twinform.passes.legalise.known import legalisation_kinds
 
 Fault = Literal["exception", "invalid document"]

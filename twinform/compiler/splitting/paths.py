@@ -12,7 +12,7 @@ from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import MISSING_FILE
 from twinform.file_access import Readable
 from twinform.ir import Document
-from twinform.passes.framework.asset_access import AssetError
+from twinform.passes.framework.assets import AssetError
 from twinform.passes.transforms.document_uris import map_uris
 
 _ABSOLUTE = re.compile(r"[A-Za-z][\w+.-]*:|/|__")

@@ -10,7 +10,7 @@ from twinform.ir import Element, Mesh, Vector3
 from twinform.ir.principal_moments import times_each
 from twinform.ir.solids import Solid
 from twinform.ir.transform import times_power
-from twinform.passes.framework.asset_access import AssetError, Assets
+from twinform.passes.framework.assets import AssetError, Assets
 from twinform.passes.mesh_jobs.job import MeshJob, MeshResult, Options
 from twinform.passes.mesh_jobs.mesh_files import EXTRA, READ, RefusedMeshError, content_of, kind_of
 

@@ -10,8 +10,7 @@ from twinform.diagnostics.rules import PBR_TOO_OLD, TEXTURED_SCRIPT, UNKNOWN_SCR
 from twinform.ir import Document, Element, Format, GazeboExtension, Link, Material, Opaque, replace_fields, rewrite
 from twinform.passes.appearance.classic_materials import ClassicMaterial, classic_materials
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.framework.pass_base import Pass
-from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 from twinform.schemas import format_value, parse_version, versions_of
 
 _PBR = "pbr/metal"

@@ -8,8 +8,8 @@ from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import UNMAPPED_URI
 from twinform.ir import Document
 from twinform.passes.appearance.uri_schemes import Known, Roots, Scheme, UnmappedError, rewritten, scheme_of
-from twinform.passes.framework.asset_access import AssetError
-from twinform.passes.framework.assets import AssetPass
+from twinform.passes.framework.assets import AssetError
+from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.transforms.document_uris import Kind, map_uris
 
 

@@ -8,8 +8,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import NOTHING_MATCHED, UNSET_SURFACE
 from twinform.ir import Collision, Document, Format, Link, Model, Surface, rewrite
 from twinform.passes.appearance.link_tags import with_element, with_tags
-from twinform.passes.framework.pass_base import Pass
-from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 from twinform.schemas import format_value
 
 _TAGS = {"mu": "mu1", "mu2": "mu2", "kp": "kp", "kd": "kd", "max_vel": "maxVel", "min_depth": "minDepth"}

@@ -9,7 +9,7 @@ from posixpath import normpath
 from typing import Literal, Self
 from urllib.parse import unquote
 
-from twinform.passes.framework.asset_access import Assets
+from twinform.passes.framework.assets import Assets
 from twinform.passes.transforms.uri_schemes import FUEL_SERVERS
 
 Scheme = Literal["package", "model", "file", "relative", "fuel"]

@@ -1,23 +1,71 @@
-"""`AssetPass`: the base class of passes that read files beside a model."""
+"""Access to files beside a model: an interface for passes, which the compiler implements."""
 
-from typing import Self
+from pathlib import Path
+from typing import Literal, Protocol
 
-from pydantic import PrivateAttr
-
-from twinform.passes.framework.asset_access import NO_ASSETS, Assets
-from twinform.passes.framework.pass_base import Pass
+from twinform.diagnostics import Rule, rules
+from twinform.file_access import Readable
 
 
-class AssetPass(Pass):
-    """A pass that opens files which the document names.
+class AssetError(Exception):
+    """A URI leads to no file that may be read; the arguments are those of a diagnostic."""
 
-    Files are not among its options: whoever runs it gives their places, by `with_assets`. Otherwise there are none.
-    """
+    def __init__(self, rule: Rule, message: str, help: str | None = None) -> None:
+        super().__init__(message)
+        self.rule = rule
+        self.message = message
+        self.help = help
 
-    _assets: Assets = PrivateAttr(default_factory=lambda: NO_ASSETS)  # one object, so that equal passes are equal
 
-    def with_assets(self, assets: Assets) -> Self:
-        """Return a copy of the pass that finds its files through these assets."""
-        bound = self.model_copy()
-        bound._assets = assets  # noqa: SLF001 - its own
-        return bound
+# Passes must not import the compiler, which resolves URIs. An argument of `run` would burden every
+# pass for the sake of a few, and a path among the options would tie a pipeline to a machine. The
+# assets that a pass is bound to take no part in the text of a pipeline.
+class Assets(Protocol):
+    """Finds the files that a document names."""
+
+    @property
+    def folder(self) -> Path | None:
+        """The folder of the document; None for a text that was not read from a file."""
+        ...
+
+    @property
+    def readable(self) -> Readable:
+        """The files that may be read because the document names them."""
+        ...
+
+    def find(self, uri: str) -> Path:
+        """The file or folder that a URI names.
+
+        Raises:
+            AssetError: there is none, or it must not be read.
+        """
+        ...
+
+    def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
+        """The name of the ROS package or Gazebo model in a folder; None where the folder holds neither."""
+        ...
+
+    def address(self, file: Path) -> str | None:
+        """The address on Fuel of a file or folder in the local cache; None for all others."""
+        ...
+
+
+class _NoAssets:
+    """The assets of a document whose origin is unknown: there are none."""
+
+    folder: Path | None = None
+    readable = Readable()
+
+    def find(self, uri: str) -> Path:
+        raise AssetError(rules.UNRESOLVED_URI, f"{uri!r} cannot be looked up: only the text of the model is known")
+
+    def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
+        del folder, kind
+        return None
+
+    def address(self, file: Path) -> str | None:
+        del file
+        return None
+
+
+NO_ASSETS: Assets = _NoAssets()

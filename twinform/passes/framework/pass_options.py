@@ -1,4 +1,4 @@
-"""Pass options: parsing and printing them, for pipelines as text and as tables."""
+"""Options of passes: building a pass from options, and reading the options of a pass back."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from enum import Enum
@@ -13,11 +13,11 @@ from twinform.passes.framework.pass_registry import UnknownPassError, find_pass,
 from twinform.passes.framework.syntax import Scalar, Value
 
 _HINTS = {"string_type": "; quote it to make it text"}
-"""What helps against a complaint of pydantic, by its type."""
+"""Advice by the type of an error of Pydantic."""
 
 
 class OptionError(ValueError):
-    """A pass does not exist, or does not take such options. `option` is the one that is wrong, if it is one."""
+    """A pass does not exist, or refuses its options. `option` is the wrong one, if it can be named."""
 
     def __init__(self, problem: str, option: str | None = None, *, wrong_name: bool = False) -> None:
         super().__init__(problem)
@@ -25,10 +25,10 @@ class OptionError(ValueError):
 
 
 def build(name: str, options: Mapping[str, Value], kinds: Mapping[str, type[Pass]] | None = None) -> Pass:
-    """The pass of this name with these options; `kinds` are passes to know besides those that are installed.
+    """Build the pass of a name with options; `kinds` are passes besides the installed ones.
 
     Raises:
-        OptionError: there is none, or it does not take them.
+        OptionError: there is no such pass, or it refuses the options.
     """
     kind = (kinds or {}).get(name) or _installed(name)
     fields = {field.alias or key: field for key, field in kind.model_fields.items()}
@@ -46,7 +46,7 @@ def _installed(name: str) -> type[Pass]:
 
 
 def nearest(name: str, known: Sequence[str], there: str = "there are") -> str:
-    """A guess at what was meant, or all that there is, as the end of a sentence."""
+    """The end of an error message: the known name closest to a wrong one, or else all known names."""
     from difflib import get_close_matches  # noqa: PLC0415 - most names are right
 
     near = get_close_matches(name, known, n=1)
@@ -54,19 +54,19 @@ def nearest(name: str, known: Sequence[str], there: str = "there are") -> str:
 
 
 def _fit(value: Value, field: FieldInfo | None) -> object:
-    """One value where the option is a list stands for a list of one."""
+    """The value of an option; a single value of a list option becomes a list of one."""
     return [value] if field and takes_list(field) and not isinstance(value, list) and value is not None else value
 
 
 def takes_list(field: FieldInfo) -> bool:
-    """Whether an option has several values."""
+    """Whether an option is a list."""
     return get_origin(field.annotation) in {tuple, list, frozenset}
 
 
 def _readable(
     error: ValidationError, name: str, written: Mapping[str, Value], fields: Mapping[str, FieldInfo]
 ) -> OptionError:
-    """Pydantic's first complaint in the syntax of a pipeline."""
+    """The first error of Pydantic in the syntax of a pipeline."""
     problem = error.errors(include_url=False)[0]
     option = str(problem["loc"][0]) if problem["loc"] else ""
     if problem["type"] == "extra_forbidden":
@@ -82,7 +82,7 @@ def _readable(
 
 
 def chosen(step: Pass) -> Iterator[tuple[str, Value]]:
-    """The options that differ from their defaults, in the order of the class; a list of one is its one value.
+    """The options that differ from their defaults, in the order of the class; a list of one is a single value.
 
     Raises:
         TypeError: an option has a value that has no form in a pipeline.
@@ -97,7 +97,7 @@ def chosen(step: Pass) -> Iterator[tuple[str, Value]]:
 
 
 def option_value(value: object) -> Value:
-    """The value of an option as a pipeline has it.
+    """The value of an option as the text of a pipeline has it.
 
     Raises:
         TypeError: it has no form in a pipeline.

@@ -1,7 +1,7 @@
 """Registry of installed passes, found by entry points.
 
-The built-in ones are registered like all others, but there is a table of them too, so that they are found without a
-look at every package that is installed.
+The built-in passes are registered like all others, and listed in a table besides, so that finding one does not take a
+search of every installed package.
 """
 
 from collections.abc import Iterable
@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
 GROUP = "twinform.passes"
 HOME = f"{GROUP}."
-"""What the names of all our modules with passes begin with."""
+"""The prefix of our modules with passes."""
 OWN = "twinform"
-"""The distribution that brings the built-in passes."""
+"""The distribution of the built-in passes."""
 
 
 class RegistryError(Exception):
@@ -32,15 +32,15 @@ class UnknownPassError(LookupError):
 
 
 class EntryPointLike(Protocol):
-    """What an entry point says: `value` is the module of a class, a colon, and its name."""
+    """An entry point: `value` is the module of a class, a colon, and the name of the class."""
 
     @property
     def value(self) -> str:
-        """The text of it."""
+        """The text of the entry point."""
         ...
 
     def load(self) -> object:
-        """Import what it names."""
+        """Import the object that it names."""
         ...
 
 
@@ -57,7 +57,7 @@ class _BuiltIn:
 
 @dataclass(frozen=True, slots=True)
 class Registered:
-    """A pass that is installed, perhaps not imported yet. `owner` is the distribution that brings it."""
+    """An installed pass, perhaps not imported yet. `owner` is its distribution."""
 
     name: str
     owner: str
@@ -111,7 +111,7 @@ def _registered(entry: "EntryPoint") -> Registered:
 
 
 def find_pass(name: str) -> type[Pass]:
-    """The class of an installed pass. A built-in one is found without a look at other packages.
+    """The class of an installed pass. A built-in one is found without a search of other packages.
 
     Raises:
         UnknownPassError: there is none of this name.

@@ -25,9 +25,9 @@ _WORDS: dict[object, str] = {str: "text", float: "number", int: "whole number", 
 
 
 class OptionPage(NamedTuple):
-    """What a user has to know about an option.
+    """An option on the page of a pass.
 
-    `default` is for people and `value` for programs; where nothing is `given` by default, the user has to.
+    `default` is for people and `value` for programs; an option that is not `given` by default is required.
     """
 
     name: str
@@ -39,17 +39,17 @@ class OptionPage(NamedTuple):
 
 
 def description(kind: type[Pass]) -> str:
-    """The docstring of a pass; its first line is the summary."""
+    """The docstring of a pass, without indentation."""
     return cleandoc(kind.__doc__ or "")
 
 
 def summary(kind: type[Pass]) -> str:
-    """What a pass does, in a sentence."""
+    """The first line of the docstring of a pass."""
     return description(kind).partition("\n")[0]
 
 
 def options(kind: type[Pass]) -> Iterator[OptionPage]:
-    """The options in the order of the class."""
+    """The options of a pass in the order of the class."""
     for name, field in kind.model_fields.items():
         given = not field.is_required()
         default: object = field.get_default(call_default_factory=True, validated_data={}) if given else None
@@ -63,7 +63,7 @@ def _default(value: Value) -> str:
 
 
 def _words(annotation: object) -> str:
-    """A type in the syntax of the pipeline's grammar."""
+    """A type in words that fit the grammar of pipelines."""
     inner = cast("tuple[object, ...]", get_args(annotation))
     origin = get_origin(annotation)
     if origin is Annotated:
@@ -80,7 +80,7 @@ def _words(annotation: object) -> str:
 
 
 def passes_page() -> str:
-    """Our own passes in Markdown."""
+    """The reference page of the built-in passes in Markdown."""
     ours = [each.load() for each in registered_passes().values() if each.owner == OWN]
     return "\n".join([_INTRODUCTION, *map(_chapter, ours)])
 

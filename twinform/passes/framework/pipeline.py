@@ -1,19 +1,63 @@
-"""Pipelines: passes in sequence. Their text is in `text.py`, their table in `tables.py`."""
+"""Pipelines, which run passes in sequence, and the interface of hooks around each pass."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.ir import Document
-from twinform.passes.framework.asset_access import Assets
-from twinform.passes.framework.assets import AssetPass
-from twinform.passes.framework.instrumentation import PassInstrumentation
-from twinform.passes.framework.other_documents import DocumentPass, DocumentReader, Refusal
-from twinform.passes.framework.pass_base import Pass
-from twinform.passes.framework.pass_errors import BrokenPassError, FailedPassError
+from twinform.passes.framework.assets import Assets
+from twinform.passes.framework.pass_base import (
+    AssetPass,
+    BrokenPassError,
+    DocumentPass,
+    DocumentReader,
+    FailedPassError,
+    Pass,
+    PassError,
+    Refusal,
+)
+
+
+class PassInstrumentation:
+    """The interface of a hook, which is called before and after each pass and where one fails. It does nothing itself.
+
+    A hook only observes: documents are frozen, and the diagnostics are there to be read.
+    """
+
+    def before(self, step: Pass, document: Document, sink: DiagnosticSink) -> None:
+        """The pass is about to run on the document."""
+
+    def after(self, step: Pass, old: Document, new: Document, sink: DiagnosticSink) -> None:
+        """The pass has run; `new is old` where it changed nothing. The new document is not verified yet."""
+
+    def failed(self, step: Pass, error: PassError, sink: DiagnosticSink) -> None:
+        """The pass raised an exception, or made an invalid document; then `after` was called before."""
+
+
+class CombinedInstrumentation(PassInstrumentation):
+    """Several hooks as one, nested like brackets: the last one, such as a clock, is nearest to the pass."""
+
+    def __init__(self, hooks: Iterable[PassInstrumentation]) -> None:
+        self._hooks = tuple(hooks)
+
+    def before(self, step: Pass, document: Document, sink: DiagnosticSink) -> None:
+        """Call all hooks, the first one first."""
+        for each in self._hooks:
+            each.before(step, document, sink)
+
+    def after(self, step: Pass, old: Document, new: Document, sink: DiagnosticSink) -> None:
+        """Call all hooks, the last one first."""
+        for each in reversed(self._hooks):
+            each.after(step, old, new, sink)
+
+    def failed(self, step: Pass, error: PassError, sink: DiagnosticSink) -> None:
+        """Call all hooks, the last one first."""
+        for each in reversed(self._hooks):
+            each.failed(step, error, sink)
+
 
 Verifier = Callable[[Document, DiagnosticSink], None]
-"""Reports what is wrong with a document; it is a function of `twinform.ir.verify`."""
+"""Reports what is wrong with a document, as a function of `twinform.ir.verify` does."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +99,7 @@ class Pipeline:
         return len(self.passes)
 
     def __str__(self) -> str:
-        """The canonical text: defaults are left out, and parsing it gives the same pipeline back.
+        """The canonical text, without defaults; parsing it gives the same pipeline.
 
         Raises:
             TypeError: an option has a value that has no form in the text.
@@ -82,9 +126,8 @@ def _run(
     try:
         new = step.run(old, sink)
     except Exception as cause:
-        # The error carries the pass and the document that it was given, so the file that reproduces
-        # a fault needs no hook and no second run: it is there wherever a pass fails, be it in an
-        # include, in legalisation or on the way back.
+        # The error carries the pass and its input, so that a reproducer can be written wherever a
+        # pass fails (in an include, in legalisation, in a put-back), without a hook or a second run.
         error = FailedPassError(step, old, cause)
         instrumentation.failed(step, error, sink)
         raise error from cause
@@ -98,7 +141,7 @@ def _run(
 
 
 def _problems(document: Document, verify: Verifier) -> tuple[Diagnostic, ...]:
-    """Warnings are left out: the document had them before, or the pass has reported them itself."""
+    """The errors in a document. Warnings were there before, or the pass has reported them itself."""
     found = DiagnosticSink()
     verify(document, found)
     return tuple(each for each in found.diagnostics if each.is_error) if found.has_errors else ()

@@ -47,7 +47,7 @@ class PipelineError(ValueError):
         super().__init__(f"{problem}\n{self._caret()}")
 
     def _caret(self) -> str:
-        """The line that is wrong, and a caret below the character."""
+        """The line with the mistake, and a caret below the character."""
         start = self.text.rfind("\n", 0, self.position) + 1
         line = self.text[start:].split("\n", 1)[0]
         indent = "".join(each if each == "\t" else " " for each in line[: self.position - start])
@@ -56,7 +56,7 @@ class PipelineError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class PipelineOption:
-    """`name=value`; `position` is the name's, `value_position` the value's."""
+    """`name=value`, with the positions of the name and of the value."""
 
     name: str
     value: Value
@@ -66,7 +66,7 @@ class PipelineOption:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """A pass and its options as they are written."""
+    """A pass and its options as they are written, with the position of the name."""
 
     name: str
     options: tuple[PipelineOption, ...]
@@ -75,14 +75,14 @@ class Call:
 
 @dataclass(frozen=True, slots=True)
 class PipelineReference:
-    """`@name`, which stands for a pipeline; `position` is that of the `@`."""
+    """`@name`, which refers to a pipeline; `position` is that of the `@`."""
 
     name: str
     position: int
 
 
 def parse_calls(text: str) -> tuple[Call | PipelineReference, ...]:
-    """The passes and pipelines that a text names.
+    """Parse a text into calls of passes and references to pipelines.
 
     Raises:
         PipelineError: the text does not follow the grammar.
@@ -91,7 +91,7 @@ def parse_calls(text: str) -> tuple[Call | PipelineReference, ...]:
 
 
 def print_call(name: str, options: dict[str, Value]) -> str:
-    """A pass in the canonical spelling: options parted by one blank, and no braces where there are none."""
+    """A pass in its canonical spelling: one blank between options, and no braces without options."""
     listed = " ".join(f"{key}={print_value(value)}" for key, value in options.items())
     return f"{name}{{{listed}}}" if listed else name
 
@@ -107,6 +107,11 @@ def _print_scalar(value: Scalar) -> str:
         return value if plain else json.dumps(value, ensure_ascii=not value.isprintable())
     if value is None or isinstance(value, bool):
         return json.dumps(value)
+    return print_number(value)
+
+
+def print_number(value: float) -> str:
+    """A number without a needless `.0`."""
     return repr(value).removesuffix(".0") if value else repr(value)  # -0.0 keeps its sign only with its point
 
 
@@ -119,7 +124,7 @@ def _read_word(word: str) -> Scalar:
 
 
 class _Scanner:
-    """Reads the text from left to right; each method takes one part of the grammar."""
+    """Reads the text from left to right; each method reads one rule of the grammar."""
 
     def __init__(self, text: str) -> None:
         self.text, self.at = text, 0
@@ -163,7 +168,7 @@ class _Scanner:
             yield option
 
     def separator(self) -> None:
-        """A comma here, or blanks before here."""
+        """Read a comma, or accept blanks before this place."""
         if not self.skip(",") and not self.text[self.at - 1].isspace():
             raise self.expected("',', a blank or '}'")
 
@@ -216,13 +221,13 @@ class _Scanner:
         return name
 
     def take(self, pattern: re.Pattern[str]) -> str:
-        """The text here that the pattern matches; empty where it does not."""
+        """Read the text that a pattern matches here; empty where it does not match."""
         found = pattern.match(self.text, self.at)
         self.at = found.end() if found else self.at
         return found[0] if found else ""
 
     def skip(self, character: str, *, blanks: bool = True) -> bool:
-        """Go past the character, and blanks after it, if it is here."""
+        """Move past a character, and the blanks behind it, if it comes next."""
         if not self.text.startswith(character, self.at):
             return False
         self.at += 1

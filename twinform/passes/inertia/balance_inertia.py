@@ -13,8 +13,7 @@ from twinform.ir.principal_moments import Symmetric, principal_moments, times_ea
 from twinform.ir.solids import with_tensor
 from twinform.ir.transform import common_exponent, times_power
 from twinform.ir.verify.verify_bodies import inertia_matrix
-from twinform.passes.framework.pass_base import Pass
-from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 from twinform.passes.inertia.physical_consistency import distance, has_mass, is_clearly_possible, nearest_possible
 
 # A relative change this small restores digits that were cut off, and is no news.

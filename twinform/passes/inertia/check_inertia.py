@@ -13,7 +13,7 @@ from twinform.ir.verify.verify_bodies import inertia_matrix, report_moments
 from twinform.passes.analyses.link_shapes import ShapePlaces
 from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.analyses.moving_bodies import Body, ConnectedBodies, movable_models, moving_bodies, neighbors
-from twinform.passes.framework.assets import AssetPass
+from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.inertia.physical_consistency import DIGITS, ROUNDING
 from twinform.passes.inertia.plausible import Plausible
 

@@ -21,7 +21,7 @@ from twinform.passes.analyses.link_shapes import (
     united_bounds,
 )
 from twinform.passes.analyses.mesh_solids import Meshes
-from twinform.passes.framework.asset_access import NO_ASSETS
+from twinform.passes.framework.assets import NO_ASSETS
 from twinform.passes.inertia.physical_consistency import has_mass
 
 # How far a mass may reach out of its shapes, relative to their size: shapes are drawn by eye.

@@ -10,8 +10,7 @@ from twinform.ir import Document, Format, Joint, Link, Sphere, rewrite
 from twinform.ir.frames import FrameError
 from twinform.ir.solids import NOTHING, solid, with_mass
 from twinform.passes.analyses.moving_bodies import Body, ConnectedBodies, moving_bodies, neighbors
-from twinform.passes.framework.pass_base import Pass
-from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 from twinform.passes.inertia.masses import Masses
 from twinform.passes.inertia.physical_consistency import has_mass
 

@@ -10,8 +10,7 @@ from twinform.diagnostics import DiagnosticSink, Location, Rule, rules
 from twinform.diagnostics.rules import UNBOUNDED_LIMIT
 from twinform.ir import Axis, Document, Format, Joint, Limit, rewrite
 from twinform.ir.defaults import UNLIMITED, with_range
-from twinform.passes.framework.pass_base import Pass
-from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 from twinform.passes.limits.soft_limits import soft_limits
 
 _BOUNDED = frozenset({"revolute", "prismatic"})

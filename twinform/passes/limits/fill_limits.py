@@ -7,8 +7,7 @@ from pydantic import Field, model_validator
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import FILLED_LIMIT, UNFILLED_LIMIT
 from twinform.ir import Axis, Document, Dynamics, Format, Joint, Limit, Node, rewrite
-from twinform.passes.framework.pass_base import Pass
-from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 _DRIVEN = _BOUNDED | {"continuous"}

@@ -8,8 +8,7 @@ from pydantic import Field
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import ORDERED_LIMITS
 from twinform.ir import Axis, Document, Dynamics, Joint, Limit, rewrite
-from twinform.passes.framework.pass_base import Pass
-from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 
 _BOUNDED = frozenset({"revolute", "prismatic", "screw", "universal", "revolute2", "gearbox", "continuous"})
 

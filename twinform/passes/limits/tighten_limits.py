@@ -8,8 +8,7 @@ from pydantic import Field
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import TIGHTENED_LIMIT, UNTIGHTENED_LIMIT
 from twinform.ir import Document, Joint, Limit, rewrite
-from twinform.passes.framework.pass_base import Pass
-from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 from twinform.passes.limits.soft_limits import SoftLimits, soft_limits
 
 _BOUNDED = frozenset({"revolute", "prismatic"})

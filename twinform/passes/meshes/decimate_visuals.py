@@ -9,7 +9,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import CHANGED_MESH, KEPT_MESH, NOTHING_MATCHED
 from twinform.ir import Document, Geometry, Link, Mesh, Visual, rewrite
 from twinform.passes.analyses.mesh_solids import MeshError
-from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.framework.pass_base import EVERY, matches, with_such_a_name
 from twinform.passes.mesh_jobs.job import Options
 from twinform.passes.meshes.mesh_pass import (
     MeshOutcome,

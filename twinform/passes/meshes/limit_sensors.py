@@ -18,8 +18,7 @@ from twinform.passes.analyses.sensor_costs import (
     sensor_of,
     sensors_in,
 )
-from twinform.passes.framework.pass_base import Pass
-from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 
 _KINDS = ("pixels", "rays")
 _FINE = 1000

@@ -13,7 +13,7 @@ from pydantic import Field, field_validator
 from twinform.diagnostics import DiagnosticSink, Location, SideFile, rules
 from twinform.ir import Mesh
 from twinform.passes.analyses.mesh_solids import MeshError, submesh_of
-from twinform.passes.framework.assets import AssetPass
+from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.framework.side_files import CompanionPath, FilesPass
 from twinform.passes.mesh_jobs.child_process import do
 from twinform.passes.mesh_jobs.job import MeshJob, MeshResult, Options

@@ -12,7 +12,7 @@ from twinform.ir import Collision, Document, Format, Geometry, Link, Mesh, Shape
 from twinform.ir.geometry import Box, Capsule, Cylinder, Sphere
 from twinform.ir.transform import Transform
 from twinform.passes.analyses.mesh_solids import MeshError
-from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.framework.pass_base import EVERY, matches, with_such_a_name
 from twinform.passes.mesh_jobs.job import Options
 from twinform.passes.meshes.mesh_pass import (
     MeshOutcome,

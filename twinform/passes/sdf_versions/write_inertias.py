@@ -9,7 +9,7 @@ from twinform.ir.frames import FrameGraph
 from twinform.passes.analyses.automatic_inertias import NoInertiaError, automatic, map_automatic, written_out
 from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
-from twinform.passes.framework.assets import AssetPass
+from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.sdf_versions.version_pass import VersionPass
 
 _SINCE = (1, 11)

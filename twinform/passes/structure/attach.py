@@ -9,7 +9,7 @@ from twinform.ir import Document, Format, Model, replace_node
 from twinform.ir.element import joined
 from twinform.ir.node import Vector3
 from twinform.ir.scopes import outer_models
-from twinform.passes.framework.other_documents import DocumentPass, DocumentReader
+from twinform.passes.framework.pass_base import DocumentPass, DocumentReader
 from twinform.passes.structure.join_models import Mount, join_sdf, join_urdf, root_of
 from twinform.passes.structure.model_edit import in_new_words
 from twinform.passes.structure.rename_parts import renamed_model

@@ -11,7 +11,7 @@ from twinform.ir.solids import Solid, combined, placed, turned, with_tensor, wri
 from twinform.ir.transform import Transform
 from twinform.passes.analyses.automatic_inertias import automatic
 from twinform.passes.analyses.mesh_solids import Meshes
-from twinform.passes.framework.asset_access import NO_ASSETS
+from twinform.passes.framework.assets import NO_ASSETS
 
 _NO_MESHES = Meshes(NO_ASSETS)
 """An inertia that is left to a mesh is not computed here: `fill-inertia` does it."""

@@ -24,8 +24,7 @@ from twinform.ir import (
     replace_fields,
 )
 from twinform.passes.carriers.carriers import is_ours
-from twinform.passes.framework.pass_base import Pass
-from twinform.passes.framework.patterns import EVERY, matches, with_such_a_name
+from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 from twinform.passes.structure.dangling import RemovedNames, report_dangling
 
 AnyNode = TypeVar("AnyNode", bound=Node)

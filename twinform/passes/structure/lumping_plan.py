@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from twinform.diagnostics import rules
 from twinform.ir import Joint, Link, Model
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
-from twinform.passes.framework.patterns import matches
+from twinform.passes.framework.pass_base import matches
 from twinform.passes.structure.model_edit import EditContext
 
 Obstacle = Callable[[Joint, Link, Link], str | None]

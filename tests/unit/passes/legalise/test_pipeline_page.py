@@ -10,7 +10,7 @@ import pytest
 import twinform
 from twinform.compiler import plan
 from twinform.ir import Format
-from twinform.passes.framework.text import parse_pipeline
+from twinform.passes.framework.pipeline_text import parse_pipeline
 from twinform.passes.legalise import Target, legalisation
 from twinform.passes.legalise.known import legalisation_kinds
 from twinform.passes.legalise.pipeline_page import pipeline_page

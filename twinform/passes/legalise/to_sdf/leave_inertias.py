@@ -15,8 +15,7 @@ from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.carriers.sdf_versions import VersionCondition
-from twinform.passes.framework.assets import AssetPass
-from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.framework.pass_base import AssetPass, ModelPass
 from twinform.schemas import parse_version, versions_of
 
 _SINCE = (1, 11)

@@ -14,7 +14,7 @@ from twinform.passes.analyses.automatic_inertias import (
     written_out,
 )
 from twinform.passes.analyses.mesh_solids import Meshes
-from twinform.passes.framework.assets import AssetPass
+from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 
 

@@ -12,7 +12,7 @@ from twinform.compiler.packaging.order import Built, Order, PackageDetails
 from twinform.compiler.request import ConversionRequest
 from twinform.ir.frames import FrameGraph
 from twinform.ir.node import Vector3
-from twinform.passes.framework.text import parse_pipeline
+from twinform.passes.framework.pipeline_text import parse_pipeline
 
 from .robots import interfaces, joint, link, system
 

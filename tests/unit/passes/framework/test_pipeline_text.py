@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 
 from twinform.passes import Pipeline, UnknownPipelineError, parse_pipeline
-from twinform.passes.framework.tables import TableError, parse_tables, print_tables, tables
+from twinform.passes.framework.pipeline_text import TableError, parse_tables, print_tables, tables
 
 from .conftest import Install
 from .test_pipeline import PIPELINES
