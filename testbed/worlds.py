@@ -21,8 +21,8 @@ from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.file_access import folders_around
 from twinform.ir import Document
 from twinform.testing.oracles import libsdformat
-from twinform.testing.oracles.libsdformat.compare_worlds import differences
-from twinform.testing.oracles.libsdformat.library import models_of
+from twinform.testing.oracles.libsdformat import models_of
+from twinform.testing.oracles.libsdformat_robot import differences
 
 _QUOTED = re.compile(r"'[^']*'")
 

@@ -12,7 +12,7 @@ from twinform.compiler.audit import audit
 from twinform.diagnostics import Fate, Severity
 from twinform.ir import Document, Format
 from twinform.server.mapping.rows import FORMATS, FormatName, rows
-from twinform.testing.round_trips import RoundTrip
+from twinform.testing.properties import RoundTrip
 
 
 def _name(path: Path) -> str:

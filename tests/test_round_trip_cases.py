@@ -6,7 +6,7 @@ import pytest
 
 import twinform
 from twinform.compiler.audit import audit
-from twinform.testing.round_trips import RoundTrip
+from twinform.testing.properties import RoundTrip
 
 CASES = Path(__file__).parent / "cases"
 ROUND_TRIPS = sorted((CASES / "round_trip").iterdir())

@@ -16,7 +16,7 @@ from twinform.passes.plugins.check_plugins import CheckPlugins
 from twinform.passes.plugins.sites import plugins_of, sensors_of
 from twinform.schemas import libxml2_errors
 from twinform.testing.oracles import libsdformat
-from twinform.testing.oracles.libsdformat.library import describe
+from twinform.testing.oracles.libsdformat import describe
 
 _ROOT = Path(__file__).parents[1]
 _TUTORIAL = (_ROOT / "docs/tutorial/standard-robot.md").read_text(encoding="utf-8")

@@ -8,7 +8,7 @@ from pathlib import Path
 import twinform
 from testbed.corpus.files import CorpusFile
 from testbed.output_files import SDF_VERSION
-from twinform.testing.oracles.libsdformat.library import available, judge
+from twinform.testing.oracles.libsdformat import available, judge
 
 MIGRATED = "migrate-gazebo-classic{release=fortress controllers=controllers.yaml}"
 _LARGEST = 2_000_000

@@ -17,7 +17,7 @@ from testbed.lumping.causes import CAUSES, cause_of
 from testbed.lumping.differences import Difference, differences
 from testbed.markdown import subsection, table
 from testbed.output_files import OUT, SDF_VERSION, kept
-from twinform.testing.oracles.libsdformat.library import describe
+from twinform.testing.oracles.libsdformat import describe
 
 PASSES = "lump-fixed-joints{compat=libsdformat}"
 _SECONDS = 120

@@ -10,8 +10,8 @@ from testbed import output_files
 from testbed.corpus.files import CorpusFile, Kind
 from testbed.output_files import kept
 from twinform.testing import oracles
-from twinform.testing.oracles.in_process import read_robot, verdict_on
 from twinform.testing.oracles.robot import EngineRobot
+from twinform.testing.oracles.robot_comparison import read_robot, verdict_on
 
 OUT = output_files.OUT / "oracle"
 DRAKE = "drake"

@@ -11,7 +11,7 @@ from reports.same_robot.drake_verdicts import DRAKE, OUT, Direction, Outcome, ca
 from testbed.corpus.files import CORPUS
 from twinform.compiler.workers import Failure
 from twinform.testing import oracles
-from twinform.testing.oracles.in_process import compared, read_robot
+from twinform.testing.oracles.robot_comparison import compared, read_robot
 
 LIBSDFORMAT = "libsdformat"
 URDF_ONLY = ("pinocchio", "mujoco", "pybullet")

@@ -9,8 +9,8 @@ from testbed.corpus.files import CorpusFile
 from testbed.corpus.versions import NEWEST
 from testbed.output_files import OUT, kept
 from twinform.testing import oracles
-from twinform.testing.oracles.in_process import read_robot, verdict_on
 from twinform.testing.oracles.robot import EngineRobot
+from twinform.testing.oracles.robot_comparison import read_robot, verdict_on
 
 VERSIONS = ("1.11", "1.6")
 """What Drake is given: the newest version that it reads, and one without named frames."""

@@ -17,9 +17,8 @@ from twinform.compiler.workers import Failure
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.transforms.pose_notation import OFFSET
 from twinform.testing import oracles
-from twinform.testing.oracles.in_process import read_robot, verdict_on
 from twinform.testing.oracles.robot import EngineRobot, View
-from twinform.testing.oracles.robot_comparison import chained, renamed
+from twinform.testing.oracles.robot_comparison import chained, read_robot, renamed, verdict_on
 
 KNOWN = Known(Path(__file__).with_name("edits.toml"), contains)
 _TOLERANCE = 1e-9

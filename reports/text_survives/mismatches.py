@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterable
 
 from testbed.markdown import without_names
-from twinform.testing.round_trips import Mismatch
+from twinform.testing.properties import Mismatch
 
 COLUMNS = ("files", "times", "kind", "path", "for example")
 _LONGEST = 160

@@ -15,7 +15,7 @@ from twinform.compiler import LoadResult
 from twinform.compiler.audit import audit
 from twinform.diagnostics import Diagnostic
 from twinform.ir import Document, Format
-from twinform.testing.round_trips import Mismatch
+from twinform.testing.properties import Mismatch
 
 
 @dataclass(frozen=True, slots=True)

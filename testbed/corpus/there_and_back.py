@@ -7,7 +7,7 @@ import twinform
 from testbed.corpus.files import CorpusFile
 from twinform.ir import Document, Format, Include, Model
 from twinform.passes.analyses.candidates import candidates
-from twinform.testing.round_trips import Mismatch, RoundTrip
+from twinform.testing.properties import Mismatch, RoundTrip
 
 SDF_VERSION = "1.9"
 """What URDF is converted to: the newest version that libsdformat 12 reads."""

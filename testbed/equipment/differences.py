@@ -9,8 +9,8 @@ from lxml import etree
 
 from twinform.passes.carriers.lumped_names import LUMP
 from twinform.schemas import XmlElement
-from twinform.testing.oracles.libsdformat.library import RobotRow, SensorRow, ShapeRow
-from twinform.testing.oracles.libsdformat.libsdformat_robot import pose_matrix
+from twinform.testing.oracles.libsdformat import RobotRow, SensorRow, ShapeRow
+from twinform.testing.oracles.libsdformat_robot import pose_matrix
 from twinform.testing.oracles.robot import WORLD, Matrix
 
 CUT_OFF = 1e-5

@@ -15,7 +15,7 @@ from testbed.equipment.differences import Difference, differences
 from testbed.equipment.saying import Said
 from testbed.markdown import without_names
 from twinform.diagnostics import Ledger, LedgerEntry
-from twinform.testing.oracles.libsdformat.library import RobotRow, describe, models_of
+from twinform.testing.oracles.libsdformat import RobotRow, describe, models_of
 
 _QUOTED = re.compile(r"'([^']*)'")
 _NAMED = re.compile(r"\[@name='([^']*)'\]")

@@ -5,7 +5,7 @@ import math
 from testbed.lumping.differences import Difference
 from twinform.ir import Joint, Model, Pose
 from twinform.ir.transform import Transform
-from twinform.testing.oracles.libsdformat.library import RobotRow
+from twinform.testing.oracles.libsdformat import RobotRow
 
 SNAPPED = "a pitch within 0.26 degrees of 90 is taken for 90"
 DROPPED = "links without mass are dropped, with all that hangs on them"

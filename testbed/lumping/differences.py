@@ -5,8 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from twinform.testing.oracles.libsdformat.library import JointRow, LinkRow, RobotRow
-from twinform.testing.oracles.libsdformat.libsdformat_robot import pose_matrix
+from twinform.testing.oracles.libsdformat import JointRow, LinkRow, RobotRow
+from twinform.testing.oracles.libsdformat_robot import pose_matrix
 from twinform.testing.oracles.robot import Matrix
 
 TOLERANCE = 1e-9

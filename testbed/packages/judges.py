@@ -15,8 +15,7 @@ from posixpath import normpath
 from testbed.packages.public_robots import Robot
 from twinform.passes.mesh_references import FORMATS
 from twinform.testing import oracles
-from twinform.testing.oracles.libsdformat.find_model_files import named_files
-from twinform.testing.oracles.libsdformat.library import available
+from twinform.testing.oracles.libsdformat import available, named_files
 
 _FOR_LIBSDFORMAT = "model-1_9.sdf"
 """The newest version that libsdformat 12 reads."""

@@ -14,7 +14,7 @@ from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format
 from twinform.schemas import versions_of
-from twinform.testing.strategies._models import robots, sdf_models
+from twinform.testing.strategies import robots, sdf_models
 
 EditedFile = tuple[bytes, tuple[Edit, ...]]
 

@@ -15,7 +15,7 @@ from testbed.output_files import OUT, kept
 from tests.oracles.probe_values import Part, lost, parsed
 from twinform.schemas import XmlElement
 from twinform.testing import oracles
-from twinform.testing.oracles.in_process import compared
+from twinform.testing.oracles.robot_comparison import compared
 
 PROBES = SHARED / "reference" / "probes" / "urdf"
 MISSING = "there are no probes in reference/probes/urdf; TWINFORM_SHARED names the folder"

@@ -11,7 +11,7 @@ from testbed.equipment.judging import Verdict, judged_sdf, judged_urdf
 from tests.oracles.equipped import equipped_models, equipped_robots
 from tests.profile import examples
 from twinform.testing.oracles import libsdformat
-from twinform.testing.oracles.libsdformat.library import RobotRow, describing
+from twinform.testing.oracles.libsdformat import RobotRow, describing
 
 Read = Callable[[Path], RobotRow]
 _GOOD = {Verdict.SAME, Verdict.SAID}

@@ -6,7 +6,7 @@ import pytest
 
 import twinform
 from twinform.testing.oracles import libsdformat
-from twinform.testing.oracles.libsdformat.library import models_of
+from twinform.testing.oracles.libsdformat import models_of
 
 NEWEST = "1.9"
 """The newest version that libsdformat 12 reads."""

@@ -11,7 +11,7 @@ from testbed.corpus.files import CorpusFile, Kind
 from testbed.corpus.there_and_back import SDF_VERSION
 from tests.corpus.portions import chunks
 from twinform.testing.oracles import libsdformat
-from twinform.testing.oracles.libsdformat.library import describe
+from twinform.testing.oracles.libsdformat import describe
 
 CASES = Path(__file__).parents[1] / "cases" / "convert"
 _FIXED = 3

@@ -13,9 +13,9 @@ from tests.oracles.probes import MISSING, PROBES
 from tests.profile import DEEP
 from twinform.testing import oracles
 from twinform.testing.oracles import libsdformat
-from twinform.testing.oracles.in_process import read_robot
-from twinform.testing.oracles.libsdformat.library import describe
+from twinform.testing.oracles.libsdformat import describe
 from twinform.testing.oracles.robot import Matrix, Sample, inverse
+from twinform.testing.oracles.robot_comparison import read_robot
 
 _EXAMPLES = [ROOT / "examples" / f"{name}.urdf" for name in ("arm", "four_wheels", "gripper", "rover")]
 _COMPAT = "lump-fixed-joints{compat=libsdformat}"

@@ -1,4 +1,4 @@
-"""The kit that this project tests itself with, for tests of models, passes and rules.
+"""The testing kit of twinform, for tests of models, passes and rules.
 
     from twinform.testing import assert_round_trip, strategies
 
@@ -6,22 +6,18 @@
     def test_my_pass(robot):
         assert_pass_contract(MyPass(), robot)
 
-Names are imported when they are first used: pytest loads the plugin in here at every start.
+Names are imported when they are first used, since pytest loads the plugin in this package at every start.
 """
 
 from importlib import import_module
 from typing import TYPE_CHECKING
 
+from twinform.lazy import lazy_attributes
+
 if TYPE_CHECKING:
     from twinform.testing import strategies
-    from twinform.testing.case_files import Case, CaseCheckOptions, Finding, cases
-    from twinform.testing.pass_case_files import PassCase, pass_cases
-    from twinform.testing.properties import (
-        assert_pass_contract,
-        assert_round_trip,
-        assert_same_robot,
-        assert_valid,
-    )
+    from twinform.testing.case_files import Case, CaseCheckOptions, Finding, PassCase, cases, pass_cases
+    from twinform.testing.properties import assert_pass_contract, assert_round_trip, assert_same_robot, assert_valid
 
 __all__ = [
     "Case",
@@ -37,19 +33,17 @@ __all__ = [
     "strategies",
 ]
 
-_MODULES = {
-    **dict.fromkeys(("Case", "CaseCheckOptions", "Finding", "cases"), "case_files"),
-    **dict.fromkeys(("PassCase", "pass_cases"), "pass_case_files"),
-    **dict.fromkeys(("assert_pass_contract", "assert_round_trip", "assert_same_robot", "assert_valid"), "properties"),
-}
+_find_attribute = lazy_attributes(
+    __name__,
+    {
+        "twinform.testing.case_files": "Case CaseCheckOptions Finding PassCase cases pass_cases",
+        "twinform.testing.properties": "assert_pass_contract assert_round_trip assert_same_robot assert_valid",
+    },
+)
 
 
 def __getattr__(name: str) -> object:
-    if name == "strategies":
-        return import_module("twinform.testing.strategies")
-    if name not in _MODULES:
-        raise AttributeError(f"module 'twinform.testing' has no attribute {name!r}")
-    return getattr(import_module(f"twinform.testing.{_MODULES[name]}"), name)
+    return import_module("twinform.testing.strategies") if name == "strategies" else _find_attribute(name)
 
 
 def __dir__() -> list[str]:

@@ -1,20 +1,27 @@
-"""Test cases as data: a model file whose comments have the diagnostics that are expected in it.
+"""Test cases as data: a model file whose comments list the diagnostics that are expected in it.
 
-A comment `<!-- expect: severity rule-name -->` stands on the line that the finding is reported at; several of them may
-stand there. Findings of severity `info` need not be listed, but those that are must be there; errors and warnings must
-be listed. Beside `NAME.urdf` may lie `NAME.expected.sdf`, or the other way round: what the file becomes. What a case
-reads besides its file lies in a folder `parts`.
+A comment `<!-- expect: severity rule-name -->` stands on the line that the finding is reported at; a line may have
+several. Errors and warnings must be listed; findings of severity `info` need not be, but must be found if they are.
+`NAME.expected.sdf` beside `NAME.urdf`, or the other way round, is the expected result of converting the file. Other
+files that a case reads lie in a folder `parts`.
+
+Of a case for passes, a comment `<!-- passes: PIPELINE -->` names the pipeline, and `expect` lists what the passes
+report too. They run in the folder of the file. The expected result lies in a file of the same format,
+`NAME.expected.urdf` or `NAME.expected.sdf`; there is none if the passes change nothing or refuse the model.
 """
 
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable
+from contextlib import chdir
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Literal, TypedDict
 
-from twinform.compiler import CompileError, check, convert
-from twinform.diagnostics import Diagnostic, Severity
+from twinform.compiler import CompileError, Conversion, check, convert
+from twinform.diagnostics import Diagnostic, LedgerEntry, Severity
+from twinform.text.tokens import IN_COMMENT
 
 _EXPECT = re.compile(rb"<!--\s*expect:\s*(?P<severity>\w+)\s+(?P<rule>[\w-]+)\s*-->")
 _OTHER: dict[str, Literal["sdf", "urdf"]] = {".urdf": "sdf", ".sdf": "urdf"}
@@ -22,11 +29,11 @@ _SUFFIXES = frozenset({*_OTHER, ".xacro"})
 _PARTS = "parts"
 
 Finding = tuple[int, str, str]
-"""line, severity, rule"""
+"""Line, severity and name of the rule."""
 
 
 class CaseCheckOptions(TypedDict, total=False):
-    """What `check` is asked for besides the file."""
+    """Options of `check` for a case."""
 
     paths: tuple[Path, ...]
     expand_includes: bool
@@ -42,7 +49,7 @@ class Case:
 
     @property
     def expected(self) -> Counter[Finding]:
-        """What the comments announce."""
+        """The findings that the comments list."""
         lines = self.path.read_bytes().splitlines()
         return Counter(
             (number, found["severity"].decode(), found["rule"].decode())
@@ -52,13 +59,13 @@ class Case:
 
     @property
     def found(self) -> Counter[Finding]:
-        """What the compiler reports."""
+        """The findings that the compiler reports."""
         return findings(check(self.path, strict=self.strict, **self.options).diagnostics, str(self.path))
 
     def mismatches(self, in_full: Collection[str] = ()) -> list[str]:
-        """A line for each finding that is missing, and for each that is too many.
+        """Return a line for each finding that is missing, and for each that was not expected.
 
-        Rules `in_full` must be listed whatever their severity.
+        Findings of the rules `in_full` must be listed whatever their severity.
         """
         missing, extra = self.expected - self.found, self.found - self.expected
         extra = {each: count for each, count in extra.items() if each[1] != str(Severity.INFO) or each[2] in in_full}
@@ -69,11 +76,11 @@ class Case:
 
     @property
     def output_path(self) -> Path:
-        """Where the expected output lies, if there is one."""
+        """The file of the expected output, which may not exist."""
         return self.path.with_suffix(f".expected.{_OTHER[self.path.suffix]}")
 
     def output(self, sdf_version: str | None = None, *, to: Literal["sdf", "urdf"] | None = None) -> str:
-        """What the file becomes, by default in the other format; the findings where it does not become anything."""
+        """Convert the file, by default to the other format; return the text, or its errors if it is refused."""
         to = to or _OTHER[self.path.suffix]
         try:
             return convert(self.path, to=to, sdf_version=sdf_version, strict=self.strict, comments=False).text
@@ -82,7 +89,7 @@ class Case:
 
 
 def findings(diagnostics: Iterable[Diagnostic], file: str) -> Counter[Finding]:
-    """What a case can announce: findings in its own file, or in none."""
+    """Count the findings in a file; those without a file count too, since a case can list them."""
     return Counter(
         (each.location.line, str(each.severity), each.rule.name)
         for each in diagnostics
@@ -91,7 +98,7 @@ def findings(diagnostics: Iterable[Diagnostic], file: str) -> Counter[Finding]:
 
 
 def cases(folder: Path, *, options: CaseCheckOptions | None = None) -> list[Case]:
-    """Every case of a folder and those below it, in the order of their names, without parts and expected outputs."""
+    """Return every case in a folder and the folders below it, sorted by name."""
     return [Case(path, options=options or {}) for path in sorted(folder.rglob("*")) if _is_case(path, folder)]
 
 
@@ -99,3 +106,73 @@ def _is_case(path: Path, folder: Path) -> bool:
     if _PARTS in path.relative_to(folder).parts[:-1]:
         return False
     return path.suffix in _SUFFIXES and ".expected" not in path.suffixes
+
+
+_PASSES = re.compile(rf"<!--\s*+passes:(?P<pipeline>{IN_COMMENT})(?:-->)?")
+_FORMATS: dict[str, Literal["sdf", "urdf"]] = {".urdf": "urdf", ".sdf": "sdf"}
+
+
+@dataclass(frozen=True)
+class PassCase(Case):
+    """A case file for a pipeline of passes."""
+
+    @property
+    def pipeline(self) -> str:
+        """The pipeline that the file names."""
+        found = _PASSES.search(self.path.read_text(encoding="utf-8"))
+        if found is None:
+            raise ValueError(f"{self.path.name} has no <!-- passes: ... -->")
+        return found["pipeline"].strip()
+
+    @property
+    def found(self) -> Counter[Finding]:
+        """The findings that the compiler and the passes report."""
+        return findings(self._outcome.diagnostics, self.path.name)
+
+    @property
+    def rules(self) -> frozenset[str]:
+        """The names of all rules that were reported, by a finding or an entry of the ledger."""
+        findings: tuple[Diagnostic | LedgerEntry, ...] = self._outcome.diagnostics
+        if isinstance(self._outcome, Conversion):
+            findings = (*findings, *self._outcome.ledger.entries)
+        return frozenset(each.rule.name for each in findings)
+
+    @property
+    def output_path(self) -> Path:
+        """The file of the expected output, which may not exist."""
+        return self.path.with_suffix(f".expected{self.path.suffix}")
+
+    @property
+    def changed(self) -> str | None:
+        """The text after the passes; None if they change nothing or refuse the model."""
+        made = self._outcome
+        if isinstance(made, CompileError):
+            return None
+        unchanged = self._run(Path(self.path.name), "")
+        return None if isinstance(unchanged, Conversion) and made.text == unchanged.text else made.text
+
+    @property
+    def settles(self) -> bool:
+        """Whether running the passes again changes nothing more."""
+        if isinstance(self._outcome, CompileError):
+            return True
+        again = self._run(self._outcome.text.encode(), self.pipeline)
+        return isinstance(again, Conversion) and again.text == self._outcome.text
+
+    @cached_property
+    def _outcome(self) -> Conversion | CompileError:
+        return self._run(Path(self.path.name), self.pipeline)
+
+    def _run(self, source: Path | bytes, pipeline: str) -> Conversion | CompileError:
+        with chdir(self.path.parent):
+            try:
+                return convert(
+                    source, to=_FORMATS[self.path.suffix], passes=pipeline, strict=self.strict, comments=False
+                )
+            except CompileError as error:
+                return error
+
+
+def pass_cases(folder: Path) -> list[PassCase]:
+    """Return every case for passes in a folder and the folders below it, sorted by name."""
+    return [PassCase(case.path) for case in cases(folder)]

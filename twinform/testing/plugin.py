@@ -5,7 +5,7 @@ It is loaded at every start of pytest and does nothing until it is asked to:
     [tool.pytest.ini_options]
     twinform_models = ["urdf/*.urdf", "worlds/*.sdf", "*.urdf.xacro"]
 
-Each file that matches is a test `check`, and, where `twinform_round_trip` is set, one more, `round-trip`.
+Each file that matches becomes a test `check` and, if `twinform_round_trip` is set, a second one, `round-trip`.
 """
 
 from collections.abc import Callable, Iterator
@@ -21,11 +21,11 @@ SUFFIXES = frozenset({".urdf", ".sdf", ".world", ".xacro"})
 
 
 class ModelError(AssertionError):
-    """A model file that does not pass; the message is the report."""
+    """A model file that does not pass its test; the message is the report."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """The settings of the ini file; without the first, nothing is collected."""
+    """Declare the settings of the ini file; without the first, nothing is collected."""
     parser.addini("twinform_models", "patterns of the model files that are tests", type="args", default=[])
     parser.addini("twinform_strict", "refuse what readers ignore in model files", type="bool", default=False)
     parser.addini("twinform_round_trip", "try the way to the other format and back", type="bool", default=False)
@@ -33,7 +33,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """A model file that the ini file asks for."""
+    """Collect a model file that a pattern of the ini file fits."""
     patterns: list[str] = parent.config.getini("twinform_models")
     if file_path.suffix not in SUFFIXES or not any(map(file_path.match, patterns)):
         return None
@@ -41,10 +41,10 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 
 class ModelFile(pytest.File):
-    """The tests of one file."""
+    """The tests of one model file."""
 
     def collect(self) -> Iterator[pytest.Item]:
-        """One item for each question."""
+        """Yield the tests."""
         yield CheckItem.from_parent(self, name="check")  # pyright: ignore[reportUnknownMemberType] - pytest leaves its keywords open
         if self.config.getini("twinform_round_trip"):
             yield RoundTripItem.from_parent(self, name="round-trip")  # pyright: ignore[reportUnknownMemberType] - pytest leaves its keywords open
@@ -52,17 +52,17 @@ class ModelFile(pytest.File):
 
 class _ModelItem(pytest.Item):
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: object = None) -> str:
-        """The report alone where it is the model that fails, and not the test."""
+        """Return only the report if the model fails, and a traceback if the test does."""
         del style
         return str(excinfo.value) if excinfo.errisinstance(ModelError) else str(excinfo.getrepr(style="short"))
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
-        """The file, as the place of the test."""
+        """Return the file as the place of the test."""
         return self.path, None, f"{self.path.name}: {self.name}"
 
 
 class CheckItem(_ModelItem):
-    """Whether `twinform check` finds no error."""
+    """Tests that `twinform check` finds no error in a file."""
 
     def runtest(self) -> None:
         """Check the file."""
@@ -77,10 +77,10 @@ class CheckItem(_ModelItem):
 
 
 class RoundTripItem(_ModelItem):
-    """Whether the file is restored by a round trip through the other format."""
+    """Tests that a round trip through the other format restores a file."""
 
     def runtest(self) -> None:
-        """Convert it to the other format and back."""
+        """Convert the file to the other format and back."""
         from twinform import load  # noqa: PLC0415 - as above
         from twinform.testing.properties import assert_round_trip  # noqa: PLC0415 - as above
 
@@ -94,7 +94,7 @@ class RoundTripItem(_ModelItem):
 
 @pytest.fixture
 def load_model(request: pytest.FixtureRequest) -> Callable[[str | Path], "Document"]:
-    """Reads a model file, named from the folder of the test file or from the root of the repository."""
+    """Provide a function that reads a model file, named relative to the test file or to the root of the repository."""
 
     def load_it(name: str | Path) -> "Document":
         from twinform import load  # noqa: PLC0415 - as above

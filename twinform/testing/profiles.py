@@ -1,4 +1,4 @@
-"""Hypothesis profiles, by how deep they search: `settings.load_profile("twinform-deep")`."""
+"""Hypothesis profiles by how deep they search, such as `settings.load_profile("twinform-deep")`."""
 
 import sys
 from importlib import import_module
@@ -8,15 +8,13 @@ if TYPE_CHECKING:
     from hypothesis.strategies import SearchStrategy
 
 PROFILES = {"smoke": 15, "default": 100, "deep": 1000}
-"""How many examples each property is tried with."""
+"""The number of examples for each property."""
 
 
 def register() -> None:
-    """Tell Hypothesis of the profiles and, where the IR is there already, of the strategies for its types.
-
-    Hypothesis calls this when it is imported; importing the IR for it would take longer than all of Hypothesis.
-    """
-    from hypothesis import HealthCheck, settings  # noqa: PLC0415 - it is imported by whoever calls this
+    """Register the profiles with Hypothesis and, if the IR is imported already, the strategies for its types."""
+    # Hypothesis calls this when it is imported; importing the IR here would take longer than all of Hypothesis.
+    from hypothesis import HealthCheck, settings  # noqa: PLC0415 - whoever calls this imports it
 
     quiet = (HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large)
     for name, examples in PROFILES.items():
@@ -28,10 +26,7 @@ def register() -> None:
 
 
 def register_types() -> None:
-    """Let `st.from_type(Document)` and the like draw models that are valid.
-
-    The strategies are imported when one is drawn from: it may be they who import Hypothesis, and are not ready yet.
-    """
+    """Let `st.from_type(Document)` and the like draw valid models."""
     from hypothesis import strategies as st  # noqa: PLC0415 - few programs test
 
     from twinform.ir import Document, Inertial, Joint, Link, Pose  # noqa: PLC0415 - as above
@@ -44,4 +39,5 @@ def register_types() -> None:
 
 
 def _strategy(name: str) -> "SearchStrategy[Any]":
+    # imported when it is drawn from: the strategies may be what imports Hypothesis, and are not ready yet
     return getattr(import_module("twinform.testing.strategies"), name)()

@@ -1,28 +1,35 @@
-"""What has to hold for models and passes, as functions that raise AssertionError with the reason.
+"""Properties of models and passes, as functions that raise `AssertionError` with the reason; round trips of models.
 
 A model is a document, a path, or the text or bytes of a file.
 """
 
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import NamedTuple, Self
 
-from twinform.compiler import CompileError, convert, read
+from twinform.compiler import URDF_VERSIONS, CompileError, Language, UrdfVersion, convert
 from twinform.compiler.compare import diff
-from twinform.compiler.input.loading import LoadOptions
+from twinform.compiler.includes.expanding import expand
+from twinform.compiler.input.loading import LoadOptions, read
+from twinform.compiler.normal_form import normal_form
 from twinform.compiler.output.emitting import emit
+from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.diagnostics.reporters import REPORTERS, FileFindings
-from twinform.ir import Document
+from twinform.ir import Document, Format
 from twinform.ir.verify import verify
 from twinform.passes import Pass
-from twinform.testing.round_trips import RoundTrip
+from twinform.passes.analyses.candidates import name_once_expanded, wanted_includes
+from twinform.passes.includes import has_includes
+from twinform.passes.legalise.to_urdf.select_model import SelectModel
+from twinform.schemas import versions_of
 
 Model = Document | Path | str | bytes
-Language = Literal["urdf", "sdf", "json"]
 
 
 def assert_valid(model: Model, *, strict: bool = False) -> Document:
-    """The document of a model that has no error."""
+    """Assert that a model has no error, and return its document."""
     text, name = _text(model)
     checked = read(text, LoadOptions(strict=strict), name=name)
     errors = [each for each in checked.diagnostics if each.is_error]
@@ -32,10 +39,11 @@ def assert_valid(model: Model, *, strict: bool = False) -> Document:
 
 
 def assert_round_trip(model: Model, *, via: Language | None = None, sdf_version: str | None = None) -> None:
-    """Round trips: written and read it is the same document; through the other format the same robot and texts.
+    """Assert that a model survives a round trip: written and read, or through the format `via` and back.
 
-    Through the other format, every name, attribute and text that is not the spelling of a default is back, and nothing
-    else has come along: `twinform.normal_form`. `sdf_version` is the version of SDF to go through.
+    Written and read in its own format or JSON, it is the same document. Through the other format it is the same robot,
+    with every name, attribute and text that is not the spelling of a default, and with nothing more
+    (`twinform.normal_form`). `sdf_version` is the version of SDF to go through.
     """
     document = assert_valid(model)
     source, _ = _text(model if not isinstance(model, Path) or model.suffix == ".xacro" else document)
@@ -54,16 +62,16 @@ def assert_round_trip(model: Model, *, via: Language | None = None, sdf_version:
 
 
 def assert_same_robot(one: Model, other: Model) -> None:
-    """Two models describe the same robot, of whatever formats."""
+    """Assert that two models describe the same robot, in whatever formats."""
     found = diff(_text(one)[0], _text(other)[0], carriers=True).differences
     assert not found, "they are not the same robot:\n" + "\n".join(each.message for each in found[:20])
 
 
 def assert_pass_contract(step: Pass, model: Model, *, idempotent: bool = False) -> Document:
-    """A pass makes valid of valid, the same each time, and leaves its input alone; gives what it makes.
+    """Assert that a pass makes a valid document of a valid one, the same each time, and leaves its input alone.
 
-    What it reports as an error is its verdict on the model, and no fault of it: then its document is not looked at.
-    With `idempotent`, running it again changes nothing more.
+    Returns the document that it makes, which is not checked if the pass reports an error: that is a verdict on the
+    model. With `idempotent`, running the pass again must change nothing more.
     """
     document = assert_valid(model)
     before = document.model_dump_json()
@@ -109,3 +117,84 @@ def _converted(text: bytes | Path, to: Language, sdf_version: str | None = None)
 
 def _report(name: str, diagnostics: list[Diagnostic] | tuple[Diagnostic, ...]) -> str:
     return REPORTERS["text"]([FileFindings(name, tuple(diagnostics))])
+
+
+ANOTHER_ROBOT = "another robot"
+
+
+class Mismatch(NamedTuple):
+    """Something that did not survive a round trip; `kind` is that of a `Discrepancy`, or `ANOTHER_ROBOT`.
+
+    `path` is the XPath in the source, or in the restored text if the source has no such part.
+    """
+
+    kind: str
+    path: str
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class RoundTrip:
+    """A robot for a round trip through the other format, which has to restore `text`."""
+
+    text: bytes
+    format: Format
+    version: str | None
+
+    @classmethod
+    def of(
+        cls, source: Path | bytes, document: Document, *, model: str | None = None, paths: Iterable[str | Path] = ()
+    ) -> Self:
+        """Make a round trip of a file or text that contains `document`.
+
+        The whole text has to come back if it is one model. Of a world or several models only the model named `model`
+        takes part, with its includes expanded, since URDF has neither worlds nor includes.
+        """
+        if _is_robot(document):
+            text = source.read_bytes() if isinstance(source, Path) else source
+            return cls(text, document.format, document.version)
+        alone = _select_model(source, document, model, paths)
+        return cls(emit(alone, DiagnosticSink()).encode(), alone.format, alone.version)
+
+    def back(self, there: str) -> str:
+        """Convert a text in the other format back, into the version that the robot had.
+
+        Raises:
+            CompileError: the text is refused.
+        """
+        if self.format is Format.URDF:
+            return convert(there.encode(), to="urdf", urdf_version=_urdf_version(self.version)).text
+        known = self.version if self.version in versions_of("sdf") else None
+        return convert(there.encode(), to="sdf", sdf_version=known).text
+
+    def mismatches(self, back: str) -> Iterator[Mismatch]:
+        """Yield what was not restored: the first difference of the robots, and the texts that differ."""
+        found = diff(self.text, back.encode(), carriers=True).differences
+        if found:
+            yield Mismatch(ANOTHER_ROBOT, found[0].a.location.path or found[0].b.location.path, found[0].message)
+        source, again = normal_form(self.text, name="source"), normal_form(back.encode(), name="back")
+        for one in source.compare(again):
+            yield Mismatch(one.kind, one.location.path, one.message)
+
+
+def _is_robot(document: Document) -> bool:
+    """Whether a document has nothing but one model in it."""
+    if document.format is Format.URDF:
+        return True
+    around = (*document.worlds, *document.lights, *document.includes, *document.opaque)
+    return len(document.models) == 1 and not around and not has_includes(document)
+
+
+def _select_model(source: Path | bytes, document: Document, model: str | None, paths: Iterable[str | Path]) -> Document:
+    sink = DiagnosticSink()
+    alone = SelectModel(model=model).run(document, sink)
+    if not sink.has_errors and not has_includes(alone):
+        return alone
+    load_options = LoadOptions(search=SearchPath.of(paths))
+    checked = read(source, load_options)
+    whole = expand(checked, load_options, wanted=wanted_includes(checked.document, model)).document or document
+    return SelectModel(model=name_once_expanded(checked.document, whole, model)).run(whole, DiagnosticSink())
+
+
+def _urdf_version(version: str | None) -> UrdfVersion | None:
+    return next((known for known in URDF_VERSIONS if known == version), None)

@@ -9,7 +9,7 @@ from typing import Any
 
 from testbed.engines.readers.answers import Answer, Kept, kept
 from twinform.testing.oracles import libsdformat
-from twinform.testing.oracles.libsdformat.library import models_of
+from twinform.testing.oracles.libsdformat import models_of
 from twinform.testing.oracles.programs import Program
 
 URDF_LOADER = Path(__file__).with_name("urdf_loader.mjs")

@@ -10,8 +10,7 @@ import pytest
 import twinform
 from tests.unit.cli.conftest import GOOD, Run
 from tests.unit.compiler.packaging.robots import ARM, FILES, INERTIAL, PNG, STL, arm, write
-from twinform.testing.oracles.libsdformat.find_model_files import named_files
-from twinform.testing.oracles.libsdformat.library import MISSING, available, models_of
+from twinform.testing.oracles.libsdformat import MISSING, available, models_of, named_files
 
 pytestmark = pytest.mark.slow
 

@@ -9,7 +9,7 @@ from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.profiling import assess_file
 from twinform.profiles import parse
 from twinform.testing.oracles import libsdformat
-from twinform.testing.oracles.libsdformat.library import RobotRow, describe
+from twinform.testing.oracles.libsdformat import RobotRow, describe
 
 pytestmark = pytest.mark.slow
 

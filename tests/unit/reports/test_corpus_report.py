@@ -9,7 +9,7 @@ from reports.harness.known import Known
 from reports.text_survives.corpus import why_not_converted
 from reports.text_survives.mismatches import by_path
 from testbed.corpus.files import ROOT
-from twinform.testing.round_trips import Mismatch
+from twinform.testing.properties import Mismatch
 
 KNOWN = """
 [not_converted]

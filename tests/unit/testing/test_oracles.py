@@ -10,7 +10,7 @@ import pytest
 import twinform
 from tests.profile import DEEP
 from twinform.testing import oracles
-from twinform.testing.oracles.child import ChildDiedError, call
+from twinform.testing.oracles.isolated import ChildDiedError, call
 
 pytestmark = pytest.mark.slow
 

@@ -9,9 +9,17 @@
 Engines come with `pip install 'twinform[oracles]'`, and are imported when they are asked.
 """
 
-from twinform.testing.oracles.engines import ENGINES, Engine, available
+from twinform.testing.oracles.engines import (
+    ENGINES,
+    Alike,
+    Engine,
+    EngineMissingError,
+    EngineUnreadableError,
+    OracleError,
+    Verdict,
+    available,
+)
 from twinform.testing.oracles.isolated import compare, simulate
-from twinform.testing.oracles.verdict import Alike, EngineMissingError, EngineUnreadableError, OracleError, Verdict
 
 __all__ = [
     "ENGINES",

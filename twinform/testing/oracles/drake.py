@@ -1,4 +1,4 @@
-"""Drake's view of a model, URDF or SDF, nested models included."""
+"""Models as Drake reads them, URDF or SDF, nested models included."""
 
 import importlib
 import logging
@@ -30,14 +30,13 @@ _OF_JOINTS = ("_parent", "_child", "_F", "_M")
 
 
 def read(path: Path, view: View) -> EngineRobot:
-    """The first model of a file.
+    """Read the first model of a file.
 
     Raises:
         Exception: Drake cannot read it; it has no narrower type for that.
     """
     plant, bodies, joints, frames = parts(path)
-    found = {view.names.get(name, name): joint for name, joint in joints.items()}
-    moving = {name: joint for name, joint in found.items() if is_simple(joint) and name not in view.still}
+    moving = view.moving((name, joint) for name, joint in joints.items() if is_simple(joint))
     reference = view.reference if view.reference in bodies else root(bodies, joints)
     origin = _pose(plant, plant.CreateDefaultContext(), bodies[reference]) if reference != WORLD else np.eye(4)
     # Gravity along the axes of the reference link, since a conversion may place the model's frame
@@ -55,7 +54,11 @@ def read(path: Path, view: View) -> EngineRobot:
         limits={name: _limits(joint) for name, joint in moving.items()},
         samples=tuple(samples),
         welds=_welds(bodies, joints),
-        others=tuple(name for name, joint in found.items() if joint.num_velocities() and not is_simple(joint)),
+        others=tuple(
+            view.names.get(name, name)
+            for name, joint in joints.items()
+            if joint.num_velocities() and not is_simple(joint)
+        ),
     )
 
 
@@ -65,9 +68,9 @@ def is_simple(joint: Any) -> bool:
 
 
 def parts(path: Path) -> tuple[Any, Parts, Parts, Parts]:
-    """The plant of the first model of a file, its bodies, joints and frames; without shapes, so that no mesh is missed.
+    """Return the plant of the first model of a file, its bodies, joints and frames; no shapes, so no mesh is missed.
 
-    Joints that mimic others are free: Drake reads that in URDF, and in SDF only from an element of its own.
+    Joints that mimic others move freely.
     """
     logging.getLogger("drake").setLevel(logging.CRITICAL)
     plant = importlib.import_module("pydrake.multibody.plant").MultibodyPlant(0.0)
@@ -80,20 +83,24 @@ def parts(path: Path) -> tuple[Any, Parts, Parts, Parts]:
         plant.RemoveConstraint(constraint)
     plant.Finalize()
     tree = importlib.import_module("pydrake.multibody.tree")
-    bodies = _named(plant, (plant.get_body(tree.BodyIndex(number)) for number in range(plant.num_bodies())), prefix)
-    joints = _named(plant, (plant.get_joint(number) for number in plant.GetJointIndices()), prefix)
-    every = _named(plant, (plant.get_frame(tree.FrameIndex(number)) for number in range(plant.num_frames())), prefix)
+    bodies = _parts_by_name(
+        plant, (plant.get_body(tree.BodyIndex(number)) for number in range(plant.num_bodies())), prefix
+    )
+    joints = _parts_by_name(plant, (plant.get_joint(number) for number in plant.GetJointIndices()), prefix)
+    every = _parts_by_name(
+        plant, (plant.get_frame(tree.FrameIndex(number)) for number in range(plant.num_frames())), prefix
+    )
     frames = {name: frame for name, frame in every.items() if name not in bodies and not _is_of_joint(name, joints)}
     return plant, bodies, joints, frames
 
 
 def _is_of_joint(name: str, joints: Parts) -> bool:
-    """Whether Drake made a frame for a joint: `JOINT_parent`, `JOINT_JOINT_parent_F` and the like."""
+    """Whether Drake made a frame for a joint, such as `JOINT_parent` or `JOINT_JOINT_parent_F`."""
     return name.endswith(_OF_JOINTS) and any(name.startswith(f"{joint}_") for joint in joints)
 
 
 def root(bodies: Parts, joints: Parts) -> str:
-    """The world where something is joined to it, else the link that a tree hangs from."""
+    """Return the world if something is joined to it, else the link that a tree hangs from."""
     if any(joint.parent_body().name() == WORLD and joint.num_velocities() < _FREE for joint in joints.values()):
         return WORLD
     # nested models come first in Drake's order; the outer one has the root that a tree hangs from
@@ -101,8 +108,8 @@ def root(bodies: Parts, joints: Parts) -> str:
     return min(free, key=lambda name: name.count("::"), default=WORLD)
 
 
-def _named(plant: Any, found: Iterable[Any], prefix: str) -> Parts:
-    """Return the parts of a model and of the models in it, by their names inside of it."""
+def _parts_by_name(plant: Any, found: Iterable[Any], prefix: str) -> Parts:
+    """Return the parts of a model and of its nested models, by their names relative to the model."""
     scoped = ((f"{plant.GetModelInstanceName(part.model_instance())}::{part.name()}", part) for part in found)
     return {name.removeprefix(prefix): part for name, part in scoped if name.startswith(prefix)}
 

@@ -1,8 +1,8 @@
 """Two models let go from the same state, in Drake: do they move alike?
 
-Gravity acts, motors and contacts do not. States are set and read by name, since the order of joints is an engine's own
-business; joints and free links start away from zero, and moving. Joints that mimic others move as they like, since
-Drake does not read that in SDF; friction and the ends of joints do not act, since it has none in continuous time.
+Gravity acts, motors and contacts do not. Joints and free links start away from zero, and moving. Joints that mimic
+others move freely, since Drake does not read `<mimic>` in SDF; friction and limits of joints do not act, since Drake
+has none in continuous time.
 """
 
 import importlib
@@ -15,10 +15,9 @@ from typing import Any
 import numpy as np
 
 from twinform.testing.oracles import drake
-from twinform.testing.oracles.in_process import read_robot
+from twinform.testing.oracles.engines import Alike, EngineUnreadableError, Verdict
 from twinform.testing.oracles.robot import Matrix, View, spread
-from twinform.testing.oracles.robot_comparison import IN_CHAINS, chained, renamed
-from twinform.testing.oracles.verdict import Alike, EngineUnreadableError, Verdict
+from twinform.testing.oracles.robot_comparison import IN_CHAINS, chained, read_robot, renamed
 
 TOLERANCE = 1e-6
 _ACCURACY = 1e-10
@@ -29,16 +28,16 @@ _SWING = 0.5
 
 @dataclass(frozen=True, slots=True)
 class Trajectory:
-    """Positions and velocities at some times, by what they belong to; one row for each time."""
+    """The positions and velocities of each joint and free link, a row for each time."""
 
     states: Mapping[str, Matrix]
 
 
 def moved_alike(first: Path, second: Path, seconds: float) -> Verdict:
-    """The verdict on two files.
+    """Simulate two files and compare how they move.
 
     Raises:
-        UnreadableError: Drake cannot read or simulate one of them.
+        EngineUnreadableError: Drake cannot read or simulate one of them.
     """
     one, other = read_robot(first, "drake"), read_robot(second, "drake")
     here, there = chained(other, one), chained(one, other)
@@ -55,7 +54,7 @@ def moved_alike(first: Path, second: Path, seconds: float) -> Verdict:
 
 
 def _gap(before: Matrix, after: Matrix) -> float:
-    """The largest difference, against one or the largest number where that is more."""
+    """Return the largest difference, relative to the largest number, at least one."""
     gap = float(np.abs(before - after).max()) / max(1.0, float(np.abs(before).max()))
     return math.inf if math.isnan(gap) else gap
 
@@ -75,8 +74,7 @@ def _trajectory(path: Path, view: View, seconds: float) -> Trajectory:
 
 def _simulated(path: Path, view: View, seconds: float) -> Trajectory:
     plant, bodies, found, _ = drake.parts(path)
-    named = {view.names.get(name, name): joint for name, joint in found.items() if drake.is_simple(joint)}
-    joints = {name: joint for name, joint in named.items() if name not in view.still}
+    joints = view.moving((name, joint) for name, joint in found.items() if drake.is_simple(joint))
     loose = {name: body for name, body in bodies.items() if body.is_floating_base_body()}
     analysis: Any = importlib.import_module("pydrake.systems.analysis")
     simulator = analysis.Simulator(plant)

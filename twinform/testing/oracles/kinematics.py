@@ -14,7 +14,7 @@ from twinform.testing.oracles.robot import GRAVITY, WORLD, EngineRobot, Matrix, 
 
 
 class Motion(Enum):
-    """What a joint lets its child do; others stay where they are."""
+    """How a joint moves its child; joints of `OTHER` types stay at zero."""
 
     FIXED = auto()
     TURNS = auto()
@@ -24,7 +24,7 @@ class Motion(Enum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class EngineLink:
-    """A link; `center` is the pose of its inertia in its frame."""
+    """A link; `center` is the pose of its inertia in the link frame."""
 
     name: str
     pose: Matrix
@@ -35,7 +35,7 @@ class EngineLink:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class EngineJoint:
-    """A joint; the axis is in its own frame, a unit vector."""
+    """A joint; `axis` is a unit vector in the joint's own frame."""
 
     name: str
     motion: Motion
@@ -53,14 +53,14 @@ class EngineJoint:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _KinematicTree:
-    """The links by name, the joint above each of them, and the moving joints by the names that they are given."""
+    """The links by name, the joint above each link, and the moving joints by the names that the view gives them."""
 
     links: Mapping[str, EngineLink]
     above: Mapping[str, EngineJoint]
     moving: Mapping[str, EngineJoint]
 
     def shift(self, link: str, places: Mapping[str, float]) -> Matrix:
-        """How far a link has been moved from its zero position, as a motion in the frame of the model."""
+        """Return how far a link has moved from its zero position, as a motion in the frame of the model."""
         joint = self.above.get(link)
         if joint is None:
             return np.eye(4)
@@ -69,7 +69,7 @@ class _KinematicTree:
         return before @ own
 
     def chain(self, link: str) -> frozenset[str]:
-        """The joints between a link and the root."""
+        """Return the joints between a link and the root."""
         joint = self.above.get(link)
         return frozenset() if joint is None else self.chain(joint.parent) | {joint.name}
 
@@ -77,9 +77,8 @@ class _KinematicTree:
 def robot(
     engine: str, links: Sequence[EngineLink], joints: Sequence[EngineJoint], model: Matrix, view: View
 ) -> EngineRobot:
-    """The robot of these parts, whose frame lies in the world at the pose `model`."""
-    named = ((view.names.get(joint.name, joint.name), joint) for joint in joints if joint.moves)
-    moving = {name: joint for name, joint in named if name not in view.still}
+    """Build the robot of these links and joints, whose model frame is at the pose `model` in the world."""
+    moving = view.moving((joint.name, joint) for joint in joints if joint.moves)
     tree = _KinematicTree({link.name: link for link in links}, {joint.child: joint for joint in joints}, moving)
     reference = view.reference if view.reference in {*tree.links, WORLD} else _root(links, joints)
     # joints to the world say where in it a model stands; all others stand where their reference does
@@ -123,13 +122,13 @@ def _sample(tree: _KinematicTree, back: Matrix, number: int) -> Sample:
 
 
 def _jacobian(tree: _KinematicTree, link: str, center: Matrix, shifts: Mapping[str, Matrix]) -> tuple[Matrix, Matrix]:
-    """How fast a link turns, and its center of mass moves, for each of the moving joints."""
+    """Return the rotational and translational Jacobians of a link's center of mass, a column for each moving joint."""
     turning, sliding = np.zeros((3, len(tree.moving))), np.zeros((3, len(tree.moving)))
     chain = tree.chain(link)
     for column, joint in enumerate(tree.moving.values()):
         if joint.name not in chain:
             continue
-        # its own motion leaves the axis of a joint where it is, so the frame may be moved with the child
+        # a joint's own motion does not move its axis, so the frame may be moved with the child
         frame = shifts[joint.child] @ joint.pose
         axis = frame[:3, :3] @ joint.axis
         turns = joint.motion is Motion.TURNS

@@ -1,4 +1,4 @@
-"""MuJoCo's view of a URDF model, which it is given without shapes (`shapes.py`)."""
+"""URDF models as MuJoCo reads them; it gets them without shapes, so that no mesh is missed."""
 
 import contextlib
 import importlib
@@ -23,15 +23,16 @@ from twinform.testing.oracles.robot import (
     moved,
     pose,
     position,
+    root_link,
+    without_shapes,
 )
-from twinform.testing.oracles.shapes import root_link, without_shapes
 
 Numbers = dict[str, int]
 """MuJoCo's numbers of bodies or joints by name."""
 
 
 def read(path: Path, view: View) -> EngineRobot:
-    """The robot of a file, with every link as a body of its own.
+    """Read the robot of a file, with every link as a body of its own.
 
     Raises:
         Exception: MuJoCo cannot read it.
@@ -70,13 +71,11 @@ def _compiled(mujoco: Any, text: bytes) -> Any:
 def _joints(mujoco: Any, model: Any, view: View) -> Numbers:
     moving = {int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE)}
     numbers = (number for number in range(model.njnt) if int(model.jnt_type[number]) in moving)
-    found = ((model.joint(number).name, number) for number in numbers)
-    named = ((view.names.get(name, name), number) for name, number in found)
-    return {name: number for name, number in named if name not in view.still}
+    return view.moving((model.joint(number).name, number) for number in numbers)
 
 
 def _welds(model: Any, bodies: Numbers, root: str) -> dict[str, str]:
-    """Links without a joint, by what they are fixed to; MuJoCo alone fixes a root to the world."""
+    """Map links without a joint to the link that they are fixed to; the root, which only MuJoCo fixes, is left out."""
     fixed = {name: number for name, number in bodies.items() if model.body_jntnum[number] == 0 and name != root}
     return {name: model.body(int(model.body_parentid[number])).name for name, number in fixed.items()}
 

@@ -1,4 +1,4 @@
-"""Pinocchio's view of a URDF model; links that are fixed to each other are one body to it."""
+"""URDF models as Pinocchio reads them; it makes one body of links that are fixed to each other."""
 
 import importlib
 import math
@@ -28,7 +28,7 @@ Joints = dict[str, Any]
 
 
 def read(path: Path, view: View) -> EngineRobot:
-    """The robot of a file; its shapes are not loaded, so that no mesh is missed.
+    """Read the robot of a file; its shapes are not loaded, so that no mesh is missed.
 
     Raises:
         Exception: Pinocchio cannot read it.
@@ -56,12 +56,11 @@ def read(path: Path, view: View) -> EngineRobot:
 
 def _joints(model: Any, view: View) -> Joints:
     found = ((model.names[number], model.joints[number]) for number in range(1, model.njoints))
-    named = ((view.names.get(name, name), joint) for name, joint in found if joint.nv == 1)
-    return {name: joint for name, joint in named if name not in view.still}
+    return view.moving((name, joint) for name, joint in found if joint.nv == 1)
 
 
 def _limits(model: Any, joint: Any) -> dict[str, float]:
-    # a joint that turns without end has a cosine and a sine, and their limits
+    # Pinocchio keeps a continuous joint as a cosine and a sine, with limits of these
     turning = joint.nq > 1
     return {
         "lower": -math.inf if turning else limit(model.lowerPositionLimit[joint.idx_q]),
@@ -95,7 +94,7 @@ def _sample(
 
 
 def _bodies(model: Any, links: Mapping[str, Any], back: Matrix, data: Any) -> dict[str, EngineBody]:
-    """The body of each joint, and of the root, by the first link that hangs there."""
+    """Return the body of the root and of each joint, by the name of the first link in it."""
     first: dict[int, str] = {}
     for name, frame in links.items():
         first.setdefault(frame.parentJoint, name)

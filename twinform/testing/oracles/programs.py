@@ -14,9 +14,9 @@ _INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """A program by its source, with the packages of pkg-config that it is built against.
+    """A program: its source, and the packages of pkg-config that it is built against.
 
-    Headers that it includes by a relative path belong to it: whatever of them changes, the program is built again.
+    It is built again when the source changes, or a header that the source includes by a relative path.
     """
 
     source: Path
@@ -27,7 +27,7 @@ class Program:
         return _installed(self.packages)
 
     def built(self) -> Path:
-        """The program, which is built where it is not there yet.
+        """Return the path of the program, and build it first if it is not there yet.
 
         Raises:
             CalledProcessError: it does not build.
@@ -44,29 +44,22 @@ def _installed(packages: tuple[str, ...]) -> bool:
 
 @cache
 def _built(program: Program) -> Path:
-    path = _folder() / f"{program.source.stem}-{_digest(program)}"
+    digest = hashlib.sha256(b"\0".join(path.read_bytes() for path in sources(program.source))).hexdigest()
+    folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache", "twinform", "oracles")
+    path = folder / f"{program.source.stem}-{digest[:12]}"
     if not path.exists():
         _build(program, path)
     return path
 
 
-def _digest(program: Program) -> str:
-    return hashlib.sha256(b"\0".join(path.read_bytes() for path in sources(program.source))).hexdigest()[:12]
-
-
 def sources(path: Path, known: tuple[Path, ...] = ()) -> tuple[Path, ...]:
-    """A source with the headers that it includes by relative paths, and those that they include, once each."""
+    """Return a source and all headers that it includes by relative paths, directly or through others."""
     if path in known:
         return known
     known = (*known, path)
     for name in _INCLUDE.findall(path.read_text(encoding="utf-8")):
         known = sources((path.parent / name).resolve(), known)
     return known
-
-
-def _folder() -> Path:
-    cache = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(cache) / "twinform" / "oracles"
 
 
 def _build(program: Program, path: Path) -> None:

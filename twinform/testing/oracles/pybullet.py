@@ -1,7 +1,6 @@
-"""PyBullet's view of a URDF model, which it is given without shapes (`shapes.py`).
+"""URDF models as PyBullet reads them; it gets them without shapes, so that no mesh is missed.
 
-It turns links about with some digits less than others, so that its tolerance is larger. A link without an inertia
-weighs one kg to it, and nothing to everybody else: it is given one of zero.
+PyBullet computes rotations with fewer digits than the others, so its tolerance is larger.
 """
 
 import importlib
@@ -27,14 +26,14 @@ from twinform.testing.oracles.robot import (
     moved,
     pose,
     position,
+    without_shapes,
 )
-from twinform.testing.oracles.shapes import without_shapes
 
 _MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 class _Joint(NamedTuple):
-    """The joint info of PyBullet."""
+    """PyBullet's information on a joint, field by field (`getJointInfo`)."""
 
     number: int
     name: bytes
@@ -56,39 +55,39 @@ class _Joint(NamedTuple):
 
 
 class _World:
-    """A PyBullet world with one robot, whose root is fixed, in it."""
+    """A PyBullet world with one robot in it, once with a fixed root and once loose."""
 
     def __init__(self, path: Path) -> None:
         self.engine: Any = importlib.import_module("pybullet")
         self.client = self.engine.connect(self.engine.DIRECT)
-        # without this it takes a file that it has seen before for the one that is there now
+        # else a file of the same name is not read again
         self.engine.setPhysicsEngineParameter(enableFileCaching=0, physicsClientId=self.client)
         load = partial(self.ask, "loadURDF", str(path), flags=self.engine.URDF_USE_INERTIA_FROM_FILE, of_robot=False)
         self.robot = load(useFixedBase=1)
-        # a root that is fixed has no mass to it
+        # a fixed root has no mass in PyBullet
         self.loose = load(useFixedBase=0)
         self.base = self.ask("getBodyInfo")[0].decode()
         self.joints = [_Joint(*self.ask("getJointInfo", number)) for number in range(self.ask("getNumJoints"))]
 
     def ask(self, question: str, *arguments: Any, of_robot: bool = True, **options: Any) -> Any:
-        """One of PyBullet's functions, about this robot."""
+        """Call one of PyBullet's functions on the robot."""
         first = (self.robot,) if of_robot else ()
         return getattr(self.engine, question)(*first, *arguments, physicsClientId=self.client, **options)
 
     def close(self) -> None:
-        """End it."""
+        """Disconnect from the world, which ends it."""
         self.ask("disconnect", of_robot=False)
 
 
 def read(path: Path, view: View) -> EngineRobot:
-    """The robot of a file.
+    """Read the robot of a file.
 
     Raises:
         Exception: PyBullet cannot read it.
     """
     with tempfile.TemporaryDirectory() as folder:
         stripped = Path(folder) / "robot.urdf"
-        stripped.write_bytes(_weighed(without_shapes(path)))
+        stripped.write_bytes(_add_inertias(without_shapes(path)))
         world = _World(stripped)
     try:
         return _robot(world, view)
@@ -96,8 +95,8 @@ def read(path: Path, view: View) -> EngineRobot:
         world.close()
 
 
-def _weighed(text: bytes) -> bytes:
-    """Return the robot with an inertia for every link."""
+def _add_inertias(text: bytes) -> bytes:
+    """Give every link without an inertia one of zero: PyBullet takes its mass for 1 kg, and nobody else does."""
     robot = etree.fromstring(text)
     for link in robot.iterfind("link"):
         if link.find("inertial") is None:
@@ -109,8 +108,7 @@ def _weighed(text: bytes) -> bytes:
 
 def _robot(world: _World, view: View) -> EngineRobot:
     moving = {world.engine.JOINT_REVOLUTE, world.engine.JOINT_PRISMATIC}
-    named = {joint.name.decode(): joint for joint in world.joints if joint.kind in moving}
-    joints = {view.names.get(name, name): joint for name, joint in named.items() if name not in view.still}
+    joints = view.moving((joint.name.decode(), joint) for joint in world.joints if joint.kind in moving)
     numbers = {world.base: -1} | {joint.link.decode(): joint.number for joint in world.joints}
     reference = view.reference if view.reference in numbers else world.base
     origin = _poses(world, numbers[reference])[0]
@@ -135,7 +133,7 @@ def _welds(world: _World, numbers: Mapping[str, int]) -> dict[str, str]:
 
 
 def _limits(joint: _Joint) -> dict[str, float]:
-    # a joint without limits has them the wrong way round
+    # PyBullet gives a joint without limits a lower one above the upper one
     endless = joint.lower > joint.upper
     return {
         "lower": -math.inf if endless else limit(joint.lower),
@@ -152,7 +150,7 @@ def _sample(
 ) -> Sample:
     for name, joint in joints.items():
         world.ask("resetJointState", joint.number, position(name, sample))
-    # it wants a position for every joint that can move, in its own order
+    # PyBullet wants a position for every joint that can move, in its own order
     names = {joint.number: name for name, joint in joints.items()}
     movable = sorted(joint.number for joint in world.joints if joint.first_speed >= 0)
     order = {number: place for place, number in enumerate(movable)}
@@ -177,7 +175,7 @@ def _body(world: _World, number: int, inertial: Matrix) -> EngineBody:
 
 
 def _poses(world: _World, number: int) -> tuple[Matrix, Matrix]:
-    """The frame of a link, and that of its inertia."""
+    """Return the pose of a link frame, and the pose of its inertia."""
     if number >= 0:
         state = world.ask("getLinkState", number, computeForwardKinematics=1)
         return _pose(world, state[4], state[5]), _pose(world, state[0], state[1])

@@ -1,22 +1,24 @@
-"""Two robots, each as an engine sees it: are they the same?"""
+"""Two robots, each as an engine sees it: are they the same? The engines run in this process (see `isolated.py`)."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from importlib import import_module
+from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 
 from twinform.passes.carriers.token_mass import CHAIN_MASS, TOKEN_MASS
-from twinform.testing.oracles.lumping import lumped as weighed_together
-from twinform.testing.oracles.robot import EngineRobot, Matrix, Sample
-from twinform.testing.oracles.verdict import Alike, Verdict
+from twinform.testing.oracles.engines import Alike, EngineUnreadableError, Verdict, required
+from twinform.testing.oracles.robot import EngineRobot, Matrix, Sample, View
+from twinform.testing.oracles.robot import lumped as weighed_together
 
 TOLERANCE = 1e-9
 NOTHING = 1000 * TOKEN_MASS
-"""A mass in kg, or a moment in kg m^2, that is none: some tokens of links without mass, some meters from a joint."""
+"""A mass in kg, or a moment in kg m^2, that counts as none: a few massless links with token masses, meters away."""
 IN_CHAINS = 10 * CHAIN_MASS
-"""The same for robots with chains, which differ by as much: a few links of chains."""
+"""The mass or moment that counts as none for robots with joint chains: a few links of chains."""
 Part = TypeVar("Part")
 _POSES = frozenset({"position", "rotation"})
 _SHOWN = 4
@@ -24,7 +26,7 @@ _SHOWN = 4
 
 @dataclass(frozen=True, slots=True)
 class _Deviation:
-    """A difference of one kind, and where it is."""
+    """The size of a difference in one quantity, and where it is."""
 
     kind: str
     size: float
@@ -34,28 +36,58 @@ class _Deviation:
         return f"{self.kind} of {self.where}" if self.where else self.kind
 
 
-def renamed(source: EngineRobot, result: EngineRobot) -> dict[str, str]:
-    """The joints that have a new name because a link had theirs: the old name by the new one."""
-    lost = (set(source.joints) - set(result.joints)) & {*source.links, *result.links}
-    return {f"{name}_joint": name for name in lost if f"{name}_joint" in result.joints}
+def read_robot(path: Path, engine: str, view: View | None = None) -> EngineRobot:
+    """Read a file with an engine.
 
-
-def chained(first: EngineRobot, second: EngineRobot) -> frozenset[str]:
-    """The joints of the second robot that are links of a chain: what one joint of the first becomes in URDF.
-
-    SDF's joints with several degrees of freedom, and its screws, become joints that have its name, or begin with it.
+    Raises:
+        EngineMissingError: the engine is not installed.
+        EngineUnreadableError: the engine cannot read the file.
     """
-    added = set(second.joints) - set(first.joints)
-    whole = set(first.others) - set(second.others)
-    return frozenset(name for name in added for joint in whole if name == joint or name.startswith(f"{joint}_"))
+    chosen = required(engine)
+    if not chosen.reads(path):
+        raise EngineUnreadableError(engine, path, f"it does not read {path.suffix or 'files without a suffix'}")
+    try:
+        return import_module(chosen.module).read(path, view or View())
+    except (Exception, SystemExit) as error:
+        raise EngineUnreadableError(engine, path, str(error) or type(error).__name__) from error
+
+
+def compared(first: Path, second: Path, engines: tuple[str, str], lumped: bool) -> Verdict:
+    """Read two files with an engine each, and compare them.
+
+    Raises:
+        EngineUnreadableError: an engine cannot read its file.
+    """
+    return verdict_on(read_robot(first, engines[0]), (first, second), engines, lumped=lumped)
+
+
+def verdict_on(
+    first: EngineRobot, files: tuple[Path, Path], engines: tuple[str, str], *, lumped: bool = False
+) -> Verdict:
+    """Compare two files, of which the first has been read.
+
+    Raises:
+        EngineUnreadableError: an engine cannot read its file.
+    """
+    (source, result), (before, after) = files, engines
+    second = read_robot(result, after, View(reference=first.reference))
+    names = renamed(first, second)
+    here, there = chained(first, second), chained(second, first)
+    if names or here:
+        second = read_robot(result, after, View(names, first.reference, here))
+    # Both are seen from one link, or the poses of all others would differ by that of the root.
+    if second.reference != first.reference or there:
+        first = read_robot(source, before, View(reference=second.reference, still=there))
+    tolerance = max(required(engine).formats[path.suffix] for engine, path in zip(engines, files, strict=True))
+    return judge(first, second, tolerance=tolerance, lumped=lumped, chains=bool(here or there))
 
 
 def judge(
     first: EngineRobot, second: EngineRobot, *, tolerance: float = TOLERANCE, lumped: bool = False, chains: bool = False
 ) -> Verdict:
-    """The verdict on two robots that were read; `lumped` weighs links together that are fixed to each other.
+    """Compare two robots; `lumped` weighs links together that are fixed to each other.
 
-    With `chains`, one of them has some where the other has a joint.
+    `chains` says that one of them has joint chains where the other has a joint.
     """
     nothing = IN_CHAINS if chains else NOTHING
     second = _by_scopes(first, second)
@@ -77,9 +109,26 @@ def judge(
     return _verdict(first, second, Alike.INERTIAL, weight)
 
 
+def renamed(source: EngineRobot, result: EngineRobot) -> dict[str, str]:
+    """Map new names of joints to the old ones, for joints renamed because a link had the same name."""
+    lost = (set(source.joints) - set(result.joints)) & {*source.links, *result.links}
+    return {f"{name}_joint": name for name in lost if f"{name}_joint" in result.joints}
+
+
+def chained(first: EngineRobot, second: EngineRobot) -> frozenset[str]:
+    """Return the joints of the second robot that are part of a chain standing for one joint of the first.
+
+    SDF's joints with several degrees of freedom, and its screws, become several joints of URDF, whose names begin with
+    the name of the joint.
+    """
+    added = set(second.joints) - set(first.joints)
+    whole = set(first.others) - set(second.others)
+    return frozenset(name for name in added for joint in whole if name == joint or name.startswith(f"{joint}_"))
+
+
 def _by_scopes(first: EngineRobot, second: EngineRobot) -> EngineRobot:
-    """The second robot with the names that the links of models in the first one have there."""
-    # Links of nested models are called so in URDF.
+    """Return the second robot with the scoped names of links that the first one has."""
+    # URDF has no scopes: a link `model::link` is called `model__link` there.
     flat = {name.replace("::", "__"): name for name in first.links if "::" in name and name not in second.links}
     if not flat.keys() & set(second.links):
         return second
@@ -115,7 +164,7 @@ def _largest_of_each_kind(first: EngineRobot, second: EngineRobot, nothing: floa
 
 
 def _scales(samples: Sequence[Sample]) -> Mapping[str, float]:
-    """What a difference is measured against: one, or the largest number of its kind where that is more."""
+    """Return what the differences of each kind are measured against: the largest number of the kind, at least one."""
     bodies = [body for sample in samples for body in sample.bodies.values()]
     values: dict[str, list[float | Matrix]] = {
         "gravity": [force for sample in samples for force in sample.gravity.values()],
@@ -150,7 +199,7 @@ def _deviations(
 
 
 def _frames(before: Sample, after: Sample) -> Iterator[_Deviation]:
-    """How far what is a frame in one of the two is from where the other has it, as a frame or as a link."""
+    """Yield how far apart a frame of one robot and the frame or link of that name in the other are."""
     ours, theirs = {**before.poses, **before.frames}, {**after.poses, **after.frames}
     for name in (before.frames.keys() | after.frames.keys()) & ours.keys() & theirs.keys():
         gap = np.abs(ours[name] - theirs[name])
@@ -159,7 +208,7 @@ def _frames(before: Sample, after: Sample) -> Iterator[_Deviation]:
 
 
 def _massive(sample: Sample, nothing: float) -> set[str]:
-    """The links with mass, but for those that have next to none for the sake of engines that cannot do without."""
+    """Return the links with mass; a token mass, which some engines need on every link, is none."""
     return {name for name, body in sample.bodies.items() if body.mass > nothing}
 
 
@@ -184,12 +233,12 @@ def _largest(found: Iterable[_Deviation]) -> _Deviation:
 
 
 def _number(size: float) -> float:
-    # what is no number is as far from right as can be
+    # NaN is as far from right as can be
     return math.inf if math.isnan(size) else size
 
 
 def _other_parts(first: EngineRobot, second: EngineRobot, nothing: float) -> str:
-    """Joints and links with mass that only one of the two has; massless links may become frames and back."""
+    """Name joints, and links with mass, that only one robot has; massless links may become frames and back."""
     before, after = (_massive(robot.samples[0], nothing) for robot in (first, second))
     parts = [
         ("joints lost", set(first.joints) - set(second.joints)),

@@ -4,7 +4,7 @@
 #include <sdf/sdf.hh>
 #include <string>
 
-#include "../headers/json.hh"
+#include "headers/json.hh"
 
 namespace {
 

@@ -17,9 +17,9 @@
 #include <string>
 #include <vector>
 
-#include "../headers/child.hh"
-#include "../headers/json.hh"
-#include "../headers/loading.hh"
+#include "headers/child.hh"
+#include "headers/json.hh"
+#include "headers/loading.hh"
 
 namespace {
 

@@ -1,4 +1,4 @@
-"""The messages of libsdformat 12, the reference parser of SDF, on a file."""
+"""libsdformat 12, the reference parser of SDF: its messages on a file, the models and the files that it finds."""
 
 import json
 import os
@@ -22,10 +22,10 @@ class _Error(TypedDict):
 
 
 class ShapeRow(TypedDict):
-    """A visual or collision: its pose as it is written and in its link, a position and a quaternion each.
+    """A visual or collision: `pose` as it is written, `place` in the link, each a position and a quaternion.
 
-    `geometry` is the number that the library has for its shape. `values` are the texts below it that are not the
-    library's default, by path, such as `surface/friction/ode/mu`; its geometry and plugins are not among them.
+    `geometry` is the library's number for the kind of shape. `values` are the texts below the shape that differ from
+    the library's default, by path, such as `surface/friction/ode/mu`; geometry and plugins are left out.
     """
 
     kind: str
@@ -39,7 +39,7 @@ class ShapeRow(TypedDict):
 class LinkRow(TypedDict):
     """A link: poses are a position and a quaternion, moments are xx, yy, zz, xy, xz, yz about the center of mass.
 
-    `values` are those of its own elements, such as `gravity`, that are not the library's default.
+    `values` are the link's own elements, such as `gravity`, that differ from the library's default.
     """
 
     name: str
@@ -52,7 +52,7 @@ class LinkRow(TypedDict):
 
 
 class JointRow(TypedDict):
-    """A joint at its zero position, with the number that the library has for its kind."""
+    """A joint at its zero position; `kind` is the library's number for the type."""
 
     name: str
     kind: int
@@ -64,10 +64,7 @@ class JointRow(TypedDict):
 
 
 class SensorRow(TypedDict):
-    """A sensor: the pose is a position and a quaternion, the text is its XML without the pose.
-
-    `inside` is the link or joint that it is on.
-    """
+    """A sensor on the link or joint `inside`: its position and quaternion, and its XML without the pose."""
 
     name: str
     inside: str
@@ -77,7 +74,7 @@ class SensorRow(TypedDict):
 
 
 class PluginRow(TypedDict):
-    """A plugin: its XML, the tag of the element that it is in, and the names of all elements around it in the model."""
+    """A plugin: its XML, the tag of its parent, and the names of all elements around it in the model."""
 
     inside: str
     parts: list[str]
@@ -112,8 +109,7 @@ class _OutputRow(TypedDict):
 class LibsdformatReading:
     """Whether the file was read without an error, and the errors as `code: message`.
 
-    `console` is what the library writes to the terminal, warnings of its own and all that urdfdom finds: nothing of it
-    keeps a file from being read.
+    `console` is what the library prints, its own warnings and all messages of urdfdom, none of which are errors to it.
     """
 
     ok: bool
@@ -127,7 +123,7 @@ def available() -> bool:
 
 
 def judge(paths: Iterable[Path]) -> dict[Path, LibsdformatReading]:
-    """The verdict on each file. A file on which the library crashes or hangs gets an error of its own."""
+    """Return the library's messages on each file; a crash or hang of the library is an error of that file."""
     waiting = [Path(path).resolve() for path in paths]
     names = "".join(f"{path}\n" for path in waiting).encode()
     done = subprocess.run([str(_PROGRAM.built())], input=names, stdout=subprocess.PIPE, check=True)
@@ -136,7 +132,7 @@ def judge(paths: Iterable[Path]) -> dict[Path, LibsdformatReading]:
 
 
 def describe(path: Path) -> RobotRow:
-    """The first model of a file.
+    """Return the first model of a file.
 
     Raises:
         RuntimeError: the library has errors for the file, or there is no model in it.
@@ -147,7 +143,7 @@ def describe(path: Path) -> RobotRow:
 
 @contextmanager
 def describing() -> Generator[Callable[[Path], RobotRow]]:
-    """A function that does what `describe` does, in one process for all files: the library takes long to start."""
+    """Provide `describe` as a function that asks one process for all files, since the library takes long to start."""
     command = [str(_PROGRAM.built()), "--robots"]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as process:
 
@@ -170,7 +166,7 @@ def _robot(row: _OutputRow) -> RobotRow:
 
 
 def models_of(path: Path, folders: Iterable[Path] = ()) -> tuple[LibsdformatReading, list[RobotRow]]:
-    """The messages on a file, and all models of it, those of its worlds too; none where it is not read.
+    """Return the messages on a file and all its models, those in worlds too; no models if there are errors.
 
     Includes are looked up beside the file, and then in the folders.
     """
@@ -191,3 +187,31 @@ def models_of(path: Path, folders: Iterable[Path] = ()) -> tuple[LibsdformatRead
 def _reading(row: _OutputRow) -> LibsdformatReading:
     errors = tuple(f"{error['code']}: {error['message']}" for error in row["errors"])
     return LibsdformatReading(row["ok"], errors, row["console"])
+
+
+_FILES_PROGRAM = Program(Path(__file__).with_name("sdf_files.cpp"), ("sdformat12",))
+
+
+@dataclass(frozen=True, slots=True)
+class NamedFiles:
+    """The errors of loading a file, and the path of each URI in it; None if the library finds no file."""
+
+    errors: tuple[str, ...]
+    paths: dict[str, Path | None]
+
+
+def named_files(file: Path, folders: Iterable[Path] = ()) -> NamedFiles:
+    """Find the meshes, terrains, scripts and textures of all models of a file, in these folders and no others."""
+    places = os.pathsep.join(str(folder.resolve()) for folder in folders)
+    done = subprocess.run(
+        [str(_FILES_PROGRAM.built()), str(file.resolve())],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        check=True,
+        cwd="/",
+        env={**os.environ, "SDF_PATH": places},
+    )
+    rows: list[dict[str, str]] = [json.loads(line) for line in done.stdout.decode(errors="replace").splitlines()]
+    errors = tuple(row["error"] for row in rows if "error" in row)
+    paths = {row["uri"]: Path(row["path"]) if row["path"] else None for row in rows if "uri" in row}
+    return NamedFiles(errors, paths)

@@ -1,18 +1,80 @@
-"""Two files as libsdformat sees them: do all their models stand, weigh and move in the same way?
+"""Robots as libsdformat sees them, in one file or compared in two: it resolves frames, `kinematics.py` does the rest.
 
-Models are compared with fixed joints lumped, as the library's own reader of URDF does it, and with their place in the
-world; every shape is compared by its kind, its geometry and its place there.
+Two files are compared with fixed joints lumped, as the library's own reader of URDF does it, and with the place of each
+model in the world; every shape is compared by its kind, its geometry and its place in the world.
 """
 
+import math
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 import numpy as np
 
-from twinform.testing.oracles.kinematics import EngineJoint, Motion, robot
-from twinform.testing.oracles.libsdformat.library import RobotRow
-from twinform.testing.oracles.libsdformat.libsdformat_robot import joint_of, link_of, pose_matrix
-from twinform.testing.oracles.robot import WORLD, EngineRobot, Matrix, View
+from twinform.testing.oracles.kinematics import EngineJoint, EngineLink, Motion, robot
+from twinform.testing.oracles.libsdformat import JointRow, LinkRow, RobotRow, describe
+from twinform.testing.oracles.robot import WORLD, EngineRobot, Matrix, View, limit, lumped, pose
 from twinform.testing.oracles.robot_comparison import judge, renamed
+
+_MOTIONS = {2: Motion.TURNS, 3: Motion.FIXED, 5: Motion.SLIDES, 6: Motion.TURNS}
+"""The joint types with at most one degree of freedom, by the library's numbers."""
+_CONTINUOUS = 2
+_ENDLESS = {"lower": -math.inf, "upper": math.inf}
+"""The limits of a continuous joint, whatever is written."""
+
+
+def read(path: Path, view: View) -> EngineRobot:
+    """Read the first model of a file.
+
+    Raises:
+        RuntimeError: libsdformat has errors for the file.
+    """
+    found = describe(path)
+    links = [link_of(row) for row in found["links"]]
+    joints = [joint_of(row) for row in found["joints"]]
+    if found["static"]:
+        joints += _fixed_roots(links, joints)
+    seen = robot("libsdformat", links, joints, pose_matrix(found["pose"]), view)
+    # it weighs links together itself when it reads URDF
+    return lumped(seen) if path.suffix == ".urdf" else seen
+
+
+def _fixed_roots(links: list[EngineLink], joints: list[EngineJoint]) -> list[EngineJoint]:
+    """Return fixed joints that hold the roots of a static model in the world."""
+    children = {joint.child for joint in joints}
+    roots = (link for link in links if link.name not in children)
+    return [EngineJoint(link.name, Motion.FIXED, WORLD, link.name, link.pose, np.zeros(3), {}) for link in roots]
+
+
+def link_of(row: LinkRow) -> EngineLink:
+    """Return a link in the frame of its model."""
+    xx, yy, zz, xy, xz, yz = row["moments"]
+    inertia = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+    return EngineLink(row["name"], pose_matrix(row["pose"]), row["mass"], pose_matrix(row["center"]), inertia)
+
+
+def joint_of(row: JointRow) -> EngineJoint:
+    """Return a joint in the frame of its model."""
+    limits = {name: limit(value) for name, value in row.get("limits", {}).items()}
+    if row["kind"] == _CONTINUOUS:
+        limits |= _ENDLESS
+    return EngineJoint(
+        row["name"],
+        _MOTIONS.get(row["kind"], Motion.OTHER),
+        row["parent"],
+        row["child"],
+        pose_matrix(row["pose"]),
+        np.array(row.get("axis", [0.0, 0.0, 1.0])),
+        limits,
+    )
+
+
+def pose_matrix(numbers: list[float]) -> Matrix:
+    """Convert a position and a quaternion, real part first, into a 4 x 4 matrix."""
+    w, *vector = numbers[3:]
+    x, y, z = vector
+    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return pose(np.eye(3) + 2 * w * skew + 2 * skew @ skew, np.array(numbers[:3]))
+
 
 TOLERANCE = 1e-6
 """In m, kg and so on: urdfdom and the library's writer keep fewer digits than the files have."""
@@ -20,7 +82,7 @@ _Shape = tuple[str, int, Matrix]
 
 
 def differences(before: Sequence[RobotRow], after: Sequence[RobotRow]) -> Iterator[str]:
-    """What differs between the models of two files, as text; models are matched by name."""
+    """Yield the differences between the models of two files as text; models are matched by name."""
     there = {row["name"]: row for row in after}
     for row in before:
         other = there.pop(row["name"], None)
@@ -34,9 +96,9 @@ def differences(before: Sequence[RobotRow], after: Sequence[RobotRow]) -> Iterat
 def _of_model(before: RobotRow, after: RobotRow) -> Iterator[str]:
     if before["static"] != after["static"]:
         yield f"static {before['static']} became {after['static']}"
-    first, second = _held(before, View()), _held(after, View())
+    first, second = _held_robot(before, View()), _held_robot(after, View())
     if names := renamed(first, second):
-        second = _held(after, View(names))
+        second = _held_robot(after, View(names))
     if _grounded(before) != _grounded(after):
         yield "other links are fixed to the world"
     if cause := judge(first, second, tolerance=TOLERANCE, lumped=True).cause:
@@ -55,8 +117,8 @@ def _sensor(row: object) -> str:
     return f"{row['kind']} {row['name']}"
 
 
-def _held(row: RobotRow, view: View) -> EngineRobot:
-    """The model with its roots where they are in the world, whether they are fixed to it or not."""
+def _held_robot(row: RobotRow, view: View) -> EngineRobot:
+    """Return the model with its roots held at their place in the world, whether they are fixed to it or not."""
     links, joints = [link_of(each) for each in row["links"]], [joint_of(each) for each in row["joints"]]
     loose = _tree([joint for joint in joints if joint.parent != WORLD or joint.motion is not Motion.FIXED])
     children = {joint.child for joint in loose}
@@ -69,7 +131,7 @@ def _held(row: RobotRow, view: View) -> EngineRobot:
 
 
 def _tree(joints: Sequence[EngineJoint]) -> list[EngineJoint]:
-    """The joints without those that close a loop."""
+    """Return the joints without those that close a loop."""
     above: dict[str, EngineJoint] = {}
     for joint in joints:
         name = joint.parent
@@ -81,7 +143,7 @@ def _tree(joints: Sequence[EngineJoint]) -> list[EngineJoint]:
 
 
 def _grounded(row: RobotRow) -> set[str]:
-    """The links that are fixed to the world, those of a static model aside."""
+    """Return the links that are fixed to the world by a joint; none for a static model."""
     fixed = (joint_of(each) for each in row["joints"] if not row["static"])
     return {joint.child for joint in fixed if joint.parent == WORLD and joint.motion is Motion.FIXED}
 
@@ -100,7 +162,8 @@ def _of_shapes(before: RobotRow, after: RobotRow) -> Iterator[str]:
 
 
 def _near(one: Matrix, other: Matrix) -> bool:
-    """Whether two places are the same; urdfdom turns what points straight up or down by up to 0.005 rad."""
+    """Whether two poses are the same."""
+    # urdfdom turns what points straight up or down by up to 0.005 rad
     far = max(1.0, float(np.abs(one[:3, 3]).max()))
     moved, turned = np.abs(one - other)[:3, 3].max(), np.abs(one - other)[:3, :3].max()
     return bool(moved <= TOLERANCE * far and turned <= 5e-3)
