@@ -78,7 +78,7 @@ def test_a_manifest_that_was_cut_anywhere_keeps_the_whole_lines_and_takes_more(t
         path.write_bytes(whole[:cut])
         lines = whole[:cut].count(b"\n")
         with Manifest(tmp_path).open() as manifest:
-            assert manifest.sources() == [record.source for record in written[:lines]]
+            assert len(manifest) == lines
             manifest.add(written[2])
         found = list(read_records(path))
         assert (found[:lines], found[-1]) == (written[:lines], written[2])

@@ -11,12 +11,12 @@ import numpy as np
 import scipy.spatial  # pyright: ignore[reportMissingTypeStubs] - it has none
 from PIL import Image, ImageDraw
 
+from tests.browser.camera import Camera
 from twinform.compiler.scene import Positions, Scene
 from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
 from twinform.ir.defaults import sizes
 from twinform.ir.geometry import ShapeNode
 from twinform.ir.transform import Transform
-from twinform.view.camera import Camera
 
 Mask = np.ndarray
 _AROUND = 64

@@ -8,7 +8,7 @@ import pytest
 from tests.unit.compiler.graph.models import NESTED, WORLD, hostile_urdf
 from tests.unit.compiler.graph.test_build_graph import graph_of
 from twinform.compiler.graph import Graph
-from twinform.compiler.graph.labels import shortened
+from twinform.compiler.graph.graph import shortened
 from twinform.compiler.graph.mermaid import mermaid
 from twinform.compiler.graph.svg import svg
 

@@ -19,9 +19,10 @@ from twinform.compiler import LoadOptions
 
 pytest.importorskip("viser", reason="viser is not installed")
 
+from tests.browser.camera import camera_for, take_picture
+from twinform.compiler.graph.graph import shortened
 from twinform.view import ViewSubject, read_subject, standalone_page
-from twinform.view.shown_names import shortened
-from twinform.view.viewer import Viewer, camera_for
+from twinform.view.viewer import Viewer
 
 from .watched import strict_page
 
@@ -104,7 +105,7 @@ class Stage(NamedTuple):
 
     def settle(self) -> None:
         """Wait until the page has all that was sent; what is replaced before is an error of viser's client."""
-        self.viewer.picture(camera_for(self.viewer.figures), 16, 16)
+        take_picture(self.viewer, camera_for(self.viewer.figures), 16, 16)
 
     def show(self, *models: str | bytes | Path, comparison: "Comparison | None" = None) -> None:
         """Show models in place of what was shown, with all joints at zero, and the camera where all is seen."""
@@ -151,7 +152,7 @@ def test_pixels_are_where_the_silhouette_is(stage: Stage, text: str) -> None:
     for moved in POSITIONS[text]:
         positions |= moved
         viewer.move(moved)
-        drawn = viewer.picture(camera, WIDTH, HEIGHT)[:, :, 3] > 0
+        drawn = take_picture(viewer, camera, WIDTH, HEIGHT)[:, :, 3] > 0
         expected = silhouette(figure.scene, positions, camera, WIDTH, HEIGHT)
         assert overlap(drawn, expected) > 0.9, positions
 
@@ -170,7 +171,7 @@ def test_a_slider_moves_its_link(stage: Stage) -> None:
     assert poses["follower"].rpy() == pytest.approx((0, 0, 0), abs=0.01)  # it turns back what the shoulder turns
     assert poses["base"] == before["base"]
     expected = silhouette(viewer.figures[0].scene, {("shoulder", 0): 1.0}, camera_for(viewer.figures), WIDTH, HEIGHT)
-    drawn = viewer.picture(camera_for(viewer.figures), WIDTH, HEIGHT)[:, :, 3] > 0
+    drawn = take_picture(viewer, camera_for(viewer.figures), WIDTH, HEIGHT)[:, :, 3] > 0
     assert overlap(drawn, expected) > 0.9
 
 
@@ -182,7 +183,7 @@ def test_a_planted_difference_is_red(stage: Stage) -> None:
     viewer, page, _ = stage
     page.get_by_text("Differences", exact=True).click()
     page.get_by_text("in both, and different").wait_for()
-    picture = viewer.picture(camera_for(viewer.figures), WIDTH, HEIGHT).astype(int)
+    picture = take_picture(viewer, camera_for(viewer.figures), WIDTH, HEIGHT).astype(int)
     red = (picture[:, :, 0] - picture[:, :, 1] > 60) & (picture[:, :, 0] - picture[:, :, 2] > 60)
     only_upper = silhouette(_without(viewer.figures[1].scene, "upper"), {}, camera_for(viewer.figures), WIDTH, HEIGHT)
     assert red.sum() > 200
@@ -338,7 +339,7 @@ def test_a_click_in_the_tree_selects_the_link_and_a_selected_link_is_marked_ther
 
 
 def _orange(viewer: Viewer) -> int:
-    picture = viewer.picture(camera_for(viewer.figures), WIDTH, HEIGHT).astype(int)
+    picture = take_picture(viewer, camera_for(viewer.figures), WIDTH, HEIGHT).astype(int)
     return int(((picture[:, :, 0] - picture[:, :, 2] > 60) & (picture[:, :, 3] > 0)).sum())
 
 
@@ -410,7 +411,7 @@ def test_added_and_removed_links_have_colors_of_their_own(stage: Stage) -> None:
         stage.show(a, b, comparison=twinform.diff(a.encode(), b.encode()))
         stage.page.get_by_text("Differences", exact=True).click()
         stage.page.get_by_text(says).wait_for()
-        picture = stage.viewer.picture(camera_for(stage.viewer.figures), WIDTH, HEIGHT).astype(int)
+        picture = take_picture(stage.viewer, camera_for(stage.viewer.figures), WIDTH, HEIGHT).astype(int)
         of_box = silhouette(
             _without(_scene_with(stage.viewer, "more"), "more"), {}, camera_for(stage.viewer.figures), WIDTH, HEIGHT
         )

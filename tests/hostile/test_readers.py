@@ -13,6 +13,7 @@ DATA = "data files of the package"
 RESULTS = "results of its own, in a folder that the user has named"
 NOWHERE = "the null device"
 OTHERS = {
+    "cli/batch_run.py": "a report that the user has named",
     "cli/fixing.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "cli/format.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "cli/source.py": "streams that were named as such",
@@ -20,11 +21,9 @@ OTHERS = {
     "cli/view.py": "opens a browser",
     "compiler/batch/archives.py": "the archive that the user has named, and a temporary folder",
     "compiler/batch/run_batch.py": "opens a manifest by its own class",
-    "compiler/batch/lock.py": RESULTS,
     "compiler/batch/manifest.py": RESULTS,
-    "compiler/batch/merging.py": "opens a manifest by its own class",
-    "compiler/batch/report.py": RESULTS,
-    "compiler/batch/worksite.py": "opens an executor, and the modules of the package",
+    "compiler/batch/recording.py": "opens a manifest by its own class, and copies results",
+    "compiler/batch/task.py": "the modules of the package",
     "compiler/gazebo_files.py": DATA,
     "compiler/in_place.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/includes/model_config.py": "calls `read_bytes` of `compiler/input/parsing.py`",
@@ -37,8 +36,7 @@ OTHERS = {
     "compiler/packaging/fuel_cache.py": "copies files that were checked",
     "compiler/packaging/ros2/rendering.py": DATA,
     "compiler/packaging/writing.py": RESULTS,
-    "compiler/workers/processes.py": NOWHERE,
-    "compiler/workers/running.py": "opens an executor",
+    "compiler/workers.py": "the null device, and an executor",
     "diagnostics/generated_files.py": DATA,
     "diagnostics/rule_files.py": DATA,
     "file_access/regular_files.py": "the one reader",
@@ -63,7 +61,7 @@ OTHERS = {
     "storage/staging.py": "files that it has made itself",
     "storage/transaction.py": "files that it has made itself",
     "storage/writing.py": "files that it has made itself, and pipes that are written into",
-    "view/page_script.py": DATA,
+    "view/words.py": DATA,
 }
 """Modules that open something, and what."""
 

@@ -7,7 +7,6 @@ import click
 
 from twinform.cli import main as program
 from twinform.cli.command import Command
-from twinform.cli.lazy_group import LazyGroup
 from twinform.diagnostics.generated_files import main
 
 _INTRODUCTION = """\
@@ -25,11 +24,11 @@ def commands_page() -> str:
     return "\n".join([_INTRODUCTION, *(_chapter(name, command) for name, command in _commands(program, ()))])
 
 
-def _commands(group: LazyGroup, above: tuple[str, ...]) -> Iterator[tuple[str, click.Command]]:
+def _commands(group: click.Group, above: tuple[str, ...]) -> Iterator[tuple[str, click.Command]]:
     context = click.Context(group)
     for name in group.list_commands(context):
         found = group.get_command(context, name)
-        if isinstance(found, LazyGroup):
+        if isinstance(found, click.Group):
             yield from _commands(found, (*above, name))
         elif found is not None:
             yield " ".join(("twinform", *above, name)), found

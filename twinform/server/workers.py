@@ -7,7 +7,7 @@ from typing import ParamSpec, TypeVar
 
 from pebble import ProcessExpired
 
-from twinform.compiler.workers.processes import ProcessExecutor
+from twinform.compiler.workers import ProcessExecutor
 
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")

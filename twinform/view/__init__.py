@@ -1,9 +1,16 @@
 """The 3D view of robots in a browser, on viser: `twinform view`, and pages that open without a server."""
 
-from twinform.view.read_subject import read_subject
-from twinform.view.static_pages import NotDrawn, StandaloneView, new_viewer, standalone_page, standalone_view
-from twinform.view.subject import ViewSubject
-from twinform.view.view_errors import PortTakenError, ViewerMissingError, ViewError
+from twinform.view.static_pages import (
+    NotDrawn,
+    PortTakenError,
+    StandaloneView,
+    ViewerMissingError,
+    ViewError,
+    new_viewer,
+    standalone_page,
+    standalone_view,
+)
+from twinform.view.subject import ViewSubject, read_subject
 
 __all__ = [
     "NotDrawn",

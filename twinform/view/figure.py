@@ -6,12 +6,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from twinform.compiler.graph.graph import shortened
 from twinform.compiler.scene import Kinematics, Positions, Scene, SceneJoint, SceneShape
 from twinform.ir import Plane, Vector3
 from twinform.ir.transform import Transform
-from twinform.view.mesh_drawings import MeshDrawings
-from twinform.view.shown_names import shortened
-from twinform.view.triangles import Triangles, triangles_of
+from twinform.view.triangles import MeshDrawings, Triangles, triangles_of
 
 np: Any = importlib.import_module("numpy")
 Rgb = tuple[int, int, int]

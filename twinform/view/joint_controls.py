@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, cast
 
+from twinform.compiler.graph.graph import shortened
 from twinform.compiler.scene import Degree, Positions, SceneJoint
 from twinform.view import words
 from twinform.view.figure import Figure
-from twinform.view.shown_names import shortened
 
 _TURN, _WAY = math.pi, 1.0
 """How far sliders go where there are no limits: rad to both sides, and m."""

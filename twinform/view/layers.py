@@ -3,13 +3,11 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
+from twinform.compiler.graph.graph import shortened
 from twinform.ir import Mesh
 from twinform.ir.transform import Transform
 from twinform.view.figure import Figure, Handle, Rgb, rgb
-from twinform.view.joint_marks import joint_axes, joint_limits, skeleton
-from twinform.view.mass_marks import centers, inertias
-from twinform.view.sensor_marks import sensors
-from twinform.view.shown_names import shortened
+from twinform.view.marks import centers, inertias, joint_axes, joint_limits, sensors, skeleton
 
 SKELETON = "Skeleton"
 _COLLISION: Rgb = (230, 90, 60)

@@ -7,15 +7,14 @@ from threading import RLock
 from typing import Any
 
 from twinform.compiler.compare.comparison import Comparison
+from twinform.compiler.graph.graph import shortened
 from twinform.compiler.scene import Degree, Positions, SceneJoint
 from twinform.diagnostics import Diagnostic
-from twinform.view import page_script, words
-from twinform.view.difference_colors import difference_colors, links_of
+from twinform.view import words
 from twinform.view.dragging import MODIFIER, Dragging
 from twinform.view.figure import MARK, Figure, Handle, Rgb
 from twinform.view.joint_controls import Choices, JointControls, slider_range
 from twinform.view.layers import LAYERS, SKELETON, Layer
-from twinform.view.shown_names import shortened
 from twinform.view.subject import ViewSubject
 from twinform.view.tree_rows import Mark, tree
 
@@ -51,7 +50,7 @@ class Panel:
     def build(self) -> None:
         """Put all controls into the panel."""
         if self.comparison is not None:
-            self._colors = difference_colors(self.comparison, self.subjects)
+            self._colors = words.difference_colors(self.comparison, self.subjects)
         self._joints = JointControls(self.gui, self.figures, self.choices)
         self._page = self.gui.add_html("")
         self._warning = self.gui.add_html("")
@@ -110,7 +109,7 @@ class Panel:
 
     def _tell_page(self) -> None:
         labels = {name: text for figure in self.figures for name, text in figure.labels.items()}
-        self._page.content = page_script.control(labels, self._selected)
+        self._page.content = words.control(labels, self._selected)
 
     def _layers(self) -> None:
         if len(self.figures) > 1:
@@ -210,7 +209,7 @@ class Panel:
         self.gui.add_html(words.compared(comparison))
         for found in comparison.counted[:_MOST_ROWS]:
             label = shortened(f"{found.group} {found.name}: {found.aspect}".rstrip(": "))
-            links = links_of(found, self.subjects)
+            links = words.links_of(found, self.subjects)
             color = next((self._colors[link] for link in links if link in self._colors), words.QUIET)
             self._row(label, words.difference(found), links, color)
         if len(comparison.counted) > _MOST_ROWS:

@@ -4,9 +4,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from typing import NamedTuple
 
+from twinform.compiler.graph.graph import shortened
 from twinform.compiler.scene import Scene, SceneJoint
 from twinform.ir.motion import spanning_tree
-from twinform.view.shown_names import shortened
 
 # Levels that are indented and can be folded: browsers flatten elements that are nested too deep.
 _DEEPEST = 60

@@ -1,15 +1,21 @@
-"""The triangles of shapes: of primitives as they are defined, of meshes as their files say."""
+"""The triangles of shapes: of primitives by their definition, of meshes from their files."""
 
 import importlib
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
+from twinform.compiler.search.resolve_uris import LocalAssets, SearchPath
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Mesh, Plane, Sphere
 from twinform.ir.defaults import sizes
 from twinform.ir.geometry import ShapeNode
-from twinform.view.mesh_drawings import MeshDrawings
+from twinform.passes import NO_ASSETS
+from twinform.passes.analyses.mesh_solids import MeshError
+from twinform.passes.meshes.mesh_pass import Workbench
+from twinform.passes.meshes.mesh_source import MeshSources
 
 np: Any = importlib.import_module("numpy")
 trimesh: Any = importlib.import_module("trimesh")
@@ -23,6 +29,36 @@ _ROUND = 3
 """How often the sides of an icosahedron are halved for a sphere."""
 _LARGEST_PLANE = 100.0
 _SMALLEST, _LARGEST = 1e-9, 1e6
+
+
+class MeshDrawings:
+    """The meshes that the file `beside` names, each drawn once; `gltf_up` is the axis that is up in a glTF file."""
+
+    def __init__(self, search: SearchPath | None = None, beside: Path | None = None, *, gltf_up: str = "z") -> None:
+        assets = LocalAssets(search, beside) if search and beside else NO_ASSETS
+        sink = DiagnosticSink()
+        self._bench = Workbench(sink, MeshSources(assets, sink), folder="", prefix="")
+        self._options = {"gltf_up": gltf_up}
+        self._known: dict[tuple[str, object], Mapping[str, bytes] | str] = {}
+
+    def drawing(self, mesh: Mesh) -> Mapping[str, bytes] | str:
+        """`points`, `faces` and perhaps `colors` of a mesh without its scale; a text where it cannot be drawn."""
+        uri = (mesh.uri or "").strip()
+        if not uri:
+            return "it names no mesh"
+        key = (uri, mesh.opaque)
+        if key not in self._known:
+            self._known[key] = self._drawn(mesh)
+        return self._known[key]
+
+    def _drawn(self, mesh: Mesh) -> Mapping[str, bytes] | str:
+        try:
+            # A mesh is a file of a stranger: the confined child process hands over arrays of
+            # numbers. Textures become colors of vertices there, which needs no second kind of
+            # material and is enough to recognize a robot.
+            return self._bench.outcome("draw", mesh, self._options).result.files
+        except MeshError as error:
+            return error.message
 
 
 @dataclass(frozen=True, slots=True)

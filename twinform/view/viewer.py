@@ -5,7 +5,6 @@ import importlib
 import io
 import math
 import socket
-import time
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -13,27 +12,25 @@ from threading import RLock
 from typing import Any
 
 from twinform.compiler.compare.comparison import Comparison
+from twinform.compiler.graph.graph import shortened
 from twinform.compiler.scene import Positions
-from twinform.view import page_script
+from twinform.ir import Vector3
+from twinform.view import words
 from twinform.view.access import Access
-from twinform.view.camera import Camera
 from twinform.view.figure import Figure, Handle, Look
 from twinform.view.joint_controls import Choices
-from twinform.view.mesh_drawings import MeshDrawings
 from twinform.view.panel import Panel
-from twinform.view.shown_names import shortened
+from twinform.view.static_pages import PortTakenError
 from twinform.view.subject import ViewSubject
-from twinform.view.view_errors import PortTakenError, ViewError
+from twinform.view.triangles import MeshDrawings
 
 np: Any = importlib.import_module("numpy")
 viser: Any = importlib.import_module("viser")
-Array = Any
-"""A numpy array."""
 
 # There is no option for another address, and a port that is taken is an error and not the next one.
 HOST = "127.0.0.1"
-_BETWEEN = 0.15
-"""Seconds between two pictures that are compared."""
+FOV = math.radians(45)
+"""The vertical angle of view of cameras."""
 _SECOND = Look(color=(60, 130, 220), opacity=0.45)
 """How B is drawn over A."""
 _FROM = (0.85, -1.15, 0.65)
@@ -54,41 +51,41 @@ class Viewer:
             # had its last release in 2021 and has neither sliders nor clicks; rerun is an
             # application of its own for recordings; three.js with urdf-loader would read the file a
             # second time by its own rules and knows no SDF.
-            self._server: Any = viser.ViserServer(host=HOST, port=_free(port), label="twinform", verbose=False)
+            self.server: Any = viser.ViserServer(host=HOST, port=_free(port), label="twinform", verbose=False)
         self._lock = RLock()
-        self._panel: Panel | None = None
+        self.panel: Panel | None = None
         self._shown = 0
-        self._server.gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)
+        self.server.gui.configure_theme(control_width="large", show_logo=False, show_share_button=False)
 
     @property
     def address(self) -> str:
         """Where a browser finds it; whoever does not know all of it is refused."""
-        return f"http://{HOST}:{self._server.get_port()}/{self._access.token}"
+        return f"http://{HOST}:{self.server.get_port()}/{self._access.token}"
 
     @property
     def figures(self) -> Sequence[Figure]:
         """What is shown."""
-        return self._panel.figures if self._panel else ()
+        return self.panel.figures if self.panel else ()
 
     def show(self, subjects: Sequence[ViewSubject], comparison: Comparison | None = None) -> None:
         """Show one subject, or a second one over it, in place of what is shown; joints and cameras stay."""
-        with self._lock, self._server.atomic():
-            choices = self._panel.choices if self._panel else Choices()
-            is_first = self._panel is None
-            if self._panel is not None:
-                self._panel.ended = True
-            self._server.scene.reset()
-            self._server.gui.reset()
+        with self._lock, self.server.atomic():
+            choices = self.panel.choices if self.panel else Choices()
+            is_first = self.panel is None
+            if self.panel is not None:
+                self.panel.ended = True
+            self.server.scene.reset()
+            self.server.gui.reset()
             self._shown += 1
-            figures, grid = draw(self._server.scene, subjects, self._root, self._listen)
-            self._panel = Panel(self._server.gui, subjects, figures, grid, comparison, choices, self._lock)
-            self._panel.build()
-            self._server.gui.main_panel.dock_right()
+            figures, grid = draw(self.server.scene, subjects, self._root, self._listen)
+            self.panel = Panel(self.server.gui, subjects, figures, grid, comparison, choices, self._lock)
+            self.panel.build()
+            self.server.gui.main_panel.dock_right()
             for figure in figures:
                 figure.move(choices.positions)
             if is_first:
                 self.aim()
-        self._server.flush()
+        self.server.flush()
 
     @property
     def _root(self) -> str:
@@ -99,75 +96,40 @@ class Viewer:
         """Put the cameras of all who look, and who come, to where all is seen."""
         if not self.figures:
             return
-        camera = camera_for(self.figures)
-        away = math.dist(camera.position, camera.target)
-        for each in (self._server.initial_camera, *(it.camera for it in self._server.get_clients().values())):
-            each.position, each.look_at, each.fov = camera.position, camera.target, camera.fov
+        position, target = viewpoint(self.figures)
+        away = math.dist(position, target)
+        for each in (self.server.initial_camera, *(it.camera for it in self.server.get_clients().values())):
+            each.position, each.look_at, each.fov = position, target, FOV
             each.near, each.far = away / 100, away * 100
 
     def move(self, positions: Positions) -> None:
         """Put joints to positions, as the sliders do."""
-        if self._panel is not None:
-            self._panel.move(positions)
-
-    def picture(self, camera: Camera, width: int, height: int, *, seconds: float = 60.0) -> Array:
-        """What a camera sees of the robots alone, as the first browser that is connected draws it.
-
-        Rows of pixels with red, green, blue and alpha, which is 0 where there is no robot. It is drawn until it stays
-        the same: a browser needs some frames for what is new.
-
-        Raises:
-            ViewError: no browser is connected.
-        """
-        clients = list(self._server.get_clients().values())
-        if not clients:
-            raise ViewError("no browser is connected")
-        grid = self._panel.grid if self._panel else None
-        if grid is None or not grid.visible:
-            return self._settled(clients[0], camera, width, height, seconds)
-        grid.visible = False
-        try:
-            return self._settled(clients[0], camera, width, height, seconds)
-        finally:
-            grid.visible = True
-
-    def _settled(self, client: Any, camera: Camera, width: int, height: int, seconds: float) -> Array:
-        end, before = time.monotonic() + seconds, None
-        while True:
-            self._server.flush()
-            picture = client.get_render(
-                height, width, wxyz=camera.wxyz, position=camera.position, fov=camera.fov, transport_format="png",
-                timeout=seconds,
-            )  # fmt: skip
-            # A renderer without a graphics card draws some frames before everything is there.
-            if time.monotonic() > end or (before is not None and np.array_equal(before, picture)):
-                return picture
-            before = picture
-            time.sleep(_BETWEEN)
+        if self.panel is not None:
+            self.panel.move(positions)
 
     def select(self, link: str) -> None:
         """Mark a link, as a click on it does."""
-        if self._panel is not None:
-            self._panel.select([link])
+        if self.panel is not None:
+            self.panel.select([link])
 
     def warn(self, title: str, lines: Iterable[str] = ()) -> None:
         """Say above the controls what has gone wrong; it stays until something is shown."""
-        if self._panel is not None:
-            self._panel.warn(title, lines)
+        if self.panel is not None:
+            self.panel.warn(title, lines)
 
     def page(self, *, dark: bool = False) -> str:
         """What is shown as a page of its own, which opens without a server; the joints stand where they are."""
         labels = {name: text for figure in self.figures for name, text in figure.labels.items()}
-        return page_script.with_script(self._server.scene.as_html(dark_mode=dark), labels)
+        return words.with_script(self.server.scene.as_html(dark_mode=dark), labels)
 
     def _listen(self, figure: Figure, handle: Handle, link: str) -> None:
-        if self._panel is not None:
-            self._panel.listen(figure, handle, link)
+        if self.panel is not None:
+            self.panel.listen(figure, handle, link)
 
     def stop(self) -> None:
         """End the server; browsers say that it has gone."""
         with _silence():
-            self._server.stop()
+            self.server.stop()
 
 
 def draw(
@@ -187,13 +149,13 @@ def draw(
     return figures, grid
 
 
-def camera_for(figures: Sequence[Figure]) -> Camera:
-    """A camera that sees all of some figures."""
+def viewpoint(figures: Sequence[Figure]) -> tuple[Vector3, Vector3]:
+    """Return where a camera sees all of some figures, and the point that it looks at."""
     bounds = [figure.bounds() for figure in figures]
     least, greatest = np.min([each for each, _ in bounds], axis=0), np.max([each for _, each in bounds], axis=0)
     x, y, z = (float(each) for each in (least + greatest) / 2)
     away = max(figure.size for figure in figures)
-    return Camera((x + away * _FROM[0], y + away * _FROM[1], z + away * _FROM[2]), (x, y, z))
+    return (x + away * _FROM[0], y + away * _FROM[1], z + away * _FROM[2]), (x, y, z)
 
 
 def _power_of_ten(length: float) -> float:

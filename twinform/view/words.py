@@ -1,18 +1,24 @@
 """Text of the panel as HTML in which names do nothing: findings, differences, what is known of a part."""
 
-from collections.abc import Iterable, Mapping, Sequence
+import json
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cache
 from html import escape
+from importlib.resources import files
 
 from twinform.compiler.compare.comparison import Comparison, Difference
-from twinform.compiler.scene import SceneLink
+from twinform.compiler.graph.graph import shortened
+from twinform.compiler.scene import Scene, SceneLink
 from twinform.diagnostics import Diagnostic, Severity
 from twinform.diagnostics.ledger import LedgerEntry
-from twinform.view.difference_colors import MEANINGS
 from twinform.view.figure import Rgb
-from twinform.view.shown_names import shortened
 from twinform.view.subject import ViewSubject
 from twinform.view.tree_rows import Mark
 
+CHANGED: Rgb = (220, 40, 40)
+ONLY_A: Rgb = (150, 50, 200)
+ONLY_B: Rgb = (20, 150, 60)
+MEANINGS: Mapping[str, Rgb] = {"in both, and different": CHANGED, "in A only": ONLY_A, "in B only": ONLY_B}
 QUIET: Rgb = (110, 116, 125)
 _SEVERITIES: Mapping[Severity, tuple[str, Rgb]] = {
     Severity.ERROR: ("\N{BLACK CIRCLE}", (200, 30, 30)),
@@ -125,3 +131,63 @@ def _facts(link: SceneLink, subject: ViewSubject) -> Mapping[str, str]:
     facts["shapes"] = f"{visuals} visuals, {len(link.shapes) - visuals} collisions"
     sensors = [each.name for each in subject.scene.sensors if each.link == link.name]
     return facts | ({"sensors": ", ".join(map(shortened, sensors))} if sensors else {})
+
+
+def difference_colors(comparison: Comparison, subjects: Sequence[ViewSubject]) -> dict[str, Rgb]:
+    """The colors of links that differ."""
+    first, second = (subject.links for subject in subjects)
+    found: dict[str, Rgb] = {}
+    for link in (link for each in comparison.counted for link in links_of(each, subjects)):
+        found[link] = CHANGED if link in first and link in second else ONLY_A if link in first else ONLY_B
+    return found
+
+
+def links_of(difference: Difference, subjects: Sequence[ViewSubject]) -> tuple[str, ...]:
+    """The links that a difference is seen on."""
+    found = (link for subject in subjects for link in _seen_on(difference, subject.scene))
+    return tuple(dict.fromkeys(found))
+
+
+def _seen_on(difference: Difference, scene: Scene) -> Iterator[str]:
+    """In scenes of several models, names have the model's before them."""
+    model = difference.model.rpartition("::")[2]
+    names = {difference.name, f"{model}::{difference.name}"}
+    joints, frames = difference.group == "joint", difference.group == "frame"
+    if not joints:
+        yield from (link.name for link in scene.links if link.name in names)
+    if joints:
+        yield from (joint.child for joint in scene.joints if joint.name in names)
+    if frames:
+        yield from (frame.link for frame in scene.frames if frame.name in names)
+
+
+# viser sets the content of its controls as `innerHTML`, where scripts do not run but event handlers
+# do. viser reports clicks and drags, but not where the mouse is. Asking the server with each motion
+# would need a second picking of all triangles in Python and works in no page without a server; a
+# server of our own in front of viser's means a second port. The script asks the scene that is drawn
+# already. It uses `window.__viserMutable`, which is not public, so all of it is guarded: where
+# something is missing there is no tip and no error.
+_RUN = "if(!window.twinform?.show){const s=document.createElement('script');s.textContent=this.dataset.script;\
+document.head.append(s)}twinform.show(JSON.parse(this.dataset.news))"
+
+
+def control(labels: Mapping[str, str], selected: Iterable[str]) -> str:
+    """HTML for a control of viser, which runs the script and hands it texts by names of nodes, and selected links."""
+    news = json.dumps({"labels": dict(labels), "selected": list(selected)})
+    return (
+        f'<img hidden alt="" src="data:," onerror="{escape(_RUN)}" '
+        f'data-script="{escape(_script())}" data-news="{escape(news)}">'
+    )
+
+
+def with_script(page: str, labels: Mapping[str, str]) -> str:
+    """A page of viser with the script, and texts by names of nodes."""
+    # `</script>` in a name would end the script element.
+    news = json.dumps({"labels": dict(labels)}).replace("<", "\\u003c")
+    before, end, after = page.rpartition("</body>")
+    return f"{before}<script>{_script()}</script><script>twinform.show({news})</script>{end}{after}"
+
+
+@cache
+def _script() -> str:
+    return (files("twinform.view") / "data" / "page.js").read_text(encoding="utf-8")

@@ -12,8 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from twinform.cli.batch.progress import status
-from twinform.compiler.workers import processes
+from twinform.cli.batch_run import status
 
 from .conftest import GOOD, WRONG, Run
 
@@ -80,7 +79,7 @@ def test_nothing_is_started_where_nothing_has_changed(run: Run, here: Path, monk
     def refuse(*_: object) -> None:
         raise AssertionError("a process is started")
 
-    monkeypatch.setattr(processes, "ProcessPool", refuse)
+    monkeypatch.setattr("twinform.compiler.workers.ProcessPool", refuse)
     assert last(run, *CONVERT, "--expand-includes") == "5 models: 4 converted, 1 refused (5 known from before)"
 
 
@@ -322,13 +321,13 @@ def test_the_progress_has_a_rate_and_the_time_that_is_left() -> None:
 def test_lines_come_now_and_then_where_there_is_no_terminal(
     run: Run, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("twinform.cli.batch.progress._EVERY", 0)
+    monkeypatch.setattr("twinform.cli.batch_run._EVERY", 0)
     assert "1 of 5 models, " in run(*CONVERT).stderr
     assert " of 5 models, " not in run(*CONVERT, "--quiet").stderr
 
 
 def test_a_bar_moves_on_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
-    from twinform.cli.batch.progress import progress  # noqa: PLC0415 - only here
+    from twinform.cli.batch_run import progress  # noqa: PLC0415 - only here
 
     class Terminal(io.StringIO):
         def isatty(self) -> bool:

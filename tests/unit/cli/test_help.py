@@ -13,7 +13,6 @@ from click.testing import CliRunner
 import twinform
 from twinform.cli import main
 from twinform.cli.command import Command
-from twinform.cli.lazy_group import LazyGroup
 
 from .conftest import GOOD, Run
 
@@ -31,12 +30,12 @@ _NOT_RUN = {
 }
 
 
-def _commands(group: LazyGroup, above: tuple[str, ...] = ()) -> Iterator[tuple[str, click.Command]]:
+def _commands(group: click.Group, above: tuple[str, ...] = ()) -> Iterator[tuple[str, click.Command]]:
     context = click.Context(group)
     for name in group.list_commands(context):
         found = group.get_command(context, name)
         assert found is not None
-        if isinstance(found, LazyGroup):
+        if isinstance(found, click.Group):
             yield from _commands(found, (*above, name))
         else:
             yield " ".join((*above, name)), found

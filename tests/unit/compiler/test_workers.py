@@ -9,8 +9,7 @@ from typing import Any
 
 import pytest
 
-from twinform.compiler.workers import Failure, Runner, UnavailableError, process_runner, run, run_on
-from twinform.compiler.workers.processes import ProcessExecutor
+from twinform.compiler.workers import Failure, ProcessExecutor, Runner, UnavailableError, process_runner, run, run_on
 
 pytestmark = pytest.mark.slow
 
@@ -151,7 +150,7 @@ def test_no_more_processes_start_than_there_are_jobs(monkeypatch: pytest.MonkeyP
         asked.append(count)
         raise RuntimeError
 
-    monkeypatch.setattr("twinform.compiler.workers.processes.ProcessPool", note)
+    monkeypatch.setattr("twinform.compiler.workers.ProcessPool", note)
     for jobs in (1, 3, 200):
         with pytest.raises(RuntimeError):
             list(run_on(process_runner(100).for_jobs(jobs), _divide, range(jobs)))
@@ -170,7 +169,7 @@ def test_an_executor_that_cannot_be_waited_for_any_longer_ends_the_run(monkeypat
         if len(looks) == 3:
             raise UnavailableError("nobody is there")
 
-    monkeypatch.setattr("twinform.compiler.workers.running._PAUSE", 0.01)
+    monkeypatch.setattr("twinform.compiler.workers._PAUSE", 0.01)
     with pytest.raises(UnavailableError, match="nobody is there"):
         list(run_on(Runner(open=Silent, window=4, check=look), _divide, [1, 2]))
     assert len(looks) == 3

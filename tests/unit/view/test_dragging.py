@@ -11,7 +11,7 @@ from twinform.compiler import LoadOptions
 from twinform.view import read_subject
 from twinform.view.dragging import Drag, drag_of
 from twinform.view.figure import Figure
-from twinform.view.mesh_drawings import MeshDrawings
+from twinform.view.triangles import MeshDrawings
 
 
 class _Nothing:

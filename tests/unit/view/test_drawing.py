@@ -11,16 +11,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import twinform
+from tests.browser.camera import Camera
 from twinform.compiler.scene import Degree, build_scene
 from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Heightmap, Mesh, Plane, Sphere
 from twinform.ir.geometry import ShapeNode
 from twinform.ir.solids import Solid
-from twinform.view.camera import Camera
 from twinform.view.figure import Figure
 from twinform.view.joint_controls import slider_range
-from twinform.view.mass_marks import inertia_box
-from twinform.view.mesh_drawings import MeshDrawings
-from twinform.view.triangles import STAND_IN, triangles_of
+from twinform.view.marks import inertia_box
+from twinform.view.triangles import STAND_IN, MeshDrawings, triangles_of
 
 _SHAPES = [
     (Box(size=(1, 2, 3)), (1, 2, 3)),

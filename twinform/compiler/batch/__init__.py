@@ -1,7 +1,7 @@
-"""Work on many models: on any executor, resumable, and on none of which anything has changed.
+"""Work on many models, on any executor, resumable: models in which nothing has changed are not worked on again.
 
-`entries` lists the models, `jobs` is what is done with one, `planning` finds what is known already, `task` is the work
-on one, wherever it is done, and `recording` keeps the result. `driver` puts these together.
+`entries` lists the models, `jobs` is what is done with one, `planning` finds what is known from earlier runs, `task`
+does the work on one model wherever it lands, and `recording` keeps the result. `run_batch` puts these together.
 """
 
 from twinform.compiler.batch.entries import (
@@ -15,13 +15,10 @@ from twinform.compiler.batch.entries import (
     with_arguments,
 )
 from twinform.compiler.batch.jobs import Check, Convert, Diff, Stats
-from twinform.compiler.batch.lock import BusyError
-from twinform.compiler.batch.merging import merge
-from twinform.compiler.batch.record import ModelRecord, Outcome, Summary
-from twinform.compiler.batch.recording import ModelResult
-from twinform.compiler.batch.report import open_report, report_line
-from twinform.compiler.batch.run_batch import Batch, batch
-from twinform.compiler.batch.worksite import UnfitWorkerError
+from twinform.compiler.batch.manifest import BusyError
+from twinform.compiler.batch.record import ModelRecord, ModelResult, Outcome, Summary
+from twinform.compiler.batch.recording import merge
+from twinform.compiler.batch.run_batch import Batch, UnfitWorkerError, batch
 
 __all__ = [
     "PATTERNS",
@@ -43,8 +40,6 @@ __all__ = [
     "merge",
     "of_folder",
     "of_names",
-    "open_report",
     "pairs",
-    "report_line",
     "with_arguments",
 ]

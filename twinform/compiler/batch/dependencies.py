@@ -1,28 +1,25 @@
-"""What a result depends on: files that were read, listed or looked for, as they were, and whether they still are so.
+"""What a result depends on: files that were read, listed or looked for, and whether they have changed since.
 
-As git does, size, times and inode of a file are compared first, and digests where any of these differs. The time at
-which the status of a file changed is the one that nobody can set: archives that are reproducible, `rsync -t`, Nix and
-Bazel give files of different contents one modification time, often with one size.
+As in git, the size, times and inode of a file are compared first, and digests only if one of these differs. The time of
+the last status change counts because nobody can set it: reproducible archives, `rsync -t`, Nix and Bazel give files of
+different content the same modification time, often with the same size.
 
-A file that was written shortly before it was read may have changed again within one step of a clock, of ours or of a
-file server: its status proves nothing, and its digest is compared each time.
+A file that was written shortly before it was read may have changed again within one tick of a clock, ours or that of a
+file server. Its status proves nothing, so its digest is compared each time.
 """
 
 import os
 import stat
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 from posixpath import normpath
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 from twinform.compiler.observing import Observation, digest, is_coarse, is_young
 from twinform.file_access import read_regular
 
-_NOTHING = (0, 0, "", 0, 0)
-"""What a dependency has where a row ends early."""
 _MOST_NAMES = 100_000
 """Entries of a folder; one with more is always listed again."""
 Status = Callable[[str], os.stat_result | None]
@@ -42,11 +39,10 @@ class DependencyKind(StrEnum):
     """A pipe, device or socket."""
 
 
-@dataclass(frozen=True, slots=True)
-class Dependency:
-    """A path, below the folder of the models where it can be, and what was there.
+class Dependency(NamedTuple):
+    """A path, relative to the folder of the models if it is inside, and what was there.
 
-    `time` is that of its last modification, `changed` that of the last change of its status, in nanoseconds.
+    `time` is the time of its last modification and `changed` that of its last status change, in nanoseconds.
     """
 
     path: str
@@ -58,8 +54,11 @@ class Dependency:
     inode: int = 0
 
 
+_ABSENT = Dependency("", DependencyKind.ABSENT)
+
+
 def status(path: str) -> os.stat_result | None:
-    """The status of a path; None where nothing is there."""
+    """Return the status of a path; None where nothing is there."""
     try:
         return os.stat(path)  # noqa: PTH116 - a path for each of a million models has to be made only once
     except (OSError, ValueError):
@@ -67,9 +66,9 @@ def status(path: str) -> os.stat_result | None:
 
 
 def dependencies_of(seen: Observation, root: str, *, outside: str | None) -> tuple[Dependency, ...] | None:
-    """What was seen, with the digests of what was read; None where something has changed or failed on the way.
+    """Return what was seen, with digests of what was read; None if something changed or failed meanwhile.
 
-    What lies in the folder `outside` is left out: results are no inputs.
+    Files in the folder `outside` are left out: results are no inputs.
     """
     if seen.failed:
         return None
@@ -88,7 +87,7 @@ def dependencies_of(seen: Observation, root: str, *, outside: str | None) -> tup
 
 
 def stamp(path: Path, name: str, made: str) -> Dependency:
-    """A result as it was written."""
+    """Return a result as it was written."""
     return _stamped(Dependency(name, DependencyKind.READ, digest=made), path.stat())
 
 
@@ -100,17 +99,17 @@ def are_current(
     status: Status = status,
     contents: Mapping[str, str] = MappingProxyType({}),
 ) -> bool:
-    """Whether all is as it was by status, without opening anything; False where that is not enough.
+    """Return whether the status of every file proves that nothing has changed, without opening any.
 
-    `noted` is the time of the record; results, which nobody else writes, do without. `contents` are digests of files
-    by their path below the root, where the caller has just written these: they are compared, and no status is.
+    `noted` is the time of the record; results, which nobody else writes, need none. `contents` has the digests of files
+    that the caller has just written, by their path below the root: these are compared instead of the status.
     """
     for each in dependencies:
         path = os.path.join(root, each.path)  # noqa: PTH118 - as above
         if contents and each.kind is DependencyKind.READ and path != each.path:
             same = contents.get(normpath(each.path)) == each.digest
         elif contents and each.kind is DependencyKind.LISTED and path != each.path:
-            same = _content(path, DependencyKind.LISTED) == each.digest
+            same = _digest_content(path, DependencyKind.LISTED) == each.digest
         else:
             same = _is_current(each, status(path), noted)
         if not same:
@@ -119,15 +118,15 @@ def are_current(
 
 
 def are_same(dependencies: Iterable[Dependency], root: str) -> bool:
-    """Whether all is as it was by its content."""
+    """Return whether the content of every file is as it was."""
     return renewed(dependencies, root) is not None
 
 
 def renewed(dependencies: Iterable[Dependency], root: str) -> tuple[Dependency, ...] | None:
-    """All with the status that they have now; None where a content is another one."""
+    """Return the dependencies with their status now; None if the content of one has changed."""
     found: list[Dependency] = []
     for each in dependencies:
-        now = _renewed(each, os.path.join(root, each.path))  # noqa: PTH118 - as above
+        now = _renew(each, os.path.join(root, each.path))  # noqa: PTH118 - as above
         if now is None:
             return None
         found.append(now)
@@ -135,40 +134,34 @@ def renewed(dependencies: Iterable[Dependency], root: str) -> tuple[Dependency, 
 
 
 def is_there(dependency: Dependency, root: str) -> bool:
-    """Whether anything is at the path of a dependency."""
+    """Return whether anything is at the path of a dependency."""
     return status(os.path.join(root, dependency.path)) is not None  # noqa: PTH118 - as above
 
 
 def packed(dependencies: Iterable[Dependency]) -> list[list[object]]:
-    """Dependencies as lists, without what is empty at their ends."""
-    rows: list[list[object]] = []
-    for dependency in dependencies:
-        row: list[object] = [dependency.path, str(dependency.kind), dependency.size, dependency.time, dependency.digest]
-        row += [dependency.changed, dependency.inode]
+    """Return dependencies as lists, without what is empty at their ends."""
+    rows = [list[object](dependency) for dependency in dependencies]
+    for row in rows:
         while not row[-1]:
             row.pop()
-        rows.append(row)
     return rows
 
 
-def unpacked(rows: Iterable[Iterable[Any]]) -> Iterator[Dependency]:
+def unpacked(rows: Iterable[list[Any]]) -> Iterator[Dependency]:
     """Read dependencies from lists as `packed` writes them.
 
     Raises:
         ValueError, TypeError: one is no dependency.
     """
     for path, kind, *rest in rows:
-        values: list[Any] = [*rest, *_NOTHING[len(rest) :]]
-        size, time, made, changed, inode = values
-        if not (isinstance(path, str) and isinstance(made, str)):
+        made = Dependency(path, DependencyKind(kind), *rest)
+        if any(type(value) is not type(usual) for value, usual in zip(made, _ABSENT, strict=True)):
             raise TypeError(path)
-        if not all(isinstance(number, int) for number in (size, time, changed, inode)):
-            raise TypeError(path)
-        yield Dependency(path, DependencyKind(kind), size, time, made, changed, inode)
+        yield made
 
 
 def _record_content(path: str, kind: DependencyKind, before: os.stat_result | None) -> Dependency | None:
-    """What is read or listed, as it is now; None where it is not as it was before."""
+    """Return what was read or listed, as it is now; None if it has changed since."""
     now = status(path)
     if before is None or now is None:
         return Dependency(path, DependencyKind.ABSENT) if before is now else None
@@ -178,27 +171,27 @@ def _record_content(path: str, kind: DependencyKind, before: os.stat_result | No
     usual = stat.S_ISREG if kind is DependencyKind.READ else stat.S_ISDIR
     if not usual(now.st_mode):
         return _look(path, now)
-    made = _content(path, kind)
+    made = _digest_content(path, kind)
     return None if made is None else _stamped(Dependency(path, kind, digest=made), now)
 
 
 def _stamped(dependency: Dependency, now: os.stat_result) -> Dependency:
     size = now.st_size if dependency.kind is DependencyKind.READ else 0
-    return replace(dependency, size=size, time=now.st_mtime_ns, changed=now.st_ctime_ns, inode=now.st_ino)
+    return dependency._replace(size=size, time=now.st_mtime_ns, changed=now.st_ctime_ns, inode=now.st_ino)
 
 
 def _status_marks(status: os.stat_result) -> tuple[int, ...]:
     return status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino
 
 
-def _content(path: str, kind: DependencyKind) -> str | None:
+def _digest_content(path: str, kind: DependencyKind) -> str | None:
     try:
-        return digest(read_regular(Path(path))) if kind is DependencyKind.READ else _names(path)
+        return digest(read_regular(Path(path))) if kind is DependencyKind.READ else _digest_names(path)
     except OSError:
         return None
 
 
-def _names(path: str) -> str:
+def _digest_names(path: str) -> str:
     names = sorted(os.listdir(path))  # noqa: PTH208 - only the names
     return digest(os.fsencode("\0".join(names))) if len(names) <= _MOST_NAMES else ""
 
@@ -214,7 +207,7 @@ def _look(path: str, now: os.stat_result | None) -> Dependency:
 def _below_root(dependency: Dependency, root: str) -> Dependency:
     if dependency.path != root and not _is_below(dependency.path, root):
         return dependency
-    return replace(dependency, path=dependency.path[len(root) :].lstrip(os.sep))
+    return dependency._replace(path=dependency.path[len(root) :].lstrip(os.sep))
 
 
 def _is_below(path: str, folder: str | None) -> bool:
@@ -239,11 +232,11 @@ def _is_current(dependency: Dependency, now: os.stat_result | None, noted: int |
     return noted is None or not is_young(dependency.time, dependency.changed, noted)
 
 
-def _renewed(dependency: Dependency, path: str) -> Dependency | None:
-    """A dependency with its status from before its content was compared; None where that is another one."""
+def _renew(dependency: Dependency, path: str) -> Dependency | None:
+    """Return a dependency with its status from before its content was compared; None if the content has changed."""
     now = status(path)
     if dependency.kind not in {DependencyKind.READ, DependencyKind.LISTED}:
         return dependency if _look(dependency.path, now) == dependency else None
-    if now is None or not dependency.digest or _content(path, dependency.kind) != dependency.digest:
+    if now is None or not dependency.digest or _digest_content(path, dependency.kind) != dependency.digest:
         return None
     return _stamped(dependency, now)

@@ -5,18 +5,23 @@ Lines stay on the disk; in memory is where each begins. Each shard of a run writ
 
 import errno
 import json
+import os
 from collections.abc import Generator, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
 from twinform.compiler.batch.dependencies import Dependency, packed, unpacked
-from twinform.compiler.batch.lock import locked
 from twinform.compiler.batch.record import ModelRecord, Outcome
 from twinform.compiler.output.same_files import is_open_at
 from twinform.storage.transaction import named_after, transaction
 from twinform.storage.writing import is_stream, refuse_way_out, sync_files
+
+try:
+    import fcntl
+except ImportError:  # on Windows
+    fcntl = None
 
 FOLDER = ".twinform-batch"
 _BEGIN = b'{"source": '
@@ -29,6 +34,10 @@ _TIDY = 2
 class _ManifestLine(NamedTuple):
     file: int
     offset: int
+
+
+class BusyError(Exception):
+    """Another run is writing to the same folder of results."""
 
 
 class Manifest:
@@ -56,13 +65,13 @@ class Manifest:
             refuse_way_out(path)
         if is_stream(self._own):
             raise FileExistsError(errno.EEXIST, "a pipe or device is in its place", str(self._own))
-        with locked(self.folder, self._shard):
+        with _lock(self.folder, self._shard):
             try:
                 self._read()
                 # Appending a line is atomic enough and fast; rewriting the file for each model
                 # would take quadratic time.
                 if not self._shard and self._count > _TIDY * len(self._lines):
-                    self._tidy()
+                    self.tidy()
                 self._log = self._own.open("ab")
                 if self._log.tell() and not _ends_a_line(self._own):
                     self._log.write(b"\n")  # an earlier run was cut off
@@ -80,10 +89,6 @@ class Manifest:
 
     def __len__(self) -> int:
         return len(self._lines)
-
-    def sources(self) -> list[str]:
-        """The names of all models that there is a record of."""
-        return list(self._lines)
 
     def get(self, source: str) -> ModelRecord | None:
         """What is known of a model."""
@@ -162,8 +167,8 @@ class Manifest:
                 if source is not None:
                     self._lines[source] = _ManifestLine(len(self._files) - 1, offset)
 
-    def _tidy(self) -> None:
-        """Write all that counts into one file.
+    def tidy(self) -> None:
+        """Write the last record of each model, of all shards, into one file.
 
         Raises:
             OSError: it cannot be written; the files of all shards are there as before.
@@ -182,9 +187,8 @@ class Manifest:
             files.done = True
         self._read()
 
-    def merge(self) -> None:
-        """Put the records of all shards into the one file."""
-        self._tidy()
+
+_EMPTY = ModelRecord(source="", request="", outcome=Outcome.CONVERTED)
 
 
 def _unasked(source: str, results: tuple[Dependency, ...]) -> ModelRecord:
@@ -232,19 +236,9 @@ def read_records(path: Path) -> Iterator[ModelRecord]:
 
 
 def _is_sound(record: ModelRecord) -> bool:
-    """Whether the fields of a record have their types."""
-    values: tuple[tuple[object, type], ...] = (
-        (record.source, str),
-        (record.request, str),
-        (record.output, str),
-        (record.message, str),
-        (record.variables, dict),
-        (record.time, int),
-        (record.diagnostics, list),
-        (record.ledger, dict),
-        (record.details, dict),
-    )
-    return all(isinstance(value, kind) for value, kind in values)
+    """Return whether the fields of a record have their types."""
+    names = (each.name for each in fields(ModelRecord) if each.name != "kept")
+    return all(type(getattr(record, name)) is type(getattr(_EMPTY, name)) for name in names)
 
 
 def _lines(file: BinaryIO) -> Iterator[tuple[int, bytes]]:
@@ -269,3 +263,38 @@ def _ends_a_line(path: Path) -> bool:
     with path.open("rb") as file:
         file.seek(-1, 2)
         return file.read(1) == b"\n"
+
+
+@contextmanager
+def _lock(folder: Path, shard: str = "") -> Generator[None]:
+    """Lock a folder of results, or one shard of it; the system unlocks it when the process ends, however it ends.
+
+    Raises:
+        BusyError: another run has locked it.
+        OSError: nothing can be written there.
+    """
+    with _hold(folder / "lock", shared=bool(shard)):
+        if not shard:
+            yield
+            return
+        with _hold(folder / f"lock-{shard}", shared=False):
+            yield
+
+
+@contextmanager
+def _hold(path: Path, *, shared: bool) -> Generator[None]:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    # nobody removes the file: another run could then hold one of the same name
+    descriptor = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
+    try:
+        try:
+            if fcntl is not None:
+                # A run of all models excludes every other, while shards share this lock and exclude
+                # only themselves. A file with a process ID would have to be doubted after a crash.
+                fcntl.flock(descriptor, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise BusyError(f"another run is at work in {path.parent.parent}") from error
+        yield
+    finally:
+        with suppress(OSError):
+            os.close(descriptor)

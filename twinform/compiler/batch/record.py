@@ -1,9 +1,11 @@
 """What came of each model of a batch."""
 
+import json
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import NamedTuple
 
 from twinform.compiler.batch.dependencies import Dependency
 
@@ -86,6 +88,29 @@ class ModelRecord:
     def standing(self) -> "ModelRecord | None":
         """The record of the results that are in their places: this one, or that of an earlier run."""
         return self if self.outcome is Outcome.CONVERTED else self.kept
+
+
+class ModelResult(NamedTuple):
+    """What came of a model, and whether that was known from an earlier run."""
+
+    record: ModelRecord
+    known: bool
+
+    def report_line(self) -> str:
+        """Return a line of JSON for the report."""
+        record = self.record
+        row = {
+            "source": record.source,
+            "outcome": str(record.outcome),
+            "known": self.known,
+            "results": [each.path for each in record.results],
+            "kept": [each.path for each in record.kept.results] if record.kept else [],
+            "message": record.message,
+            "diagnostics": record.diagnostics,
+            "ledger": record.ledger,
+            **record.details,
+        }
+        return json.dumps(row) + "\n"
 
 
 @dataclass(slots=True)

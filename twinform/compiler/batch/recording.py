@@ -1,41 +1,40 @@
-"""Records what came of a model: puts results in their places, takes away old ones, and adds to the manifest."""
+"""Keeps the results of a run and merges those of several: files in their places, records in the manifest.
+
+A result of an earlier run is removed only after a verdict on the model itself: it was converted into other files, or
+what was read has errors. A crash, a time limit, a file that cannot be read, or a disk that is gone or full say nothing
+about the model, so its results stay.
+"""
 
 import errno
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
-from twinform.compiler.batch.dependencies import Dependency, DependencyKind, stamp
-from twinform.compiler.batch.manifest import Manifest
+from twinform.compiler.batch.dependencies import Dependency, DependencyKind, are_same, is_there, stamp
+from twinform.compiler.batch.manifest import FOLDER, Manifest, read_records
 from twinform.compiler.batch.places import ResultPlaces
 from twinform.compiler.batch.planning import Known, request_of
-from twinform.compiler.batch.record import ModelRecord, Outcome
-from twinform.compiler.batch.superseding import supersede
+from twinform.compiler.batch.record import ModelRecord, ModelResult, Outcome
 from twinform.compiler.batch.task import Done, Task
 from twinform.compiler.observing import digest
-from twinform.storage.writing import write_all_atomically
+from twinform.compiler.output.same_files import is_below
+from twinform.storage.writing import is_stream, write_all_atomically
 
 _FULL = frozenset({errno.ENOSPC, errno.EDQUOT})
 
 
-class ModelResult(NamedTuple):
-    """What came of a model, and whether that was known before."""
-
-    record: ModelRecord
-    known: bool
-
-
 class Recorder:
-    """Writes down what comes back."""
+    """Puts results in their places, and keeps the record of each model."""
 
     def __init__(self, request: str, manifest: Manifest | None, places: ResultPlaces | None, shown: str = "") -> None:
         self.request, self.manifest = request, manifest
         self._places, self._shown = places, shown
 
     def record(self, task: Task, done: Done) -> ModelResult:
-        """Put results in their places and keep the record.
+        """Put the results of a task in their places and keep its record.
 
         Raises:
             OSError: the disk is full or gone, or the manifest cannot be written.
@@ -45,13 +44,13 @@ class Recorder:
         if done.known and task.known:
             record = replace(task.known, dependencies=done.dependencies or (), time=done.time)
         else:
-            record = self._superseding(self._put_results(task, done, self._fresh(task, done)))
+            record = self._supersede(self._put_results(task, done, self._make_record(task, done)))
         if self.manifest is not None:
             self.manifest.add(record)
         return ModelResult(record, known=done.known)
 
     def note(self, known: Known) -> ModelResult:
-        """Keep the record of an earlier run, where another one came after it or the results were touched.
+        """Keep the record of an earlier run if it is not the last one in the manifest.
 
         Raises:
             OSError: the manifest cannot be written.
@@ -60,7 +59,7 @@ class Recorder:
             self.manifest.add(known.record)
         return ModelResult(known.record, known=True)
 
-    def _fresh(self, task: Task, done: Done) -> ModelRecord:
+    def _make_record(self, task: Task, done: Done) -> ModelRecord:
         record = ModelRecord(
             source=task.entry.name,
             request=request_of(self.request, task.entry),
@@ -77,7 +76,7 @@ class Recorder:
         if not self._shown:
             return record
         texts = (record.message, record.diagnostics, record.details)
-        message, diagnostics, details = _renamed(texts, task.root, self._shown)
+        message, diagnostics, details = _rename_folder(texts, task.root, self._shown)
         return replace(record, message=message, diagnostics=diagnostics, details=details)
 
     def _put_results(self, task: Task, done: Done, record: ModelRecord) -> ModelRecord:
@@ -96,22 +95,22 @@ class Recorder:
         results = tuple(stamp(places.dest / name, name, digest) for name, digest in made.items())
         return replace(record, results=results)
 
-    def _superseding(self, record: ModelRecord) -> ModelRecord:
+    def _supersede(self, record: ModelRecord) -> ModelRecord:
         before = self.manifest.get(record.source) if self.manifest else None
         if before is None or self._places is None:
             return record
-        return supersede(self._places.dest, before, record)
+        return _supersede_results(self._places.dest, before, record)
 
 
 def _write_results(dest: Path, texts: Mapping[str, str | bytes]) -> str | None:
-    """Write results; gives the reason where that cannot be done.
+    """Write results; return the reason where that is impossible.
 
     Raises:
         OSError: the disk is full, which it will be for the others too.
     """
     try:
-        # a power cut may leave an empty file, which has not the size that is in the manifest, and is made again
-        # Waiting for the disk took 7 ms per model, in the one process that writes.
+        # Waiting for the disk took 7 ms per model, in the one process that writes. A power cut may leave an empty file:
+        # its size is not the one in the manifest, so it is made again.
         write_all_atomically({dest / name: text for name, text in texts.items()}, durably=False)
     except OSError as error:
         if error.errno in _FULL:
@@ -124,6 +123,91 @@ def _digest(text: str | bytes) -> str:
     return digest(text if isinstance(text, bytes) else text.encode())
 
 
-def _renamed(texts: Any, root: str, shown: str) -> Any:
+def _rename_folder(texts: Any, root: str, shown: str) -> Any:
     """Return the data with `shown` in place of the folder of the models, in every text in it."""
     return json.loads(json.dumps(texts).replace(json.dumps(root)[1:-1], json.dumps(shown)[1:-1]))
+
+
+def _supersede_results(dest: Path, before: ModelRecord, record: ModelRecord) -> ModelRecord:
+    """Remove results that a new record makes obsolete, unless somebody has edited them; else note that they stay."""
+    old = before.standing
+    if old is None:
+        return record
+    if _is_verdict(old, record):
+        now = {each.path for each in record.results}
+        _remove_unedited(dest, (each for each in old.results if each.path not in now))
+        return record
+    # Once, a crash or a disk that was not mounted cost 347 results of a finished run. The record
+    # keeps that of the standing result, so a run after the disk is back finds everything as it was.
+    return replace(record, kept=old if any(is_there(each, str(dest)) for each in old.results) else None)
+
+
+def _is_verdict(old: ModelRecord, record: ModelRecord) -> bool:
+    """Return whether a record is about the model itself, and about all files that the old results were made from."""
+    if record.outcome is Outcome.CONVERTED:
+        return True
+    # Half a file is unreadable while somebody copies it. Without dependencies something failed, or changed on the way.
+    if record.outcome is not Outcome.REFUSED or not record.dependencies:
+        return False
+    gone = {each.path for each in record.dependencies if each.kind is DependencyKind.ABSENT}
+    # an included model that was there and is not may be on a disk that is not mounted
+    return not any(each.path in gone for each in old.dependencies if each.kind is not DependencyKind.ABSENT)
+
+
+def _remove_unedited(dest: Path, results: Iterable[Dependency]) -> None:
+    for each in results:
+        path = dest / each.path
+        if is_below(path.parent, dest) and are_same([each], str(dest)):
+            with suppress(OSError):
+                path.unlink()
+
+
+def merge(dest: Path, others: list[Path]) -> int:
+    """Take over the results of other folders, make one manifest of all shards, and return the number of models.
+
+    A result is copied if it matches its record. Of two records of a model, the later one counts.
+
+    Raises:
+        BusyError: a run is at work in the folder.
+        OSError: something cannot be read or written.
+    """
+    with Manifest(dest).open() as manifest:
+        for other in others:
+            for path in _find_manifests(other):
+                for record in read_records(path):
+                    known = manifest.get(record.source)
+                    if known is None or known.time < record.time:
+                        _take_over(record, known, other, manifest)
+    with Manifest(dest).open() as manifest:
+        manifest.tidy()
+        return len(manifest)
+
+
+def _find_manifests(folder: Path) -> list[Path]:
+    found = sorted(path for path in (folder / FOLDER).glob("manifest*.jsonl") if path.is_file())
+    if not found:
+        raise FileNotFoundError(2, "there is no manifest in it", str(folder))
+    return found
+
+
+def _take_over(record: ModelRecord, known: ModelRecord | None, other: Path, manifest: Manifest) -> None:
+    """Copy the results of a record and remove what it makes obsolete, unless they do not match the record."""
+    dest = manifest.folder.parent
+    results = _copy_results(record.results, other, dest)
+    if results is None:
+        return
+    kept = record.kept and _copy_results(record.kept.results, other, dest)
+    record = replace(record, results=results, kept=replace(record.kept, results=kept) if record.kept and kept else None)
+    manifest.add(_supersede_results(dest, known, record) if known else record)
+
+
+def _copy_results(results: Sequence[Dependency], other: Path, dest: Path) -> tuple[Dependency, ...] | None:
+    """Copy results, all or none; return them with their new status, or None if they have changed or have no place."""
+    if not are_same(results, str(other)):
+        return None
+    for each in results:
+        source, target = other / each.path, dest / each.path
+        if not is_below(source, other) or not is_below(target, dest) or is_stream(target):
+            return None
+    write_all_atomically({dest / each.path: (other / each.path).read_bytes() for each in results}, durably=False)
+    return tuple(stamp(dest / each.path, each.path, each.digest) for each in results)

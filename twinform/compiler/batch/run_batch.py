@@ -7,8 +7,7 @@ import json
 from collections.abc import Generator, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, field
-from importlib.metadata import PackageNotFoundError, version
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from twinform.compiler.batch.entries import FolderError, ModelEntry, Shard
@@ -16,10 +15,20 @@ from twinform.compiler.batch.jobs import Convert, Diff
 from twinform.compiler.batch.manifest import Manifest
 from twinform.compiler.batch.places import ResultPlaces, outputs, require_apart
 from twinform.compiler.batch.planning import BatchPlan
-from twinform.compiler.batch.record import ModelRecord, Outcome
-from twinform.compiler.batch.recording import ModelResult, Recorder
-from twinform.compiler.batch.task import BatchJob, Done, Task, work
-from twinform.compiler.batch.worksite import READERS, UnfitWorkerError, checked, fingerprint, own_version
+from twinform.compiler.batch.record import ModelRecord, ModelResult, Outcome
+from twinform.compiler.batch.recording import Recorder
+from twinform.compiler.batch.task import (
+    READERS,
+    BatchJob,
+    Done,
+    Task,
+    Worksite,
+    own_version,
+    size_of,
+    version_of,
+    versions,
+    work,
+)
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.observing import digest
 from twinform.compiler.workers import Failure, Runner, process_runner, run_on
@@ -27,14 +36,18 @@ from twinform.passes import SideFilePass
 from twinform.storage.staging import temporary_folder
 
 
+class UnfitWorkerError(Exception):
+    """A worker has another version or other files; the message names its machine and what differs."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Batch:
-    """What a run is asked for: a job, to be done with each entry below the folder `source`.
+    """A job, and the entries below the folder `source` that it is to be done with.
 
-    Results go to `dest`, where it is also written down what they depend on; without it nothing is known from before. A
-    model may take so many `seconds`; `fresh` works on all of them again. `report` is where somebody will write a
-    report. `shown` stands for the folder in what is reported. `contents` are the digests of its files, where somebody
-    has just put them there.
+    Results go to `dest`, with a manifest of what they depend on; without `dest` nothing is known from earlier runs. A
+    model may take `seconds`; `fresh` works on all models again. `report` is the path where the caller writes a report.
+    Messages say `shown` in place of the folder. `contents` has the digests of its files, where the caller has just
+    written them.
     """
 
     source: Path
@@ -65,9 +78,8 @@ class Batch:
         asked += [list(map(str, each)) for each in folders]
         asked += [[each.label, each.name] for each in load_options.profiles]
         asked += [sorted(load_options.arguments.items()), load_options.variables]
-        # A development version that is edited in place keeps its version number; --fresh is for
-        # that.
-        asked += [[_named_version(name) for name in READERS], self.job.request]
+        # A development version that is edited in place keeps its version number; --fresh is for that.
+        asked += [[f"{name} {version_of(name)}".rstrip() for name in READERS], self.job.request]
         return digest(json.dumps(asked).encode())
 
 
@@ -129,18 +141,11 @@ def _results(
         else:
             todo.append(entry)
     tasks = (_task(entry, asked, names[entry.name], plan, recorder, runner) for entry in todo)
-    search = asked.load_options.search
-    folders = (*search.own, *search.models, *search.packages, *search.workspaces)
-    asking = checked(runner.for_jobs(len(todo)), asked.source, todo, folders)
-    # One process plans and writes, and any executor does the work. A database of jobs that workers
-    # share would need a server (SQLite does not work over a file server), and every worker would
-    # write where the results are. Here a worker that dies has written nothing, and results are the
-    # same wherever they were made.
-    for task, result in run_on(asking, work, tasks):
-        done = _done(result)
-        if done.is_unfit:
-            raise UnfitWorkerError(done.message)
-        yield recorder.record(task, done)
+    # One process plans and writes, and any executor does the work. A database of jobs that workers share would need a
+    # server (SQLite does not work over a file server), and every worker would write where the results are. Here a
+    # worker that dies has written nothing, and results are the same wherever they were made.
+    for task, result in run_on(runner.for_jobs(len(todo)), work, tasks):
+        yield recorder.record(task, _done(task, result))
 
 
 def _runner(executor: Executor | None, seconds: float) -> Runner:
@@ -170,8 +175,9 @@ def _missing(entry: ModelEntry, asked: Batch, request: str) -> ModelRecord | Non
 
 
 def _task(entry: ModelEntry, asked: Batch, output: str, plan: BatchPlan, recorder: Recorder, runner: Runner) -> Task:
-    manifest = recorder.manifest
-    return Task(
+    manifest, search = recorder.manifest, asked.load_options.search
+    folders = (asked.source, *search.own, *search.models, *search.packages, *search.workspaces)
+    task = Task(
         entry=entry,
         job=asked.job,
         root=str(asked.source),
@@ -182,20 +188,19 @@ def _task(entry: ModelEntry, asked: Batch, output: str, plan: BatchPlan, recorde
         faults=(manifest.folder if manifest else temporary_folder() / "twinform") / "faults",
         seconds=None if runner.timed else asked.seconds,
         version=own_version(),
-        site="" if runner.everywhere is None else fingerprint(),
     )
+    if not runner.remote:
+        return task
+    return replace(task, site=Worksite(versions(), tuple(map(str, folders))), size=size_of(task.path))
 
 
-def _done(result: Done | Failure) -> Done:
-    # A worker that crashed or ran late tells nothing about what it read, so nothing is remembered
-    # and the model is done again.
+def _done(task: Task, result: Done | Failure) -> Done:
+    # A worker that crashed or ran late says nothing about what it read, so nothing is remembered and the model is done
+    # again.
     if isinstance(result, Failure):
         return Done(outcome=Outcome.LATE if result.late else Outcome.CRASHED, message=result.cause, dependencies=None)
+    if result.is_unfit and task.site and size_of(task.path) != task.size:
+        return Done(outcome=Outcome.UNREADABLE, message="it has changed in the meantime", dependencies=None)
+    if result.is_unfit:
+        raise UnfitWorkerError(result.message)
     return result
-
-
-def _named_version(name: str) -> str:
-    try:
-        return f"{name} {version(name)}"
-    except PackageNotFoundError:
-        return name

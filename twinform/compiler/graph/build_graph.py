@@ -1,14 +1,19 @@
 """Builds the graph of a document; what it names and does not have is in it too, so that broken models can be drawn."""
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from twinform.compiler.graph.graph import Attachment, Cluster, Follower, Graph, GraphJoint, GraphNode, NodeKind
-from twinform.compiler.graph.labels import following, limits_of
+from twinform.compiler.kinematics import range_of
 from twinform.diagnostics import NOWHERE, DiagnosticSink, Location
-from twinform.ir import Document, Format, Frame, Joint, Model, World
+from twinform.ir import Document, Format, Frame, Joint, Mimic, Model, World
+from twinform.ir.defaults import multiplier
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
+from twinform.ir.motion import WITH_TWO_AXES, axes_of
 from twinform.passes import PassError, Pipeline
+
+_WITH_LIMITS = frozenset({"revolute", "prismatic", "screw"}) | WITH_TWO_AXES
 
 
 def build_graph(document: Document, *, frames: bool = False, mimics: bool = False) -> Graph:
@@ -112,36 +117,38 @@ class _GraphBuilder:
             place.prefix + joint.name,
             joint.name,
             joint.type,
-            self._end(joint.parent, place),
-            self._end(joint.child, place),
-            limits_of(joint, self.format),
+            self._find_end(joint.parent, place),
+            self._find_end(joint.child, place),
+            tuple(_describe_limits(joint, self.format)),
             place.cluster,
             joint.location,
         )
         self.joints.append(found)
         self._known.setdefault((place.number, "joint", found.name), found.id)
 
-    def _end(self, name: str | None, place: _GraphPlace) -> str:
+    def _find_end(self, name: str | None, place: _GraphPlace) -> str:
         """The node that an end of a joint is: a frame where those are shown, else the link that it moves with."""
         if not name:
-            return self._once("missing", "(not written)", place, prefix="")
+            return self._add_once("missing", "(not written)", place, prefix="")
         scoped = place.prefix + name
         found = self._known.get((place.number, "link", scoped)) or self._known.get((place.number, "frame", scoped))
         if found:  # a link of URDF may be called `world`
             return found
         if name == WORLD:
-            return self._once("world", name, place, prefix="")
+            return self._add_once("world", name, place, prefix="")
         try:
             body = place.graph.body(scoped)
         except FrameError:
             # A broken tree is drawn as well: somebody whose joint names a link that is not there
             # needs just this picture.
-            return self._include(scoped, place) or self._once("missing", name, place, prefix=place.prefix)
+            return self._find_include(scoped, place) or self._add_once("missing", name, place, prefix=place.prefix)
         if body in {WORLD, MODEL}:
-            return self._once("world", WORLD, place, prefix="")
-        return self._known.get((place.number, "link", body)) or self._once("missing", name, place, prefix=place.prefix)
+            return self._add_once("world", WORLD, place, prefix="")
+        return self._known.get((place.number, "link", body)) or self._add_once(
+            "missing", name, place, prefix=place.prefix
+        )
 
-    def _include(self, scoped: str, place: _GraphPlace) -> str | None:
+    def _find_include(self, scoped: str, place: _GraphPlace) -> str | None:
         """The include that a name leads into."""
         while "::" in scoped:
             scoped = scoped.rpartition("::")[0]
@@ -150,7 +157,7 @@ class _GraphBuilder:
                 return found
         return None
 
-    def _once(self, kind: NodeKind, label: str, place: _GraphPlace, *, prefix: str) -> str:
+    def _add_once(self, kind: NodeKind, label: str, place: _GraphPlace, *, prefix: str) -> str:
         """A node that is there because something names it."""
         found = self._known.get((place.number, kind, prefix + label))
         if found:
@@ -162,11 +169,11 @@ class _GraphBuilder:
     def _attach(self, frames: Iterable[Frame], place: _GraphPlace) -> None:
         for frame in frames:
             own = self._known[place.number, "frame", place.prefix + frame.name]
-            holder = self._end(frame.attached_to or self._default(frame, place), place)
+            holder = self._find_end(frame.attached_to or self._find_body(frame, place), place)
             if holder != own:
                 self.attachments.append(Attachment(own, holder))
 
-    def _default(self, frame: Frame, place: _GraphPlace) -> str | None:
+    def _find_body(self, frame: Frame, place: _GraphPlace) -> str | None:
         """The link that a frame without `attached_to` moves with, as a name in its model."""
         try:
             body = place.graph.body(place.prefix + frame.name, kind="frame")
@@ -182,5 +189,24 @@ class _GraphBuilder:
                     continue
                 own = self._known[place.number, "joint", place.prefix + joint.name]
                 leader = self._known.get((place.number, "joint", place.prefix + mimic.joint))
-                leader = leader or self._once("missing", mimic.joint, place, prefix=place.prefix)
-                self.followers.append(Follower(own, leader, following(mimic)))
+                leader = leader or self._add_once("missing", mimic.joint, place, prefix=place.prefix)
+                self.followers.append(Follower(own, leader, _describe_mimic(mimic)))
+
+
+def _describe_limits(joint: Joint, format: Format) -> Iterator[str]:
+    """Yield the range of each axis that has one."""
+    unit = "m" if joint.type == "prismatic" else "rad"
+    for axis in axes_of(joint) if joint.type in _WITH_LIMITS else ():
+        lower, upper = range_of(joint, axis, format)
+        if lower > -math.inf and upper < math.inf:
+            yield f"{lower:.4g} to {upper:.4g} {unit}"
+        elif lower > -math.inf:
+            yield f"from {lower:.4g} {unit}"
+        elif upper < math.inf:
+            yield f"up to {upper:.4g} {unit}"
+
+
+def _describe_mimic(mimic: Mimic) -> str:
+    """Return how a joint follows another, where it is not one to one."""
+    parts = ((multiplier(mimic), 1.0, "multiplier"), (mimic.offset, 0.0, "offset"), (mimic.reference, 0.0, "reference"))
+    return ", ".join(f"{word} {value:.4g}" for value, usual, word in parts if value is not None and value != usual)

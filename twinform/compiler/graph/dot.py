@@ -2,9 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 
-from twinform.compiler.graph.clusters import clustered, indented
-from twinform.compiler.graph.graph import Cluster, Graph, GraphJoint, GraphNode
-from twinform.compiler.graph.labels import shortened
+from twinform.compiler.graph.graph import Cluster, Graph, GraphJoint, GraphNode, indent, shortened, write_clusters
 
 _SHAPES: Mapping[str, str] = {
     "link": "shape=box",
@@ -18,8 +16,8 @@ _SHAPES: Mapping[str, str] = {
 def dot(graph: Graph) -> str:
     """A directed graph from the roots down: links are boxes, joints ellipses, frames hexagons."""
     lines = [f"digraph {quoted(graph.title)} {{", '  node [fontname="Helvetica"]', '  edge [fontname="Helvetica"]']
-    lines += clustered(graph, _node, _joint, _begin, "}")
-    lines += indented(_edges(graph))
+    lines += write_clusters(graph, _node, _joint, _begin, "}")
+    lines += indent(_edges(graph))
     return "\n".join((*lines, "}")) + "\n"
 
 

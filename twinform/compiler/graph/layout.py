@@ -10,8 +10,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 from unicodedata import east_asian_width
 
-from twinform.compiler.graph.graph import Graph, GraphJoint, GraphNode
-from twinform.compiler.graph.labels import shortened
+from twinform.compiler.graph.graph import Graph, GraphJoint, GraphNode, shortened
 from twinform.ir.motion import spanning_tree
 
 BOX = 30

@@ -6,9 +6,7 @@ Names stand in quoted labels, where every character that could mean something is
 import re
 from collections.abc import Iterator, Mapping
 
-from twinform.compiler.graph.clusters import clustered, indented
-from twinform.compiler.graph.graph import Cluster, Graph, GraphJoint, GraphNode
-from twinform.compiler.graph.labels import shortened
+from twinform.compiler.graph.graph import Cluster, Graph, GraphJoint, GraphNode, indent, shortened, write_clusters
 
 MOST_EDGES = 500
 MOST_CHARACTERS = 50_000
@@ -27,7 +25,7 @@ _PLAIN = re.compile(r"[^\w .,/()-]")
 
 def mermaid(graph: Graph) -> str:
     """A flowchart from the roots down: links are boxes, joints rounded, frames hexagons."""
-    lines = ["flowchart TD", *clustered(graph, _node, _joint, _begin, "end"), *indented(_edges(graph))]
+    lines = ["flowchart TD", *write_clusters(graph, _node, _joint, _begin, "end"), *indent(_edges(graph))]
     lines.append("  classDef missing stroke:#c62828,stroke-dasharray:5 4")
     return "\n".join(lines) + "\n"
 

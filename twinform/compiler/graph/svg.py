@@ -3,8 +3,7 @@
 from collections.abc import Iterator, Mapping
 from xml.sax.saxutils import escape
 
-from twinform.compiler.graph.graph import Graph, GraphNode
-from twinform.compiler.graph.labels import shortened
+from twinform.compiler.graph.graph import Graph, GraphNode, shortened
 from twinform.compiler.graph.layout import BEND, BOX, MARGIN, GraphLayout, Hold, LayoutBox, layout, text_width, words_of
 
 _TITLE = 34

@@ -43,7 +43,7 @@ def _in_plane(joint: Joint, normal: Vector3, turned: Transform) -> Iterator[Degr
 
 
 def _degree(joint: Joint, axis: Axis, along: Vector3, prefix: str, format: Format) -> Degree:
-    lower, upper = _range(joint, axis, format)
+    lower, upper = range_of(joint, axis, format)
     return Degree(
         along,
         slides=joint.type == "prismatic",
@@ -54,7 +54,8 @@ def _degree(joint: Joint, axis: Axis, along: Vector3, prefix: str, format: Forma
     )
 
 
-def _range(joint: Joint, axis: Axis, format: Format) -> tuple[float, float]:
+def range_of(joint: Joint, axis: Axis, format: Format) -> tuple[float, float]:
+    """Return the limits of an axis, infinite where it has none."""
     if axis.limit is None or joint.type == "continuous":
         return -math.inf, math.inf
     limit = with_range(axis.limit, format)

@@ -1,8 +1,7 @@
 """Scenes: what there is to see of a model or world, and where it is at any joint positions."""
 
 from twinform.compiler.kinematics import Degree, Kinematics, Leader, Positions
-from twinform.compiler.scene.build_scene import build_scene
-from twinform.compiler.scene.forward_kinematics import forward_kinematics
+from twinform.compiler.scene.build_scene import build_scene, forward_kinematics
 from twinform.compiler.scene.scene import (
     Frustum,
     Ray,

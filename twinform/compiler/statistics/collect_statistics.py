@@ -1,16 +1,119 @@
 """Collects the statistics of each model of a file."""
 
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from twinform.compiler.input.loading import LoadResult
 from twinform.compiler.search.resolve_uris import LocalAssets, SearchPath
-from twinform.compiler.statistics.mesh_costs import MeshFiles
-from twinform.compiler.statistics.model import ModelStatistics, model_statistics
+from twinform.compiler.statistics.costs import Cost, MeshCost, MeshFiles, cost_of
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Format, Link, Model, walk
+from twinform.ir import (
+    Collision,
+    Document,
+    Format,
+    Frame,
+    Include,
+    Joint,
+    Light,
+    Link,
+    Model,
+    Plugin,
+    Sensor,
+    Visual,
+    walk,
+)
+from twinform.ir.defaults import MASS
+from twinform.ir.frames import WORLD, FrameError, FrameGraph
+from twinform.ir.groups import Groups
+from twinform.ir.scopes import scoped_models
 from twinform.passes import NO_ASSETS, Assets, Pipeline
+
+_FREEDOMS = {
+    "fixed": 0, "revolute": 1, "continuous": 1, "prismatic": 1, "screw": 1, "universal": 2, "revolute2": 2,
+    "piston": 2, "planar": 3, "ball": 3, "spherical": 3, "floating": 6, "gearbox": -1,
+}  # fmt: skip
+"""Degrees of freedom by type of joint; a gearbox takes one away from the joints that it couples."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ModelStatistics:
+    """What a model and those nested in it are made of.
+
+    `dof` are the ways in which its joints move by themselves: those that mimic others do not count, nor does a base
+    that floats; each of the `loops` takes away as many as its geometry does. `depth` is the most joints between a
+    root and a link. `mass` is in kg; in it are `masses_assumed`, links of SDF without one, which weigh 1 kg, and not in
+    it `masses_unknown`, links whose mass is to be computed from shapes that nothing can be computed from. Shapes,
+    sensors and plugins are counted by kind, type and file name.
+    """
+
+    name: str
+    static: bool
+    links: int
+    joints: dict[str, int]
+    dof: int
+    loops: int
+    depth: int
+    mass: float
+    masses_assumed: int
+    masses_unknown: int
+    visuals: dict[str, int]
+    collisions: dict[str, int]
+    meshes: tuple[MeshCost, ...]
+    sensors: dict[str, int]
+    plugins: dict[str, int]
+    lights: int
+    frames: int
+    models: int
+    includes: int
+    cost: Cost
+
+
+def _measure_model(model: Model, format_: Format, meshes: tuple[MeshCost, ...]) -> ModelStatistics:
+    """Count what a model is made of; its automatic inertias have been written out where that can be done."""
+    nodes = list(walk(model))
+    links = [node for node in nodes if isinstance(node, Link)]
+    joints = [node for node in nodes if isinstance(node, Joint)]
+    depth, loops = _measure_tree(model)
+    masses = [_mass(link) for link in links]
+    unknown = sum(link.inertial is not None and bool(link.inertial.auto) and _mass(link) is None for link in links)
+    assumed = sum(mass is None for mass in masses) - unknown
+    return ModelStatistics(
+        name=model.name,
+        static=bool(model.static),
+        links=len(links),
+        joints=_count_by_name(joint.type for joint in joints),
+        dof=sum(map(_count_freedom, joints)),
+        loops=loops,
+        depth=depth,
+        mass=sum(mass for mass in masses if mass is not None) + assumed * (MASS[format_] or 0.0),
+        masses_assumed=assumed if MASS[format_] else 0,
+        masses_unknown=unknown,
+        visuals=_count_by_name(_kind(node) for node in nodes if isinstance(node, Visual)),
+        collisions=_count_by_name(_kind(node) for node in nodes if isinstance(node, Collision)),
+        meshes=meshes,
+        sensors=_count_by_name(node.type or "without type" for node in nodes if isinstance(node, Sensor)),
+        plugins=_count_by_name(node.filename or "without file" for node in nodes if isinstance(node, Plugin)),
+        lights=sum(isinstance(node, Light) for node in nodes),
+        frames=sum(isinstance(node, Frame) for node in nodes),
+        models=sum(isinstance(node, Model) for node in nodes) - 1,
+        includes=sum(isinstance(node, Include) for node in nodes),
+        cost=cost_of(model, meshes),
+    )
+
+
+def _mass(link: Link) -> float | None:
+    return link.inertial.mass if link.inertial else None
+
+
+def _kind(shaped: Visual | Collision) -> str:
+    return shaped.geometry.shape.kind if shaped.geometry and shaped.geometry.shape else "without shape"
+
+
+def _count_by_name(words: Iterable[str]) -> dict[str, int]:
+    """How often each name is there, by name."""
+    return dict(sorted(Counter(words).items()))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,11 +142,11 @@ class FileStatistics:
 def measure(loaded: LoadResult, document: Document, search: SearchPath, *, meshes: bool = True) -> FileStatistics:
     """Count what a file holds. `meshes` selects whether to read mesh files, which `search` finds."""
     beside = Path(loaded.path)
-    whole = _summary(document, LocalAssets(search, beside) if meshes else NO_ASSETS)
+    whole = _complete(document, LocalAssets(search, beside) if meshes else NO_ASSETS)
     files = MeshFiles(search, beside, meshes)
 
     def counted(models: Iterable[Model]) -> tuple[ModelStatistics, ...]:
-        return tuple(model_statistics(model, document.format, files.costs(model)) for model in models)
+        return tuple(_measure_model(model, document.format, files.costs(model)) for model in models)
 
     worlds = tuple(
         WorldStatistics(
@@ -65,8 +168,8 @@ def measure(loaded: LoadResult, document: Document, search: SearchPath, *, meshe
     )
 
 
-def _summary(document: Document, assets: Assets) -> Document:
-    """The document with what its `<gazebo>` elements have and what its readers compute in their places."""
+def _complete(document: Document, assets: Assets) -> Document:
+    """Return the document with the content of `<gazebo>` elements, and with inertias that are computed from shapes."""
     sink = DiagnosticSink()
     if document.format is Format.URDF:
         from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - SDF does not need it
@@ -77,3 +180,53 @@ def _summary(document: Document, assets: Assets) -> Document:
     from twinform.passes.sdf_versions.write_inertias import WriteInertias  # noqa: PLC0415 - few files have these
 
     return Pipeline((WriteInertias(version="1.10"),)).with_files(assets).run(document, sink)
+
+
+def _count_freedom(joint: Joint) -> int:
+    """Return in how many ways a joint moves by itself: an axis that mimics another joint does not."""
+    followed = sum(axis is not None and axis.mimic is not None for axis in (joint.axis, joint.axis2))
+    return max(0, _FREEDOMS[joint.type] - followed)
+
+
+def _measure_tree(model: Model) -> tuple[int, int]:
+    """Return the most joints between a root and a link, and how many joints close loops."""
+    parents: dict[str, str] = {}
+    groups, loops = Groups(), 0
+    for parent, child in _find_ends(model):
+        if groups.join(parent, child):
+            parents.setdefault(child, parent)
+        else:
+            loops += 1
+    return _find_depth(parents), loops
+
+
+def _find_ends(model: Model) -> Iterator[tuple[str, str]]:
+    """Yield the links that each joint connects; a gearbox connects none."""
+    graph = FrameGraph(model)
+    for scope, inner in scoped_models(model):
+        for joint in inner.joints:
+            if joint.parent and joint.child and joint.type != "gearbox":
+                yield _find_link(joint.parent, scope, graph), _find_link(joint.child, scope, graph)
+
+
+def _find_link(name: str, scope: str, graph: FrameGraph) -> str:
+    """Return the link at the end of a joint; the name as written if it is in an include that was not read."""
+    if name == WORLD:
+        return name
+    try:
+        return graph.body(scope + name)
+    except FrameError:
+        return scope + name
+
+
+def _find_depth(parents: dict[str, str]) -> int:
+    depths: dict[str, int] = {}
+    for start in parents:
+        path: list[str] = []
+        link = start
+        while link in parents and link not in depths:
+            path.append(link)
+            link = parents[link]
+        for below in reversed(path):
+            depths[below] = depths.get(parents[below], 0) + 1
+    return max(depths.values(), default=0)

@@ -4,10 +4,8 @@ import json as jsonlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 
-from twinform.compiler.statistics.collect_statistics import FileStatistics, WorldStatistics
-from twinform.compiler.statistics.cost import Cost
-from twinform.compiler.statistics.mesh_costs import MeshCost
-from twinform.compiler.statistics.model import ModelStatistics
+from twinform.compiler.statistics.collect_statistics import FileStatistics, ModelStatistics, WorldStatistics
+from twinform.compiler.statistics.costs import Cost, MeshCost
 
 _WIDTH = 12
 

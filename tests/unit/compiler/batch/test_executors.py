@@ -10,8 +10,7 @@ import pytest
 
 from twinform.compiler import ConversionRequest, LoadOptions
 from twinform.compiler.batch import Batch, Convert, ModelRecord, Outcome, batch, of_folder
-from twinform.compiler.batch.task import BatchJob, Done, Task
-from twinform.compiler.batch.time_limit import LateError, time_limit
+from twinform.compiler.batch.task import BatchJob, Done, LateError, Task, time_limit
 
 _TEXT = '<robot name="r"><link name="a"/></robot>'
 

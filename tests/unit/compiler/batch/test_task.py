@@ -96,6 +96,6 @@ def test_a_fault_of_our_own_is_reported(tmp_path: Path, monkeypatch: pytest.Monk
     def fail(*_: object, **__: object) -> None:
         raise KeyError("lost")
 
-    monkeypatch.setattr("twinform.compiler.batch.jobs.convert_job.run_conversion", fail)
+    monkeypatch.setattr("twinform.compiler.batch.jobs.run_conversion", fail)
     done = _done(tmp_path, GOOD)
     assert (done.outcome, done.message) == (Outcome.FAILED, "a fault of twinform: KeyError: 'lost'")

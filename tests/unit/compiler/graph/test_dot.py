@@ -9,7 +9,7 @@ import pytest
 
 from twinform.compiler.graph import Graph
 from twinform.compiler.graph.dot import dot, quoted
-from twinform.compiler.graph.labels import shortened
+from twinform.compiler.graph.graph import shortened
 
 from .models import HOSTILE, NESTED, WORLD, hostile_urdf
 from .test_build_graph import graph_of

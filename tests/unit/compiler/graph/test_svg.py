@@ -6,7 +6,7 @@ from lxml import etree
 
 from tests.chains import chain
 from twinform.compiler.graph import Graph
-from twinform.compiler.graph.labels import shortened
+from twinform.compiler.graph.graph import shortened
 from twinform.compiler.graph.layout import LayoutBox, layout
 from twinform.compiler.graph.svg import svg
 

@@ -1,15 +1,17 @@
-"""Runs a batch from the command line: where it runs, what is printed, and how it ends."""
+"""Runs a batch from the command line: where it runs, the progress and findings that are printed, and how it ends."""
 
+import sys
+import time
 from collections.abc import Callable, Generator
 from concurrent.futures import BrokenExecutor
 from contextlib import ExitStack, contextmanager
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 from typing import NoReturn, TypedDict
 
 import click
 
-from twinform.cli.batch.progress import progress
 from twinform.cli.failure import UNUSABLE
 from twinform.cli.flags import group
 from twinform.cli.printing import print_document, print_line
@@ -21,14 +23,15 @@ from twinform.compiler.batch import (
     Summary,
     UnfitWorkerError,
     batch,
-    open_report,
-    report_line,
 )
 from twinform.compiler.workers import Runner, process_runner
 from twinform.signals import raised_signals
+from twinform.storage.writing import refuse_way_out
 
 _INTERRUPTED = 130
 """The exit code of a program that is ended by Ctrl-C, as shells give it."""
+_EVERY = 30.0
+"""Seconds between lines of progress where there is no terminal: a short run prints none."""
 
 
 class RunOptions(TypedDict):
@@ -106,35 +109,94 @@ def _run(asked: Batch, options: RunOptions, summary: Summary) -> None:
         for result in results:
             summary.add(result.record.outcome, known=result.known)
             if report is not None:
-                report(report_line(result))
+                report(result.report_line())
             if not result.record.outcome.is_good:
-                _tell(result.record)
+                _print_failure(result.record)
             shown.step(known=result.known)
 
 
-def _tell(record: ModelRecord) -> None:
-    """Name a model that has no result on stderr, with its reason, as soon as it is known."""
+def _print_failure(record: ModelRecord) -> None:
+    """Name a model that has no result on stderr, and the reason, as soon as it is known."""
     kept = "; the result of an earlier run stays" if record.kept else ""
     print_line(f"{record.source}: {record.outcome}: {record.message}{kept}", err=True)
 
 
 @contextmanager
 def _report(path: Path | None) -> Generator[Callable[[str], object] | None]:
+    """Yield a function that writes a line of the report, at once; folders that are missing are made."""
     if path is None:
         yield None
     elif str(path) == "-":
         yield print_document
     else:
-        with open_report(path) as file:
+        refuse_way_out(path)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with path.open("w", encoding="ascii", newline="\n", buffering=1) as file:
             yield file.write
 
 
 def _runner(options: RunOptions) -> Runner:
     if options["scheduler"] is None:
         return process_runner(options["jobs"], options["timeout"])
-    from twinform.compiler.workers.dask import dask_runner  # noqa: PLC0415 - few have more than one machine
+    from twinform.compiler.batch.dask_runner import dask_runner  # noqa: PLC0415 - few have more than one machine
 
     try:
         return dask_runner(options["scheduler"], tell=partial(print_line, err=True))
     except ImportError as error:
         raise click.UsageError(f"--scheduler needs Dask: pip install 'twinform[dask]' ({error})") from error
+
+
+class _Progress:
+    """Counts models, and shows how far the run is; `known` ones take no time and do not count for the rate."""
+
+    def __init__(self, total: int, show: Callable[[int, str], object]) -> None:
+        self.total, self.show, self.done, self.worked = total, show, 0, 0
+        self.start = time.monotonic()
+
+    def step(self, *, known: bool) -> None:
+        """Count one more model."""
+        self.done += 1
+        self.worked += not known
+        rate = self.worked / max(time.monotonic() - self.start, 1e-9)
+        self.show(self.done, status(self.done, self.total, rate))
+
+
+@contextmanager
+def progress(total: int, *, quiet: bool) -> Generator[_Progress]:
+    """Show progress on stderr: a bar on a terminal, a line now and then elsewhere, or nothing."""
+    if quiet or not total:
+        yield _Progress(total, lambda _done, _text: None)
+    elif not sys.stderr.isatty() or find_spec("rich") is None:
+        yield _Progress(total, _print_now_and_then())
+    else:
+        from rich.console import Console  # noqa: PLC0415 - scripts do without
+        from rich.progress import BarColumn, Progress, TextColumn  # noqa: PLC0415 - scripts do without
+
+        columns = (BarColumn(), TextColumn("{task.description}", markup=False))
+        with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+            task = bar.add_task("", total=total)
+            yield _Progress(total, lambda done, text: bar.update(task, completed=done, description=text))
+
+
+def _print_now_and_then() -> Callable[[int, str], None]:
+    printed = time.monotonic()
+
+    def show(_done: int, text: str) -> None:
+        nonlocal printed
+        if time.monotonic() - printed >= _EVERY:
+            printed = time.monotonic()
+            print_line(text, err=True)
+
+    return show
+
+
+def status(done: int, total: int, rate: float) -> str:
+    """Return how far a run is, how fast it goes, and how long the rest takes."""
+    text = f"{done:,} of {total:,} models, {rate:.3g} a second"
+    return f"{text}, {_format_time((total - done) / rate)} left" if rate > 0 and done < total else text
+
+
+def _format_time(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"

@@ -1,0 +1,215 @@
+"""What a batch does with each model: convert, check, compare or measure it."""
+
+import json
+from collections.abc import Iterable
+from dataclasses import asdict, astuple, dataclass, field, replace
+from importlib.metadata import version
+from pathlib import Path, PurePosixPath
+
+from twinform.compiler.batch.entries import stem
+from twinform.compiler.batch.model_folders import FolderTooLargeError, folder_files
+from twinform.compiler.batch.places import LEDGER
+from twinform.compiler.batch.record import Outcome, Row
+from twinform.compiler.batch.task import Done, Task
+from twinform.compiler.compare import USUAL, ComparisonOptions, compare_files
+from twinform.compiler.compare.comparison_reporters import REPORTERS, summary
+from twinform.compiler.conversion_error import CompileError
+from twinform.compiler.driver import run_conversion
+from twinform.compiler.includes.expanding import expand
+from twinform.compiler.input.finding_spans import with_columns
+from twinform.compiler.input.loading import XACRO, LoadResult, read
+from twinform.compiler.input.source_files import SourceFiles
+from twinform.compiler.inspection import inspect
+from twinform.compiler.request import ConversionRequest
+from twinform.compiler.splitting import split
+from twinform.compiler.statistics import measure
+from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy, Severity, SideFile
+from twinform.diagnostics.reporters.json import row
+from twinform.passes import FilesPass, Pipeline, registered_passes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Convert:
+    """Convert a model.
+
+    With `split` a world becomes a folder of files, with `ledgers` each result has a ledger beside it, and with
+    `model_folders` the other files in the folder of a model are copied along.
+    """
+
+    to: ConversionRequest
+    policy: Policy = field(default_factory=Policy)
+    split: bool = False
+    ledgers: bool = False
+    model_folders: bool = False
+
+    @property
+    def request(self) -> list[object]:
+        """The options that the outcome depends on."""
+        to = self.to
+        asked: list[object] = [to.to, to.sdf_version, to.urdf_version, to.carriers, str(to.passes), to.expand_includes]
+        asked += [to.comments, to.keep_physics, self.split, self.ledgers]
+        asked += [sorted(self.policy.allow), sorted(self.policy.deny)]
+        asked += ["model folders"] if self.model_folders else []
+        return ["convert", *asked, sorted(_find_packages(to))]
+
+    def work(self, task: Task, content: bytes) -> Done:
+        """Convert the model."""
+        name = str(task.path)
+        texts: dict[str, str | bytes]
+        try:
+            if self.split and _is_world(task):
+                made_of_world, found, ledger = self._split(task)
+                texts = dict(made_of_world)
+            else:
+                source = task.path if task.path.suffix.lower() == XACRO or task.load_options.xacro else content
+                made = run_conversion(_separate_mesh_files(self.to, task.output), source, task.load_options, name=name)
+                texts = {task.output: made.text, **_place_beside(PurePosixPath(task.output).parent, made.side_files)}
+                found, ledger = made.diagnostics, made.ledger
+                if self.model_folders:
+                    texts |= folder_files(task.path, task.output, self.to, made.document.version)
+        except CompileError as error:
+            return _refuse(error, self.policy, name)
+        except FolderTooLargeError as error:
+            return Done(outcome=Outcome.UNWRITTEN, message=str(error))
+        seen = self.policy.apply(found)
+        if any(each.is_error for each in seen):
+            return _refuse(CompileError(seen), Policy(), name)
+        if self.ledgers:
+            texts[task.output + LEDGER] = ledger.to_json()
+        return Done(
+            outcome=Outcome.CONVERTED,
+            texts=texts,
+            diagnostics=_report_findings(seen, name),
+            ledger=_count_fates(ledger),
+        )
+
+    def _split(self, task: Task) -> tuple[dict[str, str | bytes], tuple[Diagnostic, ...], Ledger]:
+        folder = PurePosixPath(stem(task.entry.name))
+        made = split(
+            self.to,
+            task.path,
+            task.load_options,
+            name=str(task.path),
+            folder=Path(task.dest, folder) if task.dest else None,
+        )
+        texts: dict[str, str | bytes] = {str(folder / name): text for name, text in made.files.items()}
+        texts |= _place_beside((folder / next(iter(made.files))).parent, made.side_files)
+        return texts, made.diagnostics, made.ledger
+
+
+def _separate_mesh_files(request: ConversionRequest, output: str) -> ConversionRequest:
+    """Return the request with a folder of its own for the mesh files that passes write for this model."""
+    if not any(isinstance(step, FilesPass) for step in request.passes):
+        return request
+    own = PurePosixPath(output).name.partition(".")[0] or "model"
+    steps = (step.below(own) if isinstance(step, FilesPass) else step for step in request.passes)
+    return replace(request, passes=Pipeline(tuple(steps)))
+
+
+def _place_beside(folder: PurePosixPath, files: Iterable[SideFile]) -> dict[str, str | bytes]:
+    return {str(folder / each.path): each.content for each in files}
+
+
+def _is_world(task: Task) -> bool:
+    """Return whether a file holds a world; one with errors is left to the conversion, which reports them."""
+    loaded = _load(task)
+    return loaded.accepted and loaded.document is not None and bool(loaded.document.worlds)
+
+
+def _find_packages(to: ConversionRequest) -> set[str]:
+    """Return the packages that the passes come from, with their versions."""
+    owners = {registered_passes()[step.name].owner for step in to.passes if step.name in registered_passes()}
+    return {f"{owner} {version(owner)}" for owner in owners if owner}
+
+
+def _count_fates(ledger: Ledger) -> dict[str, int]:
+    return {"expressed": ledger.expressed, **{str(fate): ledger.count(fate) for fate in Fate}}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Check:
+    """Find everything that is wrong with a model, as `twinform check` does."""
+
+    policy: Policy = field(default_factory=Policy)
+    passes: Pipeline = field(default_factory=Pipeline)
+    expand_includes: bool = False
+
+    @property
+    def request(self) -> list[object]:
+        """The options that the outcome depends on."""
+        policy = [sorted(self.policy.allow), sorted(self.policy.deny)]
+        return ["check", str(self.passes), self.expand_includes, *policy]
+
+    def work(self, task: Task, content: bytes) -> Done:
+        """Check the model."""
+        del content  # it is read by its path
+        name, loaded = str(task.path), _load(task, expand_includes=self.expand_includes)
+        seen = self.policy.apply(inspect(loaded, task.load_options, self.passes).diagnostics)
+        seen = with_columns(seen, SourceFiles.of(loaded)) if seen else seen
+        if loaded.unreadable or any(each.is_error for each in seen):
+            return _refuse(CompileError(seen, unreadable=loaded.unreadable), Policy(), name)
+        return Done(outcome=Outcome.ACCEPTED, diagnostics=_report_findings(seen, name))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Diff:
+    """Compare a model with the one of the same name in the folder `other`, as `twinform diff` does."""
+
+    other: Path
+    options: ComparisonOptions = USUAL
+
+    @property
+    def request(self) -> list[object]:
+        """The options that the outcome depends on."""
+        return ["diff", str(self.other), *astuple(self.options)]
+
+    def work(self, task: Task, content: bytes) -> Done:
+        """Compare the model with the one of its name."""
+        del content  # it is read by its path
+        a, b = task.path, self.other / task.entry.other
+        try:
+            found = compare_files(a, b, task.load_options, self.options, names=(str(a), str(b)))
+        except CompileError as error:
+            return _refuse(error, Policy(), str(a))
+        outcome = Outcome.SAME if found.same else Outcome.DIFFERENT
+        details = {"comparison": json.loads(REPORTERS["json"](found))}
+        return Done(outcome=outcome, message="" if found.same else summary(found), details=details)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stats:
+    """Count what a model is made of, as `twinform stats` does; with `meshes` the cost of its meshes too."""
+
+    meshes: bool = True
+    expand_includes: bool = False
+
+    @property
+    def request(self) -> list[object]:
+        """The options that the outcome depends on."""
+        return ["stats", self.meshes, self.expand_includes]
+
+    def work(self, task: Task, content: bytes) -> Done:
+        """Measure the model."""
+        del content  # it is read by its path
+        name, loaded = str(task.path), _load(task, expand_includes=self.expand_includes)
+        if loaded.document is None or not loaded.accepted:
+            return _refuse(CompileError(loaded.diagnostics, unreadable=loaded.unreadable), Policy(), name)
+        found = measure(loaded, loaded.document, task.load_options.search, meshes=self.meshes)
+        return Done(outcome=Outcome.MEASURED, details={"statistics": asdict(found)})
+
+
+def _load(task: Task, *, expand_includes: bool = False) -> LoadResult:
+    loaded = read(task.path, task.load_options, name=str(task.path))
+    return expand(loaded, task.load_options) if expand_includes else loaded
+
+
+def _report_findings(diagnostics: Iterable[Diagnostic], name: str) -> list[Row]:
+    """Return findings about a file as rows of the report, without notes."""
+    return [row(each, name) for each in diagnostics if each.severity > Severity.INFO]
+
+
+def _refuse(error: CompileError, policy: Policy, name: str) -> Done:
+    """Return the result for a model that cannot be read or has errors."""
+    outcome = Outcome.UNREADABLE if error.unreadable else Outcome.REFUSED
+    found = _report_findings(policy.apply(error.diagnostics), name)
+    return Done(outcome=outcome, message=str(error), diagnostics=found)
