@@ -1,6 +1,6 @@
-"""What a report says of one file or two: each part from the module of the compiler that knows it."""
+"""The content of a report on one file or two, from the modules of the compiler that know each part."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -22,18 +22,19 @@ from twinform.diagnostics import Diagnostic, Ledger, Severity
 from twinform.diagnostics.reporters import FileFindings
 from twinform.ir import Document, Format
 from twinform.passes import PassError
+from twinform.report.markup import count
 from twinform.view import NotDrawn, StandaloneView, ViewError, standalone_view
 
 View = Callable[[Document, Document | None, Comparison | None, SearchPath], StandaloneView]
 """Makes the page of the 3D view."""
-
-
+WORDS: Mapping[Severity, str] = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
+"""The severities, the worst first, and what a report calls them."""
 _NO_VIEW = StandaloneView("")
 
 
 @dataclass(frozen=True, slots=True)
 class ReportSubject:
-    """One file. Where it has errors, there may be no document, and no numbers."""
+    """One file; if it has errors, there may be no document, and there are no numbers."""
 
     name: str
     loaded: LoadResult
@@ -45,28 +46,33 @@ class ReportSubject:
 
     @property
     def title(self) -> str:
-        """What the model or world is called, or else the file."""
+        """The name of the model or world, or else of the file."""
         return (self.graph.title if self.graph else "") or Path(self.name).name
 
     @property
     def models(self) -> tuple[ModelStatistics, ...]:
-        """The numbers of every model, those of worlds first; nothing where the file has errors."""
+        """The numbers of every model, those in worlds first; none if the file has errors."""
         found = self.statistics
         return (*(model for world in found.worlds for model in world.models), *found.models) if found else ()
 
     @property
     def meshes(self) -> tuple[MeshCost, ...]:
-        """The mesh files of all models, each once."""
+        """The mesh files of all models, without duplicates."""
         return tuple({each.uri: each for model in self.models for each in model.meshes}.values())
 
     def count(self, severity: Severity) -> int:
-        """How many findings are so bad."""
+        """Count the findings of a severity."""
         return sum(each.severity is severity for each in self.findings.diagnostics)
+
+    @property
+    def counts(self) -> str:
+        """How many errors, warnings and notes there are, in words."""
+        return ", ".join(count(self.count(severity), word) for severity, word in WORDS.items())
 
 
 @dataclass(frozen=True, slots=True)
 class Converted:
-    """What became of a file in the other format: a ledger, or the reasons why there is none."""
+    """The ledger of converting a file into the other format, or the reasons why it cannot be converted."""
 
     target: Format
     ledger: Ledger | None = None
@@ -75,7 +81,7 @@ class Converted:
 
 @dataclass(frozen=True, slots=True)
 class ModelReport:
-    """Everything. `view` is a page of its own. Where there is none, or no comparison, there is the reason."""
+    """The whole report; `view` is a page. `without_...` is the reason why there is no view or comparison."""
 
     first: ReportSubject
     second: ReportSubject | None = None
@@ -88,12 +94,12 @@ class ModelReport:
 
     @property
     def subjects(self) -> tuple[ReportSubject, ...]:
-        """The file or both."""
+        """The first file, and the second if there is one."""
         return (self.first,) if self.second is None else (self.first, self.second)
 
     @property
     def unreadable(self) -> bool:
-        """Whether a file is no model at all."""
+        """Whether one of the files cannot be read."""
         return any(each.loaded.unreadable for each in self.subjects)
 
     @property
@@ -105,7 +111,7 @@ class ModelReport:
 def make_page(
     first: Document, second: Document | None, comparison: Comparison | None, search: SearchPath
 ) -> StandaloneView:
-    """The 3D view, by `twinform.view`."""
+    """Make the page of the 3D view with `twinform.view`."""
     return standalone_view(first, second, comparison, search=search)
 
 
@@ -120,18 +126,24 @@ def build_report(
     meshes: bool = True,
     view: View | None = make_page,
 ) -> ModelReport:
-    """Find out everything about a file or document, and how it differs from a second one.
+    """Report on a file or document, and on how it differs from a second one.
 
-    `names` are what the files are called, by default their paths; meshes for the view are looked for beside them.
-    `model` is the one that is converted and compared where there are several. `meshes` selects whether mesh files are
-    read for numbers, and `view` makes the page of the 3D view; without it there is none.
+    Args:
+        first: the file or document.
+        second: another one to compare it with.
+        load_options: how files are read.
+        names: what the files are called, by default their paths; meshes for the view are looked for beside them.
+        model: the name of the model to convert and compare, if there are several.
+        options: how robots are compared.
+        meshes: whether mesh files are read for numbers.
+        view: makes the page of the 3D view; None for a report without one.
 
     Raises:
         CompileError: a file could be read at first, and then not.
     """
     load_options = load_options or LoadOptions()
-    one = _subject(first, names[0], load_options, meshes=meshes)
-    two = None if second is None else _subject(second, names[1], load_options, meshes=meshes)
+    one = _examine(first, names[0], load_options, meshes=meshes)
+    two = None if second is None else _examine(second, names[1], load_options, meshes=meshes)
     comparison, problem = None, ""
     if second is not None and two is not None:
         try:
@@ -140,13 +152,13 @@ def build_report(
             if error.unreadable and not (one.loaded.unreadable or two.loaded.unreadable):
                 raise
             problem = str(error)
-    converted = _converted(first, one, load_options, model)
-    made, reason = _view(one, two, comparison, load_options.search, view)
+    converted = _convert(first, one, load_options, model)
+    made, reason = _make_view(one, two, comparison, load_options.search, view)
     return ModelReport(one, two, comparison, problem, converted, made.page, made.not_drawn, reason)
 
 
-def _subject(source: Input, name: str, load_options: LoadOptions, *, meshes: bool) -> ReportSubject:
-    """All about one file, with what its includes name."""
+def _examine(source: Input, name: str, load_options: LoadOptions, *, meshes: bool) -> ReportSubject:
+    """Find out everything about one file, with its includes expanded."""
     loaded = inspect(expand(read(source, load_options, name=name), load_options), load_options)
     files, name = SourceFiles.of(loaded), name or name_of_input(source)
     findings = FileFindings(loaded.path, with_columns(loaded.diagnostics, files), files)
@@ -159,7 +171,7 @@ def _subject(source: Input, name: str, load_options: LoadOptions, *, meshes: boo
     return ReportSubject(name, loaded, findings, document, numbers, scene, graph)
 
 
-def _converted(source: Input, subject: ReportSubject, load_options: LoadOptions, model: str | None) -> Converted | None:
+def _convert(source: Input, subject: ReportSubject, load_options: LoadOptions, model: str | None) -> Converted | None:
     if subject.document is None or not subject.loaded.accepted:
         return None
     target = Format.SDF if subject.document.format is Format.URDF else Format.URDF
@@ -172,7 +184,7 @@ def _converted(source: Input, subject: ReportSubject, load_options: LoadOptions,
         return Converted(target, reasons=tuple(each for each in error.diagnostics if each.is_error))
 
 
-def _view(
+def _make_view(
     one: ReportSubject, two: ReportSubject | None, comparison: Comparison | None, search: SearchPath, view: View | None
 ) -> tuple[StandaloneView, str]:
     if view is None:

@@ -1,4 +1,4 @@
-"""The report as Markdown for a comment in a pull request: short, in GitHub's flavor, and never too long for one."""
+"""The report as GitHub's Markdown, short enough for a comment in a pull request."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -9,23 +9,23 @@ from twinform.compiler.graph.mermaid import fits, mermaid
 from twinform.diagnostics import Diagnostic, Fate, Severity
 from twinform.diagnostics.reporters import printable
 from twinform.report.content import ModelReport, ReportSubject
-from twinform.report.html_parts import count, place
+from twinform.report.markup import count, place
 from twinform.report.report_page import outcome
 
 LARGEST = 65_536
-"""What GitHub takes as a comment; counted in bytes, which is never less than in characters."""
-# Rows of a list, fewer each time the whole is too long for a comment.
+"""The longest comment that GitHub takes, in characters; we count bytes, which are never fewer."""
+# The most rows of a table; the next number is tried if the whole is too long for a comment.
 _LISTED = (25, 10, 3, 0)
 _LONGEST = 300
 _DRAWN = 60
 _SIGNS = re.compile(r"[!\"#$%&'()*+\-./:;<=>?@\[\\\]^_`{|}~]")
 _JOINED = re.compile(r"[@#]|://|(?<=www)\.|(?<=GH)-", re.IGNORECASE)
-"""What GitHub makes links of: mentions, issues and addresses."""
+"""What GitHub turns into links: mentions, issues and addresses."""
 _BREAK = "\N{ZERO WIDTH SPACE}"
 
 
 def markdown(report: ModelReport) -> str:
-    """Verdict, differences, findings, what a conversion loses, numbers and a small drawing."""
+    """Write a report as Markdown: verdicts, differences, findings, losses of a conversion, numbers, a drawing."""
     text = ""
     for most in _LISTED:
         text = "\n".join(_blocks(report, most)) + "\n"
@@ -35,7 +35,7 @@ def markdown(report: ModelReport) -> str:
 
 
 def escaped(text: str) -> str:
-    """A text in which nothing means anything to GitHub, of at most 300 characters."""
+    """Cut a text to 300 characters, and escape everything that GitHub gives a meaning to."""
     text = printable(text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}\N{HORIZONTAL ELLIPSIS}")
     return _SIGNS.sub(lambda sign: f"\\{sign[0]}", _JOINED.sub(lambda found: found[0] + _BREAK, text))
 
@@ -44,7 +44,7 @@ def _blocks(report: ModelReport, most: int) -> Iterator[str]:
     yield f"## {' and '.join(escaped(each.title) for each in report.subjects)}"
     yield ""
     for subject in report.subjects:
-        yield f"* {escaped(subject.name)}: {_counts(subject)}"
+        yield f"* {escaped(subject.name)}: {subject.counts}"
     if report.comparison:
         yield f"* {summary(report.comparison)}"
     elif report.second:
@@ -53,11 +53,6 @@ def _blocks(report: ModelReport, most: int) -> Iterator[str]:
         yield f"* {outcome(report.converted)}"
     for block in (_differences, _findings, _losses, _numbers, _drawing):
         yield from block(report, most)
-
-
-def _counts(subject: ReportSubject) -> str:
-    words = ((Severity.ERROR, "error"), (Severity.WARNING, "warning"), (Severity.INFO, "note"))
-    return ", ".join(count(subject.count(severity), word) for severity, word in words)
 
 
 def _differences(report: ModelReport, most: int) -> Iterator[str]:
@@ -116,7 +111,7 @@ def _table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]], most
 
 
 def _numbers(report: ModelReport, _: int) -> Iterator[str]:
-    """A line for each model."""
+    """Yield a line for each model."""
     for subject in report.subjects:
         for number, model in enumerate(islice(subject.models, 10)):
             yield "" if number == 0 else "  "

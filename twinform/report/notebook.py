@@ -1,4 +1,4 @@
-"""What notebooks show: a summary of a document or conversion by itself, and the 3D view where it is asked for."""
+"""Documents and conversions in notebooks: a summary by default, and the 3D view on demand."""
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -8,8 +8,7 @@ from twinform.compiler.graph.svg import svg
 from twinform.diagnostics import Fate, Severity
 from twinform.diagnostics.reporters.file_findings import grouped
 from twinform.ir import Document
-from twinform.report.html_parts import count, place
-from twinform.report.markup import Markup, element, join
+from twinform.report.markup import Markup, count, element, fates, image, join, place
 
 if TYPE_CHECKING:
     from twinform.compiler import Conversion
@@ -22,7 +21,7 @@ _CODE = "overflow-wrap:anywhere"
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A page in a frame of a notebook; `page` is the HTML."""
+    """A page of HTML, which notebooks show in a frame."""
 
     page: str = field(repr=False)
     height: int
@@ -42,13 +41,13 @@ class Shown:
 
 
 def show(first: Document, second: Document | None = None, *, height: int = 480, dark: bool = False) -> Shown:
-    """The 3D view of a document, or of two overlaid with what differs in red, for the last line of a cell.
+    """Show a document in 3D in the last line of a cell, or two overlaid, with differences in red.
 
-    It is about 0.8 MB, which the notebook keeps: that is why no document shows it by itself.
+    The view takes about 0.8 MB, which the notebook keeps, so no document shows it by default.
 
     Raises:
-        ViewError: what draws it is not installed.
-        CompileError: the two cannot be compared.
+        ViewError: the library that draws it is not installed.
+        CompileError: the two documents cannot be compared.
     """
     from twinform.compiler.compare import diff  # noqa: PLC0415 - summaries have no view
     from twinform.view import standalone_page  # noqa: PLC0415 - see above
@@ -58,28 +57,29 @@ def show(first: Document, second: Document | None = None, *, height: int = 480, 
 
 
 def document_html(document: Document) -> str:
-    """What a document is, in short: its numbers, its findings, and a drawing of a small one."""
-    from twinform.compiler import check  # noqa: PLC0415 - it is the compiler, which reads documents too
+    """Summarize a document: its numbers, its findings, and a drawing if it is small."""
+    from twinform.compiler import check  # noqa: PLC0415 - `check` loads the whole compiler
 
     graph = build_graph(document, mimics=True)
     version = f" {document.version}" if document.version else ""
     head = element("p", element("b", graph.title), f": {document.format.upper()}{version}, {graph.summary()}")
-    picture = element("details", element("summary", "Links and joints"), Markup(_inner(svg(graph))))
+    drawing = image(svg(graph), alt="links and joints", style="max-width:100%")
+    picture = element("details", element("summary", "Links and joints"), drawing)
     found = check(document).diagnostics
     return join((head, _findings(found), picture if 1 < len(graph.nodes) <= _DRAWN else None))
 
 
 def conversion_html(conversion: "Conversion") -> str:
-    """What a conversion made, and what became of the parts of the source."""
+    """Summarize a conversion: its result, its ledger, and its findings."""
     ledger, document = conversion.ledger, conversion.document
     version = f" {document.version}" if document.version else ""
     size = f"{document.format.upper()}{version}, {count(len(conversion.text.splitlines()), 'line')}"
-    fates = ", ".join((f"{ledger.expressed:,} expressed", *(f"{ledger.count(fate):,} {fate.value}" for fate in Fate)))
+
     entries = sorted(ledger.entries, key=lambda entry: entry.fate is not Fate.DROPPED)
     rows = [f"{entry.fate.value}: {entry.message}" for entry in entries]
     return join((
         element("p", element("b", "Conversion"), f" to {size}"),
-        element("p", fates),
+        element("p", fates(ledger)),
         _folded("What was not expressed", rows),
         _findings(conversion.diagnostics),
     ))  # fmt: skip
@@ -102,11 +102,3 @@ def _folded(title: str, rows: list[str]) -> Markup | None:
     more = [f"and {len(rows) - _LISTED:,} more"] if len(rows) > _LISTED else []
     items = (element("li", row, style=_CODE) for row in (*rows[:_LISTED], *more))
     return element("details", element("summary", title), element("ul", *items))
-
-
-def _inner(drawing: str) -> str:
-    """A drawing as a picture, whose styles stay in it."""
-    from base64 import b64encode  # noqa: PLC0415 - few need it
-
-    data = b64encode(drawing.encode()).decode()
-    return element("img", src=f"data:image/svg+xml;base64,{data}", alt="links and joints", style="max-width:100%")

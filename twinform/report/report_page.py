@@ -1,21 +1,45 @@
-"""The report as one page of HTML, which opens from disk and asks for nothing."""
+"""The report as one page of HTML, which opens from disk and loads nothing; its sections in order."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import cache
+from typing import NamedTuple
 
 import twinform
 from twinform.compiler.compare.comparison_reporters import summary
-from twinform.diagnostics import Fate, Severity
+from twinform.diagnostics import Severity
 from twinform.package_files import package_files
 from twinform.report.content import Converted, ModelReport
-from twinform.report.frame import framed, policy
-from twinform.report.html_parts import count
-from twinform.report.markup import Markup, breakable, element, join
-from twinform.report.sections import SECTIONS
+from twinform.report.difference_sections import conversion, differences
+from twinform.report.findings_section import findings
+from twinform.report.markup import Markup, breakable, count, element, fates, join
+from twinform.report.number_sections import masses, meshes, reach, statistics
+from twinform.report.tree_section import tree
+from twinform.report.view_section import framed, policy, view
+
+
+class Section(NamedTuple):
+    """A section: its anchor, its heading, and the function that makes its content, or None if there is none."""
+
+    anchor: str
+    title: str
+    content: Callable[[ModelReport], Markup | None]
+
+
+SECTIONS = (
+    Section("differences", "Differences", differences),
+    Section("view", "3D view", view),
+    Section("findings", "Findings", findings),
+    Section("tree", "Links and joints", tree),
+    Section("conversion", "Conversion", conversion),
+    Section("statistics", "Statistics", statistics),
+    Section("masses", "Masses and inertias", masses),
+    Section("reach", "Reach", reach),
+    Section("meshes", "Meshes", meshes),
+)
 
 
 def html(report: ModelReport) -> str:
-    """The whole page."""
+    """Write a report as a page of HTML."""
     made = [(each, each.content(report)) for each in SECTIONS]
     sections = [(each, content) for each, content in made if content]
     title = f"{' and '.join(each.title for each in report.subjects)}: report"
@@ -23,7 +47,7 @@ def html(report: ModelReport) -> str:
     body = element(
         "body",
         element("a", "Skip to the content", href="#content", class_="skip"),
-        element("header", element("h1", title), _files(report), element("ul", *verdicts(report), class_="verdicts")),
+        element("header", element("h1", title), _files(report), element("ul", *_verdicts(report), class_="verdicts")),
         element("main",
             element("nav", element("ul", *links), aria_label="Sections"),
             *(element("section", element("h2", each.title, id=f"{each.anchor}-title"), content,
@@ -50,15 +74,12 @@ def _head(report: ModelReport, title: str) -> Markup:
     )
 
 
-def verdicts(report: ModelReport) -> Iterator[Markup]:
-    """What there is to know first, each in a few words."""
+def _verdicts(report: ModelReport) -> Iterator[Markup]:
+    """Yield the most important results: findings, differences, and whether the file can be converted."""
     for each in report.subjects:
         file = join((breakable(each.name), ": ")) if report.second else None
         errors, warnings = each.count(Severity.ERROR), each.count(Severity.WARNING)
-        tone = "error" if errors else "warning" if warnings else None
-        notes = each.count(Severity.INFO)
-        words = ", ".join((count(errors, "error"), count(warnings, "warning"), count(notes, "note")))
-        yield element("li", file, words, class_=tone)
+        yield element("li", file, each.counts, class_="error" if errors else "warning" if warnings else None)
     if report.comparison:
         yield element("li", summary(report.comparison), class_=None if report.comparison.same else "warning")
     if report.converted:
@@ -66,12 +87,11 @@ def verdicts(report: ModelReport) -> Iterator[Markup]:
 
 
 def outcome(converted: Converted) -> str:
-    """What becomes of the file in the other format, in a line."""
+    """Say in a line what becomes of the file in the other format."""
     target, ledger = converted.target.upper(), converted.ledger
     if ledger is None:
         return f"no {target} can be made of it: {count(len(converted.reasons), 'error')}"
-    fates = ", ".join(f"{ledger.count(fate):,} {fate.value}" for fate in Fate)
-    return f"in {target}: {ledger.expressed:,} expressed, {fates}"
+    return f"in {target}: {fates(ledger)}"
 
 
 def _files(report: ModelReport) -> Markup:

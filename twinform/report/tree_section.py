@@ -1,6 +1,5 @@
-"""Links below what moves them, with joints, masses and how many findings are about each; and the drawing of it."""
+"""The section with the kinematic tree: links with their joints, masses and numbers of findings, and a drawing."""
 
-from base64 import b64encode
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -9,10 +8,9 @@ from twinform.compiler.graph.layout import depth_first
 from twinform.compiler.graph.svg import svg
 from twinform.diagnostics import Diagnostic
 from twinform.ir.motion import spanning_tree
-from twinform.report.content import ModelReport, ReportSubject
-from twinform.report.html_parts import count, folded
-from twinform.report.listed_findings import WORDS, anchors, worst
-from twinform.report.markup import Markup, Part, element, join
+from twinform.report.content import WORDS, ModelReport, ReportSubject
+from twinform.report.findings_section import anchors
+from twinform.report.markup import Markup, Part, count, element, folded, image, join
 
 # Browsers flatten elements nested deeper than about 500, and a chain of 1,000 links is nothing
 # unusual in tests. Below this level the rest is one list.
@@ -24,25 +22,24 @@ _DRAWN = 400
 
 
 def tree(report: ModelReport) -> Markup | None:
-    """The tree of the first file, and its drawing, folded."""
+    """List the tree of the first file, with a folded drawing."""
     graph = report.first.graph
     if graph is None or not graph.nodes:
         return None
-    listed = element("ul", *_rows(report.first, graph), class_="tree")
+    listed = element("ul", *_list_tree(report.first, graph), class_="tree")
     return join((element("p", graph.summary()), listed, _drawing(graph)))
 
 
 def _drawing(graph: Graph) -> Markup | None:
     if len(graph.nodes) > _DRAWN:
         return None
-    data = b64encode(svg(graph).encode()).decode()
-    picture = element("img", src=f"data:image/svg+xml;base64,{data}", alt=f"{graph.title}: {graph.summary()}")
+    picture = image(svg(graph), alt=f"{graph.title}: {graph.summary()}")
     scroller = element("div", picture, class_="scroller", tabindex="0", role="region", aria_label="Drawing of the tree")
     return folded("Drawing", scroller)
 
 
-def _rows(subject: ReportSubject, graph: Graph) -> Iterator[Markup]:
-    """An item for each root, made from the leaves up so that nothing recurses."""
+def _list_tree(subject: ReportSubject, graph: Graph) -> Iterator[Markup]:
+    """Yield an item for each root, made from the leaves up so that nothing recurses."""
     held = spanning_tree(joint for joint in graph.joints if joint.type != "gearbox")
     across: dict[str, list[GraphJoint]] = defaultdict(list)
     children: dict[str, list[str]] = defaultdict(list)
@@ -53,7 +50,8 @@ def _rows(subject: ReportSubject, graph: Graph) -> Iterator[Markup]:
         if node.id in held:
             children[held[node.id].parent].append(node.id)
     nodes = {node.id: node for node in graph.nodes}
-    about, places, masses = _findings(subject, graph), anchors(subject), _masses(subject)
+    about, places = _findings_by_node(subject, graph), anchors(subject)
+    masses = {link.name: link.mass.mass for link in (subject.scene.links if subject.scene else ()) if link.mass}
     order = depth_first([node.id for node in graph.nodes if node.id not in held], children)
     is_open = len(graph.nodes) <= _OPEN
     made: dict[str, list[Markup]] = {}
@@ -90,21 +88,17 @@ def _words(
     return words
 
 
-def _masses(subject: ReportSubject) -> dict[str, float]:
-    return {link.name: link.mass.mass for link in (subject.scene.links if subject.scene else ()) if link.mass}
-
-
 def _badge(about: Sequence[Diagnostic], places: Mapping[int, str]) -> Markup | None:
-    """How many findings there are about a node, and where the worst one is."""
+    """Say how many findings there are about a node, with a link to the first of the worst."""
     if not about:
         return None
-    first = worst(about)
+    first = max(about, key=lambda each: each.severity)
     href = f"#{places.get(id(first), 'findings')}"
     return element("a", count(len(about), "finding"), href=href, class_=f"badge {WORDS[first.severity]}")
 
 
-def _findings(subject: ReportSubject, graph: Graph) -> Mapping[str, list[Diagnostic]]:
-    """The findings about each node; those about a joint are with what it moves."""
+def _findings_by_node(subject: ReportSubject, graph: Graph) -> Mapping[str, list[Diagnostic]]:
+    """Collect the findings about each node; those about a joint count for its child."""
     parts = {node.where.path: node.id for node in graph.nodes} | {each.where.path: each.child for each in graph.joints}
     parts.pop("", None)
     found: dict[str, list[Diagnostic]] = defaultdict(list)

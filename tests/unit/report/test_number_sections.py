@@ -4,7 +4,7 @@ import math
 
 import twinform
 from twinform.compiler.scene import build_scene
-from twinform.report.reach import reaches
+from twinform.report.number_sections import reaches
 
 _ARM = """<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link name="d"/>
 <joint name="j" type="revolute"><origin xyz="3 0 0"/><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>

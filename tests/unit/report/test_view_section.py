@@ -1,6 +1,6 @@
 """The frame of the view: nonces that names cannot know."""
 
-from twinform.report.frame import framed, policy
+from twinform.report.view_section import framed, policy
 
 from .models import PAGE
 
