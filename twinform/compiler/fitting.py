@@ -21,7 +21,7 @@ from twinform.diagnostics.rules import KEPT_PHYSICS
 from twinform.ir import Document, Format
 from twinform.passes import Pass, PassInstrumentation, Pipeline
 from twinform.profiles import Assessment, Judgment, Profile, ProfiledFile, assess, findings
-from twinform.profiles.physics import described
+from twinform.profiles.physics import describe_change
 from twinform.profiles.remedies import in_order, remedies
 
 # How often a conversion starts over; each time, a pass has brought something else to light.
@@ -138,5 +138,5 @@ def _require_kept(entries: Iterable[LedgerEntry]) -> None:
 
 
 def _forbidden(change: PhysicsChange, place: Location) -> Diagnostic:
-    message = f"{change.step} would change the physics, which is to be kept: {described(change)}"
+    message = f"{change.step} would change the physics, which is to be kept: {describe_change(change)}"
     return Diagnostic(KEPT_PHYSICS, message, place, Severity.ERROR)

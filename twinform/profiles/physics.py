@@ -1,4 +1,4 @@
-"""What a pass changed in the physics of a model, value by value: masses, inertias, joints, shapes that collide."""
+"""What a pass changed in the physics of a model, value by value: masses, inertias, joints, collisions."""
 
 from collections.abc import Iterable, Iterator
 
@@ -10,7 +10,7 @@ from twinform.ir.scopes import scoped_models
 
 Part = Link | Joint
 _NO_PHYSICS = frozenset({"name", "visuals", "sensors", "lights", "opaque", "plugins"})
-"""Fields of links and joints that no engine computes with."""
+"""Fields of links and joints that physics engines do not use."""
 # Another path of a mesh is no change of the physics: a pass for a consumer writes the same surface
 # in another format. Nor is another name of a shape.
 _NO_VALUES = ("/shape/uri", "]/name")
@@ -18,25 +18,25 @@ _Key = tuple[str, str]
 
 
 def physics_changes(before: Document, after: Document, step: str) -> Iterator[LedgerEntry]:
-    """An entry of the ledger for each link and joint of which a pass, called `step`, changed the physics."""
+    """A ledger entry for each link and joint whose physics the pass named `step` changed."""
     # Documents are compared, instead of asking passes what they did: a pass of another package is
     # covered too, and a report can apply the list to the source and ask Drake. The user's own
     # passes are not listed: they were asked for.
     if before is after:
         return
-    old, new = dict(_parts(before)), dict(_parts(after))
+    old, new = dict(_links_and_joints(before)), dict(_links_and_joints(after))
     for key in {**old, **new}:
-        values = tuple(_values(old.get(key), new.get(key)))
+        values = tuple(_changed_values(old.get(key), new.get(key)))
         if values:
-            change, place = PhysicsChange(step, *key, values), _place(old.get(key), new.get(key))
+            change, place = PhysicsChange(step, *key, values), _first_location(old.get(key), new.get(key))
             written = sum(bool(each.path) and each.was is not None for each in values)
             yield LedgerEntry(
-                Fate.APPROXIMATED, CHANGED_PHYSICS, f"{step}: {described(change)}", place, written, change
+                Fate.APPROXIMATED, CHANGED_PHYSICS, f"{step}: {describe_change(change)}", place, written, change
             )
 
 
-def _parts(document: Document) -> Iterator[tuple[_Key, Part]]:
-    """Every link and joint, by its kind and its name with those of the models around it."""
+def _links_and_joints(document: Document) -> Iterator[tuple[_Key, Part]]:
+    """Every link and joint, by its kind and its scoped name."""
     models = [("", model) for model in document.models]
     models += [(f"{world.name}::{model.name}::", model) for world in document.worlds for model in world.models]
     for outside, outer in models:
@@ -45,7 +45,7 @@ def _parts(document: Document) -> Iterator[tuple[_Key, Part]]:
             yield from ((("joint", scope + joint.name), joint) for joint in model.joints)
 
 
-def _values(old: Part | None, new: Part | None) -> Iterator[ValueChange]:
+def _changed_values(old: Part | None, new: Part | None) -> Iterator[ValueChange]:
     if old is None or new is None:
         yield ValueChange("", None if old is None else "there", None if new is None else "there")
         return
@@ -56,12 +56,12 @@ def _values(old: Part | None, new: Part | None) -> Iterator[ValueChange]:
             yield ValueChange(path, each.old, each.new)
 
 
-def described(change: PhysicsChange) -> str:
-    """`link 'b': inertial/mass/value was 0, is 0.001`."""
-    return f"{change.part} {change.name!r}: {'; '.join(_words(each) for each in change.values)}"
+def describe_change(change: PhysicsChange) -> str:
+    """A text such as `link 'b': inertial/mass/value was 0, is 0.001`."""
+    return f"{change.part} {change.name!r}: {'; '.join(_describe_value(each) for each in change.values)}"
 
 
-def _words(value: ValueChange) -> str:
+def _describe_value(value: ValueChange) -> str:
     if not value.path:
         return "is gone" if value.now is None else "is new"
     was = "was not written" if value.was is None else f"was {value.was}"
@@ -69,10 +69,10 @@ def _words(value: ValueChange) -> str:
     return f"{value.path} {was}, {now}"
 
 
-def _place(*parts: Part | None) -> Location:
+def _first_location(*parts: Part | None) -> Location:
     return next(part.location for part in parts if part is not None)
 
 
 def of_ledger(entries: Iterable[LedgerEntry]) -> tuple[PhysicsChange, ...]:
-    """The changes of the physics that a ledger lists."""
+    """The changes of the physics in a ledger."""
     return tuple(each.change for each in entries if each.change)

@@ -1,4 +1,4 @@
-"""`Profile`: what a consumer of models refuses, drops, reads otherwise or warns about. Read from `data/NAME.toml`."""
+"""`Profile`: what a consumer of models refuses, drops, misreads or warns about, from `data/NAME.toml`."""
 
 import re
 import tomllib
@@ -19,7 +19,7 @@ PORTABLE = "portable"
 
 
 class ProfileError(ValueError):
-    """A profile is not what profiles are; the message names the file and the row."""
+    """The file of a profile is wrong; the message names the file and the row."""
 
 
 class UnknownProfileError(LookupError):
@@ -27,7 +27,7 @@ class UnknownProfileError(LookupError):
 
 
 class Effect(StrEnum):
-    """What a consumer does with a thing in a file, from the worst to the mildest."""
+    """What a consumer does with something in a file, from the worst to the mildest."""
 
     REFUSES = "refuses"
     DROPS = "drops"
@@ -36,11 +36,11 @@ class Effect(StrEnum):
 
 
 class ProfileRow(BaseModel):
-    """One thing that a consumer minds: the rule that finds it, and what the consumer does.
+    """One thing that a consumer objects to: the rule that finds it, and what the consumer does.
 
     `format`, `message`, `place`, `severity`, `since` and `until` narrow the findings: the format of the file, patterns
-    that occur in the message and in the XML path, the least severity, and the releases, both included. `pipeline`
-    are the passes that help; where the rule has fixes, `check --fix` helps, too.
+    that occur in the message and in the XML path, the least severity, and the first and the last release. `pipeline`
+    are the passes that help; where the rule has fixes, `check --fix` helps as well.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True)
@@ -69,7 +69,7 @@ class ProfileRow(BaseModel):
         return text
 
     def minds(self, finding: Diagnostic, format_: Format | None) -> bool:
-        """Whether it is about this finding in a file of this format."""
+        """Whether the row is about a finding in a file of this format."""
         return (
             finding.rule.name == self.rule
             and finding.severity >= self.severity
@@ -80,7 +80,7 @@ class ProfileRow(BaseModel):
 
 
 class _Table(BaseModel):
-    """The file of a profile."""
+    """The content of the file of a profile."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
@@ -92,10 +92,10 @@ class _Table(BaseModel):
     reads: str = ""
     sdf: str = ""
     releases: dict[str, str] = {}
-    """Its releases, oldest first, with the newest version of SDF that each reads."""
+    """The releases, oldest first, with the newest version of SDF that each of them reads."""
 
     release: str = ""
-    """The release that is meant where none is named."""
+    """The release that is meant by default."""
 
     row: tuple[ProfileRow, ...] = ()
 
@@ -104,9 +104,10 @@ class _Table(BaseModel):
 class Profile:
     """A consumer, perhaps in one of its releases, and the rows that hold for it.
 
-    `seen` is the version that was asked, empty where it was not `tested` but read in sources and documentation.
-    `reads` is the table in `data/reads/` of what it reads of URDF, where there is one, and `sdf` the newest version of
-    SDF that it reads, empty where that does not matter. It is `named` where somebody asks for it and not for all.
+    `seen` is the version that was tested, empty where it was not `tested` but read in sources and documentation.
+    `reads` is the name of a table in `data/reads/`, if there is one, and `sdf` the newest version of SDF that the
+    consumer reads, empty where that does not matter. `named` is whether the user asked for this profile and not for
+    all.
     """
 
     name: str
@@ -123,13 +124,13 @@ class Profile:
 
     @property
     def label(self) -> str:
-        """`MuJoCo 4.0.0`: how messages call it."""
+        """The name for messages, such as `MuJoCo 4.0.0`."""
         return f"{self.title} {self.release or self.seen}".strip()
 
 
 @cache
 def names() -> tuple[str, ...]:
-    """The names of all profiles; `portable` is that of all those that are tested."""
+    """The names of all profiles; `portable` stands for all tested ones."""
     folder = package_files("twinform.profiles").joinpath("data")
     found = [each.name.removesuffix(".toml") for each in folder.iterdir() if each.name.endswith(".toml")]
     return (*sorted(found), PORTABLE)
@@ -137,11 +138,11 @@ def names() -> tuple[str, ...]:
 
 @cache
 def load(text: str) -> tuple[Profile, ...]:
-    """The profiles that a name means: one, of the release behind an `@` (`gazebo@harmonic`), or all tested ones.
+    """The profiles that a name means: one, with a release after `@` (`gazebo@harmonic`), or all tested ones.
 
     Raises:
-        UnknownProfileError: there is none of this name, or no such release.
-        ProfileError: its file is at fault.
+        UnknownProfileError: there is no profile of this name, or no such release.
+        ProfileError: the file of the profile is wrong.
     """
     name, _, release = text.strip().partition("@")
     if name not in names():
@@ -150,16 +151,16 @@ def load(text: str) -> tuple[Profile, ...]:
     if name == PORTABLE:
         if release:
             raise UnknownProfileError(f"{PORTABLE!r} has no releases")
-        every = [_read(each) for each in names() if each != PORTABLE]
-        return tuple(_of_release(each_name, table, "", named=False) for each_name, table in every if table.tested)
-    return (_of_release(*_read(name), release),)
+        every = [_read_table(each) for each in names() if each != PORTABLE]
+        return tuple(_select_release(each_name, table, "", named=False) for each_name, table in every if table.tested)
+    return (_select_release(*_read_table(name), release),)
 
 
 def parse(text: str) -> tuple[Profile, ...]:
-    """The profiles of names with commas between, each once.
+    """The profiles of names separated by commas, each once.
 
     Raises:
-        UnknownProfileError: there is none of one of these names.
+        UnknownProfileError: a name has no profile.
     """
     found = [profile for name in text.split(",") if name.strip() for profile in load(name)]
     if not found:
@@ -168,7 +169,7 @@ def parse(text: str) -> tuple[Profile, ...]:
 
 
 @cache
-def _read(name: str) -> tuple[str, _Table]:
+def _read_table(name: str) -> tuple[str, _Table]:
     file = package_files("twinform.profiles").joinpath("data", f"{name}.toml")
     try:
         return name, _Table.model_validate(tomllib.loads(file.read_text(encoding="utf-8")))
@@ -176,19 +177,19 @@ def _read(name: str) -> tuple[str, _Table]:
         raise ProfileError(f"{name}.toml: {error}") from error
 
 
-def _of_release(name: str, table: _Table, release: str, *, named: bool = True) -> Profile:
+def _select_release(name: str, table: _Table, release: str, *, named: bool = True) -> Profile:
     known = list(table.releases)
     if release and release not in known:
         advice = did_you_mean(release, known) or f"there are {', '.join(known)}" if known else "it has no releases"
         raise UnknownProfileError(f"{name!r} has no release {release!r}; {advice}")
     chosen = release or table.release
-    rows = tuple(row for row in table.row if _holds(row, chosen, known))
+    rows = tuple(row for row in table.row if _is_in_release(row, chosen, known))
     sdf = table.releases.get(chosen, table.sdf)
     about = (table.title, table.about, table.formats, table.seen, table.tested)
     return Profile(name, *about, chosen, rows, table.reads, sdf, named)
 
 
-def _holds(row: ProfileRow, release: str, known: list[str]) -> bool:
+def _is_in_release(row: ProfileRow, release: str, known: list[str]) -> bool:
     def place(word: str) -> int:
         if word not in known:
             raise ProfileError(f"row {row.rule!r}: there is no release {word!r}")
@@ -199,5 +200,5 @@ def _holds(row: ProfileRow, release: str, known: list[str]) -> bool:
 
 
 def explanations() -> dict[str, Any]:
-    """Each profile with what it is about, for help texts."""
-    return {name: _read(name)[1].about for name in names() if name != PORTABLE}
+    """Each profile by name, with what it is about, for help texts."""
+    return {name: _read_table(name)[1].about for name in names() if name != PORTABLE}

@@ -34,10 +34,10 @@ refuses them.
 def pages() -> dict[str, str]:
     """A page for each profile, and one that lists them, by the names of their files."""
     profiles = [each for name in names() if name != PORTABLE for each in load(name)]
-    return {"README.md": _list(profiles), **{f"{each.name}.md": _profile(each) for each in profiles}}
+    return {"README.md": _list_page(profiles), **{f"{each.name}.md": _profile_page(each) for each in profiles}}
 
 
-def _list(profiles: list[Profile]) -> str:
+def _list_page(profiles: list[Profile]) -> str:
     rows = "".join(f"| [{each.name}]({each.name}.md) | {_formats(each)} | {each.about} |\n" for each in profiles)
     physics = {each.name: "\\*" if each.physics else "" for each in REMEDIES}
     steps = "\n".join(f"1. [{name}](../passes.md#{name}){star}" for name, star in physics.items())
@@ -48,7 +48,7 @@ def _formats(profile: Profile) -> str:
     return " and ".join(each.upper() for each in profile.formats)
 
 
-def _profile(profile: Profile) -> str:
+def _profile_page(profile: Profile) -> str:
     seen = f"Seen in {profile.seen}." if profile.tested else "Not tested: read in its sources and documentation."
     lines = [f"# {profile.name}\n", f"{_sentence(profile.about)} It reads {_formats(profile)}. {seen}\n"]
     if profile.rows:
@@ -56,39 +56,39 @@ def _profile(profile: Profile) -> str:
             "| what is found | format | effect | what it does | passes that help |",
             "| --- | --- | --- | --- | --- |",
         ]
-        lines += [_row(each) for each in profile.rows] + [""]
+        lines += [_format_row(each) for each in profile.rows] + [""]
     if profile.reads:
         lines += [
             "| what it reads of URDF | effect otherwise | what it does | passes that help |",
             "| --- | --- | --- | --- |",
         ]
-        lines += [*_demands(profile.reads), ""]
+        lines += [*_demand_rows(profile.reads), ""]
     return "\n".join(lines).rstrip("\n") + "\n"
 
 
-def _row(row: ProfileRow) -> str:
+def _format_row(row: ProfileRow) -> str:
     narrowed = f", `{row.message}`" if row.message else ""
     format_ = row.format.upper() if row.format else ""
     passes = f"`{row.pipeline}`" if row.pipeline else ""
-    rule = f"[{row.rule}](../../../twinform/diagnostics/rules/{row.rule}.md){_escaped(narrowed)}"
+    rule = f"[{row.rule}](../../../twinform/diagnostics/rules/{row.rule}.md){_escape(narrowed)}"
     cells = (rule, format_, row.effect, row.about, passes)
     return f"| {' | '.join(cells)} |"
 
 
-def _demands(name: str) -> Iterator[str]:
+def _demand_rows(name: str) -> Iterator[str]:
     for each in reads(name).demands:
         passes = f"`{each.pipeline}`" if each.pipeline else ""
-        yield f"| {_escaped(_place(each))} | {each.effect} | {_escaped(each.about)} | {passes} |"
+        yield f"| {_escape(_format_place(each))} | {each.effect} | {_escape(each.about)} | {passes} |"
 
 
-def _place(demand: Demand) -> str:
-    """`link/inertial/mass` `@value`, as a number; which has to be there."""
-    path = "/".join(["robot", *map(_step, demand.place)])
+def _format_place(demand: Demand) -> str:
+    """A demand such as `link/inertial/mass` `@value`: a number, needed."""
+    path = "/".join(["robot", *map(_format_step, demand.place)])
     needed = ", needed" if demand.needed else ""
     return f"`{path}` `{demand.item}`: {demand.form}{needed}" if demand.form else f"`{path}` `{demand.item}`{needed}"
 
 
-def _step(step: PlaceStep) -> str:
+def _format_step(step: PlaceStep) -> str:
     types = f"[{'!' if step.other else ''}{','.join(sorted(step.types))}]" if step.types else ""
     return f"{step.tag}{types}"
 
@@ -97,7 +97,7 @@ def _sentence(text: str) -> str:
     return f"{text[0].upper()}{text[1:].rstrip('.')}."
 
 
-def _escaped(text: str) -> str:
+def _escape(text: str) -> str:
     return text.replace("|", "\\|")
 
 

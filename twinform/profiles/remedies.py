@@ -9,7 +9,7 @@ from twinform.profiles.assessment import Assessment, Judgment
 
 
 class Remedy(NamedTuple):
-    """A pass that rows name, and whether it may change the physics: masses, inertias, joints, limits, collisions."""
+    """A pass that rows of profiles name; `physics` is whether it may change masses, joints, limits or collisions."""
 
     name: str
     physics: bool
@@ -40,8 +40,8 @@ _PHYSICS = frozenset(remedy.name for remedy in REMEDIES if remedy.physics)
 
 
 def remedies(assessments: Iterable[Assessment], to: Format | None = None) -> tuple[Pass, ...]:
-    """The passes that help with what was found, each once, in order; those for another target are left out."""
-    wanted = dict.fromkeys(text for each in assessments for text in _pipelines(each.judgments, to))
+    """The passes that help with the judgments, each once, in order, without those for another target format."""
+    wanted = dict.fromkeys(text for each in assessments for text in _pipelines_for(each.judgments, to))
     return in_order(step for text in wanted for step in parse_pipeline(text))
 
 
@@ -51,11 +51,11 @@ def in_order(steps: Iterable[Pass]) -> tuple[Pass, ...]:
 
 
 def changes_physics(step: Pass) -> bool:
-    """Whether a pass of a profile may change masses, inertias, joints, limits or what collides."""
+    """Whether a pass of a profile may change masses, inertias, joints, limits or collisions."""
     return step.name in _PHYSICS
 
 
-def _pipelines(judgments: Iterable[Judgment], to: Format | None) -> Iterator[str]:
+def _pipelines_for(judgments: Iterable[Judgment], to: Format | None) -> Iterator[str]:
     for judgment in judgments:
         row = judgment.row
         if row.pipeline and (row.to is None or to is None or row.to is to):

@@ -10,7 +10,7 @@ from twinform.diagnostics.rules import IMPOSSIBLE_INERTIA
 from twinform.ir import Format
 from twinform.passes import parse_pipeline
 from twinform.profiles import Effect, Profile, ProfileRow, UnknownProfileError, load, names, parse
-from twinform.profiles.counterparts import OF_FACTS
+from twinform.profiles.assessment import RULES_OF_FACTS
 from twinform.profiles.profile import PORTABLE
 from twinform.profiles.reading.reads_notation import reads
 from twinform.profiles.reading.tree_facts import FACTS
@@ -42,8 +42,8 @@ def test_what_was_tested_says_in_which_version(profile: Profile) -> None:
 
 
 def test_what_facts_share_with_check_are_facts_and_rules() -> None:
-    assert set(OF_FACTS) <= set(FACTS)
-    assert {name for rules in OF_FACTS.values() for name in rules} <= set(catalog())
+    assert set(RULES_OF_FACTS) <= set(FACTS)
+    assert {name for rules in RULES_OF_FACTS.values() for name in rules} <= set(catalog())
 
 
 def test_every_remedy_is_needed_by_a_profile() -> None:

@@ -1,35 +1,41 @@
 """How consumers read URDF: each with its own XML parser, and by a table of what it reads where.
 
-A loader reads the text and not our tree, and what it makes of a number or of a missing element is its own. So a text is
-parsed here as the consumer does it (`tinyxml.py`, `python_xml.py`), and held against the table of the consumer
-(`data/reads/`, explained in `notation.py`).
+A loader reads the text and not our tree, and has its own idea of a number or of a missing element. So a text is parsed
+here as the consumer parses it (`xml_parsers.py`), and compared with the table of the consumer (`data/reads/`, explained
+in `reads_notation.py`).
 """
 
 import re
 from collections.abc import Iterator
 
 from twinform.profiles.reading.nodes import RawNode, UnparsedError
-from twinform.profiles.reading.python_xml import parse_with_expat, parse_with_lxml
 from twinform.profiles.reading.reads_notation import reads
-from twinform.profiles.reading.tinyxml import TINYXML, TINYXML_2, in_lines, parse
 from twinform.profiles.reading.walking import IsThere, Shortfall, shortfalls
+from twinform.profiles.reading.xml_parsers import (
+    TINYXML,
+    TINYXML_2,
+    parse_with_expat,
+    parse_with_lxml,
+    parse_with_tinyxml,
+    split_as_bullet,
+)
 
 __all__ = ["Shortfall", "read_as"]
 
 _ROBOTS = frozenset({"tinyxml", "tinyxml2", "bullet", "sax"})
-"""Parsers after which the first robot at the top counts, and not whatever is there."""
+"""Parsers whose consumers take the first robot at the top; others take whatever element is there."""
 _DECLARATIONS = re.compile(rb"^[^\S\n]*<\?xml[^\n]*\?>[^\S\n]*$", re.MULTILINE)
-"""Lines that are left out before the text is parsed."""
+"""Declarations, which are removed before the text is parsed."""
 _NOT_XML = "its XML parser does not read the file"
 _LEFT_OUT = "it leaves the element out"
 _RECOVERED = "it reads as much of the file as it can"
 
 
 def read_as(consumer: str, content: bytes, is_there: IsThere = lambda _: True) -> Iterator[Shortfall]:
-    """What a consumer cannot read of a text, or needs and does not find in it."""
+    """What a consumer cannot read in a text, or needs and does not find there."""
     table = reads(consumer)
     try:
-        top, message = _parsed(table.parser, content)
+        top, message = _parse_as(table.parser, content)
     except UnparsedError as error:
         yield Shortfall("text", "refuses", _NOT_XML, error.message, error.line)
         return
@@ -45,7 +51,7 @@ def read_as(consumer: str, content: bytes, is_there: IsThere = lambda _: True) -
     yield from shortfalls(root, table, is_there)
 
 
-def _parsed(parser: str, content: bytes) -> tuple[list[RawNode], str]:
+def _parse_as(parser: str, content: bytes) -> tuple[list[RawNode], str]:
     if parser == "expat":
         return parse_with_expat(content), ""
     if parser == "sax":
@@ -53,5 +59,5 @@ def _parsed(parser: str, content: bytes) -> tuple[list[RawNode], str]:
     if parser == "lxml":
         return parse_with_lxml(content)
     if parser == "bullet":
-        return parse(in_lines(content), TINYXML_2), ""
-    return parse(content, TINYXML if parser == "tinyxml" else TINYXML_2), ""
+        return parse_with_tinyxml(split_as_bullet(content), TINYXML_2), ""
+    return parse_with_tinyxml(content, TINYXML if parser == "tinyxml" else TINYXML_2), ""

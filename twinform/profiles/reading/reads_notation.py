@@ -1,10 +1,10 @@
-"""The tables in `data/reads/`: what a consumer reads where, in which form, and what it does where it is not so.
+"""The tables in `data/reads/`: what a consumer reads where, in which form, and what it does otherwise.
 
 A line has five columns with two blanks or more between them: a place, an item, a form, an effect, and what the
 consumer does then. A place is a path below the root; `*` stands for all elements of a name, without it the first one
-counts; `[revolute,prismatic]` are values of `type`, `[!fixed]` are values that it has not; `^` is an element only where
-it is the first. Items are `@attribute`, `<element>`, `#text`, or a name that `tree.py` explains. `!` after a form means
-that the item has to be there, and what follows ` => ` are the passes that help.
+counts; `[revolute,prismatic]` are values of `type`, `[!fixed]` are values that it does not have; `^` is an element only
+if it is the first. Items are `@attribute`, `<element>`, `#text`, or the name of a fact in `tree_facts.py`. `!` after a
+form means that the item has to be there, and ` => ` is followed by the passes that help.
 """
 
 import re
@@ -19,7 +19,7 @@ _STEP = re.compile(r"(?P<first>\^?)(?P<tag>[\w:.-]+)(?P<every>\*?)(?:\[(?P<other
 
 @dataclass(frozen=True, slots=True)
 class PlaceStep:
-    """One element on the way to a place."""
+    """One element on the path to a place."""
 
     tag: str
     every: bool
@@ -30,7 +30,7 @@ class PlaceStep:
 
 @dataclass(frozen=True, slots=True)
 class Demand:
-    """What is read at a place; `needed` is whether it must be there."""
+    """What a consumer reads at a place; `needed` says whether it must be there."""
 
     place: tuple[PlaceStep, ...]
     item: str
@@ -43,19 +43,19 @@ class Demand:
 
 @dataclass(frozen=True, slots=True)
 class Reads:
-    """What a consumer reads: the XML parser that it has, and its demands."""
+    """What a consumer reads: its XML parser, and its demands."""
 
     parser: str
     demands: tuple[Demand, ...]
     skips: str = ""
-    """The attribute that leaves a link or a joint out where it is `true`."""
+    """The attribute that, where it is `true`, makes the consumer skip a link or a joint."""
 
 
 @cache
 def reads(name: str) -> Reads:
-    """The table of a consumer."""
+    """The table of a consumer, with the tables that it is based on."""
     parser, skips, demands = "", "", list[Demand]()
-    for line in _lines(name):
+    for line in _table_lines(name):
         columns = _COLUMNS.split(line, maxsplit=4)
         if columns[0] == "parser":
             parser = columns[1]
@@ -67,30 +67,30 @@ def reads(name: str) -> Reads:
         elif columns[0] == "without":
             demands = [each for each in demands if each.item != columns[1]]
         else:
-            demands.append(_demand(columns))
+            demands.append(_parse_demand(columns))
     return Reads(parser, tuple(demands), skips)
 
 
-def _lines(name: str) -> Iterator[str]:
+def _table_lines(name: str) -> Iterator[str]:
     text = files("twinform.profiles").joinpath("data", "reads", f"{name}.reads").read_text(encoding="utf-8")
     return (line for line in map(str.strip, text.splitlines()) if line and not line.startswith("#"))
 
 
-def _demand(columns: list[str]) -> Demand:
+def _parse_demand(columns: list[str]) -> Demand:
     place, item, form, effect, words = columns
     about, _, pipeline = words.partition(" => ")
-    return Demand(_steps(place), item, form.removesuffix("!"), form.endswith("!"), effect, about, pipeline)
+    return Demand(_parse_place(place), item, form.removesuffix("!"), form.endswith("!"), effect, about, pipeline)
 
 
-def _steps(place: str) -> tuple[PlaceStep, ...]:
+def _parse_place(place: str) -> tuple[PlaceStep, ...]:
     if place == "robot":
         return ()
     found = [_STEP.fullmatch(part) for part in place.split("/")]
     if None in found:
         raise ValueError(f"{place!r} is no place")
-    return tuple(_step(each) for each in found if each)
+    return tuple(_parse_step(each) for each in found if each)
 
 
-def _step(found: re.Match[str]) -> PlaceStep:
+def _parse_step(found: re.Match[str]) -> PlaceStep:
     types = frozenset(found["types"].split(",")) if found["types"] is not None else frozenset[str]()
     return PlaceStep(found["tag"], bool(found["every"]), bool(found["first"]), types, bool(found["other"]))

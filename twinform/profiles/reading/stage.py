@@ -1,13 +1,12 @@
-"""Facts about the stage that urdf-usd-converter writes: the tree of links in it, misplaced elements, and attributes."""
+"""Facts about what urdf-usd-converter writes: the tree of links in its stage, misplaced elements, and attributes."""
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from twinform.profiles.reading.forms import number_in
-from twinform.profiles.reading.nodes import RawNode
+from twinform.profiles.reading.nodes import Fact, FactTable, RawNode
 
-Fact = Iterator[tuple[RawNode, str]]
 _PLACES: Mapping[str, frozenset[str]] = {
     **dict.fromkeys(("box", "cylinder", "mesh", "sphere"), frozenset({"geometry"})),
     **dict.fromkeys(("inertia", "mass"), frozenset({"inertial"})),
@@ -23,45 +22,41 @@ _PLACES: Mapping[str, frozenset[str]] = {
     "origin": frozenset({"inertial", "visual", "collision", "joint"}),
     "verbose": frozenset({"collision"}),
 }
-"""The elements that it knows, and those in which they may stand."""
+"""The elements that the converter knows, and the elements in which they may stand."""
 _SHAPES = ("box", "sphere", "cylinder", "mesh")
 _DIAGONAL = ("ixx", "iyy", "izz")
 _MOMENTS = (*_DIAGONAL, "ixy", "ixz", "iyz")
 
 
-def _name(node: RawNode) -> str:
-    return node.attributes.get("name", "")
-
-
 def _last_child(node: RawNode, tag: str) -> RawNode | None:
-    """Of several children with a tag it takes the last one."""
+    """The last child with a tag, which is the one that the converter takes."""
     found: RawNode | None = None
     for found in node.all(tag):  # noqa: B007  the last one is what is wanted
         pass
     return found
 
 
-def _end(joint: RawNode, tag: str) -> str:
+def _joint_end(joint: RawNode, tag: str) -> str:
     end = _last_child(joint, tag)
     return "" if end is None else end.attributes.get("link", "")
 
 
 @dataclass(slots=True, eq=False)
 class _Stage:
-    """The links that it comes to from the root, how many joints lead to each, and those joints."""
+    """The links that are reached from the root, the number of joints to each, and these joints."""
 
     links: dict[str, RawNode]
     below: dict[str, list[RawNode]]
     led: frozenset[str]
-    """The children of fixed joints that others follow."""
+    """The children of joints that other joints mimic."""
     times: dict[str, int] = field(default_factory=dict[str, int])
     joints: list[RawNode] = field(default_factory=list[RawNode])
     merged: set[str] = field(default_factory=set[str])
-    """Links that become a part of the one above, and what is below them is left out."""
+    """Links that become a part of their parent; whatever is below them is dropped."""
     loop: RawNode | None = None
 
     def walk(self, root: str) -> None:
-        """From a link to all below; a link that is below itself ends it."""
+        """Walk from a link to all links below; stops at a link that is below itself."""
         self.times[root] = 1
         above: set[str] = {root}
         stack = [(root, self._joints_below(root))]
@@ -72,7 +67,7 @@ class _Stage:
                 above.discard(name)
                 stack.pop()
                 continue
-            child = _end(joint, "child")
+            child = _joint_end(joint, "child")
             self.joints.append(joint)
             self.times[child] = self.times.get(child, 0) + 1
             if child in above:
@@ -82,22 +77,22 @@ class _Stage:
                 stack.append((child, self._joints_below(child)))
 
     def _joints_below(self, name: str) -> Iterator[RawNode]:
-        """The joints below a link, without one whose child becomes a part of it."""
-        merged = self._merged(name)
+        """The joints below a link, without the one whose child becomes a part of the link."""
+        merged = self._merged_joint(name)
         if merged is not None:
-            self.merged.add(_end(merged, "child"))
-        return iter([j for j in self.below.get(name, ()) if j is not merged and _end(j, "child") in self.links])
+            self.merged.add(_joint_end(merged, "child"))
+        return iter([j for j in self.below.get(name, ()) if j is not merged and _joint_end(j, "child") in self.links])
 
-    def _merged(self, name: str) -> RawNode | None:
-        """The fixed joint whose child is written as the inertial of this link, and is no link then."""
+    def _merged_joint(self, name: str) -> RawNode | None:
+        """The fixed joint whose child only gives this link its inertial, and is no link of the stage."""
         link = self.links[name]
-        if _weighs(link) or not _has_shapes(link):
+        if _has_mass(link) or not _has_shapes(link):
             return None
         for joint in self.below.get(name, ()):
-            child = self.links.get(_end(joint, "child"))
-            if child is None or joint.attributes.get("type") != "fixed" or _name(child) in self.led:
+            child = self.links.get(_joint_end(joint, "child"))
+            if child is None or joint.type != "fixed" or child.name in self.led:
                 continue
-            if _weighs(child) and not _has_shapes(child):
+            if _has_mass(child) and not _has_shapes(child):
                 return joint
         return None
 
@@ -106,8 +101,8 @@ def _has_shapes(link: RawNode) -> bool:
     return link.first("visual") is not None or link.first("collision") is not None
 
 
-def _weighs(link: RawNode) -> bool:
-    """Whether a link has a mass, or else moments."""
+def _has_mass(link: RawNode) -> bool:
+    """Whether a link has a mass, or without one some moment."""
     inertial = _last_child(link, "inertial")
     mass = None if inertial is None else _last_child(inertial, "mass")
     if inertial is None or mass is None:
@@ -118,16 +113,16 @@ def _weighs(link: RawNode) -> bool:
     return inertia is not None and any(number_in(inertia.attributes.get(each, "0")) for each in _DIAGONAL)
 
 
-def _stage(root: RawNode) -> _Stage | None:
-    """None where no link that carries another one is a root."""
-    links = {_name(link): link for link in root.all("link")}
+def _build_stage(root: RawNode) -> _Stage | None:
+    """The stage of a robot; None if no root carries another link."""
+    links = {link.name: link for link in root.all("link")}
     joints = list(root.all("joint"))
     below: dict[str, list[RawNode]] = {}
     for joint in joints:
-        below.setdefault(_end(joint, "parent"), []).append(joint)
-    children = {_end(joint, "child") for joint in joints}
+        below.setdefault(_joint_end(joint, "parent"), []).append(joint)
+    children = {_joint_end(joint, "child") for joint in joints}
     leaders = {mimic.attributes.get("joint") for joint in joints if (mimic := _last_child(joint, "mimic")) is not None}
-    led = (_end(joint, "child") for joint in joints if _name(joint) in leaders)
+    led = (_joint_end(joint, "child") for joint in joints if joint.name in leaders)
     first = next((name for name in below if name not in children), None) if joints else next(iter(links), None)
     if first is None or first not in links:
         return None
@@ -136,18 +131,18 @@ def _stage(root: RawNode) -> _Stage | None:
     return stage
 
 
-def _rootless(root: RawNode) -> Fact:
-    """Joints of which none has a root for its parent, or a loop below the root."""
-    stage = _stage(root)
+def _rootless_stages(root: RawNode) -> Fact:
+    """A robot without a root that carries another link, or the joint that closes a loop below the root."""
+    stage = _build_stage(root)
     if stage is None and root.first("link") is not None:
         yield root, "no link that has another one below it is a root"
     elif stage is not None and stage.loop is not None:
-        yield stage.loop, f"joint {_name(stage.loop)!r} closes a loop"
+        yield stage.loop, f"joint {stage.loop.name!r} closes a loop"
 
 
-def _unreached(root: RawNode) -> Fact:
-    """Links that are not below the root of the first joint that has one."""
-    stage = _stage(root)
+def _unreached_links(root: RawNode) -> Fact:
+    """Links that are not below the root at which the converter begins, or are there several times."""
+    stage = _build_stage(root)
     if stage is None or stage.loop is not None:
         return
     for name, link in stage.links.items():
@@ -158,8 +153,8 @@ def _unreached(root: RawNode) -> Fact:
             yield link, f"link {name!r} is not below the root that it begins with, or below one that is left out"
 
 
-def _misplaced(root: RawNode) -> Fact:
-    """Elements that it knows, in others that it knows, where they do not belong."""
+def _misplaced_elements(root: RawNode) -> Fact:
+    """Known elements inside of known elements where they may not stand."""
     waiting = [root]
     while waiting:
         node = waiting.pop()
@@ -175,13 +170,13 @@ def _is_at_home(child: RawNode, node: RawNode) -> bool:
 
 
 def _strange_attributes(root: RawNode) -> Fact:
-    """Attributes that it wants to write by their names, which are no names in USD."""
-    stage = _stage(root)
+    """Unknown attributes that are copied to the stage although their names are invalid in USD."""
+    stage = _build_stage(root)
     if stage is None:
         return
     reached = [link for name, link in stage.links.items() if name in stage.times]
     shapes = [shape for link in reached for shape in link.children if _is_shape(shape)]
-    moving = [joint for joint in stage.joints if joint.attributes.get("type") != "floating"]
+    moving = [joint for joint in stage.joints if joint.type != "floating"]
     for node in (root, *root.all("material"), *reached, *shapes, *moving):
         for each in (node, *_unknown_below(node)):
             name = next((name for name in each.attributes if not _is_writable(name)), None)
@@ -195,7 +190,7 @@ def _is_shape(node: RawNode) -> bool:
 
 
 def _unknown_below(node: RawNode) -> Iterator[RawNode]:
-    """The children that it does not know, and all in them."""
+    """The children that the converter does not know, and all elements in them."""
     waiting = [child for child in node.children if not _is_at_home(child, node)]
     while waiting:
         each = waiting.pop()
@@ -207,28 +202,28 @@ def _is_writable(name: str) -> bool:
     return all(piece.isidentifier() for piece in name.split(":"))
 
 
-def _opacities(root: RawNode) -> Fact:
-    """Colors with a fourth number that is not from 0 to 1, of the first material of each name."""
-    met = {_name(material) for material in root.all("material")}
-    visuals = (visual for link in root.all("link") for visual in link.all("visual"))
+def _strange_opacities(root: RawNode) -> Fact:
+    """Colors with an opacity that is not from 0 to 1, of the first material of each name."""
+    met = {material.name for material in root.all("material")}
+    visuals = root.all("link", "visual")
     inside = [material for visual in visuals if (material := _last_child(visual, "material")) is not None]
     for material in (*root.all("material"), *inside):
-        is_inside, name = material in inside, _name(material)
+        is_inside, name = material in inside, material.name
         if is_inside and name and name in met:
             continue
         met.add(name)
         color = _last_child(material, "color")
         numbers = [number_in(piece) for piece in (color.attributes.get("rgba", "") if color else "").split()]
-        if color is not None and len(numbers) == len("rgba") and not _is_share(numbers[-1]):
+        if color is not None and len(numbers) == len("rgba") and not _is_opacity(numbers[-1]):
             yield color, f"the opacity of a color is {numbers[-1]:g}"
 
 
-def _is_share(number: float | None) -> bool:
+def _is_opacity(number: float | None) -> bool:
     return number is None or math.isnan(number) or 0 <= number <= 1
 
 
 def _endless_moments(root: RawNode) -> Fact:
-    """Moments that are no numbers, in an inertial with a place, to which it turns them."""
+    """Infinite moments in an inertial with an origin, which the converter rotates."""
     for inertial in (each for link in root.all("link") if (each := _last_child(link, "inertial")) is not None):
         inertia = _last_child(inertial, "inertia")
         if inertia is None or inertial.first("origin") is None:
@@ -239,12 +234,11 @@ def _endless_moments(root: RawNode) -> Fact:
                 yield inertia, f"{name!r} of <inertia> is {inertia.attributes[name]!r}"
 
 
-FACTS: Mapping[str, Callable[[RawNode], Fact]] = {
-    "rootless-stage": _rootless,
-    "unreached-link": _unreached,
-    "misplaced-element": _misplaced,
+FACTS: FactTable = {
+    "rootless-stage": _rootless_stages,
+    "unreached-link": _unreached_links,
+    "misplaced-element": _misplaced_elements,
     "strange-attribute": _strange_attributes,
-    "strange-opacity": _opacities,
+    "strange-opacity": _strange_opacities,
     "endless-moment": _endless_moments,
 }
-"""Facts by their names in tables."""

@@ -2,7 +2,7 @@
 
 import pytest
 
-import twinform.profiles.reading.tinyxml as tiny
+import twinform.profiles.reading.xml_parsers as tiny
 from twinform.diagnostics import rules
 from twinform.ir import Format
 from twinform.profiles import ConsumerVerdict, ProfiledFile, assess, load
@@ -62,20 +62,20 @@ def test_nothing_at_all_is_refused(consumer: str, text: bytes) -> None:
 def test_tinyxml_takes_what_is_no_xml_and_its_successor_does_not() -> None:
     unquoted, late = b"<robot name=r/>", b"<robot><?odd?></robot>"
     for text in (unquoted, late):
-        assert tiny.parse(text, tiny.TINYXML)[0].tag == "robot"
+        assert tiny.parse_with_tinyxml(text, tiny.TINYXML)[0].tag == "robot"
         with pytest.raises(UnparsedError):
-            tiny.parse(text, tiny.TINYXML_2)
+            tiny.parse_with_tinyxml(text, tiny.TINYXML_2)
     for text in (b"<a><b></a>", b"<a b='1' b='2'/>", b"<a", b"<a><!-- </a>"):
         with pytest.raises(UnparsedError):
-            tiny.parse(text, tiny.TINYXML)
+            tiny.parse_with_tinyxml(text, tiny.TINYXML)
 
 
 def test_bullet_breaks_long_lines_and_cuts_them_at_odd_ends() -> None:
-    assert tiny.in_lines(b"a" * 8192 + b"\nb\rc\n") == b"a" * 8191 + b"\na\nb\n"
+    assert tiny.split_as_bullet(b"a" * 8192 + b"\nb\rc\n") == b"a" * 8191 + b"\na\nb\n"
 
 
 def test_values_stay_as_they_are_written() -> None:
-    (root,) = tiny.parse(b"<a b='1\t2&#10;&lt;&odd;'>x</a>", tiny.TINYXML)
+    (root,) = tiny.parse_with_tinyxml(b"<a b='1\t2&#10;&lt;&odd;'>x</a>", tiny.TINYXML)
     assert root.attributes == {"b": "1\t2\n<&odd;"}
     assert root.text == "x"
 
