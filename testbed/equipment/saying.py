@@ -8,7 +8,7 @@ from fnmatch import fnmatchcase
 import twinform
 from testbed.equipment.differences import Difference
 from twinform.ir import Document
-from twinform.passes.structure.gazebo_blocks import FLAGS
+from twinform.passes.structure.gazebo_blocks import BODY_FLAGS
 
 _RULES = {
     "unreached-shape": ("*: ?*", ""),
@@ -87,7 +87,7 @@ def _is_in(path: str, place: str) -> bool:
 
 def _is_set_by(tag: str, found: Difference) -> bool:
     """Whether a tag is about the flag of a link that differs."""
-    return found.kind == "link" and found.path.partition("/")[0] == FLAGS.get(tag)
+    return found.kind == "link" and found.path.partition("/")[0] == BODY_FLAGS.get(tag)
 
 
 def _is_as_gazebo_shows_it(found: Difference) -> bool:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from twinform.ir.references import ReferenceKind
-from twinform.passes.structure.scopes import LOOKUP_ORDER
+from twinform.passes.structure.rename_parts import LOOKUP_ORDER
 from twinform.server.document_names import names_of, scope_of_reference
 from twinform.server.documents import TextDocument
 from twinform.server.name import Name

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from twinform.diagnostics import Span
-from twinform.passes.structure.scopes import LOOKUP_ORDER
+from twinform.passes.structure.rename_parts import LOOKUP_ORDER
 from twinform.server.tolerant_tree import TolerantNode
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from lsprotocol import types
 
 from twinform.file_access import Readable
-from twinform.passes.structure.scopes import RESERVED
+from twinform.passes.structure.rename_parts import RESERVED
 from twinform.server.document_names import name_at
 from twinform.server.documents import TextDocument
 from twinform.server.name import Name

@@ -9,7 +9,7 @@ from lsprotocol import types
 import twinform
 from testbed.corpus.files import ROOT
 from twinform.diagnostics import TextEdit
-from twinform.passes.structure.scopes import RESERVED
+from twinform.passes.structure.rename_parts import RESERVED
 from twinform.server.document_names import names_of
 from twinform.server.documents import TextDocument
 from twinform.server.rename_symbol import RenameRefusedError, rename

@@ -16,8 +16,7 @@ from twinform.ir import Element, Format, Frame, Joint, Link, Model
 from twinform.passes.carriers.annotations import AnyNode, find_annotation, with_annotation, without_annotation
 from twinform.passes.carriers.provenance import came_from, wrote_scopes
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.structure.rename_parts import renamed_model
-from twinform.passes.structure.scopes import Part, scope_of
+from twinform.passes.structure.rename_parts import Part, rename_model, scope_of
 from twinform.passes.transforms.pose_notation import NESTED
 
 NAME = "name"
@@ -32,7 +31,7 @@ _FIELDS: dict[Part, str] = {"link": "links", "joint": "joints", "frame": "frames
 def renamed(model: Model, names: Names, format_: Format) -> Model:
     """The model by new names, and all that names them by these."""
     scope = scope_of(model, lambda part, name: names.get((part, name), name), deep=False)
-    return renamed_model(model, scope, format_, DiagnosticSink())
+    return rename_model(model, scope, format_, DiagnosticSink())
 
 
 def with_old_names(model: Model, names: Names) -> Model:

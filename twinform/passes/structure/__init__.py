@@ -1,1 +1,1 @@
-"""Passes on the structure of models: names, joints, roots, nested models."""
+"""Passes on the structure of models: names, joints, roots, nested models, repeated and unwanted parts."""

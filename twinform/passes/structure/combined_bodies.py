@@ -1,4 +1,4 @@
-"""Combined mass and inertia of several links."""
+"""The mass, center and inertia of one link, and of several links as one body."""
 
 import math
 from collections.abc import Sequence
@@ -14,17 +14,17 @@ from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.framework.assets import NO_ASSETS
 
 _NO_MESHES = Meshes(NO_ASSETS)
-"""An inertia that is left to a mesh is not computed here: `fill-inertia` does it."""
+"""By default no inertia is computed from a mesh; `fill-inertia` does that."""
 
 
 def body_of(link: Link, graph: FrameGraph, format_: Format, meshes: Meshes = _NO_MESHES) -> Solid:
     """The mass, center and inertia of a link in its own frame, with the defaults of the format.
 
-    `meshes` has the files of those that an inertia is computed from.
+    `meshes` has the mesh files that an automatic inertia is computed from.
 
     Raises:
-        NoInertiaError: it is left to the reader, and cannot be computed.
-        FrameError: a pose is in a frame that is not known.
+        NoInertiaError: the inertia is automatic and cannot be computed.
+        FrameError: a pose is in an unknown frame.
     """
     inertial = link.inertial
     if inertial is None:
@@ -34,10 +34,10 @@ def body_of(link: Link, graph: FrameGraph, format_: Format, meshes: Meshes = _NO
     return placed(written_solid(inertial, format_), graph.resolve(inertial.pose, link.name, link.name))
 
 
-def with_guests(link: Link, own: Solid, guests: Sequence[Solid], sink: DiagnosticSink) -> Link:
-    """The link with the mass of others, which are in its frame. The axes of its inertia stay as they are written.
+def add_guests(link: Link, own: Solid, guests: Sequence[Solid], sink: DiagnosticSink) -> Link:
+    """The link with the mass of other solids in its frame; the axes of its inertia stay as they are written.
 
-    It is an error where no double holds the result.
+    A result that overflows is reported as an error.
     """
     heavy = [guest for guest in guests if guest.mass]
     if not heavy:
@@ -49,22 +49,22 @@ def with_guests(link: Link, own: Solid, guests: Sequence[Solid], sink: Diagnosti
         )
         sink.report(INDEFINITE_INERTIA, message, link.location, severity=Severity.ERROR)
         return link
-    return link.copy(inertial=with_solid(link.inertial or Inertial(), whole))
+    return link.copy(inertial=write_solid(link.inertial or Inertial(), whole))
 
 
-def with_solid(inertial: Inertial, whole: Solid) -> Inertial:
-    """The inertial with what a solid in the frame of its link has; the axes of the inertia stay as they are written."""
+def write_solid(inertial: Inertial, whole: Solid) -> Inertial:
+    """The inertial with the values of a solid in the frame of its link; the axes of the inertia stay as written."""
     written = None if inertial.auto else inertial.pose
     axes = Transform(rotation=Transform.from_pose(written).rotation)
     return inertial.copy(
         auto=None,
         mass=whole.mass,
-        pose=_pose(written, whole),
+        pose=_pose_at_center(written, whole),
         inertia=with_tensor(inertial.inertia, turned(whole.inertia, axes.inverse())),
     )
 
 
-def _pose(written: Pose | None, whole: Solid) -> Pose:
-    """The pose of an inertial with another center of mass; in the link's own frame."""
+def _pose_at_center(written: Pose | None, whole: Solid) -> Pose:
+    """The pose of an inertial with another center of mass, in the frame of the link."""
     pose = written or Pose(rpy=(0.0, 0.0, 0.0))
     return pose.copy(xyz=whole.center, relative_to=None)

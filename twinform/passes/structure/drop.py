@@ -1,11 +1,13 @@
-"""Drop visuals, collisions, sensors, plugins and lights from a model."""
+"""Drop visuals, collisions, sensors, plugins and lights from a model, and report references to them that are left."""
 
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from typing import ClassVar, Self, TypeVar
 
 from pydantic import Field, model_validator
 
-from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.rules import NOTHING_MATCHED
+from twinform.diagnostics import DiagnosticSink, Location
+from twinform.diagnostics.rules import DROPPED_REFERENCE, NOTHING_MATCHED
 from twinform.ir import (
     Collision,
     Document,
@@ -22,24 +24,31 @@ from twinform.ir import (
     map_children,
     node_fields,
     replace_fields,
+    walk,
 )
+from twinform.ir.verify import verify
 from twinform.passes.carriers.carriers import is_ours
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
-from twinform.passes.structure.dangling import RemovedNames, report_dangling
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-
-_KINDS: dict[type[Node], str] = {
+_OPTION_OF: dict[type[Node], str] = {
     Visual: "visuals",
     Collision: "collisions",
     Sensor: "sensors",
     Plugin: "plugins",
     Light: "lights",
 }
-"""The option that selects the nodes of a class that go."""
-_OPTIONS = tuple(_KINDS.values())
+"""The option that selects nodes of a class."""
+_OPTIONS = tuple(_OPTION_OF.values())
 _FREE_CONTENT = {option.removesuffix("s"): option for option in _OPTIONS}
-"""The same for elements in the free content of `<gazebo>`."""
+"""The option that selects elements in the free content of `<gazebo>`."""
+
+
+@dataclass(frozen=True, slots=True)
+class RemovedNames:
+    """The names of removed parts, by option; empty for a part without a name."""
+
+    names: dict[str, set[str]] = field(default_factory=dict[str, set[str]])
 
 
 class Drop(Pass):
@@ -78,8 +87,8 @@ class Drop(Pass):
         """The document without what is to go."""
         removed = RemovedNames()
         everywhere = "*" in self.links
-        made = self._thinned(document, removed, meant=everywhere)
-        made = map_children(made, lambda node: self._node(node, removed, meant=everywhere))
+        made = self._drop_children(document, removed, meant=everywhere)
+        made = map_children(made, lambda node: self._drop_below(node, removed, meant=everywhere))
         for option in _OPTIONS:
             patterns = ", ".join(getattr(self, option))
             if patterns and option not in removed.names:
@@ -89,19 +98,19 @@ class Drop(Pass):
             report_dangling(document, made, removed, sink)
         return made
 
-    def _node(self, node: Node, removed: RemovedNames, *, meant: bool) -> Node:
-        """The node without what is to go below it; `meant` is whether it is on a link that is meant."""
+    def _drop_below(self, node: Node, removed: RemovedNames, *, meant: bool) -> Node:
+        """The node without selected parts below it; `meant` is whether it is on a link that `links` selects."""
         if isinstance(node, GazeboExtension):
-            return self._extension(node, removed)
+            return self._drop_in_extension(node, removed)
         if isinstance(node, Link):
             meant = matches(node.name, self.links)
         made = map_children(
-            self._thinned(node, removed, meant=meant), lambda child: self._node(child, removed, meant=meant)
+            self._drop_children(node, removed, meant=meant), lambda child: self._drop_below(child, removed, meant=meant)
         )
-        return _without_empty(node, made) if isinstance(node, Model) and isinstance(made, Model) else made
+        return _remove_empty_extensions(node, made) if isinstance(node, Model) and isinstance(made, Model) else made
 
-    def _thinned(self, node: AnyNode, removed: RemovedNames, *, meant: bool) -> AnyNode:
-        """The node without what is to go directly in it."""
+    def _drop_children(self, node: AnyNode, removed: RemovedNames, *, meant: bool) -> AnyNode:
+        """The node without selected parts directly in it."""
         update: dict[str, object] = {}
         for name in node_fields(type(node)) if meant else ():
             value = getattr(node, name)
@@ -111,54 +120,103 @@ class Drop(Pass):
             if len(kept) < len(value):
                 update[name] = kept
         if meant and node.opaque:
-            opaque = tuple(self._in_opaque(part, removed) for part in node.opaque)
+            opaque = tuple(self._drop_in_opaque(part, removed) for part in node.opaque)
             update |= {"opaque": opaque} if opaque != node.opaque else {}
         return node.copy(**update) if update else node
 
-    def _in_opaque(self, part: Opaque, removed: RemovedNames) -> Opaque:
-        """A part that the IR keeps as it is, such as `<gui>`, without what is to go in it."""
+    def _drop_in_opaque(self, part: Opaque, removed: RemovedNames) -> Opaque:
+        """A part that the IR keeps as it is, such as `<gui>`, without selected elements."""
         # What travels in a carrier is a part of the other format, and comes back as it was.
         if part.element is None or is_ours(part):
             return part
-        return replace_fields(part, element=self._inside(part.element, removed))
+        return replace_fields(part, element=self._drop_in_element(part.element, removed))
 
     def _is_dropped(self, node: Node, removed: RemovedNames) -> bool:
-        option = _KINDS.get(type(node))
+        option = _OPTION_OF.get(type(node))
         if option is None:
             return False
-        return self._is_named(option, getattr(node, "name", None), getattr(node, "filename", None), removed)
+        return self._note_if_named(option, getattr(node, "name", None), getattr(node, "filename", None), removed)
 
-    def _is_named(self, option: str, name: str | None, file: str | None, removed: RemovedNames) -> bool:
+    def _note_if_named(self, option: str, name: str | None, file: str | None, removed: RemovedNames) -> bool:
+        """Whether an option selects a name or a file; notes the name if so."""
         patterns = getattr(self, option)
         if not matches(name, patterns) and not (file and matches(file, patterns)):
             return False
         removed.names.setdefault(option, set()).add(name or "")
         return True
 
-    def _extension(self, extension: GazeboExtension, removed: RemovedNames) -> GazeboExtension:
-        """A `<gazebo>` element of URDF without what is to go in it."""
+    def _drop_in_extension(self, extension: GazeboExtension, removed: RemovedNames) -> GazeboExtension:
+        """A `<gazebo>` element of URDF without selected elements."""
         if not matches(extension.reference, self.links):
             return extension
         return replace_fields(extension, content=self._kept_elements(extension.content, removed))
 
     def _kept_elements(self, elements: tuple[Element, ...], removed: RemovedNames) -> tuple[Element, ...]:
-        """The elements that stay, without what is to go in them; the parameters of plugins are theirs alone."""
-        return tuple(self._inside(each, removed) for each in elements if not self._element_goes(each, removed))
+        """The elements that stay, without selected elements in them; parameters of plugins are not looked into."""
+        return tuple(
+            self._drop_in_element(each, removed) for each in elements if not self._is_element_dropped(each, removed)
+        )
 
-    def _inside(self, element: Element, removed: RemovedNames) -> Element:
+    def _drop_in_element(self, element: Element, removed: RemovedNames) -> Element:
         if element.name == "plugin":
             return element
         return replace_fields(element, children=self._kept_elements(element.children, removed))
 
-    def _element_goes(self, element: Element, removed: RemovedNames) -> bool:
+    def _is_element_dropped(self, element: Element, removed: RemovedNames) -> bool:
         option = _FREE_CONTENT.get(element.name)
-        return option is not None and self._is_named(option, element.get("name"), element.get("filename"), removed)
+        return option is not None and self._note_if_named(option, element.get("name"), element.get("filename"), removed)
 
 
-def _without_empty(before: Model, after: Model) -> Model:
-    """The model without the `<gazebo>` elements that have nothing left."""
+def _remove_empty_extensions(before: Model, after: Model) -> Model:
+    """The model without the `<gazebo>` elements that became empty."""
     if after.extensions is before.extensions:
         return after
     pairs = zip(before.extensions, after.extensions, strict=True)
     kept = tuple(new for old, new in pairs if new is old or new.content or new.opaque)
     return after.copy(extensions=kept)
+
+
+def report_dangling(before: Document, after: Document, removed: RemovedNames, sink: DiagnosticSink) -> None:
+    """Report plugins that name removed parts, and mistakes that the document did not have before."""
+    names = {name for each in removed.names.values() for name in each if name} - set(_remaining_names(after))
+    for element, where in _plugin_parameters(after):
+        for word in (element.text, *(value for _, value in element.attributes)):
+            name = (word or "").strip().rpartition("::")[2]
+            if name in names:
+                message = f"<{element.name}> of a plugin names {name!r}, which was removed"
+                sink.report(DROPPED_REFERENCE, message, where, found=name)
+    old, new = DiagnosticSink(sink.file, sink.strict), DiagnosticSink(sink.file, sink.strict)
+    verify(before, old)
+    verify(after, new)
+    # Both documents are verified, so that no list of all kinds of references is needed here.
+    known = {(each.rule.name, each.location) for each in old.diagnostics}
+    sink.extend_new(each for each in new.diagnostics if (each.rule.name, each.location) not in known)
+
+
+def _remaining_names(document: Document) -> Iterator[str]:
+    """All names in a document."""
+    for node in walk(document):
+        name = getattr(node, "name", None)
+        if isinstance(name, str):
+            yield name
+        if isinstance(node, GazeboExtension):
+            yield from (element.get("name") or "" for each in node.content for element in each.walk())
+
+
+def _plugin_parameters(document: Document) -> Iterator[tuple[Element, Location]]:
+    """Every parameter of every plugin, and its location or that of the plugin."""
+    for node in walk(document):
+        for plugin, content in _plugins_of(node):
+            for each in content:
+                for element in each.walk():
+                    yield element, element.location if element.source else plugin
+
+
+def _plugins_of(node: Node) -> Iterator[tuple[Location, tuple[Element, ...]]]:
+    if isinstance(node, Plugin):
+        yield node.location, node.content
+    if isinstance(node, GazeboExtension):
+        for each in node.content:
+            for element in each.walk():
+                if element.name == "plugin":
+                    yield (element.location if element.source else node.location), element.children

@@ -18,7 +18,7 @@ _HOLDERS: dict[type[Node], tuple[str, ...]] = {
     Material: ("material",),
     Joint: ("joint",),
 }
-"""The rows of the facts table whose elements are left out where they repeat: a definition, and the way on from it."""
+"""By class of node the path to its row in the facts table, which says what elements may stand once."""
 
 
 class DropRepeats(Pass):
@@ -39,28 +39,29 @@ class DropRepeats(Pass):
         if document.format is not Format.URDF:
             return document
         for kind, way in _HOLDERS.items():
-            document = rewrite(document, kind, lambda node, way=way: _without_repeats(node, _fields(way), sink))
+            document = rewrite(document, kind, lambda node, way=way: _remove_repeats(node, _single_elements(way), sink))
         return document
 
 
 @cache
-def _fields(way: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
-    """For each element that may stand once in an element of URDF, the fields of the IR that hold its values, if any."""
+def _single_elements(way: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
+    """For each element that may stand once in an element of URDF, the fields of the IR that hold its values."""
     definition, *steps = way
     holder = table("urdf").definitions[definition]
     for step in steps:
         holder = next(row for row in holder.children if row.name == step)
     single = (row for row in holder.children if not row.repeats and row.dialect is None)
-    return {row.name: tuple(_places(row)) for row in single}
+    return {row.name: tuple(_fields_of(row)) for row in single}
 
 
-def _places(row: Fact) -> list[str]:
+def _fields_of(row: Fact) -> list[str]:
     if row.place == ".":
         return [inner.place for inner in row.rows if inner.place]
     return [row.place] if row.place else []
 
 
-def _without_repeats(node: Node, fields: dict[str, tuple[str, ...]], sink: DiagnosticSink) -> Node:
+def _remove_repeats(node: Node, fields: dict[str, tuple[str, ...]], sink: DiagnosticSink) -> Node:
+    """The node without elements that repeat an earlier one."""
     kept: list[Opaque] = []
     seen = {name for name, places in fields.items() if any(map(partial(_has_value, node), places))}
     for part in node.opaque:

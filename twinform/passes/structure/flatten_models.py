@@ -12,15 +12,23 @@ from twinform.ir.frames import MODEL, FrameGraph
 from twinform.ir.scopes import SCOPE, nested_models, nested_names, scoped_models
 from twinform.passes.carriers.annotations import without_synthesized
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
-from twinform.passes.structure.rename_parts import renamed_in_world, renamed_model, with_followed
-from twinform.passes.structure.scopes import Part, RenamedScope, report_clashes, scope_of
+from twinform.passes.structure.rename_parts import (
+    Part,
+    RenamedScope,
+    follow_references,
+    prefixed_scope,
+    rename_in_world,
+    rename_model,
+    report_clashes,
+    scope_of,
+)
 from twinform.passes.transforms.flattening import flatten
 from twinform.passes.transforms.joint_ends import report_self_joint, resolve_ends
 from twinform.passes.transforms.nested_settings import differing_rests, settle_links
 from twinform.passes.transforms.static_models import with_static_models_fixed
 
 _LAST_WITH_COLONS = "1.7"
-"""The last version of SDF in which names may have `::` in them."""
+"""The last version of SDF in which names may contain `::`."""
 
 
 class FlattenModels(ModelEdit):
@@ -56,20 +64,20 @@ class FlattenModels(ModelEdit):
 
     def edit_model(self, model: Model, place: EditContext) -> Model:
         """The model without models in it."""
-        if place.format is Format.URDF or not model.models or _has_includes(model, place.sink):
+        if place.format is Format.URDF or not model.models or _report_includes(model, place.sink):
             return model
         _report_settings(model, place)
-        flat = without_synthesized(flatten(with_static_models_fixed(settle_links(model)), _plain))
-        flat = _with_rest(flat, model, place)
-        if _has_self_joint(flat, place.sink):
+        flat = without_synthesized(flatten(with_static_models_fixed(settle_links(model)), _keep_frame))
+        flat = _add_contents(flat, model, place)
+        if _report_self_joints(flat, place.sink):
             return model
         scope = self._scope(flat, model)
         if self.separator != SCOPE and report_clashes(flat, scope, place.format, place.sink):
             return model
-        return renamed_model(flat, scope, place.format, place.sink)
+        return rename_model(flat, scope, place.format, place.sink)
 
     def _scope(self, flat: Model, model: Model) -> RenamedScope:
-        """The names of a flat model after the pass; it was made of this one."""
+        """The new names for the parts of a flattened model."""
         stand_ins = set(nested_names(model))  # so are the frames called that stand for them
 
         def choose(part: Part, name: str) -> str:
@@ -79,21 +87,22 @@ class FlattenModels(ModelEdit):
 
         return scope_of(flat, choose)
 
-    def in_world(self, before: World, after: World) -> World:
-        """The world, whose joints and frames follow."""
+    def update_world(self, before: World, after: World) -> World:
+        """The world, whose joints and frames follow the new names."""
 
         def scope(model: Model) -> RenamedScope:
-            return self._scope(flatten(model, _plain) if model.models else model, model)
+            return self._scope(flatten(model, _keep_frame) if model.models else model, model)
 
-        return renamed_in_world(before, after, scope, self.model)
+        return rename_in_world(before, after, scope, self.model)
 
 
-def _plain(frame: Frame, shell: Model) -> Frame:
+def _keep_frame(frame: Frame, shell: Model) -> Frame:
     del shell
     return frame
 
 
-def _has_includes(model: Model, sink: DiagnosticSink) -> bool:
+def _report_includes(model: Model, sink: DiagnosticSink) -> bool:
+    """Report includes that were not read; whether there are any."""
     found = [(each, include) for each in nested_models(model) for include in each.includes]
     for each, include in found:
         message = f"model {each.name!r} includes {include.uri!r}, which was not read"
@@ -102,8 +111,8 @@ def _has_includes(model: Model, sink: DiagnosticSink) -> bool:
     return bool(found)
 
 
-def _has_self_joint(model: Model, sink: DiagnosticSink) -> bool:
-    """Report joints of a link with itself, which libsdformat lets pass in nested models alone."""
+def _report_self_joints(model: Model, sink: DiagnosticSink) -> bool:
+    """Report joints of a link with itself, which libsdformat accepts only in nested models."""
     graph, found = FrameGraph(model), False
     links = {link.name for link in model.links}
     for joint in model.joints:
@@ -120,21 +129,13 @@ def _report_settings(model: Model, place: EditContext) -> None:
         place.sink.report(rules.NESTED_SETTING, message, where, found=value)
 
 
-def _with_rest(flat: Model, model: Model, place: EditContext) -> Model:
-    """The flat model with plugins and untyped parts of the models that were in it, which name their parts anew."""
+def _add_contents(flat: Model, model: Model, place: EditContext) -> Model:
+    """The flat model with plugins and untyped parts of its nested models, in which the new names are used."""
     plugins, opaque = list(model.plugins), list(model.opaque)
     for prefix, nested in islice(scoped_models(model), 1, None):
-        scope = _prefixed(nested, prefix)
+        scope = prefixed_scope(nested, prefix)
         rest = Model(name=nested.name, plugins=nested.plugins, opaque=nested.opaque, source=nested.source)
-        contents = with_followed(rest, scope, place.format, place.sink)
+        contents = follow_references(rest, scope, place.format, place.sink)
         plugins += contents.plugins
         opaque += [part for part in contents.opaque if part.element is not None]
     return flat.copy(plugins=tuple(plugins), opaque=tuple(opaque))
-
-
-def _prefixed(model: Model, prefix: str) -> RenamedScope:
-    def choose(part: Part, name: str) -> str:
-        del part
-        return prefix + name
-
-    return scope_of(model, choose, deep=False)

@@ -1,4 +1,4 @@
-"""`<gazebo>` elements of URDF by reference, and the links and joints that their content is about."""
+"""`<gazebo>` elements of URDF by reference, and which of their elements are about shapes, bodies or joints."""
 
 from collections.abc import Iterable, Mapping
 
@@ -13,25 +13,27 @@ from twinform.passes.transforms.nodes import unique_name
 
 Blocks = Mapping[str, list[GazeboExtension]]
 
-_OF_COLLISIONS = frozenset(
+_COLLISION_ELEMENTS = frozenset(
     {"collision", *(name for name, tag in LINK_TAGS.items() if tag.target in {"surface", "collision"})}
 )
-_OF_VISUALS = frozenset({"visual", "material"})
-OF_SHAPES: Mapping[str, frozenset[str]] = {"visuals": _OF_VISUALS, "collisions": _OF_COLLISIONS}
-"""Elements that are about all shapes of a link, by the field that has these shapes."""
-_OF_BODY = {
+_VISUAL_ELEMENTS = frozenset({"visual", "material"})
+SHAPE_ELEMENTS: Mapping[str, frozenset[str]] = {"visuals": _VISUAL_ELEMENTS, "collisions": _COLLISION_ELEMENTS}
+"""Elements that apply to all shapes of a link, by the field of these shapes."""
+_BODY_ELEMENTS = {
     "turnGravityOff": "gravity", "gravity": "gravity", "selfCollide": "self_collide", "self_collide": "self_collide",
     "dampingFactor": "velocity_decay", "velocity_decay": "velocity_decay", "kinematic": "kinematic",
     "enable_wind": "enable_wind", "inertial": "inertial", "pose": "pose",
 }  # fmt: skip
-"""Elements that are about the body of a link, and their values something of."""
-FLAGS: Mapping[str, str] = {name: field for name, field in _OF_BODY.items() if field not in {"inertial", "pose"}}
-"""The fields of a body that these elements set, each for the whole link."""
+"""Elements that apply to the body of a link, and the fields that they set."""
+BODY_FLAGS: Mapping[str, str] = {
+    name: field for name, field in _BODY_ELEMENTS.items() if field not in {"inertial", "pose"}
+}
+"""Elements that set a flag of the whole link, and the field of this flag."""
 _TYPED = frozenset({"sensor", "light"})
-"""Elements with a pose and a name that links of SDF have beside those without a typed form."""
+"""Elements of links with a pose and a name for which the IR has types."""
 
 
-def blocks(extensions: Iterable[GazeboExtension]) -> Blocks:
+def blocks_by_reference(extensions: Iterable[GazeboExtension]) -> Blocks:
     """The extensions by their references."""
     found: dict[str, list[GazeboExtension]] = {}
     for extension in extensions:
@@ -39,21 +41,21 @@ def blocks(extensions: Iterable[GazeboExtension]) -> Blocks:
     return found
 
 
-def content(there: Blocks, name: str) -> tuple[Element, ...]:
-    """All that extensions say of a link or joint."""
+def block_content(there: Blocks, name: str) -> tuple[Element, ...]:
+    """All elements of the extensions of a link or joint."""
     return tuple(element for extension in there.get(name, ()) for element in extension.content)
 
 
-def of_shapes(elements: Iterable[Element], field: str) -> tuple[Element, ...]:
-    """What is about all shapes of a kind."""
-    return tuple(element for element in elements if element.name in OF_SHAPES[field])
+def shape_elements(elements: Iterable[Element], field: str) -> tuple[Element, ...]:
+    """The elements that apply to all visuals or all collisions of a link."""
+    return tuple(element for element in elements if element.name in SHAPE_ELEMENTS[field])
 
 
-def of_body(elements: Iterable[Element]) -> dict[str, object]:
-    """The settings of the body of a link; what is usual is left out."""
+def body_settings(elements: Iterable[Element]) -> dict[str, object]:
+    """What elements set for the body of a link, except defaults."""
     settings: dict[str, object] = {}
     for element in elements:
-        about = _OF_BODY.get(element.name)
+        about = _BODY_ELEMENTS.get(element.name)
         if about is None:
             continue
         truth = value_text(element).lower() in TRUE
@@ -64,44 +66,44 @@ def of_body(elements: Iterable[Element]) -> dict[str, object]:
     return {about: value for about, value in settings.items() if BODY.get(about) != value}
 
 
-def turns_by_nothing(elements: Iterable[Element]) -> bool:
-    """Whether libsdformat makes a joint that turns by nothing of a fixed one that is to stay."""
+def becomes_locked_joint(elements: Iterable[Element]) -> bool:
+    """Whether libsdformat turns a fixed joint with these elements into a revolute one without any range."""
     settings = {element.name for element in elements if value_text(element).lower() in TRUE}
     return LUMPS_WITHOUT in settings and PRESERVES not in settings
 
 
-def measures(elements: Iterable[Element]) -> bool:
-    """Whether something measures at a joint: a sensor, or Gazebo Classic asked for the forces in it."""
+def has_sensor(elements: Iterable[Element]) -> bool:
+    """Whether something measures at a joint: a sensor, or Gazebo Classic for `provideFeedback`."""
     return any(
         element.name == "sensor" or (element.name == "provideFeedback" and value_text(element).lower() in TRUE)
         for element in elements
     )
 
 
-def is_set(element: Element) -> bool:
-    """Whether a joint's element would do anything in Gazebo."""
+def is_effective(element: Element) -> bool:
+    """Whether an element of a joint does anything in Gazebo."""
     tag = JOINT_TAGS.get(element.name)
     return tag is None or tag.target != "ignored"
 
 
 def posed_names(elements: Iterable[Element]) -> set[tuple[str, str]]:
-    """Sensors, lights and the like among elements, by kind and name."""
-    return {(element.name, element.get("name") or "") for element in elements if _has(element, "@name")}
+    """The kind and name of sensors, lights and other named elements of a link."""
+    return {(element.name, element.get("name") or "") for element in elements if _may_have(element, "@name")}
 
 
-def _has(element: Element, part: str) -> bool:
-    """Whether an element of a link, beside its shapes, may have a pose or a name."""
+def _may_have(element: Element, part: str) -> bool:
+    """Whether an element of a link may have this part, a pose or a name."""
     return element.name in _TYPED or element.name in link_elements(part)
 
 
-def named_apart(elements: Iterable[Element], taken: set[tuple[str, str]], link: str) -> tuple[Element, ...]:
-    """The elements, with the name of their link before the name of a sensor or light that is taken; takes them all."""
-    return tuple(_with_unique_name(element, taken, link) for element in elements)
+def rename_taken_names(elements: Iterable[Element], taken: set[tuple[str, str]], link: str) -> tuple[Element, ...]:
+    """The elements, with the name of the link before names of sensors and lights that are taken; takes all names."""
+    return tuple(_rename_if_taken(element, taken, link) for element in elements)
 
 
-def _with_unique_name(element: Element, taken: set[tuple[str, str]], link: str) -> Element:
+def _rename_if_taken(element: Element, taken: set[tuple[str, str]], link: str) -> Element:
     key = (element.name, element.get("name") or "")
-    if not key[1] or not _has(element, "@name"):
+    if not key[1] or not _may_have(element, "@name"):
         return element
     if key in taken:
         name = unique_name(f"{link}_{key[1]}", {name for kind, name in taken if kind == element.name})
@@ -111,9 +113,9 @@ def _with_unique_name(element: Element, taken: set[tuple[str, str]], link: str) 
     return element
 
 
-def in_host(element: Element, at: Transform) -> Element:
-    """An element of a link in the frame of another, in which the link's frame is `at`."""
-    if not _has(element, "pose"):
+def move_element(element: Element, at: Transform) -> Element:
+    """An element of a link for another link, in whose frame the old link is at a pose."""
+    if not _may_have(element, "pose"):
         return element
     pose = element.find("pose")
     if pose is not None and (pose.get("relative_to") or pose.get("frame")):

@@ -25,40 +25,40 @@ from twinform.ir.solids import placed
 from twinform.passes.analyses.automatic_inertias import NoInertiaError
 from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.carriers.carriers import is_ours
-from twinform.passes.structure.combined_bodies import body_of, with_guests
-from twinform.passes.structure.lumping_plan import LumpingPlan, plan
-from twinform.passes.structure.mentions import Mentions, mentions
+from twinform.passes.structure.combined_bodies import add_guests, body_of
+from twinform.passes.structure.lumping_plan import LumpingPlan, plan_lumping
 from twinform.passes.structure.model_edit import EditContext
+from twinform.passes.structure.reference_words import Mentions, find_mentions
 from twinform.passes.transforms.element_poses import link_elements
 from twinform.passes.transforms.nodes import unique_name
 
 Posed = TypeVar("Posed", Visual, Collision, Sensor, Light)
 _SETTINGS = {name: BODY.get(name) for name in ("gravity", "enable_wind", "self_collide", "kinematic")}
-"""The settings of a link for its body, and what applies where they are not written."""
-_OF_BODY = frozenset({"velocity_decay"})
+"""The settings of a link for its body, and their defaults."""
+_BODY_ELEMENTS = frozenset({"velocity_decay"})
 
 
 def lump_sdf(
     model: Model, keep: tuple[str, ...], place: EditContext, meshes: Meshes, named: Mentions | None = None
 ) -> Model:
-    """The model, and the models in it, with one link for each rigid body; the same one where nothing changes."""
-    named = named or mentions(model)
+    """The model, and its nested models, with one link for each rigid body; the same model where nothing changes."""
+    named = named or find_mentions(model)
     inner = (lump_sdf(nested, keep, place, meshes, named) for nested in model.models)
     model = replace_fields(model, models=tuple(inner))
     if not any(joint.type == "fixed" for joint in model.joints):
         return model
     graph = FrameGraph(model)
-    planned = plan(model, graph, keep, _SdfObstacles(graph, named, meshes).why, place)
-    return _lumped(model, graph, planned, meshes, place.sink) if planned.joints else model
+    planned = plan_lumping(model, graph, keep, _SdfObstacles(graph, named, meshes).find_obstacle, place)
+    return _lump_model(model, graph, planned, meshes, place.sink) if planned.joints else model
 
 
 class _SdfObstacles:
-    """Why a link cannot be lumped."""
+    """Says why a link cannot be lumped."""
 
     def __init__(self, graph: FrameGraph, named: Mentions, meshes: Meshes) -> None:
         self.graph, self.named, self.meshes = graph, named, meshes
 
-    def why(self, joint: Joint, parent: Link, child: Link) -> str | None:
+    def find_obstacle(self, joint: Joint, parent: Link, child: Link) -> str | None:
         # A force-torque sensor measures what goes through the joint, which would be gone.
         if joint.sensors:
             return f"there is a sensor on joint {joint.name!r}"
@@ -78,20 +78,20 @@ class _SdfObstacles:
         )
         if other:
             return f"its <{other}> is not that of {parent.name!r}"
-        if _of_body(parent) != _of_body(child):
+        if _body_elements(parent) != _body_elements(child):
             return f"its <velocity_decay> is not that of {parent.name!r}"
-        return self._unlike(child) or self._without_mass((parent, child))
+        return self._find_untransferable(child) or self._find_missing_mass((parent, child))
 
-    def _unlike(self, child: Link) -> str | None:
-        """Parts that only a link can have."""
-        known = link_elements("pose") | _OF_BODY
-        unknown = next((part for part in child.opaque if not is_ours(part) and _name(part) not in known), None)
+    def _find_untransferable(self, child: Link) -> str | None:
+        """Why a link has a part that cannot move to another link; None where there is none."""
+        known = link_elements("pose") | _BODY_ELEMENTS
+        unknown = next((part for part in child.opaque if not is_ours(part) and _element_name(part) not in known), None)
         if unknown is not None:
             return f"{unknown.name} belongs to the link"
-        added = child.inertial and any(_name(part) == "fluid_added_mass" for part in child.inertial.opaque)
+        added = child.inertial and any(_element_name(part) == "fluid_added_mass" for part in child.inertial.opaque)
         return "it has <fluid_added_mass>" if added else None
 
-    def _without_mass(self, links: Iterable[Link]) -> str | None:
+    def _find_missing_mass(self, links: Iterable[Link]) -> str | None:
         try:
             for link in links:
                 body_of(link, self.graph, Format.SDF, self.meshes)
@@ -101,86 +101,92 @@ class _SdfObstacles:
 
 
 def _value_or_default(link: Link, name: str, usual: object) -> object:
-    """Return the value of a field of a link, or the usual one if it is not written."""
+    """The value of a field of a link, or the default where it is not written."""
     value = getattr(link, name)
     return usual if value is None else value
 
 
-def _of_body(link: Link) -> list[Element]:
-    return [part.element for part in link.opaque if part.element and part.element.name in _OF_BODY]
+def _body_elements(link: Link) -> list[Element]:
+    return [part.element for part in link.opaque if part.element and part.element.name in _BODY_ELEMENTS]
 
 
-def _name(part: Opaque) -> str:
+def _element_name(part: Opaque) -> str:
     return part.element.name if part.element else part.name
 
 
-def _lumped(model: Model, graph: FrameGraph, planned: LumpingPlan, meshes: Meshes, sink: DiagnosticSink) -> Model:
+def _lump_model(model: Model, graph: FrameGraph, planned: LumpingPlan, meshes: Meshes, sink: DiagnosticSink) -> Model:
     links = {link.name: link for link in model.links}
     guests = planned.guests()
     gone = {joint.name for joint in planned.joints.values()}
-    frames = [frame for name, joint in planned.joints.items() for frame in _frames(links[name], joint, model)]
+    frames = [frame for name, joint in planned.joints.items() for frame in _frames_for_link(links[name], joint, model)]
     made = model.copy(
         links=tuple(
-            _host(link, [links[name] for name in guests.get(link.name, [])], graph, meshes, sink)
+            _lump_into_link(link, [links[name] for name in guests.get(link.name, [])], graph, meshes, sink)
             for link in model.links
             if link.name not in planned.joints
         ),
         joints=tuple(joint for joint in model.joints if joint.name not in gone),
         frames=(*model.frames, *frames),
     )
-    return _same_canonical_link(made, graph, planned)
+    return _keep_canonical_link(made, graph, planned)
 
 
-def _frames(link: Link, joint: Joint, model: Model) -> tuple[Frame, Frame]:
-    """Frames by the names of the joint and its child, where these were: nothing that names them has to change."""
+def _frames_for_link(link: Link, joint: Joint, model: Model) -> tuple[Frame, Frame]:
+    """Frames with the names of a joint and its child: whatever names these stays valid."""
     child = next((each.child for each in model.joints if each.name == joint.name), None) or link.name
     mount = Frame(
         name=joint.name,
         attached_to=joint.parent,
-        pose=_based(joint.pose, child),
+        pose=_relative_to(joint.pose, child),
         source=joint.source,
-        opaque=_ours(joint),
+        opaque=_our_parts(joint),
     )
     body = Frame(
-        name=link.name, attached_to=joint.parent, pose=_based(link.pose, MODEL), source=link.source, opaque=_ours(link)
+        name=link.name,
+        attached_to=joint.parent,
+        pose=_relative_to(link.pose, MODEL),
+        source=link.source,
+        opaque=_our_parts(link),
     )
     return mount, body
 
 
-def _ours(node: Joint | Link) -> tuple[Opaque, ...]:
+def _our_parts(node: Joint | Link) -> tuple[Opaque, ...]:
     return tuple(part for part in node.opaque if is_ours(part) and part.element is not None)
 
 
-def _based(pose: Pose | None, base: str) -> Pose:
-    """The pose with its frame written out, which is another one for a frame."""
+def _relative_to(pose: Pose | None, base: str) -> Pose:
+    """The pose with its frame written out, since another one is the default for a frame."""
     pose = pose or Pose()
     return pose if pose.relative_to else pose.copy(relative_to=base)
 
 
-def _host(link: Link, guests: list[Link], graph: FrameGraph, meshes: Meshes, sink: DiagnosticSink) -> Link:
+def _lump_into_link(link: Link, guests: list[Link], graph: FrameGraph, meshes: Meshes, sink: DiagnosticSink) -> Link:
     if not guests:
         return link
     solids = [placed(body_of(guest, graph, Format.SDF, meshes), graph.pose(guest.name, link.name)) for guest in guests]
-    heavy = with_guests(link, body_of(link, graph, Format.SDF, meshes), solids, sink)
+    heavy = add_guests(link, body_of(link, graph, Format.SDF, meshes), solids, sink)
     into = heavy
     for guest in guests:
-        collisions = _moved(guest, guest.collisions, into.collisions)
-        sensors = tuple(_sensor(each, guest, collisions) for each in guest.sensors)
+        collisions = _moved_parts(guest, guest.collisions, into.collisions)
+        sensors = tuple(_follow_collisions(each, guest, collisions) for each in guest.sensors)
         moved = tuple(
-            _element_in_frame(part, guest.name) for part in guest.opaque if _name(part) in link_elements("pose")
+            _pose_element_in_frame(part, guest.name)
+            for part in guest.opaque
+            if _element_name(part) in link_elements("pose")
         )
         into = into.copy(
-            visuals=(*into.visuals, *_moved(guest, guest.visuals, into.visuals)),
+            visuals=(*into.visuals, *_moved_parts(guest, guest.visuals, into.visuals)),
             collisions=(*into.collisions, *collisions),
-            sensors=(*into.sensors, *_moved(guest, sensors, into.sensors)),
-            lights=(*into.lights, *_moved(guest, guest.lights, into.lights)),
+            sensors=(*into.sensors, *_moved_parts(guest, sensors, into.sensors)),
+            lights=(*into.lights, *_moved_parts(guest, guest.lights, into.lights)),
             opaque=(*into.opaque, *moved),
         )
     return into
 
 
-def _moved(guest: Link, parts: tuple[Posed, ...], there: tuple[Posed, ...]) -> list[Posed]:
-    """Parts posed in the frame of their old link; one whose name is taken gets that of the link before it."""
+def _moved_parts(guest: Link, parts: tuple[Posed, ...], there: tuple[Posed, ...]) -> list[Posed]:
+    """Parts posed in the frame of their old link, whose name is put before names that are taken."""
     taken = {part.name for part in there}
     made: list[Posed] = []
     for part in parts:
@@ -188,35 +194,36 @@ def _moved(guest: Link, parts: tuple[Posed, ...], there: tuple[Posed, ...]) -> l
         if name in taken:
             name = unique_name(f"{guest.name}_{name}", taken | {each.name for each in parts})
         taken.add(name)
-        placed_part = _in_frame(part, guest.name)
+        placed_part = _pose_in_frame(part, guest.name)
         made.append(placed_part if name == part.name else placed_part.copy(name=name))
     return made
 
 
-def _in_frame(node: Posed, frame: str) -> Posed:
-    """The node in the frame that its link has become, unless it is in another one already."""
-    return node.copy(pose=_based(node.pose, frame))
+def _pose_in_frame(node: Posed, frame: str) -> Posed:
+    """The node posed in the frame that its link has become, unless it names another frame."""
+    return node.copy(pose=_relative_to(node.pose, frame))
 
 
-def _sensor(sensor: Sensor, guest: Link, collisions: list[Collision]) -> Sensor:
-    """A sensor of contact names its collision by the name that this has now; `collisions` are those of the guest."""
+def _follow_collisions(sensor: Sensor, guest: Link, collisions: list[Collision]) -> Sensor:
+    """A contact sensor of a lumped link, with the new names of the collisions of this link."""
     pairs = zip(guest.collisions, collisions, strict=True)
     renamed = {old.name: new.name for old, new in pairs if old.name and new.name and old.name != new.name}
     if not renamed or sensor.type != "contact":
         return sensor
     parts = tuple(
-        part if part.element is None else part.copy(element=_recalled(part.element, renamed)) for part in sensor.opaque
+        part if part.element is None else part.copy(element=_rename_collisions(part.element, renamed))
+        for part in sensor.opaque
     )
     return sensor.copy(opaque=parts)
 
 
-def _recalled(element: Element, names: dict[str, str]) -> Element:
+def _rename_collisions(element: Element, names: dict[str, str]) -> Element:
     text = names.get(element.text or "", element.text) if element.name == "collision" else element.text
-    children = tuple(_recalled(child, names) for child in element.children)
+    children = tuple(_rename_collisions(child, names) for child in element.children)
     return element.copy(text=text, children=children)
 
 
-def _element_in_frame(part: Opaque, frame: str) -> Opaque:
+def _pose_element_in_frame(part: Opaque, frame: str) -> Opaque:
     element = part.element
     if element is None:
         return part
@@ -231,8 +238,8 @@ def _element_in_frame(part: Opaque, frame: str) -> Opaque:
     return part.copy(element=element.copy(children=children))
 
 
-def _same_canonical_link(model: Model, graph: FrameGraph, planned: LumpingPlan) -> Model:
-    """The model, whose own frame moves with the body that it moved with before."""
+def _keep_canonical_link(model: Model, graph: FrameGraph, planned: LumpingPlan) -> Model:
+    """The model with a canonical link that makes the frame of the model move with the same body as before."""
     before = graph.body(MODEL, kind="model")
     body = planned.hosts.get(before, before)
     # The model's own frame must not start to move with another body.

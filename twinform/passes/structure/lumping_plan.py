@@ -11,25 +11,25 @@ from twinform.passes.framework.pass_base import matches
 from twinform.passes.structure.model_edit import EditContext
 
 Obstacle = Callable[[Joint, Link, Link], str | None]
-"""Why a link (the last) that a joint fixes to another has to stay; None where it may be lumped."""
+"""Why a joint cannot lump its child (the last link) into its parent; None where it can."""
 
 
 @dataclass(frozen=True, slots=True)
 class LumpingPlan:
-    """The joints that go, by the names of their children; `hosts` has the link that each of these goes into."""
+    """The joints that are removed, by the names of their children, and the link that each child goes into, its host."""
 
     joints: Mapping[str, Joint]
     hosts: Mapping[str, str]
 
     def guests(self) -> dict[str, list[str]]:
-        """The links that go into another, by its name: parents before children, and these in the order of joints."""
+        """The links that go into each host: parents before children, and these in the order of joints."""
         below: dict[str, list[str]] = {}
         for child, joint in self.joints.items():
             below.setdefault(joint.parent or "", []).append(child)
-        return {host: list(_below(host, below)) for host in dict.fromkeys(self.hosts.values())}
+        return {host: list(_links_below(host, below)) for host in dict.fromkeys(self.hosts.values())}
 
 
-def _below(name: str, below: Mapping[str, list[str]]) -> Iterator[str]:
+def _links_below(name: str, below: Mapping[str, list[str]]) -> Iterator[str]:
     stack = list(reversed(below.get(name, [])))
     while stack:
         child = stack.pop()
@@ -46,34 +46,36 @@ class LumpingCandidate:
     child: str
 
 
-def plan(model: Model, graph: FrameGraph, keep: tuple[str, ...], obstacle: Obstacle, place: EditContext) -> LumpingPlan:
-    """What can go, with a diagnostic for each link that cannot."""
+def plan_lumping(
+    model: Model, graph: FrameGraph, keep: tuple[str, ...], obstacle: Obstacle, place: EditContext
+) -> LumpingPlan:
+    """The links that can be lumped; each link that cannot is reported."""
     links = {link.name: link for link in model.links}
     ends = [
-        LumpingCandidate(joint, _body(joint.parent, links, graph), _body(joint.child, links, graph))
+        LumpingCandidate(joint, _body_of(joint.parent, links, graph), _body_of(joint.child, links, graph))
         for joint in model.joints
     ]
     # A gearbox couples two joints and holds no link.
     carried = Counter(each.child for each in ends if each.joint.type != "gearbox")
     going: dict[str, LumpingCandidate] = {}
     for each in ends:
-        if each.joint.type != "fixed" or each.child not in links or each.parent == WORLD or _kept(each, keep):
+        if each.joint.type != "fixed" or each.child not in links or each.parent == WORLD or _is_kept(each, keep):
             continue
-        why = _why_not(each, links, carried, obstacle)
+        why = _find_obstacle(each, links, carried, obstacle)
         if why is None:
             going[each.child] = each
         elif why:
-            _report(each, why, place)
-    for name in _circles(going):
-        _report(going.pop(name), "fixed joints go round in a circle there", place)
-    _leave_what_others_hold(going, ends, place)
+            _report_obstacle(each, why, place)
+    for name in _links_in_circles(going):
+        _report_obstacle(going.pop(name), "fixed joints go round in a circle there", place)
+    _keep_links_held_apart(going, ends, place)
     return LumpingPlan(
         {name: each.joint.copy(parent=each.parent) for name, each in going.items()},
-        {name: _host(name, going) for name in going},
+        {name: _host_of(name, going) for name in going},
     )
 
 
-def _body(name: str | None, links: Mapping[str, Link], graph: FrameGraph) -> str:
+def _body_of(name: str | None, links: Mapping[str, Link], graph: FrameGraph) -> str:
     if not name or name in links or name == WORLD:
         return name or ""
     try:
@@ -82,11 +84,11 @@ def _body(name: str | None, links: Mapping[str, Link], graph: FrameGraph) -> str
         return name
 
 
-def _kept(each: LumpingCandidate, keep: tuple[str, ...]) -> bool:
+def _is_kept(each: LumpingCandidate, keep: tuple[str, ...]) -> bool:
     return matches(each.child, keep) or matches(each.joint.name, keep)
 
 
-def _why_not(
+def _find_obstacle(
     each: LumpingCandidate, links: Mapping[str, Link], carried: Counter[str], obstacle: Obstacle
 ) -> str | None:
     if each.parent not in links:
@@ -96,8 +98,8 @@ def _why_not(
     return obstacle(each.joint, links[each.parent], links[each.child])
 
 
-def _circles(going: Mapping[str, LumpingCandidate]) -> list[str]:
-    """The links from which the way up never ends."""
+def _links_in_circles(going: Mapping[str, LumpingCandidate]) -> list[str]:
+    """The links from which parents lead round in a circle."""
     good: set[str] = set()
     bad: list[str] = []
     for name in going:
@@ -113,27 +115,27 @@ def _circles(going: Mapping[str, LumpingCandidate]) -> list[str]:
     return list(dict.fromkeys(bad))
 
 
-def _leave_what_others_hold(
+def _keep_links_held_apart(
     going: dict[str, LumpingCandidate], ends: list[LumpingCandidate], place: EditContext
 ) -> None:
-    """A joint must not end up with both of its ends in one link."""
+    """Keep links that another joint connects, which would otherwise connect one link with itself."""
     while True:
-        same = next((each for each in ends if _joins_itself(each, going)), None)
+        same = next((each for each in ends if _would_join_itself(each, going)), None)
         if same is None:
             return
         why = f"joint {same.joint.name!r} would connect one link with itself"
-        for name in dict.fromkeys((*_way_up(same.child, going), *_way_up(same.parent, going))):
-            _report(going.pop(name), why, place)
+        for name in dict.fromkeys((*_links_to_host(same.child, going), *_links_to_host(same.parent, going))):
+            _report_obstacle(going.pop(name), why, place)
 
 
-def _joins_itself(each: LumpingCandidate, going: Mapping[str, LumpingCandidate]) -> bool:
+def _would_join_itself(each: LumpingCandidate, going: Mapping[str, LumpingCandidate]) -> bool:
     if each.child in going and going[each.child] is each:
         return False
-    return each.parent != each.child and _host(each.parent, going) == _host(each.child, going)
+    return each.parent != each.child and _host_of(each.parent, going) == _host_of(each.child, going)
 
 
-def _way_up(name: str, going: Mapping[str, LumpingCandidate]) -> list[str]:
-    """The links that go, from a link up to the one that stays."""
+def _links_to_host(name: str, going: Mapping[str, LumpingCandidate]) -> list[str]:
+    """The lumped links from a link up to its host."""
     way: list[str] = []
     while name in going:
         way.append(name)
@@ -141,12 +143,12 @@ def _way_up(name: str, going: Mapping[str, LumpingCandidate]) -> list[str]:
     return way
 
 
-def _host(name: str, going: Mapping[str, LumpingCandidate]) -> str:
+def _host_of(name: str, going: Mapping[str, LumpingCandidate]) -> str:
     while name in going:
         name = going[name].parent
     return name
 
 
-def _report(each: LumpingCandidate, why: str, place: EditContext) -> None:
+def _report_obstacle(each: LumpingCandidate, why: str, place: EditContext) -> None:
     message = f"link {each.child!r} is not lumped into {each.parent!r}: {why}"
     place.sink.report(rules.LINK_NOT_LUMPED, message, each.joint.location, found=each.child)

@@ -6,8 +6,7 @@ from pydantic import Field
 
 from twinform.ir import Model, World
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
-from twinform.passes.structure.rename_parts import renamed_in_world, renamed_model
-from twinform.passes.structure.scopes import Part, report_clashes, scope_of
+from twinform.passes.structure.rename_parts import Part, rename_in_world, rename_model, report_clashes, scope_of
 
 
 class PrefixNames(ModelEdit):
@@ -28,15 +27,15 @@ class PrefixNames(ModelEdit):
     again: bool = Field(default=False, description="Also before names that begin with it already.")
 
     def edit_model(self, model: Model, place: EditContext) -> Model:
-        """The model with longer names."""
+        """The model with prefixed names."""
         scope = scope_of(model, self._choose, deep=False)
         if not scope.changes or report_clashes(model, scope, place.format, place.sink):
             return model
-        return renamed_model(model, scope, place.format, place.sink)
+        return rename_model(model, scope, place.format, place.sink)
 
-    def in_world(self, before: World, after: World) -> World:
-        """The world, whose joints and frames follow."""
-        return renamed_in_world(before, after, lambda model: scope_of(model, self._choose, deep=False), self.model)
+    def update_world(self, before: World, after: World) -> World:
+        """The world, whose joints and frames follow the new names."""
+        return rename_in_world(before, after, lambda model: scope_of(model, self._choose, deep=False), self.model)
 
     def _choose(self, part: Part, name: str) -> str:
         del part

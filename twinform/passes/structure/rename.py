@@ -8,14 +8,20 @@ from pydantic import Field, field_validator
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Model, World
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
-from twinform.passes.structure.rename_parts import renamed_in_world, renamed_model
-from twinform.passes.structure.scopes import Part, every_name, report_clashes, scope_of
+from twinform.passes.structure.rename_parts import (
+    Part,
+    part_names,
+    rename_in_world,
+    rename_model,
+    report_clashes,
+    scope_of,
+)
 
 PartName = Literal["link", "joint", "frame", "model"]
 
 
-class _Rule(NamedTuple):
-    """`head*tail` becomes the same around what stands in the place of the star; without one, the whole name."""
+class _NameRule(NamedTuple):
+    """`head*tail` becomes `new_head*new_tail` with the same text for the star; without a star it is a whole name."""
 
     head: str
     tail: str | None
@@ -32,8 +38,8 @@ class _Rule(NamedTuple):
         return self.new_head + name[len(self.head) : len(name) - len(self.tail)] + self.new_tail
 
 
-def _pair(text: str) -> tuple[str, str]:
-    """The old name and the new one; the new one is empty where the text has none."""
+def _split_rule(text: str) -> tuple[str, str]:
+    """The old and the new name of a rule; the new one is empty where the text has none."""
     old, _, new = text.partition("=" if "=" in text else ":")
     return old, new
 
@@ -61,9 +67,9 @@ class Rename(ModelEdit):
 
     @field_validator("names")
     @classmethod
-    def _are_rules(cls, names: tuple[str, ...]) -> tuple[str, ...]:
+    def _check_names(cls, names: tuple[str, ...]) -> tuple[str, ...]:
         for text in names:
-            old, new = _pair(text)
+            old, new = _split_rule(text)
             if not old or not new:
                 raise ValueError(f"{text!r} is not OLD:NEW")
             if old.count("*") != new.count("*") or old.count("*") > 1:
@@ -71,34 +77,34 @@ class Rename(ModelEdit):
         return names
 
     @cached_property
-    def _rules(self) -> tuple[_Rule, ...]:
-        made: list[_Rule] = []
+    def _rules(self) -> tuple[_NameRule, ...]:
+        made: list[_NameRule] = []
         for text in self.names:
-            old, new = _pair(text)
+            old, new = _split_rule(text)
             head, star, tail = old.partition("*")
             new_head, _, new_tail = new.partition("*")
-            made.append(_Rule(head, tail if star else None, new_head, new_tail))
+            made.append(_NameRule(head, tail if star else None, new_head, new_tail))
         return tuple(made)
 
     def edit(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document by its new names."""
-        known = [name for part, name in every_name(document) if part in self.kinds]
+        """The document with the new names."""
+        known = [name for part, name in part_names(document) if part in self.kinds]
         for text, rule in zip(self.names, self._rules, strict=True):
             if not any(rule.apply(name) is not None for name in known):
-                message = f"nothing is called {_pair(text)[0]!r}"
+                message = f"nothing is called {_split_rule(text)[0]!r}"
                 sink.report(rules.UNKNOWN_NAME, message, document.location, found=text)
         return document if sink.has_errors else super().edit(document, sink)
 
     def edit_model(self, model: Model, place: EditContext) -> Model:
-        """The model by its new names."""
+        """The model with the new names."""
         scope = scope_of(model, self._choose)
         if not scope.changes or report_clashes(model, scope, place.format, place.sink):
             return model
-        return renamed_model(model, scope, place.format, place.sink)
+        return rename_model(model, scope, place.format, place.sink)
 
-    def in_world(self, before: World, after: World) -> World:
-        """The world, whose joints and frames follow."""
-        return renamed_in_world(before, after, lambda model: scope_of(model, self._choose), self.model)
+    def update_world(self, before: World, after: World) -> World:
+        """The world, whose joints and frames follow the new names."""
+        return rename_in_world(before, after, lambda model: scope_of(model, self._choose), self.model)
 
     def _choose(self, part: Part, name: str) -> str:
         if part not in self.kinds:

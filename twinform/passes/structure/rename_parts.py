@@ -1,39 +1,166 @@
-"""Renaming parts of a model, with every reference to them."""
+"""Renaming parts of a model with every reference to them, by the scopes in which SDF looks names up."""
 
 import re
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Location, rules
-from twinform.ir import Element, Format, GazeboExtension, Model, Node, Plugin, World, map_children, map_references
+from twinform.ir import (
+    Document,
+    Element,
+    Format,
+    GazeboExtension,
+    Model,
+    Node,
+    Plugin,
+    ReferenceKind,
+    World,
+    map_children,
+    map_references,
+)
+from twinform.ir.frames import MODEL, WORLD
+from twinform.ir.scopes import nested_models, outer_models
 from twinform.ir.sourced import Sourced
 from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text
-from twinform.passes.structure.scopes import PARTS, Part, RenamedScope
 from twinform.passes.transforms.nodes import map_elements
 
+Part = str
+"""`link`, `joint`, `frame` or `model`."""
+Choose = Callable[[Part, str], str]
+"""Gives a part of a kind its new name, by the old one."""
+PARTS: tuple[tuple[Part, str], ...] = (
+    ("link", "links"), ("joint", "joints"), ("frame", "frames"), ("model", "models"), ("model", "includes"),
+)  # fmt: skip
+"""The fields of a model with parts that have a name in its scope, by kind."""
+RESERVED = frozenset({WORLD, MODEL, "__root__"})
+"""Names that SDF reserves."""
+LOOKUP_ORDER: dict[ReferenceKind, tuple[Part, ...]] = {
+    "link": ("link", "frame", "model", "joint"),
+    "joint": ("joint", "frame", "link", "model"),
+    "frame": ("link", "frame", "joint", "model"),
+    "any": ("link", "frame", "joint", "model"),
+}
+"""The kinds of parts that a reference may mean, the likeliest first."""
 AnyNode = TypeVar("AnyNode", bound=Node)
 Holder = TypeVar("Holder", Model, World)
 _DEFINES = frozenset({"link", "joint", "frame"})
 _MODELS = frozenset({"model", "model_state"})
 _SEPARATORS = re.compile(r"([\s,;]+)")
 _DEFAULT_SHAPE = ("_collision", "_visual", "_fixed_joint_lump__")
-"""What readers of URDF put behind a link's name to call its shapes."""
+"""What readers of URDF append to the name of a link to name its shapes."""
+Changed = TypeVar("Changed", bound=Sourced)
 
 
-def renamed_model(model: Model, scope: RenamedScope, format_: Format, sink: DiagnosticSink) -> Model:
-    """The model with the names of the scope, wherever they stand in it."""
+@dataclass(frozen=True, slots=True)
+class RenamedScope:
+    """The names in a model: `own` has the new ones by kind, `inner` the scopes of nested models by old name."""
+
+    name: str
+    own: Mapping[Part, Mapping[str, str]]
+    inner: Mapping[str, "RenamedScope"] = field(default_factory=dict[str, "RenamedScope"])
+
+    @property
+    def changes(self) -> bool:
+        """Whether any name changes."""
+        own = any(old != new for names in self.own.values() for old, new in names.items())
+        return own or any(scope.changes for scope in self.inner.values())
+
+    def find(self, kind: ReferenceKind, name: str) -> str | None:
+        """The new name for a name in this model, also of a part of a nested model; None if it names nothing."""
+        first, separator, rest = name.partition("::")
+        whole = self._find_own(kind, name)  # before 1.8, or once it is flattened, a name may have colons in it
+        if whole is not None or not separator:
+            return whole
+        if first in self.inner:
+            inside = rest if rest == MODEL else self.inner[first].find(kind, rest)
+            return None if inside is None else f"{self.own['model'].get(first, first)}::{inside}"
+        if first in self.own["model"]:  # an include, of which only the file knows what is in it
+            return f"{self.own['model'][first]}::{rest}"
+        if first == self.name:  # Gazebo calls things by the model's name too
+            inside = self.find(kind, rest)
+            return None if inside is None else f"{first}::{inside}"
+        return self._find_own("frame", name.removesuffix(f"::{MODEL}"))  # which stands for a model that was flattened
+
+    def follow(self, kind: ReferenceKind, name: str) -> str:
+        """The new name for an old one; a name of nothing in this model stays as it is."""
+        found = None if name in RESERVED or kind == "material" else self.find(kind, name)
+        return name if found is None else found
+
+    def _find_own(self, kind: ReferenceKind, name: str) -> str | None:
+        return next((self.own[part][name] for part in LOOKUP_ORDER[kind] if name in self.own[part]), None)
+
+
+def scope_of(model: Model, choose: Choose, *, deep: bool = True) -> RenamedScope:
+    """The scope of a model whose parts get new names; those in nested models only if `deep`."""
+    own: dict[Part, dict[str, str]] = {part: {} for part, _ in PARTS}
+    for part, field_name in PARTS:
+        for node in getattr(model, field_name):
+            if node.name and node.name not in RESERVED:
+                own[part].setdefault(node.name, choose(part, node.name))
+    inner = {
+        nested.name: scope_of(nested, choose if deep else lambda _, name: name, deep=deep) for nested in model.models
+    }
+    return RenamedScope(model.name, own, inner)
+
+
+def prefixed_scope(model: Model, prefix: str) -> RenamedScope:
+    """The scope of a model whose own parts get a prefix; those in nested models keep their names."""
+    return scope_of(model, lambda _, name: prefix + name, deep=False)
+
+
+def part_names(document: Document) -> set[tuple[Part, str]]:
+    """The kinds and names of all parts of all models in a document."""
+    models = (model for outer in outer_models(document) for model in nested_models(outer))
+    return {(part, node.name) for model in models for part, name in PARTS for node in getattr(model, name) if node.name}
+
+
+def report_clashes(model: Model, scope: RenamedScope, format_: Format, sink: DiagnosticSink) -> bool:
+    """Report parts that would share a name, also in nested models; whether there are any."""
+    seen: dict[tuple[str, str], tuple[str, Location]] = {}
+    clash = False
+    for part, field_name in PARTS:
+        kind = part if format_ is Format.URDF else ""  # SDF has one scope for all, URDF one for each kind
+        for node in getattr(model, field_name):
+            new = scope.own[part].get(node.name or "")
+            if new is None:
+                continue
+            other = seen.setdefault((kind, new), (node.name, node.location))
+            if other[1] != node.location or other[0] != node.name:
+                message = f"{part} {node.name!r} and {other[0]!r} would both be called {new!r}"
+                sink.report(rules.NAME_CLASH, message, node.location, found=new, related=(other[1],))
+                clash = True
+            elif format_ is Format.SDF and new != node.name and (new in RESERVED or "::" in new):
+                message = f"{part} {node.name!r} cannot be called {new!r} in SDF"
+                sink.report(rules.NAME_CLASH, message, node.location, found=new)
+                clash = True
+    inner = [report_clashes(nested, scope.inner[nested.name], format_, sink) for nested in model.models]
+    return clash or any(inner)
+
+
+def rename_model(model: Model, scope: RenamedScope, format_: Format, sink: DiagnosticSink) -> Model:
+    """The model with the new names of a scope, in its parts and in references to them."""
     return _Renamer(scope, format_, sink).model(model)
 
 
-def with_followed(holder: Holder, scope: RenamedScope, format_: Format, sink: DiagnosticSink) -> Holder:
-    """The model or world with the names of the scope in its references, but not those of its parts."""
+def follow_references(holder: Holder, scope: RenamedScope, format_: Format, sink: DiagnosticSink) -> Holder:
+    """The model or world with the new names of a scope in references, but not in its own parts."""
     return _Renamer(scope, format_, sink).followed(holder)
+
+
+def rename_in_world(before: World, after: World, scope: Callable[[Model], RenamedScope], only: str | None) -> World:
+    """The world after its models were renamed, in which joints, frames and states follow.
+
+    `before` has the models with their old names; `only` names the model that was renamed if it is the only one.
+    """
+    inner = {model.name: scope(model) for model in before.models if only in (None, model.name)}
+    own: dict[str, dict[str, str]] = {part: {} for part in ("link", "joint", "frame", "model")}
+    return follow_references(after, RenamedScope("", own, inner), Format.SDF, DiagnosticSink())
 
 
 @dataclass(frozen=True, slots=True)
 class _Renamer:
-    """The names in one model."""
+    """Renames in one model."""
 
     scope: RenamedScope
     format: Format
@@ -49,35 +176,35 @@ class _Renamer:
         update: dict[str, object] = {
             field: tuple(self.named(part, node) for node in getattr(followed, field)) for part, field in PARTS
         }
-        return _changed(followed, update)
+        return _copy_if_changed(followed, update)
 
     def named(self, part: Part, node: AnyNode) -> AnyNode:
-        """A part of the model by its new name; a nested model has a scope of its own."""
+        """A part of the model with its new name; a nested model has a scope of its own."""
         old: Any = getattr(node, "name", None)
         if isinstance(node, Model):
             node = _Renamer(self.scope.inner[old], self.format, self.sink).model(node)
-        return _changed(node, {"name": self.scope.own[part].get(old, old)})
+        return _copy_if_changed(node, {"name": self.scope.own[part].get(old, old)})
 
     def report_shared(self, extension: GazeboExtension) -> None:
-        """A name that a link and a joint share means both, which two new names cannot."""
+        """Report a `<gazebo>` element for a link and a joint of one name, if these get two different names."""
         name, own = extension.reference, self.scope.own
         if name and name in own["link"] and name in own["joint"] and own["link"][name] != own["joint"][name]:
             message = f"<gazebo> for {name!r}, a link and a joint, follows the link to {own['link'][name]!r}"
             self.sink.report(rules.UNFOLLOWED_NAME, message, extension.location.at("@reference"), found=name)
 
     def untyped(self, node: AnyNode) -> AnyNode:
-        """The node with its opaque parts and plugins, and those of all inside it but nested models."""
+        """The node with new names in opaque parts and plugins, its own and those below, except in nested models."""
         update: dict[str, object] = {}
         if node.opaque:
             update["opaque"] = map_elements(node.opaque, lambda each: self.element(each, "", node.location))
         if isinstance(node, Plugin | GazeboExtension):
             holder = "plugin" if isinstance(node, Plugin) else ""
             update["content"] = tuple(self.element(each, holder, node.location) for each in node.content)
-        changed = _changed(node, update)
+        changed = _copy_if_changed(node, update)
         return map_children(changed, lambda each: each if isinstance(each, Model) else self.untyped(each))
 
     def element(self, element: Element, holder: str, where: Location) -> Element:
-        """An element without a typed form; `holder` is the name of the one around it."""
+        """The element with new names; `holder` is the name of the element around it."""
         where = element.location if element.source else where
         inner = self.scope.inner.get(element.get("name") or "") if element.name in _MODELS else None
         if inner is not None:
@@ -88,17 +215,17 @@ class _Renamer:
             "text": self.text(element, holder, where),
             "children": tuple(self.element(child, element.name, where) for child in element.children),
         }
-        return _changed(element, update)
+        return _copy_if_changed(element, update)
 
     def state_of_model(self, element: Element, scope: RenamedScope, where: Location) -> Element:
-        """What the state of a world has of a model, whose parts have names of their own."""
+        """The state of a model in a world, in which the names of the model are looked up."""
         new = self.scope.own["model"]
         attributes = tuple(
             (key, new.get(value, value) if key == "name" else value) for key, value in element.attributes
         )
         inside = _Renamer(scope, self.format, self.sink)
         children = tuple(inside.element(child, element.name, where) for child in element.children)
-        return _changed(element, {"attributes": attributes, "children": children})
+        return _copy_if_changed(element, {"attributes": attributes, "children": children})
 
     def attribute(self, element: Element, key: str, value: str, where: Location) -> str:
         kind = kind_of_attribute(element, key)
@@ -124,7 +251,7 @@ class _Renamer:
         return "".join(self.scope.follow(kind, each) for each in _SEPARATORS.split(text))
 
     def collision(self, text: str) -> str:
-        """The name of a collision, which may begin with that of its link."""
+        """The name of a collision, which may begin with the name of its link."""
         scoped, separator, last = text.rpartition("::")
         if separator:
             return f"{self.scope.follow('link', scoped)}::{last}"
@@ -140,20 +267,7 @@ class _Renamer:
             self.sink.report(rules.UNFOLLOWED_NAME, message, where, found=value)
 
 
-Changed = TypeVar("Changed", bound=Sourced)
-
-
-def _changed(node: Changed, update: dict[str, object]) -> Changed:
-    """The node with these fields; the same object where they are what they were."""
+def _copy_if_changed(node: Changed, update: dict[str, object]) -> Changed:
+    """The node with these fields; the same object where nothing differs."""
     different = {name: value for name, value in update.items() if value != getattr(node, name)}
     return node.copy(**different) if different else node
-
-
-def renamed_in_world(before: World, after: World, scope: Callable[[Model], RenamedScope], only: str | None) -> World:
-    """The world after its models were renamed, with its own joints, frames and the like following them.
-
-    `before` has the models by their old names; `only` names the one model that was renamed, if it is one alone.
-    """
-    inner = {model.name: scope(model) for model in before.models if only in (None, model.name)}
-    own: dict[str, dict[str, str]] = {part: {} for part in ("link", "joint", "frame", "model")}
-    return with_followed(after, RenamedScope("", own, inner), Format.SDF, DiagnosticSink())

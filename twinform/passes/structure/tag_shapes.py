@@ -14,16 +14,16 @@ from twinform.passes.structure.tagged_shapes import (
     seen_shapes,
     shape_name,
     tagged_links,
-    tagging,
+    tagging_links,
 )
 from twinform.passes.transforms.lumped_links import lumped_links
 from twinform.passes.transforms.nodes import unique_name
 
 AnyShape = Visual | Collision
 Rename = Callable[[AnyShape, str, str], AnyShape]
-"""Gives a shape of a kind a name."""
-Wrong = tuple[SeenShape, set[str], str | None]
-"""A shape, the links whose tags it gets, and a name under which it would get those of its own link alone."""
+"""Gives a shape of a kind a new name."""
+WrongTags = tuple[SeenShape, set[str], str | None]
+"""A shape, the links whose tags it gets, and a name with which it would only get those of its own link."""
 
 
 class TagShapes(Pass):
@@ -47,53 +47,62 @@ class TagShapes(Pass):
             return document
 
         def rename(shape: AnyShape, name: str, kind: str) -> AnyShape:
-            sink.report(GAZEBO_SHAPE_NAME, renaming(shape, name, kind), shape.location, found=shape.name)
+            sink.report(GAZEBO_SHAPE_NAME, describe_renaming(shape, name, kind), shape.location, found=shape.name)
             return shape.copy(name=name)
 
-        return replace_fields(document, models=tuple(named_for_gazebo(model, rename) for model in document.models))
+        return replace_fields(
+            document, models=tuple(name_shapes_for_gazebo(model, rename) for model in document.models)
+        )
 
 
-def renaming(shape: AnyShape, name: str, kind: str) -> str:
-    """A message on a new name."""
+def describe_renaming(shape: AnyShape, name: str, kind: str) -> str:
+    """A message about a new name."""
     called = f"{kind} {shape.name!r}" if shape.name else f"a {kind} without a name"
     return f"{called} is called {name!r}, so that Gazebo applies the tags of its own link alone to it"
 
 
-def named_for_gazebo(model: Model, rename: Rename) -> Model:
-    """The model by names of shapes that Gazebo keeps, and with its names of collisions in contact sensors."""
+def name_shapes_for_gazebo(model: Model, rename: Rename) -> Model:
+    """The model with names of shapes that Gazebo keeps, also in its contact sensors."""
     before = model
     for field, kind in KINDS.items():
         names = {id(seen.shape): name for seen, _, name in wrongly_tagged(model, field) if name is not None}
         if names:
             links = tuple(
-                _renamed(link, field, names, lambda one, name, of=kind: rename(one, name, of)) for link in model.links
+                _rename_shapes(link, field, names, lambda one, name, of=kind: rename(one, name, of))
+                for link in model.links
             )
             model = model.copy(links=links)
-    return _sensing(before, model) if mentions_collisions(model) else model
+    return _follow_in_contacts(before, model) if mentions_collisions(model) else model
 
 
-def wrongly_tagged(model: Model, field: str) -> Iterator[Wrong]:
-    """The visuals or collisions that do not get the tags of their own link alone."""
+def wrongly_tagged(model: Model, field: str) -> Iterator[WrongTags]:
+    """The visuals or collisions that do not get exactly the tags of their own link."""
     tagged, hosts, kind = tagged_links(model, field), lumped_links(model), KINDS[field]
     for seen in seen_shapes(model, field) if tagged else ():
-        own, found = {seen.link} & tagged, tagging(seen, kind, hosts) & tagged
+        own, found = {seen.link} & tagged, tagging_links(seen, kind, hosts) & tagged
         if found != own:
-            names = (name for name in _candidates(seen, kind) if _tags_under(name, seen, kind, hosts) & tagged == own)
+            names = (
+                name
+                for name in _candidates(seen, kind)
+                if _tagging_links_under(name, seen, kind, hosts) & tagged == own
+            )
             yield seen, found, next(names, None)
 
 
 def _candidates(seen: SeenShape, kind: str) -> tuple[str, ...]:
-    """Names that are kept in a link, in one that is lumped, and in one lumped into a link whose name begins its own."""
+    """Names that are kept in a link, in a lumped link, and in one lumped into a link with whose name its own begins."""
     bare = (seen.shape.name or kind).replace(LUMP, "_")
     lumped = f"{seen.link}_{kind}_{bare}"
     return f"{seen.link}_{bare}", lumped, f"{seen.host}{LUMP}{lumped}"
 
 
-def _tags_under(name: str, seen: SeenShape, kind: str, hosts: Mapping[str, str]) -> set[str]:
-    return tagging(seen._replace(name=shape_name(seen.host, name, kind, 0)), kind, hosts)
+def _tagging_links_under(name: str, seen: SeenShape, kind: str, hosts: Mapping[str, str]) -> set[str]:
+    return tagging_links(seen._replace(name=shape_name(seen.host, name, kind, 0)), kind, hosts)
 
 
-def _renamed(link: Link, field: str, names: Mapping[int, str], rename: Callable[[AnyShape, str], AnyShape]) -> Link:
+def _rename_shapes(
+    link: Link, field: str, names: Mapping[int, str], rename: Callable[[AnyShape, str], AnyShape]
+) -> Link:
     shapes: tuple[AnyShape, ...] = getattr(link, field)
     taken = {shape.name for shape in shapes if id(shape) not in names}
     made: list[AnyShape] = []
@@ -104,8 +113,8 @@ def _renamed(link: Link, field: str, names: Mapping[int, str], rename: Callable[
     return replace_fields(link, **{field: tuple(made)})
 
 
-def _sensing(before: Model, after: Model) -> Model:
-    """The model with the names of libsdformat in contact sensors, which had those of URDF or older ones of it."""
+def _follow_in_contacts(before: Model, after: Model) -> Model:
+    """The model with the names that libsdformat gives to collisions in contact sensors."""
     theirs: dict[str, str] = {}
     own: dict[str, dict[str, str]] = {}
     for old, new in zip(seen_shapes(before, "collisions"), seen_shapes(after, "collisions"), strict=True):
@@ -115,13 +124,13 @@ def _sensing(before: Model, after: Model) -> Model:
 
     def follow(extension: GazeboExtension) -> GazeboExtension:
         names = {**theirs, **own.get(extension.reference or "", {})}
-        content = tuple(in_contacts(each, names) for each in extension.content)
+        content = tuple(rename_in_contacts(each, names) for each in extension.content)
         return extension.copy(content=content)
 
     return after.copy(extensions=tuple(map(follow, after.extensions)))
 
 
-def in_contacts(element: Element, names: Mapping[str, str], inside: str = "") -> Element:
+def rename_in_contacts(element: Element, names: Mapping[str, str], inside: str = "") -> Element:
     """A sensor with other names of collisions in its `<contact>`."""
     path = f"{inside}/{element.name}"
     if path == "/sensor/contact/collision":
@@ -129,4 +138,4 @@ def in_contacts(element: Element, names: Mapping[str, str], inside: str = "") ->
         return element if name is None else element.copy(text=name)
     if not "/sensor/contact".startswith(path):
         return element
-    return element.copy(children=tuple(in_contacts(each, names, path) for each in element.children))
+    return element.copy(children=tuple(rename_in_contacts(each, names, path) for each in element.children))

@@ -33,16 +33,16 @@ class WeldToWorld(ModelEdit):
         """The model with its base held."""
         if not model.links:
             return model
-        base = _base(model)
+        base = _free_base(model)
         if model.static or base is None:
             message = f"model {model.name!r} is {'static' if model.static else 'fixed to the world'} already"
             place.sink.report(rules.ALREADY_HELD, message, model.location, found=model.name)
             return model
-        if self._clashes(model, place):
+        if self._report_clashes(model, place):
             return model
-        return self._urdf(model, base) if place.format is Format.URDF else self._sdf(model, base)
+        return self._weld_urdf(model, base) if place.format is Format.URDF else self._weld_sdf(model, base)
 
-    def _clashes(self, model: Model, place: EditContext) -> bool:
+    def _report_clashes(self, model: Model, place: EditContext) -> bool:
         siblings = (*model.joints, *((*model.links, *model.frames) if place.format is Format.SDF else ()))
         other = next((each for each in siblings if each.name == self.joint), None)
         world = next((link for link in model.links if link.name == WORLD), None)
@@ -52,14 +52,14 @@ class WeldToWorld(ModelEdit):
                 place.sink.report(rules.NAME_CLASH, message, node.location, found=name)
         return other is not None or world is not None
 
-    def _urdf(self, model: Model, base: str) -> Model:
+    def _weld_urdf(self, model: Model, base: str) -> Model:
         pose = Pose(xyz=self.xyz, rpy=self.rpy, relative_to=WORLD)
         joint = Joint(name=self.joint, type="fixed", parent=WORLD, child=base, pose=pose)
         held = Pose(relative_to=self.joint)
         links = tuple(link.copy(pose=held) if link.name == base else link for link in model.links)
         return model.copy(links=(Link(name=WORLD), *links), joints=(joint, *model.joints))
 
-    def _sdf(self, model: Model, base: str) -> Model:
+    def _weld_sdf(self, model: Model, base: str) -> Model:
         joint = Joint(name=self.joint, type="fixed", parent=WORLD, child=base)
         made = model.copy(joints=(*model.joints, joint))
         if self.xyz is None and self.rpy is None:
@@ -70,8 +70,8 @@ class WeldToWorld(ModelEdit):
         return made.copy(pose=pose, placement_frame=None)
 
 
-def _base(model: Model) -> str | None:
-    """The link that all else hangs from; None where that is the world."""
+def _free_base(model: Model) -> str | None:
+    """The link that all others hang from; None where that is the world."""
     graph = FrameGraph(model)
     above: dict[str, str] = {}
     for joint in model.joints:

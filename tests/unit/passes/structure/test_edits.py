@@ -8,7 +8,7 @@ import twinform
 from tests.unit.passes.reported import findings
 from twinform.diagnostics import DiagnosticSink, LineOrigins, Location
 from twinform.passes import parse_pipeline
-from twinform.passes.structure.model_edit import in_new_words
+from twinform.passes.structure.model_edit import edit_in_modern_sdf
 
 ROBOT = "/robot[@name='r']"
 
@@ -259,7 +259,7 @@ def test_raising_the_version_is_reported_where_an_expanded_text_was_written() ->
     )
     document = twinform.loads(text.replace("1.9", "1.6"), "x (expanded)")
     sink = DiagnosticSink("x", origins={"x (expanded)": LineOrigins.of([(1, Location("x.xacro", 30))])})
-    made = in_new_words(document, sink, lambda modern: modern.copy(models=modern.models * 1))
+    made = edit_in_modern_sdf(document, sink, lambda modern: modern.copy(models=modern.models * 1))
     assert made.version == "1.8"
     found = [(each.rule.name, each.location.file, each.location.line, each.found) for each in sink.diagnostics]
     assert found == [("raised-version", "x.xacro", 30, "1.6")]

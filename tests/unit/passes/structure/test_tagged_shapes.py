@@ -4,7 +4,7 @@ import pytest
 
 import twinform
 from twinform.ir import Model
-from twinform.passes.structure.tagged_shapes import seen_shapes, tagged_links, tagging
+from twinform.passes.structure.tagged_shapes import seen_shapes, tagged_links, tagging_links
 from twinform.passes.transforms.lumped_links import lumped_links
 
 _SHAPE = "<collision{}><geometry><sphere radius='1'/></geometry></collision>"
@@ -52,7 +52,7 @@ def test_shapes_are_numbered_in_the_link_that_they_are_lumped_into() -> None:
 
 def test_a_named_shape_gets_the_tags_of_no_link_and_an_unnamed_one_those_of_its_own() -> None:
     model = _chain()
-    found = [tagging(seen, "collision", lumped_links(model)) for seen in seen_shapes(model, "collisions")]
+    found = [tagging_links(seen, "collision", lumped_links(model)) for seen in seen_shapes(model, "collisions")]
     assert found == [{"a"}, set(), {"b"}, set(), {"c"}, set()]
 
 

@@ -10,9 +10,14 @@ from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
 from twinform.passes.legalise.to_sdf.gazebo_sorting import place_of
-from twinform.passes.structure.gazebo_blocks import FLAGS, blocks, content, of_body, of_shapes
-from twinform.passes.structure.tagged_shapes import KINDS, seen_shapes, tagging
-from twinform.passes.structure.unread_tags import unread_tags
+from twinform.passes.structure.gazebo_blocks import (
+    BODY_FLAGS,
+    block_content,
+    blocks_by_reference,
+    body_settings,
+    shape_elements,
+)
+from twinform.passes.structure.tagged_shapes import KINDS, seen_shapes, tagging_links, unread_tags
 from twinform.passes.transforms.gazebo_tags import FALSE
 from twinform.passes.transforms.lumped_links import lumped_links
 
@@ -56,12 +61,12 @@ def _report_flags(model: Model, sink: DiagnosticSink) -> None:
     for link in sorted(model.links, key=lambda link: link.name in massless):
         if link.name in massless and hosts[link.name] != link.name:  # which becomes a frame
             continue
-        for flag in set(FLAGS.values()):
+        for flag in set(BODY_FLAGS.values()):
             alike[hosts[link.name], flag].setdefault(own.get(link.name, {}).get(flag, ""), []).append(link.name)
     for extension in model.extensions:
         name = extension.reference or ""
         for element in extension.content:
-            flag = FLAGS.get(element.name, "")
+            flag = BODY_FLAGS.get(element.name, "")
             mine = own.get(name, {}).get(flag)
             others = [names[0] for value, names in alike[hosts.get(name, ""), flag].items() if value != mine]
             if others and mine is not None:
@@ -81,10 +86,13 @@ def _settings(model: Model) -> dict[str, dict[str, str]]:
     links = {link.name for link in model.links}
     found = defaultdict[str, list[Element]](list)
     for extension in model.extensions:
-        flags = [element for element in extension.content if element.name in FLAGS]
+        flags = [element for element in extension.content if element.name in BODY_FLAGS]
         if flags and extension.reference in links:
             found[extension.reference] += flags
-    return {name: {flag: _text(value) for flag, value in of_body(elements).items()} for name, elements in found.items()}
+    return {
+        name: {flag: _text(value) for flag, value in body_settings(elements).items()}
+        for name, elements in found.items()
+    }
 
 
 def _text(value: object) -> str:
@@ -95,13 +103,13 @@ def _text(value: object) -> str:
 
 def _report_shapes(model: Model, field: str, sink: DiagnosticSink) -> None:
     """Report shapes to which Gazebo applies other tags than those of their link."""
-    there = {name: extensions for name, extensions in blocks(model.extensions).items() if name}
-    tags = {name: words for name in there if (words := _words(of_shapes(content(there, name), field)))}
+    there = {name: extensions for name, extensions in blocks_by_reference(model.extensions).items() if name}
+    tags = {name: words for name in there if (words := _words(shape_elements(block_content(there, name), field)))}
     if not tags:
         return
     hosts = lumped_links(model)
     for seen in seen_shapes(model, field):
-        seen_by = tagging(seen, KINDS[field], hosts) & tags.keys()
+        seen_by = tagging_links(seen, KINDS[field], hosts) & tags.keys()
         own = {seen.link} & tags.keys()
         unread = _words(unread_tags(there[seen.link], field)) if own and seen_by == own else ""
         if seen_by == own and not unread:

@@ -2,8 +2,7 @@
 
 from twinform.ir import Model
 from twinform.passes.carriers.annotations import REVERSED, find_annotation, without_annotation
-from twinform.passes.structure.reroot_sdf import reroot_sdf
-from twinform.passes.structure.reversal import REVERSIBLE
+from twinform.passes.structure.reversal import REVERSIBLE, reroot_sdf
 
 
 def without_reversals(model: Model) -> Model:

@@ -9,7 +9,7 @@ from twinform.passes.carriers.provenance import came_from
 from twinform.passes.carriers.shared_inertia import with_share
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.shared_inertias import shared_inertias
-from twinform.passes.structure.combined_bodies import with_solid
+from twinform.passes.structure.combined_bodies import write_solid
 
 
 class ShareInertias(ModelPass):
@@ -41,7 +41,7 @@ class ShareInertias(ModelPass):
         written = link.inertial
         if written is None or link.name not in found:
             return link
-        made, old = with_solid(written, found[link.name]), written.pose or Pose()
+        made, old = write_solid(written, found[link.name]), written.pose or Pose()
         moved = found[link.name].center != (old.xyz or ORIGIN)
         made = made if moved else made.copy(pose=written.pose)
         what = "center of mass and inertia" if moved else "inertia"

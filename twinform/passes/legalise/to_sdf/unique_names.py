@@ -7,8 +7,7 @@ from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Format, Joint, Link, Model, map_references
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import with_old_name
-from twinform.passes.structure.rename_parts import with_followed
-from twinform.passes.structure.scopes import scope_of
+from twinform.passes.structure.rename_parts import follow_references, scope_of
 
 Named = TypeVar("Named", Link, Joint, Model)
 _NO_NAME = "robot"
@@ -46,7 +45,7 @@ class UniqueNames(ModelPass):
         # typed references mean links and joints here, also one called `world`, which means something else in SDF
         followed = map_references(model, lambda kind, name: new.get(kind, {}).get(name, name), Format.URDF)
         scope = scope_of(model, lambda part, name: new.get(part, {}).get(name, name), deep=False)
-        followed = with_followed(followed, scope, Format.URDF, sink)
+        followed = follow_references(followed, scope, Format.URDF, sink)
         update = {
             "links": tuple(self._renamed(link, links, sink) for link in followed.links),
             "joints": tuple(self._renamed(joint, joints, sink) for joint in followed.joints),

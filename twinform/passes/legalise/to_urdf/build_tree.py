@@ -15,7 +15,7 @@ from twinform.passes.carriers.annotations import (
 from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
 from twinform.passes.legalise.to_urdf.joint_tree import JointTree
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.structure.reroot_sdf import reroot_sdf
+from twinform.passes.structure.reversal import reroot_sdf
 from twinform.passes.transforms.joint_ends import joint_pose_attributes
 from twinform.passes.transforms.nodes import unique_name
 from twinform.passes.transforms.pose_notation import POSE

@@ -8,7 +8,7 @@ from twinform.diagnostics.rules import GAZEBO_SHAPE_NAME
 from twinform.ir import Model
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.structure.tag_shapes import AnyShape, named_for_gazebo, renaming
+from twinform.passes.structure.tag_shapes import AnyShape, describe_renaming, name_shapes_for_gazebo
 
 
 class NameShapesForGazebo(ToUrdfPass):
@@ -26,7 +26,7 @@ class NameShapesForGazebo(ToUrdfPass):
         """The model by names that Gazebo keeps."""
 
         def rename(shape: AnyShape, name: str, kind: str) -> AnyShape:
-            keeper.account(GAZEBO_SHAPE_NAME, renaming(shape, name, kind), shape.location.at("@name"), 1)
+            keeper.account(GAZEBO_SHAPE_NAME, describe_renaming(shape, name, kind), shape.location.at("@name"), 1)
             kept: AnyShape = keeper.annotate(shape, NAME, text=shape.name, attributes={"instead_of": name})
             return kept.copy(name=name)
 
@@ -37,7 +37,7 @@ class NameShapesForGazebo(ToUrdfPass):
         # and takes that for a shape of another link, which gets no tag of this one. Leaving out the
         # names of all shapes would work too, but would cost every other reader names that nobody
         # had a problem with.
-        named = named_for_gazebo(model, rename)
+        named = name_shapes_for_gazebo(model, rename)
         for old, new in zip(_sensed(model), _sensed(named), strict=True):
             if old != new:
                 message = f"libsdformat calls collision {old.collision!r} {new.collision!r}, and so does the sensor"
