@@ -119,7 +119,7 @@ class ElementReader:
         self._children = RowReaders(rows_by_name(fact.children, version), read_child, self._other_child)
         self._plain_attributes = plain_values(fact.attributes, types, version) if keep else {}
         self._plain_children = plain_values(fact.children, types, version) if keep else {}
-        self._once = frozenset(row.name for row in self._children.rows.values() if not row.repeats)
+        self._once = frozenset(row.name for row in self._children.rows.values() if not (row.repeats or row.last))
         self._kinds = frozenset(row.name for row in fact.children if row.kind)
         self._free, self._content = fact.any, fact.place if fact.any and keep else None
         self._read_text = text_reader(fact, types, keep=keep) if fact.type else None

@@ -15,8 +15,8 @@ a container), then keys, flags and the place in the IR.
 
 Keys are `default`, `min`, `max`, `enum`, `since`, `until`, `unit`, `dialect` (whose element it is where it is not the
 format's) and `also` (values of dialects beside those of `enum`). Flags are `any` (free content), `deprecated`,
-`expected` (readers want it written although it has a default, or its element has no effect without it) and `aside`
-(readers of the robot itself skip it).
+`expected` (readers want it written although it has a default, or its element has no effect without it), `aside`
+(readers of the robot itself skip it) and `last` (where one may stand and several do, readers take the last).
 
 Places are:
 
@@ -43,7 +43,7 @@ Version = tuple[int, int]
 _LINE = re.compile(r"(?P<indent> *)(?P<name>@?[\w.]++)(?P<rest>.*)")
 _WORD = re.compile(r'->\s*\S+|\w+=(?:"[^"]*"|\S+)|\S+')
 _COUNTS = frozenset("1?*+")
-_FLAGS = frozenset({"any", "aside", "deprecated", "expected"})
+_FLAGS = frozenset({"any", "aside", "deprecated", "expected", "last"})
 
 
 @dataclass(slots=True)
@@ -73,6 +73,7 @@ class Fact:
     deprecated: bool = False
     expected: bool = False
     aside: bool = False
+    last: bool = False
     many: bool = False
     rows: list["Fact"] = field(default_factory=list["Fact"])
 

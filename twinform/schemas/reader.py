@@ -14,13 +14,14 @@ from functools import cache, partial
 
 from twinform.diagnostics import Source
 from twinform.ir import Document, Model, Node
+from twinform.schemas import messages
 from twinform.schemas.element_reader import ElementReader, ReadChild, with_row_findings
 from twinform.schemas.facts import Fact, Table, Version, table
 from twinform.schemas.messages import Context
 from twinform.schemas.node_makers import Data, NodeMaker, keep_element, locate, node_class, require_place
 from twinform.schemas.value_readers import text_reader
 from twinform.schemas.value_types import VALUE_TYPES
-from twinform.schemas.xml import XmlElement, is_blank
+from twinform.schemas.xml import XmlElement, is_blank, is_followed
 
 _ROOTS: dict[str, type[Node]] = {"urdf": Model, "sdf": Document}
 """The class of the node that the root element of a format makes."""
@@ -94,6 +95,8 @@ class SchemaReader:
             read = self._hoisted(row, into, at)
         else:
             read = self._own_node(row, row.place, into, at)
+        if row.last:
+            read = _last_alone(read)
         has_text = self.table.resolve(row).type is not None
         return with_row_findings(row, self.version, read, at, has_text=has_text, keep=into is not None)
 
@@ -127,9 +130,13 @@ class SchemaReader:
     def _hoisted(self, row: Fact, into: type[Node], at: str) -> ReadChild:
         """Return the reader of a container whose rows fill the node around it."""
         fill = self._inside(row, into, _below(at, row)).read
+        whole, last = self._opaque(row, at), frozenset(each.name for each in row.rows if each.last)
 
         def read(child: XmlElement, node: Data, context: Context, place: int) -> None:
-            if len(child) or child.keys() or not is_blank(child.text or ""):
+            # What is not the last stands before what is, and fields are written before what has none.
+            if last and any(each.tag in last and is_followed(each) for each in child):
+                whole(child, node, context, place)
+            elif len(child) or child.keys() or not is_blank(child.text or ""):
                 fill(child, node, context, place)
             else:
                 fill(child, {"source": node["source"]}, context, place)
@@ -202,6 +209,18 @@ class SchemaReader:
 def _below(at: str, row: Fact) -> str:
     """Return the path to a row's element inside the one at a path."""
     return f"{at}/{row.name}" if at else row.name
+
+
+def _last_alone(read: ReadChild) -> ReadChild:
+    """Return the reader of an element that skips it where another one of its name follows."""
+
+    def read_last(child: XmlElement, node: Data, context: Context, place: int) -> None:
+        if is_followed(child):
+            messages.repeated(context, child)
+        else:
+            read(child, node, context, place)
+
+    return read_last
 
 
 @cache

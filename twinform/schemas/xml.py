@@ -77,6 +77,11 @@ def _place_of(element: XmlElement, tag: str, places: Places) -> int:
     return between
 
 
+def is_followed(element: XmlElement) -> bool:
+    """Whether another element of its name stands behind it."""
+    return next(element.itersiblings(str(element.tag)), None) is not None
+
+
 def path_of(element: XmlElement, places: Places | None = None) -> str:
     """Return the XPath of an element from the root; `places` remembers counts for the next call."""
     steps = [step_of(element, places), *(step_of(above, places) for above in element.iterancestors())]

@@ -12,7 +12,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, from_xml
 from twinform.passes.sdf_versions.name_the_nameless import plugin_stem
 from twinform.passes.transforms.element_poses import read_pose
 from twinform.passes.transforms.gazebo_tags import SCRIPT_URI
-from twinform.schemas import Fact, XmlElement, in_usual_namespaces, table
+from twinform.schemas import Fact, XmlElement, in_usual_namespaces, is_followed, table
 from twinform.text import same_element
 
 CARRIED = f"{{{NAMESPACE}}}carried"
@@ -22,8 +22,8 @@ _MEANINGFUL_WHEN_EMPTY = frozenset({"geometry", "material", "mimic"})
 """Containers that mean something when they are empty; which shape is in a geometry is a value of it."""
 _WITHOUT_MEANING = frozenset({"frame"})
 """Elements of older versions that no reader uses."""
-_EACH_COUNTS = frozenset({("sensor", "camera"), ("pbr", "metal"), ("pbr", "specular")})
-"""What some reader takes where it stands again: Classic every camera, libsdformat the last workflow (`Pbr::Load`)."""
+_EACH_COUNTS = frozenset({("sensor", "camera")})
+"""What some reader takes where it stands again: Gazebo Classic every camera."""
 _TRUTHS = frozenset({"true", "false"})
 _POSES = frozenset({"pose", "inertial_pose"})
 THERE = Text("there")
@@ -141,7 +141,7 @@ def _rows(fact: Fact) -> dict[str, Fact]:
 def _keyed(element: XmlElement, rows: dict[str, Fact]) -> Iterator[tuple[str, XmlElement]]:
     """The children, but for carriers, with what tells them from their like: a name, else a number.
 
-    Of those that may stand once the first one is given: `Element::GetElement` of libsdformat takes it.
+    Of those that may stand once the first one is given, as `Element::GetElement` of libsdformat takes it, or the last.
     """
     seen: dict[str, int] = {}
     for child in element:
@@ -151,6 +151,10 @@ def _keyed(element: XmlElement, rows: dict[str, Fact]) -> Iterator[tuple[str, Xm
         # urdfdom (FirstChildElement) and libsdformat (Element::GetElement) take the first of
         # several. 440 kinds of elements, each repeated with other values, changed nothing in the
         # DOM of libsdformat 12.
+        if row is not None and row.last:
+            if not is_followed(child):
+                yield child.tag, child
+            continue
         if row is not None and not row.repeats:
             key = numbered(child.tag, seen)
             if key == child.tag or ((element.tag, child.tag) in _EACH_COUNTS and not _says_again(child)):

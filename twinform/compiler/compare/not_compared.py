@@ -58,8 +58,8 @@ NOT_COMPARED = (
     NotCompared(
         f"//*[{PREFIX}:stands-again(.)]",
         "what stands again where it may stand once",
-        "Readers take the first; `stands-again` is not of XPath, and true of what `repeated-element` finds. Compared"
-        " are the cameras of a sensor, the workflows of `<pbr>`, and what is in elements of other tools.",
+        "Readers take the first, or of the workflows of `<pbr>` the last; `stands-again` is not of XPath, and true of"
+        " what `repeated-element` finds. Compared are the cameras of a sensor and what is in elements of other tools.",
     ),
     NotCompared(
         "//joint//mimic[not(@joint = //joint/@name)"

@@ -6,6 +6,7 @@ from functools import cache
 from twinform.ir import (
     Collision,
     Document,
+    Element,
     Empty,
     Frame,
     Geometry,
@@ -53,7 +54,16 @@ def is_repeated(part: Opaque, node: Node) -> bool:
     element = part.element
     if element is None or part.at or not (element.children or element.attributes or element.text):
         return False
-    return element.name in _single(definition_of(node))
+    definition = definition_of(node)
+    return element.name in _single(definition) and not _is_untyped(element, definition)
+
+
+def _is_untyped(element: Element, definition: str | None) -> bool:
+    """Whether the reader makes no fields of an element, since it holds several where readers take the last."""
+    rows = table("sdf").definitions[definition].children if definition else ()
+    last = {inner.name for row in rows if row.name == element.name for inner in row.rows if inner.last}
+    names = [child.name for child in element.children if child.name in last]
+    return len(names) > len({*names})
 
 
 def inside(node: Node, at: str) -> Node | None:

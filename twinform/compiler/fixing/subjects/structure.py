@@ -97,13 +97,15 @@ def _repeated(site: FindingSite) -> Fix | None:
     parent = site.element.getparent()
     if parent is None or site.element.tag in _OF_THEIR_OWN:
         return None
-    first = parent.find(str(site.element.tag))
-    if first is None or first is site.element:
+    row = site.file.row_of(site.element)
+    last = row is not None and row.last
+    taken, which = next(parent.iterchildren(str(site.element.tag), reversed=last)), "first" if last else "second"
+    if taken is site.element:
         return None
     edit = site.edit.remove(site.element)
-    if same_element(first, site.element):
-        return safe(f"Delete the second <{site.element.tag}>, which says the same", edit)
-    return unsafe(f"Delete the second <{site.element.tag}>", edit)
+    if same_element(taken, site.element):
+        return safe(f"Delete the {which} <{site.element.tag}>, which says the same", edit)
+    return unsafe(f"Delete the {which} <{site.element.tag}>", edit)
 
 
 def _blank(site: FindingSite) -> Fix | None:
