@@ -54,6 +54,8 @@ class Said:
                 return True
             if rule == "gazebo-material" and _is_as_gazebo_shows_it(found):
                 return True
+            if rule == "early-static" and what == "model: static":
+                return True
             if rule == "lumped-flag" and _is_set_by(path.rpartition("/")[2], found):
                 return True
         return False

@@ -71,7 +71,8 @@ _TAGS: tuple[Sequence[str], ...] = (
     ("<material>Gazebo/Green</material>",),
     ("<selfCollide>true</selfCollide>", "<self_collide>true</self_collide>"),
     ("<turnGravityOff>true</turnGravityOff>", "<gravity>false</gravity>"),
-    ("<dampingFactor>0.1</dampingFactor>",),
+    ("<dampingFactor>0.1</dampingFactor>", "<dampingFactor>0.2</dampingFactor>"),
+    ("<velocity_decay><linear>0.3</linear></velocity_decay>",),
     ("<kinematic>true</kinematic>",),
     tuple(f"<collision>{each}</collision>" for each in _SURFACES),
     tuple(f"<collision>{each}</collision>" for each in _SURFACES),
@@ -112,9 +113,12 @@ def equipped_robots(draw: st.DrawFn) -> str:
         _fill(etree.SubElement(root, "gazebo", {"reference": name}), draw(_some(_TAGS)))
     for name in draw(st.lists(st.sampled_from(names), max_size=3, unique=True)):
         _fill(etree.SubElement(root, "gazebo", {"reference": name}), draw(_some([(each,) for each in _SENSORS])))
-    _fill(etree.SubElement(root, "gazebo"), draw(_some(_CHOICES["model"])))
-    if all(link.find("inertial") is not None for link in root.iter("link")) and draw(st.booleans()):
-        _fill(etree.SubElement(root, "gazebo"), ["<static>true</static>"])
+    statics = ("<static>true</static>", "<static>false</static>")
+    has_mass = all(link.find("inertial") is not None for link in root.iter("link"))
+    for choices in draw(
+        st.lists(st.sampled_from([_CHOICES["model"], (statics,)] if has_mass else [_CHOICES["model"]]), max_size=3)
+    ):
+        _fill(etree.SubElement(root, "gazebo"), draw(_some(choices)))
     return etree.tostring(root, encoding="unicode")
 
 

@@ -9,6 +9,7 @@ from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Rule
 from twinform.diagnostics.rules import (
     BARE_SCRIPT,
     COLLADA_MESH,
+    EARLY_STATIC,
     EMPTY_ATTRIBUTE,
     FLAT_COLLISION,
     LATE_SENSOR,
@@ -33,6 +34,7 @@ from twinform.passes.analyses.moving_bodies import Body, moving_bodies
 from twinform.passes.appearance.drop_bare_scripts import is_bare
 from twinform.passes.inertia.physical_consistency import is_doubtful
 from twinform.passes.limits.order_limits import is_usable
+from twinform.passes.structure.early_static import find_early_static
 from twinform.passes.structure.tag_shapes import wrongly_tagged
 from twinform.passes.structure.tagged_shapes import KINDS, seen_shapes
 from twinform.profiles.reading.forms import number_in
@@ -158,13 +160,14 @@ def _mass_and_moment(link: Link) -> tuple[float, float]:
 
 
 def find_lost_tags(subject: ProfiledFile, sink: DiagnosticSink) -> None:
-    """Report shapes to which Gazebo applies other tags than the file says, and collisions of sensors it renames."""
+    """Report tags that Gazebo applies otherwise than the file says, and collisions of sensors that it renames."""
     document = subject.document
     for model in document.models if document is not None and document.format is Format.URDF else ():
         if model.extensions:
             for field in KINDS:
                 _find_untagged_shapes(model, field, sink)
             _find_renamed_collisions(model, sink)
+            find_early_static(model, sink)
 
 
 def _find_untagged_shapes(model: Model, field: str, sink: DiagnosticSink) -> None:
@@ -236,7 +239,7 @@ class Detector(NamedTuple):
 DETECTORS = (
     Detector(find_mesh_formats, (COLLADA_MESH,)),
     Detector(find_empty_attributes, (EMPTY_ATTRIBUTE,)),
-    Detector(find_lost_tags, (RENAMED_COLLISION, UNTAGGED_SHAPE)),
+    Detector(find_lost_tags, (EARLY_STATIC, RENAMED_COLLISION, UNTAGGED_SHAPE)),
     Detector(
         find_engine_faults,
         (

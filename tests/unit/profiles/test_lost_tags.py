@@ -1,5 +1,6 @@
 """Tags that Gazebo does not apply, and collisions that it calls otherwise: found as libsdformat does it, and fixed."""
 
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,7 @@ from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.profiling import assess_file
 from twinform.profiles import parse
 from twinform.testing.oracles import libsdformat
-from twinform.testing.oracles.libsdformat import RobotRow, describe
+from twinform.testing.oracles.libsdformat import RobotRow, describe, describing
 
 pytestmark = pytest.mark.slow
 
@@ -27,7 +28,8 @@ _NAMES = (
 _PAIRS = [*((name, None) for name in _NAMES), *(("base", name) for name in _NAMES)]
 _ARMS = ("arm", "base_arm")
 _MU = {"base": 0.25, "arm": 0.5}
-_TOLD = frozenset({"untagged-shape", "renamed-collision"})
+_TOLD = frozenset({"early-static", "untagged-shape", "renamed-collision"})
+_STATICS = ("", "<static>true</static>", "<static>false</static>", "<self_collide>true</self_collide>")
 
 
 def _robot(arm: str, names: tuple[str | None, str | None], tagged: tuple[str, ...] = ("base", "arm")) -> str:
@@ -45,14 +47,29 @@ def _link(link: str, name: str | None, radius: int) -> str:
     return f"<link name='{link}'>{_INERTIAL}{shape}</link>"
 
 
-def _found(text: str) -> list[str]:
-    (found,) = assess_file(text.encode(), parse("gazebo"), LoadOptions(), name="robot.urdf")
+def _found(text: str, reader: str = "gazebo") -> list[str]:
+    (found,) = assess_file(text.encode(), parse(reader), LoadOptions(), name="robot.urdf")
     return [each.finding.rule.name for each in found.judgments if each.finding.rule.name in _TOLD]
 
 
 def _frictions(robot: RobotRow) -> list[float]:
     shapes = [shape for link in robot["links"] for shape in link["shapes"]]
     return [float(shape["values"].get("surface/friction/ode/mu", "1")) for shape in shapes]
+
+
+@pytest.mark.skipif(not libsdformat.available(), reason=libsdformat.MISSING)
+def test_a_static_robot_that_libsdformat_12_3_lets_move_is_found(tmp_path: Path) -> None:
+    urdf, sdf = tmp_path / "robot.urdf", tmp_path / "robot.sdf"
+    with describing() as read:
+        for contents in product(_STATICS, repeat=3):
+            tags = "".join(f"<gazebo reference=''>{each}</gazebo>" for each in contents)
+            urdf.write_text(f"<robot name='r'><link name='base'>{_INERTIAL}</link>{tags}</robot>")
+            made = twinform.convert(urdf, to="sdf", sdf_version="1.9")
+            sdf.write_text(made.text)
+            differs = read(urdf)["static"] != read(sdf)["static"]
+            assert ("early-static" in _found(urdf.read_text(), "gazebo@fortress")) is differs, tags
+            assert ("early-static" in {each.rule.name for each in made.diagnostics}) is differs, tags
+            assert "early-static" not in _found(urdf.read_text(), "gazebo@harmonic")
 
 
 @pytest.mark.skipif(not libsdformat.available(), reason=libsdformat.MISSING)

@@ -34,7 +34,7 @@ def preserved_joints(root: RawNode) -> frozenset[str]:
 
 def is_static(root: RawNode) -> bool:
     """Whether the model is static: only the last extension without a reference decides."""
-    found = [gazebo for gazebo in root.all("gazebo") if "reference" not in gazebo.attributes]
+    found = [gazebo for gazebo in root.all("gazebo") if not gazebo.attributes.get("reference")]
     statics = list(found[-1].all("static")) if found else []
     return bool(statics) and _setting_text(statics[-1]).lower() in _TRUE
 

@@ -9,7 +9,6 @@ from twinform.ir import (
     Axis,
     Collision,
     Dynamics,
-    Element,
     Joint,
     Link,
     Material,
@@ -34,15 +33,7 @@ def set_model_fields(model: Model, values: Values) -> Model:
 
 def set_link_fields(link: Link, values: Values) -> Link:
     """The link with the fields that tags set as a whole."""
-    written = {tag.field: value for tag, value in values if tag.target == "link"}
-    update: dict[str, object] = {field: value for field, value in written.items() if field != "velocity_decay"}
-    if "velocity_decay" in written:
-        text = format_value(written["velocity_decay"])
-        parts = (Element.unchecked(name="linear", text=text), Element.unchecked(name="angular", text=text))
-        update["opaque"] = (
-            *link.opaque,
-            Opaque.unchecked(element=Element.unchecked(name="velocity_decay", children=parts)),
-        )
+    update = {tag.field: value for tag, value in values if tag.target == "link"}
     return link.copy(**update) if update else link
 
 

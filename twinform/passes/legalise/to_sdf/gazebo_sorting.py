@@ -7,10 +7,12 @@ from typing import Any, NamedTuple
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity, Source, rules
 from twinform.ir import Element, GazeboExtension, Link
 from twinform.passes.transforms.gazebo_tags import FALSE, LINK_TAGS, TRUE, TRUTHS, Tag, value_text
+from twinform.schemas import format_value
 
 _TOUCHED = frozenset({"surface", "collision"})
 _HOLDING = {"surface": "surface", "visual": "material"}
 """The fields of shapes in which tags set something, by the target of these."""
+_DECAY = LINK_TAGS["dampingFactor"].target, LINK_TAGS["dampingFactor"].field
 _OF_AXES = frozenset({"axis", "axis2", "springReference", "springStiffness"})
 
 
@@ -159,6 +161,10 @@ class Sorter:
                 ignored.append(element)
             else:
                 self._value(tag, element, extension)
+        # libsdformat writes an element for each extension with this tag, and readers take the first:
+        # parser_urdf.cc, InsertSDFExtensionLink
+        if (decay := self._read.pop(_DECAY, None)) is not None:
+            rest.insert(0, _decayed(decay))
         self.rest.append(_with(extension, rest))
         sorted_out = ((self.misplaced, misplaced), (self.ignored, ignored), (self.without_use, without_use))
         for place, elements in sorted_out:
@@ -223,6 +229,13 @@ class Sorter:
                 message = f"{name!r} is not an attribute of <{element.name}> in <gazebo>"
                 self._notes.report(rules.UNKNOWN_ATTRIBUTE, message, where.at(f"@{name}"), found=value)
                 self._notes.account(Fate.DROPPED, rules.UNKNOWN_ATTRIBUTE, message, where.at(f"@{name}"))
+
+
+def _decayed(read: TagValue) -> Element:
+    """The element of SDF that a `<dampingFactor>` means."""
+    text = format_value(read.value)
+    parts = (Element.unchecked(name="linear", text=text), Element.unchecked(name="angular", text=text))
+    return read.element.copy(name="velocity_decay", attributes=(), text=None, children=parts)
 
 
 def _with(extension: GazeboExtension, content: list[Element]) -> GazeboExtension:

@@ -10,6 +10,7 @@ from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
 from twinform.passes.legalise.to_sdf.gazebo_sorting import place_of
+from twinform.passes.structure.early_static import find_early_static
 from twinform.passes.structure.gazebo_blocks import (
     BODY_FLAGS,
     block_content,
@@ -31,9 +32,10 @@ class NoteLumping(ModelPass):
     1. It makes one body of links that are fixed to each other, and a flag of one of them, such as `turnGravityOff`,
     is one of the body; in SDF it is one of the link. Links that become frames do not count. 2. It applies tags about
     shapes to those alone whose names begin with that of their link, and to none if it reads them wrong; in SDF all
-    shapes have them.
+    shapes have them. 3. Some of its releases forget `<static>` where a later `<gazebo>` does not repeat it.
     Changes: nothing.
-    Diagnostics: `lumped-flag`, for information where the other link is a root without mass; `unreached-shape`.
+    Diagnostics: `lumped-flag`, for information where the other link is a root without mass; `unreached-shape`;
+    `early-static`.
     """
 
     name: ClassVar[str] = "note-lumping"
@@ -45,6 +47,7 @@ class NoteLumping(ModelPass):
         # Gazebo reads the URDF in another way.
         if model.extensions and not came_from(model, Format.SDF):
             _report_flags(model, sink)
+            find_early_static(model, sink)
             for field in KINDS:
                 _report_shapes(model, field, sink)
         return model
