@@ -14,7 +14,7 @@ from fuzz import targets
 from twinform.cli.config.settings import FileSettings, FormatSettings, ProjectSettings
 from twinform.compiler import check
 from twinform.compiler.output.json import json_text
-from twinform.diagnostics import DiagnosticSink, catalog
+from twinform.diagnostics import catalog
 from twinform.passes import registered_passes
 from twinform.schemas import table
 from twinform.schemas.facts import Fact
@@ -134,7 +134,7 @@ def _json() -> Iterator[bytes]:
     for text in _in(_CASES / "convert"):
         document = check(text).document
         if document is not None:
-            yield json_text(document, DiagnosticSink()).encode()
+            yield json_text(document).encode()
 
 
 def _fields() -> Iterator[str]:

@@ -6,7 +6,7 @@ from typing import Any
 
 from jsonschema import Draft202012Validator
 
-from twinform.schemas import json_schema_text
+from twinform.compiler.output.json import json_schema_text
 
 
 @cache

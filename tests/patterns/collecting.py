@@ -17,6 +17,7 @@ from lxml import etree
 
 import twinform
 from twinform.compiler.input import syntax_places
+from twinform.compiler.output.json import json_schema_text
 
 PACKAGE = Path(twinform.__file__).parent
 _WAYS = frozenset({"findall", "finditer", "fullmatch", "match", "search", "split", "sub", "subn"})
@@ -129,9 +130,9 @@ def _evaluated(call: ast.Call, pattern: ast.expr, way: str, module: ModuleType) 
 
 def _of_data() -> Iterator[Used]:
     """Those that are data: of the JSON schema and the XSDs, of profiles, and of tables in modules."""
-    schema: object = json.loads((PACKAGE / "schemas/json/document.schema.json").read_text(encoding="utf-8"))
+    schema: object = json.loads(json_schema_text())
     for pattern in sorted(set(_json_patterns(schema))):
-        yield Used("schemas/json/document.schema.json", re.compile(pattern), searched=True)
+        yield Used("ir/element.py", re.compile(pattern), searched=True)
     values = {
         str(each.get("value"))
         for path in PACKAGE.rglob("*.xsd")

@@ -10,7 +10,7 @@ from twinform.cli.command import Command
 from twinform.cli.failure import Unusable
 from twinform.cli.outputs import Outputs
 from twinform.cli.printing import print_document
-from twinform.schemas import Version, json_schema_text, parse_version, schema_text, table
+from twinform.schemas import Version, parse_version, schema_text, table
 from twinform.schemas.xacro_xsd import imported_schemas
 from twinform.schemas.xsd import generate_schema, lenient_schema_text
 
@@ -67,6 +67,8 @@ def command(
     if language == "json":
         if version is not None or asked or lenient or xacro:
             raise click.UsageError("--version, --xsd, --lenient and --xacro are for urdf and sdf")
+        from twinform.compiler.output.json import json_schema_text  # noqa: PLC0415 - most schemas are in XSD
+
         _write({output: json_schema_text()})
         return
     facts = table(language)

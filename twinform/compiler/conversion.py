@@ -12,11 +12,12 @@ from twinform.compiler.input.loading import (
     LoadOptions,
     LoadResult,
     garbage_collection_paused,
+    lower_tree,
     read,
     read_tree_again,
 )
 from twinform.compiler.input.take_comments import comments_of
-from twinform.compiler.output.emitting import emit, emit_legal
+from twinform.compiler.output.emitting import document_tree, emit, emit_legal
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.search.resolve_uris import LocalAssets
@@ -223,12 +224,14 @@ def written(
     if sink.has_errors:
         return document, ""
     if request.to == "json":
-        from twinform.compiler.output.json import json_text  # noqa: PLC0415 - few conversions need it
+        from twinform.compiler.input.documents import compare_documents  # noqa: PLC0415 - few conversions need it
+        from twinform.compiler.output.json import json_text  # noqa: PLC0415 - see above
 
-        # JSON has no format of its own to violate: the XML is written for its findings, and thrown
-        # away.
+        # JSON has no format of its own to violate: the XML is written for its findings, read for
+        # what it cannot express, and thrown away.
         emit(document, sink)
-        return document, json_text(document, sink)
+        compare_documents(document, lower_tree(document_tree(document), DiagnosticSink()), sink)
+        return document, json_text(document)
     legal = request.legalisation(document)
     fit = (kept is not None or bool(len(legal))) and not request.target(document, Format(request.to)).mixed
     kept = frozenset() if len(legal) or kept is None else kept

@@ -34,7 +34,7 @@ def dumps(document: Document, *, to: Written | None = None) -> str:
     if not sink.has_errors and to == "json":
         from twinform.compiler.output.json import json_text  # noqa: PLC0415 - few documents are written so
 
-        text = json_text(document, sink)
+        text = json_text(document)
     elif not sink.has_errors:
         text = emit(document, sink)
     if sink.has_errors:

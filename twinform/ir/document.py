@@ -2,6 +2,7 @@
 
 from enum import StrEnum
 
+from twinform.ir.element import Namespace
 from twinform.ir.joint import Joint
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Node, Vector3
@@ -59,7 +60,7 @@ class Document(Node):
 
     format: Format
     version: str | None = None
-    namespaces: tuple[tuple[str, str], ...] = ()
+    namespaces: tuple[Namespace, ...] = ()
     worlds: tuple[World, ...] = ()
     models: tuple[Model, ...] = ()
     lights: tuple[Light, ...] = ()

@@ -1,13 +1,25 @@
 """Untyped XML elements, which the IR keeps as they are, and the namespaces of documents."""
 
 from collections.abc import Iterable, Iterator
-from typing import Self
+from typing import Annotated, Self
 
 from twinform.diagnostics import Location
 from twinform.ir.record import record
-from twinform.ir.sourced import Sourced
+from twinform.ir.sourced import Constraint, Sourced
 
-Attributes = tuple[tuple[str, str], ...]
+# Names are checked where they come from people: no writer could make XML of `a b`. Beyond ASCII
+# the writer asks libxml2, which knows the tables of Unicode.
+_LOCAL = "[A-Z_a-z\x80-\U0010ffff][A-Z_a-z0-9.\\-\x80-\U0010ffff]*"
+Name = Annotated[str, Constraint(pattern=rf"^(\{{[^{{}}]+\}})?{_LOCAL}$")]
+"""The name of an element or attribute, in Clark notation where it has a namespace."""
+_Prefix = Annotated[str, Constraint(pattern=rf"^({_LOCAL})?$")]
+"""What stands for a namespace; the empty one is the default."""
+_Uri = Annotated[str, Constraint(pattern=r"^[^{}]+$")]
+Namespace = tuple[_Prefix, _Uri]
+"""A prefix and what it stands for."""
+_Path = Annotated[str, Constraint(pattern=rf"^({_LOCAL}(/{_LOCAL})*)?$")]
+Attribute = tuple[Name, str]
+Attributes = tuple[Attribute, ...]
 
 
 @record
@@ -24,7 +36,7 @@ class Element(Sourced):
         tail: the text after the end tag, stripped; `None` where it is blank.
     """
 
-    name: str
+    name: Name
     attributes: Attributes = ()
     text: str | None = None
     children: tuple[Self, ...] = ()
@@ -69,9 +81,9 @@ class Opaque(Sourced):
         text: the text.
     """
 
-    at: str = ""
+    at: _Path = ""
     element: Element | None = None
-    attribute: tuple[str, str] | None = None
+    attribute: Attribute | None = None
     text: str | None = None
 
     @property

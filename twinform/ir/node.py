@@ -6,7 +6,7 @@ from typing import Annotated
 
 from twinform.ir.element import Opaque
 from twinform.ir.record import fields_of, record
-from twinform.ir.sourced import Constraint, Sourced, Unseen
+from twinform.ir.sourced import Constraint, OneOf, Sourced
 
 Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
@@ -25,10 +25,8 @@ class Node(Sourced):
             `source`, it takes no part in equality.
     """
 
-    opaque: tuple[Opaque, ...] = ()
-    spelling: Annotated[Mapping[str, str] | None, Unseen()] = field(
-        default=None, repr=False, compare=False, metadata={"exclude": True}
-    )
+    opaque: tuple[Annotated[Opaque, OneOf("element", "attribute", "text")], ...] = ()
+    spelling: Mapping[str, str] | None = field(default=None, repr=False, compare=False, metadata={"exclude": True})
 
 
 NOT_CONTENT = frozenset(name for name, each in fields_of(Node).items() if not each.compare)

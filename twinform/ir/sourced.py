@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Constraint:
-    """Arguments for `pydantic.Field`: a discriminator, or the length of a tuple."""
+    """Arguments for `pydantic.Field`: a discriminator, a pattern, or the length of a tuple."""
 
     def __init__(self, **options: Any) -> None:
         self._options = options
@@ -28,7 +28,7 @@ class Constraint:
 
 
 class Unseen:
-    """Marks a field that exists in Python alone: any value is accepted, and JSON and its schema leave it out."""
+    """Marks a field that exists in Python alone: an instance of its type, which JSON and its schema leave out."""
 
     def __repr__(self) -> str:
         return "Unseen()"
@@ -36,12 +36,36 @@ class Unseen:
     def __get_pydantic_core_schema__(self, source: Any, handler: "GetCoreSchemaHandler") -> "CoreSchema":
         from pydantic_core import core_schema  # noqa: PLC0415 - only Pydantic calls this
 
-        return core_schema.json_or_python_schema(core_schema.none_schema(), core_schema.any_schema())
+        return core_schema.json_or_python_schema(core_schema.none_schema(), core_schema.is_instance_schema(source))
 
     def __get_pydantic_json_schema__(self, schema: "CoreSchema", handler: "GetJsonSchemaHandler") -> "JsonSchemaValue":
         from pydantic_core import PydanticOmit  # noqa: PLC0415 - only Pydantic calls this
 
         raise PydanticOmit
+
+
+class OneOf:
+    """Exactly one of several fields of a part has to be there."""
+
+    def __init__(self, *names: str) -> None:
+        self._names = names
+
+    def __repr__(self) -> str:
+        return f"OneOf({', '.join(map(repr, self._names))})"
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: "GetCoreSchemaHandler") -> "CoreSchema":
+        from pydantic_core import core_schema  # noqa: PLC0415 - only Pydantic calls this
+
+        return core_schema.no_info_after_validator_function(self._require_one, handler(source))
+
+    def _require_one(self, part: Any) -> Any:
+        from pydantic_core import PydanticCustomError  # noqa: PLC0415 - see above
+
+        count = sum(getattr(part, name) is not None for name in self._names)
+        if count != 1:
+            told = {"count": count, "names": " or ".join(self._names)}
+            raise PydanticCustomError("one_of", "has {count} of {names}; expected one", told)
+        return part
 
 
 @record

@@ -13,7 +13,7 @@ from twinform.schemas.facts import (
 )
 from twinform.schemas.messages import Context
 from twinform.schemas.node_makers import LAST_LINE, element_xml
-from twinform.schemas.packaged import json_schema_text, schema_text
+from twinform.schemas.packaged import schema_text
 from twinform.schemas.reader import SchemaReader, reader
 from twinform.schemas.text_output import Item, WrittenParts, end_of_element, in_attribute
 from twinform.schemas.text_writer import node_xml, parse_written, root_text
@@ -64,7 +64,6 @@ __all__ = [
     "in_usual_namespaces",
     "is_followed",
     "is_valid_text",
-    "json_schema_text",
     "libxml2_errors",
     "node_xml",
     "parse_value",

@@ -1,4 +1,4 @@
-"""Writes what is made from the facts, XSDs, the JSON Schema and Python: `python -m twinform.schemas.generate`.
+"""Writes what is made from the facts, XSDs and Python: `python -m twinform.schemas.generate`.
 
 With `--check` the files are only compared.
 """
@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import get_args
 
 from twinform.schemas.facts import parse_version, table
-from twinform.schemas.json_schema import generate_json_schema
-from twinform.schemas.packaged import XsdVersion, code_file, json_schema_file, schema_file
+from twinform.schemas.packaged import XsdVersion, code_file, schema_file
 from twinform.schemas.text_generator import generate_text_writer
 from twinform.schemas.xsd import generate_schema
 from twinform.storage.writing import write_all_atomically
@@ -26,7 +25,6 @@ def generated() -> Iterator[tuple[Path, str]]:
             for xsd in get_args(XsdVersion):
                 yield Path(str(schema_file(name, version, xsd))), generate_schema(facts, version, xsd)
         yield Path(str(code_file(f"{name}_text"))), generate_text_writer(facts)
-    yield Path(str(json_schema_file())), generate_json_schema()
 
 
 def stale() -> list[Path]:

@@ -1,4 +1,4 @@
-"""The meanings of elements and attributes, as the documentation in the XSDs and in the JSON Schema.
+"""The meanings of elements and attributes, as the documentation in the XSDs.
 
 Beside each `.facts` file lies a `.meanings` file with the same definitions and rows in the same indentation, and a text
 behind each name instead of its facts:

@@ -1,4 +1,4 @@
-"""The files of the package that are made from the facts: XSDs, the JSON Schema, Python."""
+"""The files of the package that are made from the facts: XSDs and Python."""
 
 from functools import cache
 from typing import TYPE_CHECKING, Literal
@@ -27,17 +27,6 @@ def schema_text(format: str, version: Version, xsd: XsdVersion = "1.1") -> str:
         FileNotFoundError: the format has no such version.
     """
     return schema_file(format, version, xsd).read_text(encoding="utf-8")
-
-
-def json_schema_file() -> "Traversable":
-    """Where the JSON Schema of documents lies."""
-    return package_files("twinform.schemas").joinpath("json", "document.schema.json")
-
-
-@cache
-def json_schema_text() -> str:
-    """The JSON Schema of documents as JSON."""
-    return json_schema_file().read_text(encoding="utf-8")
 
 
 def code_file(module: str) -> "Traversable":

@@ -35,7 +35,7 @@ def test_a_lenient_schema_takes_dialects(run: Run) -> None:
 def test_the_schema_of_json_is_a_json_schema(run: Run) -> None:
     schema = json.loads(run("schema", "json").stdout)
     assert schema["$id"] == "urn:twinform:document:1"
-    assert schema["$defs"]["urdf.joint"]["properties"]["parent"]["description"]
+    assert schema["$defs"]["Joint"]["properties"]["parent"]["description"]
 
 
 def test_a_file_is_written(run: Run, tmp_path: Path) -> None:

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 from lxml import etree
 
-from twinform.schemas import json_schema_text, parse_version, schema_text, table
-from twinform.schemas.json_check import is_array, is_object
+from twinform.compiler.output.json import is_array, is_object, json_schema_text
+from twinform.schemas import parse_version, schema_text, table
 from twinform.schemas.meanings import Documentation, meanings, rows_with_paths, unmatched
 from twinform.schemas.packaged import XsdVersion
 from twinform.schemas.xsd_values import XS

@@ -1,15 +1,42 @@
-"""Documents in memory as input: checked as the file that they would be."""
+"""Documents in memory as input: checked as the file that they would be, which has to say all that they do."""
 
-from collections.abc import Callable
+import json
+import re
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, NamedTuple, cast
 
 from twinform.compiler.input.gazebo_extensions import check_extensions
-from twinform.compiler.input.json import compare_documents
 from twinform.compiler.input.load_options import LoadOptions, LoadResult
 from twinform.compiler.output.emitting import document_tree, located
-from twinform.diagnostics import DiagnosticSink, rules
-from twinform.ir import Document, Format
+from twinform.compiler.output.json import Data, JsonPath, is_array, is_object, json_data
+from twinform.diagnostics import DiagnosticSink, Location, rules
+from twinform.ir import Document, Format, Node
+from twinform.ir.record import field_value
 from twinform.ir.verify import verify
 from twinform.schemas import XmlElement
+
+_ASIDE = frozenset({"$schema", "namespaces", "order", "spelling"})
+"""What is not compared: the version of the schema; prefixes, of which there may be more than were declared; and what
+is not about the robot."""
+_NOT_IN_XML = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+_NOWHERE = object()
+
+
+class Missed(NamedTuple):
+    """A place where a document differs from the file that was made of it."""
+
+    path: JsonPath
+    mine: Any
+    theirs: Any
+
+    def report(self, format_: str, where: Location, sink: DiagnosticSink) -> None:
+        """Report that the format cannot express what stands there."""
+        name = "/".join(map(str, self.path))
+        became = "leaves it out" if self.theirs is _NOWHERE else f"has {shown(self.theirs)} there"
+        found = "nothing" if self.mine is _NOWHERE else shown(self.mine)
+        message = f"{name}: {format_.upper()} cannot express {found}; a file in that format {became}"
+        hint = "if it stands in 'opaque', write it in the field that is meant for it"
+        sink.report(rules.INVALID_VALUE, message, where, found=found, help=hint)
 
 
 def check_document(
@@ -22,12 +49,15 @@ def check_document(
 
     `lower` makes a document of its tree again.
     """
+    unwritable = unwritable_part(json_data(document))
+    if unwritable is not None:
+        path, message = unwritable
+        sink.report(rules.INVALID_VALUE, message, _nearest(document, path).location)
+        return LoadResult(sink.file, document, tuple(sink.diagnostics))
     try:
         tree = document_tree(document)
-    except (ValueError, IndexError) as error:  # a name that is none in XML; no model at all
-        compare_documents(document, None, sink)
-        if not sink.has_errors:
-            sink.report(rules.INVALID_VALUE, f"the document cannot be written: {error}", document.location)
+    except ValueError as error:  # a name that is none in XML
+        sink.report(rules.INVALID_VALUE, f"the document cannot be written: {error}", document.location)
         return LoadResult(sink.file, document, tuple(sink.diagnostics))
     found = DiagnosticSink(sink.file, sink.strict)
     again = lower(tree, found)
@@ -40,3 +70,101 @@ def check_document(
     allowances.settle(sink)
     allowed = tuple(sink.allowed)
     return LoadResult(sink.file, document, tuple(sink.diagnostics), tree=tree, allowed=allowed, allowances=allowances)
+
+
+def compare_documents(document: Document, again: Document | None, sink: DiagnosticSink) -> None:
+    """Report what of a document its format cannot express: `again` is what its text is read as, if it can be."""
+    if again is None or sink.has_errors:
+        return
+    missed = first_difference(json_data(document), again)
+    if missed is not None:
+        missed.report(document.format, _nearest(document, missed.path).location, sink)
+
+
+def first_difference(data: Data, document: Document) -> Missed | None:
+    """The first place where a document has something else than JSON data say; None where it has all of it."""
+    return next(_differences(without_empty(data), without_empty(json_data(document)), ()), None)
+
+
+def unwritable_part(data: Data) -> tuple[JsonPath, str] | None:
+    """Where JSON data have what no file can begin to say, and a message: a text, or the number of robots in URDF."""
+    count = len(data.get("models", ()))
+    if data["format"] == Format.URDF and count != 1:
+        return ("models",), f"models: has {count} items; expected 1"
+    return next(
+        (
+            (path, f"{'/'.join(map(str, path))}: is {shown(text)}, which XML cannot hold here")
+            for path, text in _texts(data, ())
+            if _NOT_IN_XML.search(text)
+        ),
+        None,
+    )
+
+
+def _texts(data: Any, path: JsonPath) -> Iterator[tuple[JsonPath, str]]:
+    if isinstance(data, str):
+        yield path, data
+    elif is_object(data) or is_array(data):
+        for step, inner in data.items() if is_object(data) else enumerate(data):
+            yield from _texts(inner, (*path, step))
+
+
+def _nearest(node: Node, path: JsonPath) -> Node:
+    """The innermost node on the way of a path that knows where it was written, or the outermost one."""
+    values: Any = node
+    for step in path:
+        if isinstance(values, Node):
+            values = field_value(values, str(step))
+        elif isinstance(values, tuple) and isinstance(step, int):
+            values = cast("tuple[object, ...]", values)[step]
+        else:
+            break
+        node = values if isinstance(values, Node) and values.source is not None else node
+    return node
+
+
+def without_empty(data: Any) -> Any:
+    """The data without objects and arrays that hold nothing, and without null, which all say that nothing was written.
+
+    Calls itself once for each level, so that what is as deep as XML may be can be read.
+    """
+    if is_array(data):
+        return list(map(without_empty, data))
+    if not is_object(data):
+        return data
+    values = zip(data, map(without_empty, data.values()), strict=True)
+    return {name: value for name, value in values if value not in ({}, [], None)}
+
+
+def _differences(mine: Any, theirs: Any, path: JsonPath) -> Iterator[Missed]:
+    """The places where two documents differ."""
+    if is_object(mine) and is_object(theirs):
+        for name in [*mine, *(name for name in theirs if name not in mine)]:
+            if name == "opaque":
+                one, other = (_parts(each.get(name, ())) for each in (mine, theirs))
+                if one != other:
+                    yield Missed((*path, name), mine.get(name, _NOWHERE), theirs.get(name, _NOWHERE))
+            elif name not in _ASIDE:
+                yield from _differences(mine.get(name, _NOWHERE), theirs.get(name, _NOWHERE), (*path, name))
+    elif is_array(mine) and is_array(theirs) and len(mine) == len(theirs):
+        for index, (one, other) in enumerate(zip(mine, theirs, strict=True)):
+            yield from _differences(one, other, (*path, index))
+    elif mine != theirs or isinstance(mine, bool) is not isinstance(theirs, bool):  # True == 1
+        yield Missed(path, mine, theirs)
+
+
+def _parts(opaque: Iterable[Data]) -> dict[str, tuple[list[Any], list[Any], list[str]]]:
+    """Parts without a field by the element that they stand in; one has elements in order, attributes and a text."""
+    found: dict[str, tuple[list[Any], list[Any], list[str]]] = {}
+    for part in opaque:
+        elements, attributes, words = found.setdefault(part.get("at", ""), ([], [], []))
+        elements += [part["element"]] if "element" in part else []
+        attributes += [part["attribute"]] if "attribute" in part else []
+        words += part.get("text", "").split()
+    return {at: (elements, sorted(attributes), words) for at, (elements, attributes, words) in found.items()}
+
+
+def shown(value: Any) -> str:
+    """A value as JSON has it, shortened."""
+    text = json.dumps(value)
+    return text if len(text) <= 60 else text[:57] + "..."

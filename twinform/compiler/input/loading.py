@@ -66,7 +66,6 @@ _CONSEQUENCES = frozenset(
 )
 _JSON = re.compile(rb"(\xef\xbb\xbf)?\s*\{")
 """How a JSON document begins."""
-"""How a name that is in a namespace begins in JSON."""
 XACRO = ".xacro"
 """The ending of the names of files that are expanded before they are read."""
 _OLD_ROOT = "gazebo"
@@ -155,7 +154,7 @@ def _check_json(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, al
     Raises:
         UnreadableError: there is too much of it.
     """
-    from twinform.compiler.input.json import read_json  # noqa: PLC0415 - few files are JSON
+    from twinform.compiler.input.json_input import read_json  # noqa: PLC0415 - few files are JSON
 
     refuse_excess(excess_of_json(text, load_options.limits), sink)
     source = read_json(text, sink)
@@ -313,14 +312,11 @@ def read_tree_again(text: bytes, *, keep_comments: bool = False) -> XmlElement:
     return read_tree(text, DiagnosticSink(), LIFTED_LIMITS, keep_comments=keep_comments)[0]
 
 
-def lower_tree(root: XmlElement, sink: DiagnosticSink, *, valid: bool = False) -> Document | None:
-    """The document of a tree that we have written ourselves; errors in the notes where it is not valid after all.
-
-    `valid` means that the XSD has accepted it already.
-    """
+def lower_tree(root: XmlElement, sink: DiagnosticSink) -> Document | None:
+    """The document of a tree that we have written ourselves; errors in the notes where it is not valid after all."""
     format_, build = _ROOTS[str(root.tag)]
     context = Context(sink, sink.file, format_, declared_version(root, format_, sink))
-    errors = [] if valid else refusals(root, context, "libxml2")
+    errors = refusals(root, context, "libxml2")
     context.simple = not errors and not has_prefixed_attributes(root)
     document = _built(build, root, context)
     if errors:

@@ -1,30 +1,42 @@
-"""From a document to JSON, checked against the published schema."""
+"""From a document to JSON, and the JSON Schema that such JSON has."""
 
 import json
-from typing import Any
+import re
+from inspect import getdoc
+from typing import Any, TypeGuard
 
-from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format, Model, Node, node_values
 from twinform.schemas import in_order, repeated_fields, table
-from twinform.schemas.json_check import json_faults
-from twinform.schemas.json_values import IDENTIFIER as JSON_IDENTIFIER
 
 Data = dict[str, Any]
+JsonPath = tuple[str | int, ...]
+IDENTIFIER = "urn:twinform:document:1"
+"""The name of the schema, with its version: another one where documents of the old one are no longer valid."""
 
 _ROOTS: dict[Format, type[Node]] = {Format.URDF: Model, Format.SDF: Document}
 """What the root element of a format makes."""
+_FIELD = re.compile(r"^    (\w+): (.*(?:\n {5,}.*)*)", re.MULTILINE)
+"""A field in the docstring of a class, and what stands there about it."""
+_ORDER = (
+    "In which order the parts of several kinds stand in the file: the name of an array for each part. Without it they "
+    "stand kind after kind. It changes nothing but the order."
+)
 
 
-def json_text(document: Document, sink: DiagnosticSink) -> str:
-    """The JSON text of a document, and errors in the diagnostics where its format cannot express it."""
-    # A document as JSON could say what no file can: two robots in URDF, a robot in a robot, gravity
-    # of a link. So it is held against the published schema.
-    data = json_data(document)
-    for fault in json_faults(data):
-        path = "/".join(map(str, fault.path))
-        message = f"{path or 'the document'}: {fault.message}; {document.format.upper()} cannot express it"
-        sink.report(rules.INVALID_VALUE, message, Location(path=path), found=fault.found, expected=fault.expected)
-    return json.dumps({"$schema": JSON_IDENTIFIER, **data}, indent=2, ensure_ascii=False) + "\n"
+def is_object(value: object) -> TypeGuard[Data]:
+    """Whether it is an object of JSON."""
+    return isinstance(value, dict)
+
+
+def is_array(value: object) -> TypeGuard[list[Any]]:
+    """Whether it is an array of JSON."""
+    return isinstance(value, list)
+
+
+def json_text(document: Document) -> str:
+    """The JSON text of a document."""
+    data = {"$schema": IDENTIFIER, **json_data(document)}
+    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
 
 
 def json_data(document: Document) -> Data:
@@ -76,3 +88,27 @@ def _leave_out(holder: Data, name: str) -> None:
         pose.pop(name, None)
         if not pose:
             del holder["pose"]
+
+
+def json_schema_text() -> str:
+    """The JSON Schema of documents: that of Pydantic for the nodes of the IR, and what JSON has beside their fields."""
+    schema = Document.model_json_schema()
+    schema["properties"]["$schema"] = {"description": "The version of this schema.", "const": IDENTIFIER}
+    for each in (schema, *schema["$defs"].values()):
+        _describe(each)
+    head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "$id": IDENTIFIER}
+    return json.dumps(head | schema, indent=1) + "\n"
+
+
+def _describe(schema: Data) -> None:
+    """Give each field of an object its description, which the docstring of the class has."""
+    fields, text = schema.get("properties", {}), schema.get("description", "")
+    if "spelling" in fields:  # of a node
+        fields["order"] = {"description": _ORDER, "type": "array", "items": {"type": "string"}}
+        text = f"{text}\n{getdoc(Node)}"
+    for name, meaning in _FIELD.findall(text):
+        if name in fields:
+            fields[name].pop("title", None)
+            fields[name].setdefault("description", " ".join(meaning.split()))
+    if "description" in schema:
+        schema["description"] = schema["description"].partition("\n\nAttributes:")[0]

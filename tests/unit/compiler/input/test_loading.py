@@ -289,13 +289,6 @@ def test_a_tree_of_ours_is_lowered_as_a_file_is() -> None:
     assert [(each.rule.name, each.location.file) for each in sink.diagnostics] == [("unknown-attribute", "ours.urdf")]
 
 
-@pytest.mark.parametrize(("valid", "rules"), [(False, ["stray-text"]), (True, [])])
-def test_what_is_known_to_be_valid_is_not_asked_again(*, valid: bool, rules: list[str]) -> None:
-    sink = DiagnosticSink()
-    lower_tree(etree.fromstring(f'<robot name="r">{LINK}stray</robot>'), sink, valid=valid)
-    assert [each.rule.name for each in sink.diagnostics] == rules
-
-
 def test_the_size_of_a_source_is_its_elements_and_attributes() -> None:
     assert check(b'<robot name="r"><link name="a"/><link name="b"/></robot>').size == 6
     foreign = f'<sdf version="1.11"><model name="m"><x:a xmlns:x="urn:x"><x:b c="1"/></x:a>{MODEL}</model></sdf>'
