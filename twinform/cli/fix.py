@@ -20,7 +20,7 @@ from twinform.cli.printing import print_line
 from twinform.cli.rewriting import Rewrite, show_differences, write_back
 from twinform.cli.source import InputSource
 from twinform.compiler import CompileError, ConversionRequest, Language, LoadResult, inspect, read
-from twinform.compiler.in_place import convert_bytes_in_place
+from twinform.compiler.in_place import convert_in_place
 from twinform.compiler.input.load_options import FileOptions
 from twinform.diagnostics import Diagnostic
 from twinform.diagnostics.reporters import FileFindings
@@ -121,7 +121,7 @@ def _run(source: InputSource, passes: Pipeline | None, fixing: Fixing, report: R
         try:
             request = ConversionRequest(to=_format_of(rewrite), passes=passes)
             with mesh_progress(passes):
-                updated = convert_bytes_in_place(request, rewrite.after, source.name, fixing.load_options)
+                updated = convert_in_place(request, source.name, fixing.load_options, data=rewrite.after)
         except CompileError as error:
             report(source.name, error.diagnostics)
             return UNUSABLE if error.unreadable else FINDINGS

@@ -141,7 +141,7 @@ def _converted(
     if job.in_place and job.target != "json":
         from twinform.compiler.in_place import convert_in_place  # noqa: PLC0415 - most results are new files
 
-        updated = convert_in_place(request, Path(name), load_options, instrumentation=instrumentation)
+        updated = convert_in_place(request, name, load_options, instrumentation=instrumentation)
         return updated.conversion, updated
     made = run_conversion(request, job.source.content, load_options, name=name, instrumentation=instrumentation)
     return made, None

@@ -59,7 +59,7 @@ class Conversion:
 
 def convert_once(
     request: ConversionRequest,
-    source: Input,
+    source: Input | LoadResult,
     load_options: LoadOptions,
     *,
     name: str = "",

@@ -3,7 +3,7 @@
 from typing import Unpack
 
 from twinform.compiler.conversion import Conversion, convert_once
-from twinform.compiler.input.load_options import CheckOptions, Input, LoadOptions, checking_options
+from twinform.compiler.input.load_options import CheckOptions, Input, LoadOptions, LoadResult, checking_options
 from twinform.compiler.option import require_options
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.request_options import Language, RequestOptions
@@ -54,7 +54,7 @@ def convert(
 
 def run_conversion(
     request: ConversionRequest,
-    source: Input,
+    source: Input | LoadResult,
     load_options: LoadOptions,
     *,
     name: str = "",

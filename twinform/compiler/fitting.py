@@ -10,7 +10,7 @@ from pathlib import Path
 
 from twinform.compiler.conversion import Conversion, convert_once
 from twinform.compiler.conversion_error import CompileError
-from twinform.compiler.input.load_options import Input, LoadOptions
+from twinform.compiler.input.load_options import Input, LoadOptions, LoadResult
 from twinform.compiler.input.loading import read
 from twinform.compiler.inspection import inspect
 from twinform.compiler.inspection.inspect_for_consumers import subject_of, unread
@@ -30,7 +30,7 @@ _ROUNDS = 5
 
 def convert_for_consumers(
     request: ConversionRequest,
-    source: Input,
+    source: Input | LoadResult,
     load_options: LoadOptions,
     *,
     name: str = "",
@@ -53,7 +53,7 @@ def convert_for_consumers(
 
 
 def fitted(
-    request: ConversionRequest, source: Input, load_options: LoadOptions, *, name: str = ""
+    request: ConversionRequest, source: Input | LoadResult, load_options: LoadOptions, *, name: str = ""
 ) -> ConversionRequest:
     """The request with the passes that help its consumers.
 
@@ -107,7 +107,7 @@ def _at_source_lines(assessment: Assessment, document: Document, placed: dict[in
 
 
 def _tried(
-    request: ConversionRequest, source: Input, load_options: LoadOptions, name: str
+    request: ConversionRequest, source: Input | LoadResult, load_options: LoadOptions, name: str
 ) -> tuple[tuple[Assessment, ...], tuple[LedgerEntry, ...]]:
     """What consumers make of the result, and its ledger; or of the errors for which there is none yet."""
     try:

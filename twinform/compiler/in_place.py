@@ -7,8 +7,8 @@ from typing import NamedTuple
 from twinform.compiler.conversion import Conversion
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
-from twinform.compiler.input.loading import LoadOptions, read, read_tree
-from twinform.compiler.input.parsing import UnreadableError, read_bytes
+from twinform.compiler.input.loading import LoadOptions, LoadResult, bytes_of, read
+from twinform.compiler.input.parsing import UnreadableError
 from twinform.compiler.output.emitting import document_tree
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import DiagnosticSink, Location
@@ -44,69 +44,44 @@ class Updated(NamedTuple):
 
 def convert_in_place(
     request: ConversionRequest,
-    path: Path,
+    path: str | Path,
     load_options: LoadOptions,
     *,
+    data: bytes | None = None,
     instrumentation: PassInstrumentation | None = None,
 ) -> Updated:
     """Convert a file to its own format, and change in it only what the conversion changes.
 
+    `data` are its bytes, where they are not those that stand in the file.
+
     Raises:
         CompileError: it cannot be converted, or cannot be changed in its place.
     """
-    data = file_bytes(path, DiagnosticSink(str(path), load_options.strict), load_options)
-    return convert_bytes_in_place(request, data, str(path), load_options, instrumentation=instrumentation)
-
-
-def convert_bytes_in_place(
-    request: ConversionRequest,
-    data: bytes,
-    name: str,
-    load_options: LoadOptions,
-    *,
-    instrumentation: PassInstrumentation | None = None,
-) -> Updated:
-    """Do what `convert_in_place` does with the bytes of a file whose path is `name`.
-
-    Raises:
-        CompileError: they cannot be converted, or cannot be changed in their place.
-    """
+    sink = DiagnosticSink(str(path), load_options.strict)
+    try:
+        data = bytes_of(Path(path), sink, load_options) if data is None else data
+    except UnreadableError as error:
+        raise CompileError(tuple(sink.diagnostics), unreadable=True) from error
     request = replace(request, comments=False)  # the text of the file has them
     # The document is written twice, as it was before the passes and after: what differs between
     # these trees is changed in the tree of the file. What our writer spells otherwise than the
     # author is the same in both, and never touched.
-    conversion = run_conversion(request, data, load_options, name=name, instrumentation=instrumentation)
-    loaded = read(data, load_options, name=name)
-    if loaded.document is None:  # it could be converted a moment ago
-        raise CompileError(loaded.diagnostics)
-    sink = DiagnosticSink(name, load_options.strict)
-    return updated(data, loaded.document, conversion, sink, same=True)
+    loaded = read(data, load_options.read_by(request.sdf_version), name=str(path))
+    conversion = run_conversion(request, loaded, load_options, name=str(path), instrumentation=instrumentation)
+    return updated(loaded, loaded.document, conversion, sink, same=True)
 
 
-def file_bytes(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes:
-    """The bytes of a file.
-
-    Raises:
-        CompileError: it cannot be read.
-    """
-    search = load_options.search
-    unsaved = search.unsaved_of(path)
-    try:
-        return read_bytes(path, sink, load_options.limits, search.readable(path)) if unsaved is None else unsaved
-    except UnreadableError as error:
-        raise CompileError(tuple(sink.diagnostics), unreadable=True) from error
-
-
-def updated(source: bytes, before: Document, conversion: Conversion, sink: DiagnosticSink, *, same: bool) -> Updated:
+def updated(
+    file: LoadResult, before: Document | None, conversion: Conversion, sink: DiagnosticSink, *, same: bool
+) -> Updated:
     """A file with what a conversion has changed in a document; `same` means that this is the document of the file.
 
     Raises:
         CompileError: the file has changed too, or its text cannot be followed.
     """
-    try:
-        own, _ = read_tree(source, DiagnosticSink(sink.file))
-    except UnreadableError as error:
-        raise CompileError(read(source, LoadOptions(), name=sink.file).diagnostics, unreadable=True) from error
+    own, source = file.tree, file.content
+    if own is None or source is None or before is None:
+        raise CompileError(file.diagnostics, unreadable=file.unreadable)
     try:
         merged = _merged(document_tree(before), document_tree(conversion.document), own, same=same)
         if not merged.conflicts:

@@ -12,6 +12,7 @@ import pytest
 
 from twinform import file_access
 from twinform.compiler import in_place, into
+from twinform.compiler.input import parsing
 from twinform.compiler.into import convert_into
 from twinform.schemas import XmlElement
 from twinform.text import Merge
@@ -50,6 +51,21 @@ def test_nothing_changed_and_nothing_touched(run: Run, twins: Path) -> None:
     done = run("convert", "r.sdf", "--into", "r.urdf")
     assert (done.exit_code, Path("r.urdf").read_text()) == (0, HAND_WRITTEN)
     assert "r.urdf stays as it is" in done.stderr
+
+
+def test_each_file_is_parsed_once(run: Run, twins: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    _edit("r.sdf", "<mass>1.5</mass>", "<mass>2.5</mass>")
+    files = {name: Path(name).read_bytes() for name in ("r.sdf", "r.urdf")}
+    parsed: list[bytes] = []
+
+    def counting(text: bytes, *given: Any, **options: Any) -> XmlElement:
+        parsed.append(text)
+        return parsing.parse(text, *given, **options)
+
+    monkeypatch.setattr("twinform.compiler.input.loading.parse", counting)
+    assert run("convert", "r.sdf", "--into", "r.urdf").exit_code == 0
+    # the file into which the edits went is read once more as it became
+    assert {name: parsed.count(data) for name, data in files.items()} == {"r.sdf": 1, "r.urdf": 1}
 
 
 def test_an_edit_is_made_in_the_other_file(run: Run, twins: Path) -> None:
@@ -210,7 +226,7 @@ def test_a_file_that_cannot_be_read_any_more_is_an_error_with_a_message(
             assert (done.exit_code, "Input/output error" in done.stderr) == (2, True)
             assert Path(into).read_text() == before
         Path(into).write_text(before)
-    assert failed > 2
+    assert failed == 2  # each file is read once
 
 
 FOLLOWER = """<link name="finger"><inertial><mass value="1"/>

@@ -2,12 +2,15 @@
 
 import difflib
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from twinform.compiler import CompileError, ConversionRequest, LoadOptions
 from twinform.compiler.in_place import convert_in_place
+from twinform.compiler.input import parsing
 from twinform.passes import parse_pipeline
+from twinform.schemas import XmlElement
 
 ROBOT = """<?xml version='1.0'  encoding="utf-8"?>
 <!-- by hand -->
@@ -30,6 +33,18 @@ def _after(folder: Path, text: str | bytes, passes: str) -> bytes:
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
     request = ConversionRequest(to="urdf", passes=parse_pipeline(passes))
     return convert_in_place(request, path, LoadOptions()).data
+
+
+def test_the_file_is_parsed_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    parsed: list[bytes] = []
+
+    def counting(text: bytes, *given: Any, **options: Any) -> XmlElement:
+        parsed.append(text)
+        return parsing.parse(text, *given, **options)
+
+    monkeypatch.setattr("twinform.compiler.input.loading.parse", counting)
+    assert _after(tmp_path, ROBOT, "rename{names=[base:foot]}") != ROBOT.encode()
+    assert parsed == [ROBOT.encode()]
 
 
 def _lines(text: str, made: bytes) -> list[str]:

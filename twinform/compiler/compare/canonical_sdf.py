@@ -41,7 +41,12 @@ class Robots:
 
 
 def read_robots(
-    source: Input, load_options: LoadOptions, *, name: str, model: str | None, readers: Iterable[ComparingReader]
+    source: Input | LoadResult,
+    load_options: LoadOptions,
+    *,
+    name: str,
+    model: str | None,
+    readers: Iterable[ComparingReader],
 ) -> dict[ComparingReader, Robots]:
     """The robots of a file as each reader sees them; where there are several and `model` names one, that one.
 

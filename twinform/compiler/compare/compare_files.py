@@ -14,7 +14,7 @@ from twinform.compiler.compare.readers import ComparingReader, reconcile
 from twinform.compiler.compare.surroundings import compare_surroundings
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.input.load_options import FileOptions
-from twinform.compiler.input.loading import Input, LoadOptions, garbage_collection_paused, name_of_input
+from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, garbage_collection_paused, name_of_input
 from twinform.compiler.option import require_options
 
 
@@ -43,8 +43,8 @@ def diff(
 
 
 def compare_files(
-    a: Input,
-    b: Input,
+    a: Input | LoadResult,
+    b: Input | LoadResult,
     load_options: LoadOptions,
     options: ComparisonOptions = USUAL,
     *,
@@ -74,7 +74,7 @@ def compare_files(
         return Comparison(*names, options.tolerance, tuple(_seen_by_all(one, other, options.tolerance)))
 
 
-def _name(source: Input, default: str) -> str:
+def _name(source: Input | LoadResult, default: str) -> str:
     name = name_of_input(source)
     return f"<{default}>" if name in {"<bytes>", "<document>"} else name
 

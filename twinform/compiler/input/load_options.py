@@ -217,8 +217,10 @@ def parts_of(tree: XmlElement) -> int:
     return sum(1 + len(element.keys()) for element in tree.iter())
 
 
-def name_of_input(source: Input) -> str:
+def name_of_input(source: Input | LoadResult) -> str:
     """What messages call it: a document is called as the file that it came from."""
+    if isinstance(source, LoadResult):
+        return source.path
     if isinstance(source, Document):
         return source.location.file or "<document>"
     return "<bytes>" if isinstance(source, bytes) else str(source)

@@ -75,8 +75,13 @@ _WITHOUT_VERSION = {"urdf": (1, 0)}
 """The version of a file that declares none."""
 
 
-def read(source: Input, load_options: LoadOptions, *, name: str = "") -> LoadResult:
-    """Read a file, the bytes of one or a document, and report what is wrong; `name` stands for it in findings."""
+def read(source: Input | LoadResult, load_options: LoadOptions, *, name: str = "") -> LoadResult:
+    """Read a file, the bytes of one or a document, and report what is wrong; `name` stands for it in findings.
+
+    What was read before is not read again.
+    """
+    if isinstance(source, LoadResult):
+        return source
     sink = DiagnosticSink(file=name or name_of_input(source), strict=load_options.strict)
     with garbage_collection_paused():
         if isinstance(source, Document):
@@ -95,7 +100,7 @@ def _check(source: str | Path | bytes, sink: DiagnosticSink, load_options: LoadO
         # pipelines over files of strangers.
         if not isinstance(source, bytes) and (load_options.xacro or Path(source).suffix.lower() == XACRO):
             return _check_xacro(Path(source), sink, load_options)
-        text = source if isinstance(source, bytes) else _content(Path(source), sink, load_options)
+        text = source if isinstance(source, bytes) else bytes_of(Path(source), sink, load_options)
     except UnreadableError:
         return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
     allowances = load_options.allowances(sink.file)
@@ -104,7 +109,7 @@ def _check(source: str | Path | bytes, sink: DiagnosticSink, load_options: LoadO
     return _check_text(text, sink, load_options, allowances)
 
 
-def _content(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes:
+def bytes_of(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes:
     """What is in a file, or what an editor has of it.
 
     Raises:
