@@ -62,7 +62,7 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m generators.mapping.elements sdf docs/reference/sdf
 	$(BIN)/python -m generators.libsdformat_codes docs/reference/libsdformat_codes.md
 	$(BIN)/python -m generators.mapping.page docs/explanation/mapping.md
-	$(BIN)/python -m generators.mapping.destinations twinform/server/mapping/destinations.json
+	$(BIN)/python -m generators.mapping.destinations twinform/server/destinations.json
 
 lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel that works in an empty environment
 	$(BIN)/ruff check .
@@ -84,7 +84,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m generators.mapping.elements sdf docs/reference/sdf --check
 	$(BIN)/python -m generators.libsdformat_codes docs/reference/libsdformat_codes.md --check
 	$(BIN)/python -m generators.mapping.page docs/explanation/mapping.md --check
-	$(BIN)/python -m generators.mapping.destinations twinform/server/mapping/destinations.json --check
+	$(BIN)/python -m generators.mapping.destinations twinform/server/destinations.json --check
 	$(MAKE) --no-print-directory wheel
 
 site: $(SYNCED) ## build the documentation site into out/site; every warning is an error

@@ -34,7 +34,7 @@ from twinform.diagnostics.suppressions import parse_suppressions
 from twinform.ir import Document
 from twinform.passes import PipelineError, parse_pipeline
 from twinform.passes.mesh_references import FORMATS
-from twinform.server.framing import read_messages
+from twinform.server.serving import read_messages
 
 MODEL = b'<robot name="a"><link name="b"/></robot>'
 MESH_KINDS = sorted(FORMATS)

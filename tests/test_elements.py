@@ -11,7 +11,7 @@ from testbed.oracles.xml_trees import first_difference
 from twinform.compiler.audit import audit
 from twinform.diagnostics import Fate, Severity
 from twinform.ir import Document, Format
-from twinform.server.mapping.rows import FORMATS, FormatName, rows
+from twinform.server.mapping import FORMATS, FormatName, rows
 from twinform.testing.properties import RoundTrip
 
 

@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator
 
+from generators.mapping.file_rows import targets
 from generators.mapping.measure import EXPRESSED, Seen
 from generators.mapping.notes import destinations
 from testbed.markdown import rule_links
 from twinform.diagnostics import Fate, Severity
 from twinform.schemas.facts import Fact, print_version
-from twinform.server.mapping.row_targets import field_of, targets
-from twinform.server.mapping.rows import MappingRow
+from twinform.server.mapping import MappingRow, field_of
 
 ROOT = "../../.."
 """From a page to the root of the repository."""

@@ -10,7 +10,7 @@ import sys
 from generators.mapping.cells import became, where
 from generators.mapping.measure import Seen, measured
 from twinform.diagnostics.generated_files import main
-from twinform.server.mapping.rows import FORMATS, FormatName, rows
+from twinform.server.mapping import FORMATS, FormatName, rows
 
 _LINK = re.compile(r"\[(?P<text>[^\]]*)\]\([^)]*\)")
 _NOWHERE = ("", "by its rows")

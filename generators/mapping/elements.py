@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterator
 
 from generators.mapping.cells import ROOT, became, kind, name_of, rules_seen, versions, where
+from generators.mapping.file_rows import holders
 from generators.mapping.measure import Seen, measured
 from generators.mapping.notes import Note, notes
 from testbed.markdown import paragraphs, rule_links
@@ -15,7 +16,7 @@ from testbed.markdown import table as markdown_table
 from twinform.diagnostics.generated_files import main_of_folder
 from twinform.schemas import table
 from twinform.schemas.meanings import meanings
-from twinform.server.mapping.rows import FORMATS, FormatName, MappingRow, holders, rows, sections
+from twinform.server.mapping import FORMATS, FormatName, MappingRow, rows, sections
 
 _LIST = "README.md"
 _ABOUT = """\

@@ -4,9 +4,10 @@ import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 
+from generators.mapping.file_rows import unreachable
 from testbed.markdown import rule_links
 from twinform.schemas import table
-from twinform.server.mapping.rows import FORMATS, FormatName, MappingRow, rows, unreachable
+from twinform.server.mapping import FORMATS, FormatName, MappingRow, rows
 
 _WARNED = """\
 ## What is passed over

@@ -9,13 +9,14 @@ from pathlib import Path
 from lxml import etree
 
 import twinform
+from generators.mapping.file_rows import TablePart, parts
 from testbed.corpus.files import ROOT
 from testbed.corpus.there_and_back import robots
 from twinform.compiler.audit import bare_path, fates
 from twinform.diagnostics import Diagnostic, LedgerEntry, Location, Severity
 from twinform.ir import Document, Format
 from twinform.schemas import XmlElement, path_of, table
-from twinform.server.mapping.rows import MappingRow, TablePart, parts
+from twinform.server.mapping import MappingRow
 
 CASES = ROOT / "tests" / "cases"
 EXPRESSED = "expressed"

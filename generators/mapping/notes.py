@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from twinform.server.mapping.rows import FormatName
+from twinform.server.mapping import FormatName
 
 _TABLES: dict[str, Any] = tomllib.loads(Path(__file__).with_name("notes.toml").read_text(encoding="utf-8"))
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from generators.mapping.lists import passed_over
 from testbed.markdown import paragraphs
 from twinform.diagnostics.generated_files import main
-from twinform.server.mapping.rows import FORMATS, FormatName, sections
+from twinform.server.mapping import FORMATS, FormatName, sections
 
 _HEAD = "# Where every element goes\n\nMade by `make generate`."
 _ABOUT = """\

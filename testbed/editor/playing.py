@@ -7,9 +7,9 @@ from io import BytesIO
 from queue import Empty, Queue
 from typing import Any, ParamSpec, TypeVar, cast
 
+from twinform.server.scheduling import TaskError, Worker
 from twinform.server.serving import talk
 from twinform.server.wiring import make_server
-from twinform.server.workers import TaskError, Worker
 
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")

@@ -1,23 +1,23 @@
-"""What an editor offers to do: fixes of findings, and passes that change a document in its place."""
+"""Code actions: fixes of findings, and passes that change a document in place."""
 
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from lsprotocol import types
 
-from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit
+from twinform.diagnostics import Fix, Safety, Span, TextEdit
 from twinform.server.diagnostics import as_protocol, span_of
 from twinform.server.documents import TextDocument
-from twinform.server.mapping.rows import FormatName
+from twinform.server.mapping import FormatName
 from twinform.server.session import Session
 
 RUN_PASSES = "twinform.runPasses"
-"""The command that has a pipeline change a document: its arguments are the URI and the pipeline."""
+"""The command that runs a pipeline on a document; its arguments are the URI and the pipeline."""
 FIX_ALL = "source.fixAll.twinform"
 
 
 class PassAction(NamedTuple):
-    """A pipeline that is offered. Where `needs` has words, the document has to have one of them."""
+    """A pipeline that is offered for documents of these formats that contain one of the words `needs`, if any."""
 
     pipeline: str
     title: str
@@ -43,14 +43,14 @@ PASSES = (
 def actions(
     session: Session, document: TextDocument, where: types.Range, only: Iterable[str] | None
 ) -> list[types.CodeAction]:
-    """What can be done about a piece of a document; `only` are the kinds that are asked for."""
+    """List the code actions for a range of a document, of all kinds or of `only` some."""
     wanted = None if only is None else tuple(only)
-    made = [*_fixes(session, document, where), *_fix_all(session, document), *_passes(document)]
+    made = [*_offer_fixes(session, document, where), *_offer_fix_all(session, document), *_offer_passes(document)]
     return [each for each in made if each.kind is not None and _is_wanted(word_of(each.kind), wanted)]
 
 
 def word_of(kind: types.CodeActionKind | str) -> str:
-    """A kind of action as the protocol writes it."""
+    """Return the kind of an action as the protocol writes it."""
     return str(kind.value) if isinstance(kind, types.CodeActionKind) else kind
 
 
@@ -60,7 +60,7 @@ def _is_wanted(kind: str, wanted: tuple[str, ...] | None) -> bool:
     return any(kind == each or kind.startswith(f"{each}.") or not each for each in wanted)
 
 
-def _fixes(session: Session, document: TextDocument, where: types.Range) -> Iterator[types.CodeAction]:
+def _offer_fixes(session: Session, document: TextDocument, where: types.Range) -> Iterator[types.CodeAction]:
     piece = document.positions.span(where)
     for found in session.findings(document):
         here = span_of(found.location, document)
@@ -76,20 +76,17 @@ def _fixes(session: Session, document: TextDocument, where: types.Range) -> Iter
         )
 
 
-def _fix_all(session: Session, document: TextDocument) -> Iterator[types.CodeAction]:
-    edits = together(_safe(session.findings(document)))
+def _offer_fix_all(session: Session, document: TextDocument) -> Iterator[types.CodeAction]:
+    fixes = (each.fix for each in session.findings(document))
+    edits = compatible_edits(fix for fix in fixes if fix is not None and fix.safety is Safety.SAFE)
     if edits:
         yield types.CodeAction(
             title="Fix all safe problems of the file", kind=FIX_ALL, edit=edit_of(document, edits), is_preferred=True
         )
 
 
-def _safe(found: Iterable[Diagnostic]) -> Iterator[Fix]:
-    return (each.fix for each in found if each.fix is not None and each.fix.safety is Safety.SAFE)
-
-
-def together(fixes: Iterable[Fix]) -> tuple[TextEdit, ...]:
-    """The edits of fixes; one that overlaps another, or inserts at the same place, waits for the next time."""
+def compatible_edits(fixes: Iterable[Fix]) -> tuple[TextEdit, ...]:
+    """Return the edits of fixes, without a fix that overlaps one before it or inserts at the same place."""
     taken: list[TextEdit] = []
     for fix in fixes:
         if not any(_meet(one.span, other.span) for one in fix.edits for other in taken):
@@ -101,9 +98,9 @@ def _meet(one: Span, other: Span) -> bool:
     return one == other or (one.start < other.end and other.start < one.end)
 
 
-def _passes(document: TextDocument) -> Iterator[types.CodeAction]:
+def _offer_passes(document: TextDocument) -> Iterator[types.CodeAction]:
     if document.is_xacro or not document.tree.whole:
-        return  # what a pass changes is the expanded file
+        return  # a pass would change the expanded file
     for each in PASSES:
         if document.format in each.formats and (not each.needs or any(word in document.text for word in each.needs)):
             command = types.Command(each.title, RUN_PASSES, arguments=[document.uri, each.pipeline])
@@ -111,12 +108,12 @@ def _passes(document: TextDocument) -> Iterator[types.CodeAction]:
 
 
 def edit_of(document: TextDocument, edits: Iterable[TextEdit]) -> types.WorkspaceEdit:
-    """Edits of a document as the protocol has them."""
+    """Convert edits of a document to an edit of the workspace."""
     return types.WorkspaceEdit(changes={document.uri: text_edits(document, edits)})
 
 
 def text_edits(document: TextDocument, edits: Iterable[TextEdit]) -> list[types.TextEdit]:
-    """Edits of its text; a byte order mark, which is no part of the text of a file, is counted."""
+    """Convert edits to those of the protocol, which counts a byte order mark as a character."""
     mark = document.text.startswith("\ufeff")
     return [
         types.TextEdit(document.positions.range(Span(span.start + mark, span.end + mark)), new) for span, new in edits

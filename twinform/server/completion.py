@@ -1,4 +1,4 @@
-"""What may be written at the cursor: elements, attributes and values by the facts tables, and names of the document."""
+"""Completion: elements, attributes and values by the facts tables, and names of the document."""
 
 from collections.abc import Iterable, Iterator
 
@@ -12,32 +12,31 @@ from twinform.server.cursor import Cursor, CursorKind, cursor_at
 from twinform.server.document_names import kind_at
 from twinform.server.documents import TextDocument
 from twinform.server.hover import text_of_row
-from twinform.server.known_names import names_for
-from twinform.server.mapping.rows import MappingRow
-from twinform.server.plugin_facts import described, parameter_of, parameters_in
-from twinform.server.proposal import Proposal, literal
-from twinform.server.schema import SchemaPlace, inside, is_of_xacro
+from twinform.server.mapping import MappingRow
+from twinform.server.proposals import Proposal, in_expression, literal, names_for, xacro_attributes, xacro_elements
+from twinform.server.schema import SchemaPlace, described, inside, is_of_xacro, parameter_of, parameters_in
 from twinform.server.session import Session
 from twinform.server.tolerant_tree import TolerantNode
-from twinform.server.xacro_completion import in_expression, xacro_attributes, xacro_elements
 
 _ITEM = types.CompletionItemKind
 _BOOLS = ("true", "false")
 
 
 def complete(session: Session, document: TextDocument, offset: int) -> types.CompletionList:
-    """What may be written at an offset, in the place of what is there."""
+    """List what may be written at an offset, in place of the word that is there."""
     cursor = cursor_at(document, offset)
     if cursor is None:
         return types.CompletionList(is_incomplete=False, items=[])
     expression = in_expression(session, document, offset)
     if expression is not None:
         span, found = expression
-        return _listed(session, document, span, found)
-    return _listed(session, document, *_proposals(session, document, cursor, offset))
+        return _completion_list(session, document, span, found)
+    return _completion_list(session, document, *_proposals(session, document, cursor, offset))
 
 
-def _listed(session: Session, document: TextDocument, span: Span, found: Iterable[Proposal]) -> types.CompletionList:
+def _completion_list(
+    session: Session, document: TextDocument, span: Span, found: Iterable[Proposal]
+) -> types.CompletionList:
     range_ = document.positions.range(span)
     snippet = session.snippets
     items = [
@@ -57,7 +56,7 @@ def _listed(session: Session, document: TextDocument, span: Span, found: Iterabl
 
 
 def plain(snippet: str) -> str:
-    """A snippet without the places to fill in."""
+    """Remove the places to fill in from a snippet."""
     pieces: list[str] = []
     rest = snippet
     while (at := rest.find("$")) >= 0:
@@ -92,7 +91,7 @@ def _proposals(
 
 
 def _in_text(session: Session, document: TextDocument, cursor: Cursor, offset: int) -> tuple[Span, Iterable[Proposal]]:
-    """Between tags: an end tag that was begun, the text of the element, or an element."""
+    """Propose an end tag that was begun, values for the text of an element, or elements."""
     node = cursor.node
     start = document.text.rfind("<", 0, offset)
     if start >= 0 and document.text.startswith("</", start) and ">" not in document.text[start:offset]:
@@ -115,7 +114,7 @@ def _with_bracket(found: Iterable[Proposal]) -> Iterator[Proposal]:
 def _elements(
     session: Session, document: TextDocument, parent: TolerantNode | None, own: TolerantNode | None, *, bare: bool
 ) -> Iterator[Proposal]:
-    """The elements that may stand in another; `bare` is without what comes behind the name."""
+    """Propose the elements that may stand in another; `bare` proposes the names only."""
     if parent is None:
         yield from _roots(document) if document.tree.root in (None, own) else ()
         return
@@ -149,7 +148,7 @@ def _roots(document: TextDocument) -> Iterator[Proposal]:
 
 
 def _element(name: str, row: MappingRow) -> str:
-    """The snippet of an element, behind its `<`: with the attributes that it needs."""
+    """Make the snippet of an element without its `<`, with the required attributes."""
     place = inside(row)
     known = place.known()
     needed = [fact for fact in known if fact.is_attribute and fact.required]
@@ -178,7 +177,7 @@ def _parameter(parameter: PluginParameter, *, bare: bool) -> Proposal:
 
 
 def _attributes(session: Session, document: TextDocument, node: TolerantNode, *, named: bool) -> Iterator[Proposal]:
-    """The attributes that an element does not have yet; `named` is without the value, which is there."""
+    """Propose the attributes that an element does not have yet; `named` proposes the names only."""
     if is_of_xacro(node.tag):
         yield from xacro_attributes(session, document, node, named=named)
         return
@@ -192,13 +191,13 @@ def _attributes(session: Session, document: TextDocument, node: TolerantNode, *,
 
 
 def _values(session: Session, document: TextDocument, node: TolerantNode, attribute: str | None) -> Iterator[Proposal]:
-    """The values of an attribute, or of the text of an element."""
+    """Propose the values of an attribute or, without one, of the text of an element."""
     if node.parent is None and attribute == "version" and document.schema.table is not None:
         for version in reversed(document.schema.table.versions):
             yield Proposal(version, version, _ITEM.EnumMember)
         return
     row = document.schema.row(node, attribute)
-    for value in _listed_values(row):
+    for value in _enumerated_values(row):
         yield Proposal(value, value, _ITEM.EnumMember)
     kind = kind_at(document, node, attribute)
     if kind is not None:
@@ -213,7 +212,7 @@ def _values(session: Session, document: TextDocument, node: TolerantNode, attrib
             yield Proposal(value, value, _ITEM.EnumMember)
 
 
-def _listed_values(row: MappingRow | None) -> tuple[str, ...]:
+def _enumerated_values(row: MappingRow | None) -> tuple[str, ...]:
     if row is None:
         return ()
     fact = row.fact

@@ -1,4 +1,4 @@
-"""What stands at the cursor: a tag, the name or the value of an attribute, a text, or a place between elements."""
+"""The part of a document at the cursor: a tag, the name or the value of an attribute, or a text."""
 
 from dataclasses import dataclass
 from enum import Enum, auto
@@ -11,10 +11,10 @@ _BLANKS = " \t\r\n"
 
 
 class CursorKind(Enum):
-    """What it is."""
+    """Which kind of part a cursor is in."""
 
     TAG = auto()
-    """The name of an element in its start tag; the element is the one that is being typed."""
+    """The name of an element in its start tag, which may still be typed."""
     ATTRIBUTE = auto()
     """The name of an attribute, or a place in a start tag where one may begin."""
     VALUE = auto()
@@ -27,9 +27,10 @@ class CursorKind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Cursor:
-    """A place in a document. `piece` is what stands there, `attribute` the one whose name or value it is.
+    """A place in a document, and the `piece` of text around it.
 
-    `node` is the element whose tag it is, or the one around a text; None for a place outside of all elements.
+    `node` is the element whose tag it is in, or the one around a text; None outside of all elements. `attribute` is the
+    attribute whose name or value it is in.
     """
 
     kind: CursorKind
@@ -39,7 +40,7 @@ class Cursor:
 
 
 def cursor_at(document: TextDocument, offset: int) -> Cursor | None:
-    """What stands at an offset; None in comments and the like."""
+    """Find the part of a document at an offset; None in a comment, CDATA section or processing instruction."""
     tree = document.tree
     if tree.aside_at(offset) is not None:
         return None
@@ -54,7 +55,7 @@ def cursor_at(document: TextDocument, offset: int) -> Cursor | None:
 
 
 def _inside_end(node: TolerantNode) -> int:
-    """The last place in a start tag, which is before what closes it."""
+    """Return the last place in a start tag, before its `>` or `/>`."""
     closing = (2 if node.empty else 1) if node.whole_tag else 0
     return node.start_tag.end - closing
 
@@ -72,7 +73,7 @@ def _in_start_tag(node: TolerantNode, offset: int, text: str) -> Cursor:
 
 
 def _run_of_text(node: TolerantNode, offset: int, text: str) -> Span:
-    """The text around a place, up to the tags beside it, without the blanks at its ends."""
+    """Return the text around a place, up to the next tags, without blanks at its ends."""
     inside = node.content
     start = max(text.rfind(">", inside.start, offset) + 1, inside.start)
     end = text.find("<", offset, inside.end)

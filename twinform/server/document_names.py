@@ -1,9 +1,10 @@
-"""Names in a document: what is defined, and what refers to it by its name.
+"""Names in a document: definitions, and references to them.
 
-Which attributes and texts are references is known from the fields of the IR that they fill (`ir/references.py`); in
-plugins and other parts without a typed form, the name of the parameter shows it, as `rename` goes by.
+Which attributes and texts are references follows from the fields of the IR that they fill (`ir/references.py`). In
+plugins and other parts without a typed form it follows from the name of the parameter, as for the pass `rename`.
 """
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from functools import cache
 from typing import NamedTuple, TypeVar
@@ -14,21 +15,18 @@ from twinform.ir import Element
 from twinform.ir.references import REFERENCES, ReferenceKind
 from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text
 from twinform.server.documents import TextDocument
-from twinform.server.mapping.row_targets import field_of
-from twinform.server.mapping.rows import FormatName, MappingRow
-from twinform.server.name import Name
+from twinform.server.mapping import FormatName, MappingRow, field_of
+from twinform.server.names import XACRO_KINDS, Name, xacro_names
 from twinform.server.schema import is_of_xacro
 from twinform.server.tolerant_tree import TolerantNode
-from twinform.server.xacro_names import XACRO_KINDS, xacro_names
 
 Key = TypeVar("Key")
 DEFINED = ("link", "joint", "frame", "model", "material", "sensor")
-"""What is called by its attribute `name`, and can be found by it."""
+"""Elements whose attribute `name` defines a name."""
 _SCOPES = frozenset({"model", "world", "robot"})
 _STATES = frozenset({"model", "model_state"})
 _MACRO = "xacro:macro"
-# Deeper names are not followed: each step of `a::b::c` is known by all those before it, which is
-# quadratic.
+# Deeper names are not followed: each step of `a::b::c` keeps all steps before it, which is quadratic.
 _MOST_STEPS = 64
 _FIELDS: dict[str, ReferenceKind] = {
     f"{node.__name__}.{field}": kind for node, fields in REFERENCES.items() for field, kind in fields.items()
@@ -36,12 +34,12 @@ _FIELDS: dict[str, ReferenceKind] = {
 
 
 def names_of(document: TextDocument) -> tuple[Name, ...]:
-    """All names in a document, in the order of the text."""
-    return document.once(_collected)
+    """Return all names in a document: those of models in the order of the text, then those of xacro."""
+    return document.once(_collect_names)
 
 
 class NameSurroundings(NamedTuple):
-    """The nearest scope and macro, the element itself included, and whether it is part of a recorded state."""
+    """The nearest scope and macro of an element, itself included, and whether it is in a recorded `<state>`."""
 
     scope: TolerantNode | None
     macro: TolerantNode | None
@@ -52,12 +50,12 @@ _NOWHERE = NameSurroundings(None, None, in_state=False)
 
 
 def surroundings(document: TextDocument, node: TolerantNode | None) -> NameSurroundings:
-    """What is around an element in a document: nothing, if the element is one of another document."""
+    """Return the surroundings of an element; empty ones if the element is of another document."""
     return document.once(_all_surroundings).get(node, _NOWHERE)
 
 
 def _all_surroundings(document: TextDocument) -> dict[TolerantNode | None, NameSurroundings]:
-    """Return the surroundings of all elements, each made from its parent's: climbing for each takes minutes."""
+    """Return the surroundings of all elements, each made from its parent's: climbing up from each takes minutes."""
     found: dict[TolerantNode | None, NameSurroundings] = {None: _NOWHERE}
     for node in document.tree.nodes:
         outer, parent = found[node.parent], node.parent
@@ -70,49 +68,48 @@ def _all_surroundings(document: TextDocument) -> dict[TolerantNode | None, NameS
 
 
 def defined(document: TextDocument, text: str, kind: str, scope: TolerantNode | None) -> list[Name]:
-    """The definitions of a name of a kind in one scope."""
+    """Return the definitions of a name of a kind in one scope."""
     return document.once(_by_scope).get((text, kind, scope), [])
 
 
 def defined_anywhere(document: TextDocument, text: str, kind: str) -> list[Name]:
-    """The definitions of a name of a kind in any scope."""
+    """Return the definitions of a name of a kind in any scope."""
     return document.once(_by_kind).get((text, kind), [])
 
 
-def _collected(document: TextDocument) -> tuple[Name, ...]:
-    """All names; those of models first, then those of xacro."""
-    return (*_names(document), *xacro_names(document))
+def _collect_names(document: TextDocument) -> tuple[Name, ...]:
+    return (*_model_names(document), *xacro_names(document))
 
 
 def _by_scope(document: TextDocument) -> dict[tuple[str, str, TolerantNode | None], list[Name]]:
-    return _grouped(((each.text, each.kind, each.scope), each) for each in names_of(document) if each.defines)
+    return _group(((each.text, each.kind, each.scope), each) for each in names_of(document) if each.defines)
 
 
 def _by_kind(document: TextDocument) -> dict[tuple[str, str], list[Name]]:
-    return _grouped(((each.text, each.kind), each) for each in names_of(document) if each.defines)
+    return _group(((each.text, each.kind), each) for each in names_of(document) if each.defines)
 
 
-def _grouped(pairs: Iterable[tuple[Key, Name]]) -> dict[Key, list[Name]]:
-    found: dict[Key, list[Name]] = {}
+def _group(pairs: Iterable[tuple[Key, Name]]) -> dict[Key, list[Name]]:
+    found: dict[Key, list[Name]] = defaultdict(list)
     for key, name in pairs:
-        found.setdefault(key, []).append(name)
+        found[key].append(name)
     return found
 
 
 def name_at(document: TextDocument, offset: int) -> Name | None:
-    """The name around an offset; the innermost, where one is in an expression that is in another."""
+    """Return the name at an offset; the innermost, if an expression with names is part of a name."""
     around = [each for each in names_of(document) if each.span.start <= offset <= each.span.end]
     return min(around, key=lambda each: each.span.end - each.span.start, default=None)
 
 
-def _names(document: TextDocument) -> Iterator[Name]:
+def _model_names(document: TextDocument) -> Iterator[Name]:
     for node in document.tree.nodes:
         if node.tag and not is_of_xacro(node.tag) and len(node.attributes) <= MOST_ATTRIBUTES:
-            yield from _of_attributes(document, node)
-            yield from _of_text(document, node)
+            yield from _names_in_attributes(document, node)
+            yield from _names_in_text(document, node)
 
 
-def _of_attributes(document: TextDocument, node: TolerantNode) -> Iterator[Name]:
+def _names_in_attributes(document: TextDocument, node: TolerantNode) -> Iterator[Name]:
     for attribute, span in node.attributes.items():
         value = node.values[attribute]
         if not value:
@@ -128,11 +125,11 @@ def _of_attributes(document: TextDocument, node: TolerantNode) -> Iterator[Name]
         # text and by the pass, and compares the models.
         kind = kind_at(document, node, attribute)
         if kind is not None:
-            yield from _steps(document, value, span.value, node, kind)
+            yield from _split_reference(document, value, span.value, node, kind)
 
 
-def _steps(document: TextDocument, text: str, span: Span, node: TolerantNode, kind: str) -> Iterator[Name]:
-    """A reference; of `model::part` each step on its own, known by all the steps before it."""
+def _split_reference(document: TextDocument, text: str, span: Span, node: TolerantNode, kind: str) -> Iterator[Name]:
+    """Yield a name for each step of a reference such as `model::part`, with all steps before it in its text."""
     if text.count("::") >= _MOST_STEPS:
         return
     start, scope = span.start, scope_of_reference(document, node)
@@ -145,7 +142,7 @@ def _steps(document: TextDocument, text: str, span: Span, node: TolerantNode, ki
         start = end + len("::")
 
 
-def _of_text(document: TextDocument, node: TolerantNode) -> Iterator[Name]:
+def _names_in_text(document: TextDocument, node: TolerantNode) -> Iterator[Name]:
     if node.children or node.empty or not node.closed:
         return
     kind = kind_at(document, node, None)
@@ -157,11 +154,11 @@ def _of_text(document: TextDocument, node: TolerantNode) -> Iterator[Name]:
     if names_include and text and node.parent is not None:
         yield Name(text, span, node.parent, "model", defines=True, scope=surroundings(document, node.parent).scope)
     elif kind is not None and text and "<" not in text:
-        yield from _steps(document, text, span, node, kind)
+        yield from _split_reference(document, text, span, node, kind)
 
 
 def _defines(document: TextDocument, node: TolerantNode) -> bool:
-    """Whether an element is what its name calls, and not something that refers to it."""
+    """Whether the attribute `name` of an element defines a name, and does not refer to one."""
     if node.tag not in DEFINED or (node.tag == "model" and surroundings(document, node).in_state):
         return False
     row = document.schema.row(node)
@@ -173,12 +170,12 @@ def _defines(document: TextDocument, node: TolerantNode) -> bool:
 
 
 def _is_misplaced(document: TextDocument, node: TolerantNode) -> bool:
-    """Whether it stands where the facts have no such element, as while the element before it is not closed yet."""
+    """Whether an element with children has no place there because an element before it is not closed yet."""
     return not document.tree.whole and any(child.tag for child in node.children)
 
 
 def kind_at(document: TextDocument, node: TolerantNode, attribute: str | None) -> ReferenceKind | None:
-    """What an attribute, or the text of an element, names."""
+    """Return the kind of thing that an attribute refers to or, without one, the text of an element."""
     row = document.schema.row(node, attribute)
     if row is not None and row.fact.place is not None and row.fact.place != ".":
         return _FIELDS.get(_field(row))
@@ -193,32 +190,32 @@ def kind_at(document: TextDocument, node: TolerantNode, attribute: str | None) -
 
 
 def _is_typed(document: TextDocument, node: TolerantNode) -> bool:
-    """Whether the IR knows the element, so that what refers to something in it is known too."""
+    """Whether the IR has a field for the element, and so for all references in it."""
     row = document.schema.row(node)
     return row is not None and row.fact.place is not None
 
 
 @cache
 def _field(row: MappingRow) -> str:
-    """The field of the IR that a row fills, whatever kind of node it is in."""
+    """Return the field of the IR that a row fills, without the kind of a union."""
     return field_of(row).partition(":")[0]
 
 
 def scope_of_reference(document: TextDocument, node: TolerantNode) -> TolerantNode | None:
-    """The scope of what an element refers to: for the pose of a model itself that around the model."""
+    """Return the scope of the references in an element; the pose of a model refers to names around the model."""
     scope = surroundings(document, node).scope
     if scope is not None and node.tag == "pose" and node.parent is scope:
         return surroundings(document, scope.parent).scope
     return scope
 
 
-def found_in(document: TextDocument, name: Name) -> list[Name]:
-    """The definitions that a name means in a document: of the first kind that has any, in the nearest scope."""
+def resolve_in(document: TextDocument, name: Name) -> list[Name]:
+    """Find the definitions that a name refers to in a document: of the first kind that has any, in its scope."""
     format: FormatName | None = document.schema.format
     if format == "sdf" and "::" in name.text:
-        return _inside(document, name)
+        return _resolve_scoped(document, name)
     if name.kind in XACRO_KINDS:
-        return _parameters(document, name) or defined_anywhere(document, name.text, name.kind)
+        return _resolve_parameter(document, name) or defined_anywhere(document, name.text, name.kind)
     scope = None if format == "urdf" else _model_of_state(document, name.scope)
     for kind in name.kinds:
         own = defined(document, name.text, kind, scope) if scope else defined_anywhere(document, name.text, kind)
@@ -227,8 +224,8 @@ def found_in(document: TextDocument, name: Name) -> list[Name]:
     return []
 
 
-def _parameters(document: TextDocument, name: Name) -> list[Name]:
-    """The parameter that a name means: that of the nearest macro around it that has one."""
+def _resolve_parameter(document: TextDocument, name: Name) -> list[Name]:
+    """Find the parameter of that name of the nearest macro around it that has one."""
     around = surroundings(document, name.node) if name.kind in {"property", "param"} else None
     while around is not None and around.macro is not None:
         own = defined(document, name.text, "param", around.macro)
@@ -239,15 +236,15 @@ def _parameters(document: TextDocument, name: Name) -> list[Name]:
 
 
 def _model_of_state(document: TextDocument, scope: TolerantNode | None) -> TolerantNode | None:
-    """The model whose state an element records; any other scope itself."""
+    """Return the model that a scope in a `<state>` stands for; any other scope itself."""
     if scope is None or not surroundings(document, scope).in_state:
         return scope
     models = defined_anywhere(document, scope.get("name") or "", "model")
     return models[0].node if models else scope
 
 
-def _inside(document: TextDocument, name: Name) -> list[Name]:
-    """What `inner::name` means: the last of its words, in models of these names in each other."""
+def _resolve_scoped(document: TextDocument, name: Name) -> list[Name]:
+    """Find what `outer::inner::name` refers to, through nested models."""
     *outer, last = name.text.split("::")
     scope = name.scope
     for step in outer:

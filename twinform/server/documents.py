@@ -1,4 +1,4 @@
-"""The documents that are open in the editor: their texts, kept in step with what is typed there."""
+"""The documents that are open in the editor, kept in step with what is typed, and the other files that they name."""
 
 import re
 from collections.abc import Callable, Iterable, Iterator
@@ -9,12 +9,12 @@ from typing import Any, TypeVar
 
 from lsprotocol.types import PositionEncodingKind, TextDocumentContentChangeEvent, TextDocumentContentChangePartial
 
-from twinform.server.editor_uris import file_of, path_of
-from twinform.server.positions import Positions
+from twinform.file_access import Readable
+from twinform.server.checking import LARGEST, MOST_TAGS
+from twinform.server.locations import Positions, file_of, path_of, uri_of
 from twinform.server.schema import FormatName, Schema, format_of
-from twinform.server.settings import LARGEST, MOST_TAGS
 from twinform.server.tolerant_tree import Tree, parse
-from twinform.text import SourceText
+from twinform.text import SourceText, UndecodableError
 
 Made = TypeVar("Made")
 _DECLARED = re.compile(r"""\s*<\?xml[^>]{0,200}?\sencoding\s*=\s*["']([A-Za-z][\w.-]*)["']""")
@@ -23,9 +23,9 @@ _LONE = re.compile("[\ud800-\udfff]")
 
 @dataclass(frozen=True)  # no slots: what is made of the text is kept in the dictionary
 class TextDocument:
-    """One state of a text. It is never changed: each key makes another one.
+    """One state of a document; each edit makes another one.
 
-    `excess` tells why it is not followed; its text is empty then.
+    `excess` says why a document is not followed; its text is empty then.
     """
 
     uri: str
@@ -37,59 +37,59 @@ class TextDocument:
 
     @cached_property
     def path(self) -> Path:
-        """The file; what is no file of this machine has a name like that in its URI."""
+        """The file of the document; a made-up name if its URI is not that of a file on this machine."""
         return path_of(self.uri)
 
     @cached_property
     def is_file(self) -> bool:
-        """Whether it is a file of this machine, which others can include."""
+        """Whether the document is a file on this machine, which others can include."""
         return file_of(self.uri) is not None
 
     @cached_property
     def positions(self) -> Positions:
-        """Where its lines are."""
+        """The positions of its lines."""
         return Positions.of(self.text, self.encoding)
 
     @property
     def is_parsed(self) -> bool:
-        """Whether anybody has asked for its tree."""
+        """Whether its tree was made."""
         return "tree" in self.__dict__
 
     @cached_property
     def tree(self) -> Tree:
-        """Its elements, however much is missing."""
+        """Its elements, even if it is not well-formed."""
         return parse(self.text)
 
     def once(self, make: "Callable[[TextDocument], Made]") -> "Made":
-        """What a function makes of it, made once."""
+        """Call a function with the document once, and return the same result every time."""
         known: dict[object, Any] = self.__dict__.setdefault("made", {})
         if make not in known:
             known[make] = make(self)
         return known[make]
 
     def release(self) -> None:
-        """Give up the tree, whose elements hold each other: to find that out takes the garbage collector longer."""
+        """Release the tree, whose elements refer to each other: the garbage collector takes longer to find them."""
         if self.is_parsed:
             self.tree.release()
 
     @cached_property
     def schema(self) -> Schema:
-        """What its elements are by the facts tables."""
+        """The rows of the facts tables for its elements."""
         return Schema(self.tree, self.format)
 
     @property
     def format(self) -> FormatName | None:
-        """The format that it is in: that of its root, or else the one that its name promises."""
+        """Its format, by the root element or else by the name."""
         return format_of(self.tree, self.path.name, self.language)
 
     @property
     def is_xacro(self) -> bool:
-        """Whether it is expanded before it is read."""
+        """Whether it is a xacro file, which is expanded before it is read."""
         return self.path.suffix.lower() == ".xacro"
 
     @cached_property
     def data(self) -> bytes:
-        """The bytes of the file that it would be; what is half a character becomes a whole one."""
+        """The bytes of the document if it were saved, with lone surrogates replaced."""
         declared = _DECLARED.match(self.text)
         encoding = declared[1] if declared else "utf-8"
         # An editor that counts in UTF-16 may send half of a surrogate pair between two keys.
@@ -101,7 +101,7 @@ class TextDocument:
 
 
 def excess_of(text: str) -> str:
-    """Why a text is not followed; empty for one that is."""
+    """Say why a text is too large to be followed; empty if it is not."""
     if len(text) > LARGEST:
         return f"the file has more than {LARGEST >> 20} MiB"
     tags = text.count("<")
@@ -120,48 +120,24 @@ class Documents:
         return iter(tuple(self._open.values()))
 
     def get(self, uri: str) -> TextDocument | None:
-        """The document of a URI, if it is open and followed."""
+        """Return the document of a URI, if it is open and followed."""
         found = self._open.get(uri)
         return None if found is None or found.excess else found
 
     def state(self, uri: str) -> TextDocument | None:
-        """Return what is known of a document, also of one that is not followed."""
+        """Return the document of a URI, if it is open, even if it is not followed."""
         return self._open.get(uri)
 
     def of_path(self, path: Path) -> TextDocument | None:
-        """The document that is open of a file."""
+        """Return the open document of a file."""
         return next((each for each in self if each.is_file and each.path == path and not each.excess), None)
 
     def last_good(self, document: TextDocument) -> TextDocument | None:
-        """The last state of a document that was well-formed, as far as anybody has looked at it."""
+        """Return the last state of a document that was parsed and well-formed."""
         return document if document.tree.whole else self._good.get(document.uri)
 
-    def open(self, uri: str, text: str, version: int, language: str) -> TextDocument:
-        """Take up a document."""
-        return self._keep(uri, text, version, language)
-
-    def change(self, uri: str, changes: Iterable[TextDocumentContentChangeEvent], version: int) -> TextDocument | None:
-        """Do what was done in the editor; None for what is not open."""
-        document = self._open.get(uri)
-        if document is None:
-            return None
-        for change in changes:
-            if not isinstance(change, TextDocumentContentChangePartial):
-                document = self._keep(uri, change.text, version, document.language)
-            elif not document.excess:
-                start, end = document.positions.span(change.range)
-                text = document.text[:start] + change.text + document.text[end:]
-                document = self._keep(uri, text, version, document.language)
-            else:
-                document = self._open[uri] = replace(document, version=version)
-        return document
-
-    def close(self, uri: str) -> None:
-        """Forget a document."""
-        self._open.pop(uri, None)
-        self._good.pop(uri, None)
-
-    def _keep(self, uri: str, text: str, version: int, language: str) -> TextDocument:
+    def follow(self, uri: str, text: str, version: int, language: str) -> TextDocument:
+        """Keep a text as the state of a document."""
         last = self._open.get(uri)
         if last is not None:
             self._leave(last)
@@ -172,9 +148,66 @@ class Documents:
         self._open[uri] = made
         return made
 
+    def change(self, uri: str, changes: Iterable[TextDocumentContentChangeEvent], version: int) -> TextDocument | None:
+        """Apply the changes of the editor to a document; None if it is not open."""
+        document = self._open.get(uri)
+        if document is None:
+            return None
+        for change in changes:
+            if not isinstance(change, TextDocumentContentChangePartial):
+                document = self.follow(uri, change.text, version, document.language)
+            elif not document.excess:
+                start, end = document.positions.span(change.range)
+                text = document.text[:start] + change.text + document.text[end:]
+                document = self.follow(uri, text, version, document.language)
+            else:
+                document = self._open[uri] = replace(document, version=version)
+        return document
+
+    def close(self, uri: str) -> None:
+        """Forget a document."""
+        self._open.pop(uri, None)
+        self._good.pop(uri, None)
+
     def _leave(self, last: TextDocument) -> None:
-        """Go on from a state: it is kept as the last good one, or let go."""
+        """Keep a state as the last well-formed one, or release its tree."""
         if last.is_parsed and last.tree.whole:
             last, self._good[last.uri] = self._good.get(last.uri, last), last
         if last is not self._good.get(last.uri):
             last.release()
+
+
+_MOST_FILES = 500
+"""The most files that are cached."""
+
+
+class DocumentFiles:
+    """Documents by their files: open ones with the text of the editor, others read from the disk and cached."""
+
+    def __init__(self, documents: Documents) -> None:
+        self._documents = documents
+        self._read: dict[Path, tuple[tuple[int, int], TextDocument]] = {}
+
+    def document(self, path: Path) -> TextDocument | None:
+        """Return the document of a file; None if the file cannot be read, is no text, or is too large."""
+        found = self._documents.of_path(path)
+        return found if found is not None else self._read_file(path)
+
+    def _read_file(self, path: Path) -> TextDocument | None:
+        try:
+            status = path.stat()
+            state = (status.st_mtime_ns, status.st_size)
+            if path in self._read and self._read[path][0] == state:
+                return self._read[path][1]
+            if status.st_size > LARGEST:
+                return None
+            text = SourceText.of(Readable.of(path).read(path, LARGEST)).text
+        except (OSError, ValueError, UndecodableError):
+            return None
+        if excess_of(text):
+            return None
+        if len(self._read) >= _MOST_FILES:
+            self._read.clear()
+        document = TextDocument(uri_of(path), text, encoding=self._documents.encoding)
+        self._read[path] = (state, document)
+        return document

@@ -1,5 +1,6 @@
-"""What there is to know of what the mouse is on: meaning, unit, default, versions, and what becomes of it elsewhere."""
+"""Hover: meaning, unit, default, versions, and the counterpart in the other format, as Markdown."""
 
+import re
 from collections.abc import Iterator
 from functools import cache
 
@@ -15,25 +16,22 @@ from twinform.server.cursor import Cursor, CursorKind, cursor_at
 from twinform.server.diagnostics import span_of
 from twinform.server.document_names import name_at
 from twinform.server.documents import TextDocument
-from twinform.server.mapping.destinations import destination
-from twinform.server.mapping.rows import FORMATS, FormatName, MappingRow, rows
-from twinform.server.markdown import code, code_block
-from twinform.server.name import Name
-from twinform.server.navigation import Found, meant_by, search_of
-from twinform.server.plugin_facts import described, kind_of, parameter_of
+from twinform.server.mapping import FORMATS, FormatName, MappingRow, destination, rows
+from twinform.server.names import ELEMENTS, Name
+from twinform.server.navigation import Found, resolve, search_of
+from twinform.server.schema import PREFIX, described, kind_of, parameter_of
 from twinform.server.session import Session
 from twinform.server.tolerant_tree import TolerantNode
-from twinform.server.xacro_names import ELEMENTS, PREFIX
 
 _OTHERS: dict[FormatName, str] = {"urdf": "SDF", "sdf": "URDF"}
 _LONGEST = 200
 
 
 def hover(session: Session, document: TextDocument, offset: int) -> types.Hover | None:
-    """The text about what is at an offset, with the pages of the rules that found something there."""
+    """Describe the part of a document at an offset, with the pages of the rules that found something there."""
     cursor = cursor_at(document, offset)
-    parts = list(_parts(session, document, cursor, offset)) if cursor else []
-    parts += _findings(session, document, offset)
+    parts = list(_describe(session, document, cursor, offset)) if cursor else []
+    parts += _rule_pages(session, document, offset)
     if not parts:
         return None
     piece = cursor.piece if cursor else Span(offset, offset)
@@ -42,27 +40,27 @@ def hover(session: Session, document: TextDocument, offset: int) -> types.Hover 
 
 
 def warm_up() -> None:
-    """Read all tables, before somebody waits for them."""
+    """Read all tables before they are needed."""
     for format in FORMATS:
         text_of_row(rows(format)[-1])
     systems()
 
 
 def text_of_row(row: MappingRow) -> str:
-    """The documentation of a row, its type, and what becomes of it in the other format."""
+    """Describe a row: its documentation, its type, and its counterpart in the other format."""
     fact = row.fact
     documentation = _documentation(row.format)
     text = documentation.of((row.definition, *row.steps.split("/")), fact)
     if not text and fact.reference:
         text = documentation.of_definition(fact.reference)
-    lines = [text, *_facts(row)]
+    lines = [text, *_describe_type(row)]
     goes, fates = destination(row)
     if goes or fates:
         lines.append(f"In {_OTHERS[row.format]}: {', '.join(filter(None, (goes, fates)))}.")
     return "\n\n".join(filter(None, lines))
 
 
-def _facts(row: MappingRow) -> Iterator[str]:
+def _describe_type(row: MappingRow) -> Iterator[str]:
     fact = row.fact
     words = [*(["required"] if fact.required else []), *(["may be repeated"] if fact.repeats else [])]
     words += [fact.type] if fact.type else []
@@ -79,38 +77,38 @@ def _documentation(format: FormatName) -> Documentation:
     return Documentation(table(format))
 
 
-def _parts(session: Session, document: TextDocument, cursor: Cursor, offset: int) -> Iterator[str]:
+def _describe(session: Session, document: TextDocument, cursor: Cursor, offset: int) -> Iterator[str]:
     name = name_at(document, offset)
     if name is not None:
-        yield from _of_name(session, document, name)
+        yield from _describe_name(session, document, name)
     node = cursor.node
     if node is None:
         return
     if node.tag.startswith(PREFIX):
-        yield from _of_xacro(node, cursor)
+        yield from _describe_xacro(node, cursor)
     attribute = cursor.attribute if cursor.kind in {CursorKind.ATTRIBUTE, CursorKind.VALUE} else None
     if attribute is None and cursor.kind is CursorKind.ATTRIBUTE:
         return
-    yield from _of_plugin(node, cursor)
+    yield from _describe_plugin(node, cursor)
     row = document.schema.row(node, attribute)
     if row is not None:
         shown = f"`@{attribute}`" if attribute else f"`<{node.tag}>`"
         yield f"**{shown}** in {row.format.upper()} `{row.definition}`\n\n{text_of_row(row)}"
 
 
-def _of_name(session: Session, document: TextDocument, name: Name) -> Iterator[str]:
-    """Where a name is defined."""
+def _describe_name(session: Session, document: TextDocument, name: Name) -> Iterator[str]:
+    """Say where a name is defined."""
     if name.defines:
         return
     group = session.neighbors.included(document, search_of(session, document))
-    for found in meant_by(Found(document, name), group, session)[:1]:
+    for found in resolve(Found(document, name), group, session)[:1]:
         line = found.document.positions.position(found.name.span.start).line + 1
         where = "" if found.document.path == document.path else f" of {code(found.document.path.name)}"
         tag = found.name.node.start_tag.of(found.document.text)[:_LONGEST]
         yield f"{found.name.kind} {code(found.name.text[:_LONGEST])}, line {line}{where}\n\n{code_block(tag, 'xml')}"
 
 
-def _of_xacro(node: TolerantNode, cursor: Cursor) -> Iterator[str]:
+def _describe_xacro(node: TolerantNode, cursor: Cursor) -> Iterator[str]:
     known = ELEMENTS.get(node.tag.removeprefix(PREFIX))
     if known is not None and cursor.kind in {CursorKind.TAG, CursorKind.END_TAG}:
         needed, others, text = known
@@ -118,17 +116,17 @@ def _of_xacro(node: TolerantNode, cursor: Cursor) -> Iterator[str]:
         yield f"**`<{node.tag}>`**\n\n{text}\n\nAttributes: {', '.join(attributes)}."
 
 
-def _of_plugin(node: TolerantNode, cursor: Cursor) -> Iterator[str]:
+def _describe_plugin(node: TolerantNode, cursor: Cursor) -> Iterator[str]:
     parameter = parameter_of(node)
     if parameter is not None and cursor.kind is not CursorKind.ATTRIBUTE:
         yield f"**`<{node.tag}>`** of the plugin\n\n{described(parameter)}"
     elif node.tag == "plugin" and cursor.kind in {CursorKind.TAG, CursorKind.VALUE}:
         kind = kind_of(node)
         if kind is not None:
-            yield _plugin(kind)
+            yield _describe_system(kind)
 
 
-def _plugin(kind: PluginKind) -> str:
+def _describe_system(kind: PluginKind) -> str:
     needed = [f"`<{each.name}>`" for each in kind.parameters if each.is_required]
     lines = [f"**{kind.name}**: `{kind.file}`, class `{kind.class_name}`", f"Stands in: {', '.join(kind.scopes)}."]
     lines += [f"Required: {', '.join(needed)}."] if needed else []
@@ -136,20 +134,41 @@ def _plugin(kind: PluginKind) -> str:
     return "\n\n".join(lines)
 
 
-def _findings(session: Session, document: TextDocument, offset: int) -> list[str]:
-    """The pages of the rules that found something at an offset."""
+def _rule_pages(session: Session, document: TextDocument, offset: int) -> list[str]:
+    """Return the pages of the rules that found something at an offset."""
     pages: dict[str, str] = {}
     for found in session.findings(document):
         here = span_of(found.location, document)
         if here.start <= offset <= here.end and found.rule.name not in pages:
-            pages[found.rule.name] = _page(found)
+            pages[found.rule.name] = _rule_page(found)
     return list(pages.values())
 
 
-def _page(found: Diagnostic) -> str:
+def _rule_page(found: Diagnostic) -> str:
     try:
         known = find_rule(found.rule.name)
     except RuleRegistryError:
         known = None
     rule = known.rule if known is not None else found.rule
     return f"**{rule.name}**: {rule.finds}\n\n{rule.matters}\n\nBetter:\n\n{rule.better}"
+
+
+_TICKS = re.compile("`+")
+
+
+def code(text: str) -> str:
+    """Write a text as inline code, with no link, picture or command in it."""
+    line = " ".join(text.split())
+    ticks = "`" * (_longest_run(line) + 1)
+    # blanks keep ticks at the ends apart, and are not shown
+    return f"{ticks} {line} {ticks}" if "`" in line else f"{ticks}{line}{ticks}"
+
+
+def code_block(text: str, language: str) -> str:
+    """Write a text as a code block in a language."""
+    fence = "`" * max(3, _longest_run(text) + 1)
+    return f"{fence}{language}\n{text}\n{fence}"
+
+
+def _longest_run(text: str) -> int:
+    return max((len(run) for run in _TICKS.findall(text)), default=0)

@@ -1,4 +1,4 @@
-"""Files that belong together: what a document includes, and which documents of the workspace include it."""
+"""Includes: the files that a document includes, and the documents of the workspace that include it."""
 
 import os
 import re
@@ -10,17 +10,15 @@ from pathlib import Path
 from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.diagnostics import Span
 from twinform.passes import AssetError
-from twinform.server.document_files import DocumentFiles
-from twinform.server.documents import TextDocument
+from twinform.server.documents import DocumentFiles, TextDocument
 from twinform.server.tolerant_tree import TolerantNode
 
 _FIND = re.compile(r"\$\(find\s+(?P<package>[\w.-]+)\)(?P<rest>.*)", re.DOTALL)
 _DIRNAME = re.compile(r"\$\(dirname\)/?")
 ENDINGS = (".urdf", ".xacro", ".sdf", ".world", ".gazebo")
-"""The names of files that are looked through for includes."""
+"""The suffixes of files that are searched for includes."""
 _MOST_FILES = 500
-# The most includes of one document that are followed: one that leads nowhere is looked for in every
-# folder.
+# The most includes of one document that are followed, since one that leads nowhere is looked for in every folder.
 _MOST_INCLUDES = 2_000
 _MOST_FOLDERS = 2_000
 _SKIPPED = frozenset({"node_modules", "build", "install", "log", "__pycache__"})
@@ -28,7 +26,7 @@ _SKIPPED = frozenset({"node_modules", "build", "install", "log", "__pycache__"})
 
 @dataclass(frozen=True, slots=True)
 class DocumentInclude:
-    """An include: the element, the piece of text that names the file, and what this is."""
+    """An include: the element, and the place and text of the URI."""
 
     node: TolerantNode
     span: Span
@@ -36,13 +34,13 @@ class DocumentInclude:
 
 
 def includes_of(document: TextDocument) -> tuple[DocumentInclude, ...]:
-    """The files that a document includes, by what it calls them."""
-    return document.once(_includes)
+    """Return the includes of a document."""
+    return document.once(_collect_includes)
 
 
 def target(include: DocumentInclude, document: TextDocument, search: SearchPath) -> Path | None:
-    """The file that an include leads to; None where it leads nowhere, or that is known only once it is expanded."""
-    found = resolved(include.uri, document, search)
+    """Find the file of an include; None if there is none, or if the URI has expressions of xacro."""
+    found = resolve_uri(include.uri, document, search)
     if found is not None and found.is_dir():
         from twinform.compiler.includes.model_config import manifest, model_file  # noqa: PLC0415 - few name folders
         from twinform.diagnostics import DiagnosticSink  # noqa: PLC0415 - as above
@@ -52,8 +50,8 @@ def target(include: DocumentInclude, document: TextDocument, search: SearchPath)
     return found
 
 
-def resolved(uri: str, document: TextDocument, search: SearchPath) -> Path | None:
-    """The file or folder that a URI in a document means."""
+def resolve_uri(uri: str, document: TextDocument, search: SearchPath) -> Path | None:
+    """Find the file or folder of a URI in a document."""
     wanted = _DIRNAME.sub("", uri.strip())
     package = _FIND.fullmatch(wanted)
     if package is not None:
@@ -66,7 +64,7 @@ def resolved(uri: str, document: TextDocument, search: SearchPath) -> Path | Non
         return None
 
 
-def _includes(document: TextDocument) -> tuple[DocumentInclude, ...]:
+def _collect_includes(document: TextDocument) -> tuple[DocumentInclude, ...]:
     return tuple(islice(_find_includes(document), _MOST_INCLUDES))
 
 
@@ -80,13 +78,13 @@ def _find_includes(document: TextDocument) -> Iterator[DocumentInclude]:
 
 
 class IncludedNeighbors:
-    """Finds the documents that are connected by includes, among those of the workspace."""
+    """Finds the documents of the workspace that are connected by includes."""
 
     def __init__(self, files: DocumentFiles) -> None:
         self._files = files
 
     def included(self, document: TextDocument, search: SearchPath) -> list[TextDocument]:
-        """A document and all that it includes, each once; the nearest first."""
+        """Return a document and all that it includes, directly or through others; the nearest first."""
         found: dict[Path, TextDocument] = {document.path: document}
         waiting = [document]
         while waiting and len(found) < _MOST_FILES:
@@ -100,9 +98,9 @@ class IncludedNeighbors:
         return list(found.values())
 
     def connected(self, document: TextDocument, search: SearchPath, folders: Iterable[Path]) -> list[TextDocument]:
-        """A document, all that it includes, and all that include it, with all that these include."""
+        """Return a document, all that it includes, and all that include it, with everything that these include."""
         found = {each.path: each for each in self.included(document, search)}
-        for path in _models(folders):
+        for path in _model_files(folders):
             other = self._files.document(path) if path not in found else None
             if other is None or not includes_of(other):
                 continue
@@ -112,8 +110,8 @@ class IncludedNeighbors:
         return list(found.values())
 
 
-def _models(folders: Iterable[Path]) -> Iterator[Path]:
-    """The files of models in some folders."""
+def _model_files(folders: Iterable[Path]) -> Iterator[Path]:
+    """Yield the model files in some folders and below."""
     looked, count = 0, 0
     for folder in folders:
         for place, inner, names in os.walk(folder):

@@ -1,9 +1,9 @@
-"""The protocol of pygls, held to what JSON-RPC and the language server protocol say of unexpected messages.
+"""The protocol of pygls, made to answer unexpected messages as JSON-RPC and the language server protocol require.
 
-pygls answers no request whose parameters are wrong, none before `initialize`, and none after `shutdown`. Here each
-request has one answer, whatever is in it; a notification that cannot be used is reported in the log of the editor.
-Documents have a store of our own. That of pygls goes through all lines of a text for each key, and takes more
-characters for line ends than the protocol has: after one of them every later change would be made in the wrong place.
+pygls does not answer requests with wrong parameters, before `initialize` or after `shutdown`. Here every request has
+one answer; a notification that cannot be used is reported in the log of the editor. Documents are kept by our own
+session: pygls walks through all lines of a text for each key, and takes more characters for line ends than the protocol
+has.
 """
 
 # pygls has no types for what it keeps:
@@ -29,7 +29,7 @@ from pygls.protocol.json_rpc import RPCMessage
 from pygls.protocol.language_server import lsp_method
 
 Call = Generator[tuple[Any, tuple[Any], None], Any, None]
-"""What pygls is to call: a handler, its arguments, and no names for them."""
+"""A call that pygls is to make: a handler, its arguments, and no keywords."""
 Message = dict[str, Any]
 _LONGEST = 500
 # pygls would keep notebooks in memory, and nobody reads them.
@@ -41,17 +41,17 @@ _NOTEBOOKS = (
 
 
 class Protocol(LanguageServerProtocol):
-    """Takes messages as they come, and hands notifications about documents to our handlers."""
+    """Answers messages, and passes notifications about documents to our handlers."""
 
     def __init__(self, *args: Any) -> None:
         super().__init__(*args)
         self.exit_code: int | None = None
-        """How the process is to end; None until the editor has asked for its end."""
+        """The exit code of the process; None until the editor sends `exit`."""
         for method in _NOTEBOOKS:
             del self.fm.builtin_features[method]
 
     def receive(self, data: bytes | None) -> None:
-        """Do what a message says, and answer it if it is a request; None stands for bytes that are no message."""
+        """Handle a message, and answer it if it is a request; None stands for bytes that are no message."""
         try:
             message = _parsed(data)
             id_ = _id_of(message)
@@ -78,40 +78,40 @@ class Protocol(LanguageServerProtocol):
 
     @lsp_method(types.SHUTDOWN)
     def lsp_shutdown(self, *args: Any) -> Generator[Any, Any, None]:
-        """The editor has no more requests; those that are not answered yet are cancelled."""
+        """Shut down the session, and cancel the requests that are not answered yet."""
         yield self._handler(types.SHUTDOWN), args, None
         self._shutdown = True
-        # a list, since cancelled requests are answered, and taken out, at once
+        # a copy, since a cancelled request is answered and removed at once
         for id_, future in list(self._request_futures.items()):
             if id_ != self.msg_id:
                 future.cancel()
 
     @lsp_method(types.EXIT)
     def lsp_exit(self, *_: object) -> Generator[Any, Any, None]:
-        """The process is to end, which is an error where nobody has said so before."""
+        """End the process; without a `shutdown` before, this is an error."""
         self.exit_code = 0 if self._shutdown else 1
         yield from ()
 
     @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
     def lsp_text_document__did_open(self, params: types.DidOpenTextDocumentParams) -> Call:
-        """A document was opened."""
+        """Pass on that a document was opened."""
         yield self._handler(types.TEXT_DOCUMENT_DID_OPEN), (params,), None
 
     @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)
     def lsp_text_document__did_change(self, params: types.DidChangeTextDocumentParams) -> Call:
-        """Something was typed."""
+        """Pass on what was typed."""
         yield self._handler(types.TEXT_DOCUMENT_DID_CHANGE), (params,), None
 
     @lsp_method(types.TEXT_DOCUMENT_DID_CLOSE)
     def lsp_text_document__did_close(self, params: types.DidCloseTextDocumentParams) -> Call:
-        """A document was closed."""
+        """Pass on that a document was closed."""
         yield self._handler(types.TEXT_DOCUMENT_DID_CLOSE), (params,), None
 
     @lsp_method(types.WORKSPACE_EXECUTE_COMMAND)
     async def lsp_workspace__execute_command(  # pyright: ignore[reportIncompatibleMethodOverride] - pygls takes both kinds
         self, params: types.ExecuteCommandParams
     ) -> Any:
-        """Run a command, and give what it returns."""
+        """Run a command, and return its result."""
         handler = self.fm.commands.get(params.command)
         if handler is None:
             raise JsonRpcInvalidParams(f"there is no command {params.command!r}"[:_LONGEST])
@@ -122,7 +122,7 @@ class Protocol(LanguageServerProtocol):
         return self.fm.features[method]
 
     def _check_state(self, method: object, *, is_request: bool) -> None:
-        """Refuse what has no place here, or comes before the session has begun or after it has ended."""
+        """Refuse messages before the session has begun or after it was shut down."""
         if method == types.EXIT and not is_request:
             return
         if self._shutdown:
@@ -133,7 +133,7 @@ class Protocol(LanguageServerProtocol):
             raise JsonRpcInvalidRequest("the session has begun already: 'initialize' is sent once")
 
     def _structured(self, message: Message) -> Any:
-        """A request or notification as an object of lsprotocol."""
+        """Convert a request or notification to an object of lsprotocol."""
         method: object = message["method"]
         if not isinstance(method, str):
             raise JsonRpcInvalidRequest("'method' is not a text")
@@ -152,7 +152,7 @@ class Protocol(LanguageServerProtocol):
             raise JsonRpcInvalidParams(_reasons(error)) from error
 
     def _take_response(self, message: Message) -> None:
-        """Hand an answer to the request of ours that waits for it."""
+        """Pass an answer to our request that waits for it."""
         id_ = message.get("id")
         kind = self._result_types.pop(id_, None) if isinstance(id_, str) else None
         if not isinstance(id_, str) or kind is None or self._shutdown:
@@ -183,7 +183,7 @@ def _parsed(data: bytes | None) -> Message:
 
 
 def _id_of(message: Message) -> str | int | None:
-    """The id of a request, or None; an answer may have none, where a request could not be read."""
+    """Return the id of a request or an answer, or None; the answer to an unreadable request has none."""
     id_ = message.get("id")
     # `True` is an int in Python.
     is_allowed = isinstance(id_, str | int) and not isinstance(id_, bool)
@@ -203,7 +203,7 @@ def _refuse_constant(word: str) -> NoReturn:
 
 
 def _reasons(error: Exception) -> str:
-    """What is wrong with parameters."""
+    """Say what is wrong with parameters."""
     try:
         return "; ".join(transform_error(error))[:_LONGEST]
     except Exception:  # noqa: BLE001 - cattrs does not know every error, and some are too deep

@@ -1,4 +1,4 @@
-"""Renames what has a name, and all that refers to it: nothing but names changes, and what does not fit is refused."""
+"""Rename: a definition and all references to it; a name that does not fit is refused."""
 
 import os
 import re
@@ -10,24 +10,23 @@ from twinform.file_access import Readable
 from twinform.passes.structure.rename_parts import RESERVED
 from twinform.server.document_names import name_at
 from twinform.server.documents import TextDocument
-from twinform.server.name import Name
-from twinform.server.navigation import Found, is_taken, references
+from twinform.server.names import ELEMENTS, XACRO_KINDS, Name
+from twinform.server.navigation import Found, find_clash, references
 from twinform.server.session import Session
-from twinform.server.xacro_names import ELEMENTS, XACRO_KINDS
 
 _XACRO_NAME = re.compile(r"[A-Za-z_]\w*")
 _UNFIT = re.compile(r"[<>&\"'\s$]")
 
 
 class RenameRefusedError(Exception):
-    """Why a name cannot be changed."""
+    """A name cannot be changed; the message says why."""
 
 
 def prepare(document: TextDocument, offset: int) -> types.PrepareRenamePlaceholder | None:
-    """The name at an offset, as it would be changed; None where there is none.
+    """Return the name at an offset that a rename would change; None if there is none.
 
     Raises:
-        RefusedError: it cannot be changed.
+        RenameRefusedError: it cannot be changed.
     """
     name = name_at(document, offset)
     if name is None:
@@ -38,10 +37,10 @@ def prepare(document: TextDocument, offset: int) -> types.PrepareRenamePlacehold
 
 
 def rename(session: Session, document: TextDocument, offset: int, new: str) -> types.WorkspaceEdit | None:
-    """The edits that give what is named at an offset another name, in all documents that it concerns.
+    """Return the edits that rename the thing named at an offset, in all documents that refer to it.
 
     Raises:
-        RefusedError: it cannot be called so.
+        RenameRefusedError: it cannot have the new name.
     """
     name = name_at(document, offset)
     if name is None:
@@ -63,7 +62,7 @@ def rename(session: Session, document: TextDocument, offset: int, new: str) -> t
 
 
 def _refuse_outside(session: Session, document: TextDocument, found: Iterable[Found]) -> None:
-    """Refuse to change files that are not of the workspace, such as those of installed packages."""
+    """Refuse to change files outside of the workspace, such as those of installed packages."""
     folders = tuple(os.path.realpath(folder) for folder in session.folders)
     own = Readable(folders) if folders else Readable.of(document.path)
     for path in {each.document.path for each in found} - {document.path}:
@@ -79,7 +78,7 @@ def _refuse_expression(name: Name) -> None:
 
 
 def _refuse_unfit(found: Found, new: str) -> None:
-    """Refuse a name that something cannot have, or that something else has."""
+    """Refuse a new name that is invalid or taken."""
     document, name = found
     if name.kind in XACRO_KINDS and not _XACRO_NAME.fullmatch(new):
         raise RenameRefusedError(
@@ -91,7 +90,7 @@ def _refuse_unfit(found: Found, new: str) -> None:
         raise RenameRefusedError(f"{new!r} is not a valid name: it must not have blanks, quotes, '<', '>', '&' or '$'")
     if document.schema.format == "sdf" and (new in RESERVED or "::" in new):
         raise RenameRefusedError(f"nothing can be called {new!r} in SDF")
-    taken = is_taken(document, new, name)
+    taken = find_clash(document, new, name)
     if taken is not None and taken.span != name.span:
         line = document.positions.position(taken.span.start).line + 1
         raise RenameRefusedError(f"a {taken.kind} is called {new!r} already: {document.path.name}:{line}")

@@ -1,4 +1,4 @@
-"""Rewrites whole documents in another process: by passes, in place, and by the formatter."""
+"""Rewrites of whole documents, which run in the worker's process: by passes, in place, and by the formatter."""
 
 from typing import NamedTuple
 
@@ -14,14 +14,14 @@ from twinform.text import Lines, SourceText
 
 
 class Rewritten(NamedTuple):
-    """The edits of the text of a document, or why there are none."""
+    """The edits of a document, or the problem that keeps it from being rewritten."""
 
     edits: tuple[TextEdit, ...] = ()
     problem: str = ""
 
 
 def run_passes(job: CheckJob, pipeline: str) -> Rewritten:
-    """What passes change in a document; all else stays as it is written."""
+    """Run passes on a document in place, and return what they change."""
     load_options = job.load_options
     document = read(str(job.path), load_options).document
     if document is None:
@@ -35,27 +35,27 @@ def run_passes(job: CheckJob, pipeline: str) -> Rewritten:
         request = ConversionRequest(to=to, sdf_version=version, passes=passes)
         updated = convert_in_place(request, job.path, load_options)
     except CompileError as error:
-        return Rewritten(problem=_first(error.diagnostics))
+        return Rewritten(problem=_first_error(error.diagnostics))
     except (PassError, PipelineError) as error:
         return Rewritten(problem=str(error))
-    lines = Lines(SourceText.of(_data(job)).text)
+    lines = Lines(SourceText.of(_read(job)).text)
     starts = [(lines.start(place.line) + place.column - 1, old, new) for place, old, new in updated.changes]
     return Rewritten(tuple(TextEdit(Span(start, start + len(old)), new) for start, old, new in starts))
 
 
-def lay_out(job: CheckJob) -> Rewritten:
-    """What the formatter changes in a document."""
-    data = _data(job)
+def format_document(job: CheckJob) -> Rewritten:
+    """Format a document, and return what changes."""
+    data = _read(job)
     try:
         made = formatted(data, str(job.path), job.settings.layout, job.settings.load_options.limits)
     except CompileError as error:
-        return Rewritten(problem=_first(error.diagnostics))
+        return Rewritten(problem=_first_error(error.diagnostics))
     before, after = SourceText.of(data).text, SourceText.of(made).text
-    return Rewritten((_difference(before, after),) if before != after else ())
+    return Rewritten((_single_edit(before, after),) if before != after else ())
 
 
-def _difference(before: str, after: str) -> TextEdit:
-    """The one edit that makes one text of another, without what both begin and end with."""
+def _single_edit(before: str, after: str) -> TextEdit:
+    """Return the one edit between two texts, without their common beginning and end."""
     most = min(len(before), len(after))
     start = next((n for n in range(most) if before[n] != after[n]), most)
     left = most - start
@@ -63,12 +63,12 @@ def _difference(before: str, after: str) -> TextEdit:
     return TextEdit(Span(start, len(before) - end), after[start : len(after) - end])
 
 
-def _data(job: CheckJob) -> bytes:
+def _read(job: CheckJob) -> bytes:
     unsaved = job.load_options.search.unsaved_of(job.path)
     return unsaved if unsaved is not None else job.load_options.search.readable(job.path).read(job.path)
 
 
-def _first(found: tuple[Diagnostic, ...]) -> str:
+def _first_error(found: tuple[Diagnostic, ...]) -> str:
     errors = [each for each in found if each.is_error] or list(found)
     first = errors[0] if errors else None
     return f"line {first.location.line}: {first.message}" if first else "it cannot be changed in its place"

@@ -1,12 +1,18 @@
-"""What the elements of a document are by the facts tables: the row of each, and what may stand in it.
+"""Elements of a document by the facts tables and the catalog of plugins: the row of each, and what may stand in it.
 
-Elements of xacro that only hold others, such as `<xacro:if>`, are looked through.
+Elements of xacro that only hold others, such as `<xacro:if>`, count as the element around them.
 """
 
 from dataclasses import dataclass
 
+from twinform.passes.plugins.catalog import (
+    classic_plugins_of_file,
+    system_of_class,
+    systems_of_file,
+)
+from twinform.passes.plugins.catalog_types import PluginKind, PluginParameter
 from twinform.schemas import Fact, Table, Version, parse_version, rows_by_name, table
-from twinform.server.mapping.rows import FORMATS, FormatName, MappingRow
+from twinform.server.mapping import FORMATS, FormatName, MappingRow
 from twinform.server.tolerant_tree import TolerantNode, Tree
 
 __all__ = ["FormatName", "Schema", "SchemaPlace", "format_of", "inside", "is_of_xacro"]
@@ -17,19 +23,19 @@ _ENDINGS: tuple[tuple[tuple[str, ...], FormatName], ...] = (
     ((".urdf", ".xacro", ".gazebo"), "urdf"),
 )
 _LANGUAGES: dict[str, FormatName] = {"sdf": "sdf", "urdf": "urdf", "xacro": "urdf"}
-"""What editors call them."""
+"""The formats by the language ids of editors."""
 _IN_GAZEBO = ("link", "joint", "model", "collision", "visual", "world")
 """The definitions of SDF whose parts stand in `<gazebo>`, the likeliest first."""
-_PREFIX = "xacro:"
+PREFIX = "xacro:"
 
 
 def is_of_xacro(tag: str) -> bool:
-    """Whether an element is one of xacro's, or a call of a macro."""
-    return tag.startswith(_PREFIX)
+    """Whether a tag is one of xacro's, or a call of a macro."""
+    return tag.startswith(PREFIX)
 
 
 def format_of(tree: Tree, name: str, language: str = "") -> FormatName | None:
-    """The format of a document: that of its root, or else the one that its name or the editor promises."""
+    """Return the format of a document, by its root element or else by its name or the language of the editor."""
     if tree.root is not None and tree.root.tag in _ROOTS:
         return _ROOTS[tree.root.tag]
     promised: list[FormatName] = [format for endings, format in _ENDINGS if name.lower().endswith(endings)]
@@ -41,9 +47,9 @@ _ROWS: dict[tuple[str, str, str, Version], dict[str, MappingRow]] = {}
 
 @dataclass(frozen=True, slots=True)
 class SchemaPlace:
-    """What an element is. `row` is None for a root; `inside` holds the rows of what may stand in it.
+    """The place of an element in a table: its `row`, None for a root, and the fact `inside` with the rows below.
 
-    `around` is what the steps of these begin with, below the `definition`.
+    The steps of the rows below begin with `around`, from the `definition` on.
     """
 
     format: FormatName
@@ -54,12 +60,12 @@ class SchemaPlace:
     around: str
 
     def below(self, name: str) -> MappingRow | None:
-        """The row of a child, or with `@` of an attribute; that of another version where this one has none."""
+        """Return the row of a child or an `@attribute`; the row of another version, if this one has none."""
         return self._rows.get(name)
 
     @property
     def _rows(self) -> dict[str, MappingRow]:
-        """The rows of all that any version has in it, made once for each definition and version."""
+        """The rows below by name, in this version or else in another, made once for each place and version."""
         key = (self.format, self.definition, self.around, self.version)
         if key not in _ROWS:
             best = rows_by_name(self.inside.rows, self.version)
@@ -70,12 +76,12 @@ class SchemaPlace:
         return _ROWS[key]
 
     def known(self) -> list[Fact]:
-        """The rows of all that may stand in it in this version, or in a dialect of it."""
+        """Return the rows below that this version, or a dialect of it, has."""
         return [row for row in self.inside.rows if row.exists_in(self.version)]
 
 
 class Schema:
-    """The places of the elements of one tree; each is looked up once."""
+    """The places of the elements of one tree."""
 
     def __init__(self, tree: Tree, format: FormatName | None) -> None:
         self.format: FormatName | None = format
@@ -84,31 +90,31 @@ class Schema:
         self._places: dict[TolerantNode, SchemaPlace | None] = {}
 
     def place(self, node: TolerantNode) -> SchemaPlace | None:
-        """What an element is; None for what the facts do not know."""
+        """Return the place of an element; None if the table does not have it."""
         waiting: list[TolerantNode] = []
         here: TolerantNode | None = node
         while here is not None and here not in self._places:
             waiting.append(here)
             here = here.parent
         for each in reversed(waiting):
-            self._places[each] = self._place(each)
+            self._places[each] = self._find_place(each)
         return self._places[node]
 
     def row(self, node: TolerantNode, attribute: str | None = None) -> MappingRow | None:
-        """The row of an element, or of one of its attributes."""
+        """Return the row of an element, or of one of its attributes."""
         place = self.place(node)
         if place is None or attribute is None:
             return place.row if place and not is_of_xacro(node.tag) else None
         return None if is_of_xacro(node.tag) else place.below(f"@{attribute}")
 
     def start(self) -> SchemaPlace | None:
-        """What the root is."""
+        """Return the place of the root."""
         if self.table is None or self.format is None:
             return None
         root = self.table.definitions[self.table.root]
         return SchemaPlace(self.format, self.version, None, root, self.table.root, "")
 
-    def _place(self, node: TolerantNode) -> SchemaPlace | None:
+    def _find_place(self, node: TolerantNode) -> SchemaPlace | None:
         if node.parent is None:
             return self.start() if node.tag in _ROOTS or is_of_xacro(node.tag) else None
         around = self._places[node.parent]
@@ -121,7 +127,7 @@ class Schema:
 
 
 def inside(row: MappingRow, version: Version | None = None) -> SchemaPlace:
-    """What an element of a row is, in a version of its format or else in the newest."""
+    """Return the place of an element with a row, in a version of the format or else in the newest."""
     fact, facts = row.fact, table(row.format)
     version = version or facts.newest
     if fact.reference is None:
@@ -130,7 +136,7 @@ def inside(row: MappingRow, version: Version | None = None) -> SchemaPlace:
 
 
 def _extension(node: TolerantNode, around: SchemaPlace) -> SchemaPlace | None:
-    """What an element of SDF in `<gazebo>` is."""
+    """Return the place of an element of SDF in `<gazebo>`."""
     facts = table("sdf")
     for definition in _IN_GAZEBO if around.format == "urdf" else ():
         holder = SchemaPlace(FORMATS[1], facts.newest, None, facts.definitions[definition], definition, "")
@@ -141,9 +147,48 @@ def _extension(node: TolerantNode, around: SchemaPlace) -> SchemaPlace | None:
 
 
 def _version(root: TolerantNode | None, format: FormatName) -> Version:
-    """The version that a document declares, or else the newest; URDF without one is read as the oldest."""
+    """Return the version that a document declares, or else the newest; URDF without a version is of the oldest."""
     facts = table(format)
     declared = root.get("version") if root else None
     if declared in facts.versions:
         return parse_version(declared)
     return parse_version(facts.versions[0]) if format == "urdf" and declared is None else facts.newest
+
+
+def kind_of(plugin: TolerantNode) -> PluginKind | None:
+    """Find a plugin in the catalog, by its class or its file."""
+    file = plugin.get("filename") or ""
+    of_class = system_of_class(plugin.get("name") or "")
+    if of_class is not None:
+        return of_class
+    found = (*systems_of_file(file), *classic_plugins_of_file(file).values()) if file else ()
+    return found[0] if found else None
+
+
+def parameter_of(node: TolerantNode) -> PluginParameter | None:
+    """Find the parameter of a plugin that an element is."""
+    steps: list[str] = []
+    here: TolerantNode | None = node
+    while here is not None and here.tag != "plugin":
+        steps.append(here.tag)
+        here = here.parent
+    kind = kind_of(here) if here is not None and steps else None
+    return kind.parameter(*reversed(steps)) if kind else None
+
+
+def parameters_in(node: TolerantNode) -> tuple[PluginParameter, ...]:
+    """Return the parameters that may stand in a plugin, or in a parameter of one."""
+    if node.tag == "plugin":
+        kind = kind_of(node)
+        return kind.parameters if kind else ()
+    parameter = parameter_of(node)
+    return parameter.children if parameter else ()
+
+
+def described(parameter: PluginParameter) -> str:
+    """Describe the type, unit, default and choices of a parameter."""
+    words = [f"Type: {parameter.type}" + (f" ({parameter.unit})" if parameter.unit else "") + "."]
+    words += [f"Default: {parameter.default}."] if parameter.default is not None else []
+    words += [f"One of {', '.join(parameter.choices)}."] if parameter.choices else []
+    words += ["Required."] if parameter.is_required else []
+    return " ".join(words)

@@ -1,4 +1,4 @@
-"""One session of an editor: its documents, what was found in them, and how that is shown."""
+"""A session of an editor: the open documents, and the findings in them as the editor shows them."""
 
 import os
 from collections.abc import Callable, Mapping
@@ -7,21 +7,18 @@ from pathlib import Path
 from lsprotocol import types
 
 from twinform.diagnostics import Diagnostic
-from twinform.server.checking import Checked, CheckJob
+from twinform.server.checking import Checked, CheckJob, SettingsOf
 from twinform.server.diagnostics import as_protocol, by_file, notice
-from twinform.server.document_files import DocumentFiles
-from twinform.server.documents import Documents, TextDocument
+from twinform.server.documents import DocumentFiles, Documents, TextDocument
 from twinform.server.includes import IncludedNeighbors
-from twinform.server.scheduling import PAUSE, Checks
-from twinform.server.settings import SettingsOf
-from twinform.server.workers import Worker
+from twinform.server.scheduling import PAUSE, Checks, Worker
 
 Publish = Callable[[types.PublishDiagnosticsParams], None]
 _ADVICE = "it is not followed while you type; run `twinform check` on it, and open it again once it is smaller"
 
 
 class Session:
-    """Holds all state of the server. Handlers of requests ask it for documents, and it checks these as they change."""
+    """The state of the server: requests get documents from it, and it checks documents as they change."""
 
     def __init__(self, settings_of: SettingsOf, publish: Publish, worker: Worker | None = None) -> None:
         self.documents = Documents()
@@ -38,19 +35,19 @@ class Session:
         self._read: dict[str, frozenset[str]] = {}
 
     def opened(self, item: types.TextDocumentItem) -> None:
-        """A document was opened."""
-        document = self.documents.open(item.uri, item.text, item.version, item.language_id)
+        """Follow a document that was opened."""
+        document = self.documents.follow(item.uri, item.text, item.version, item.language_id)
         self._changed(document, pause=0)
 
     def changed(self, params: types.DidChangeTextDocumentParams) -> None:
-        """Something was typed."""
+        """Follow what was typed."""
         item = params.text_document
         document = self.documents.change(item.uri, params.content_changes, item.version)
         if document is not None:
             self._changed(document, PAUSE)
 
     def closed(self, uri: str) -> None:
-        """A document was closed; what was found on its account is not shown any more."""
+        """Forget a document that was closed, and remove the findings of its check."""
         document = self.documents.state(uri)
         self.documents.close(uri)
         self._checks.forget(uri)
@@ -58,15 +55,15 @@ class Session:
         self._read.pop(uri, None)
         self._publish_for(uri, {uri: []})
         if document is not None:
-            self._check_those_that_read(document)
+            self._check_includers(document)
 
     def stop(self) -> None:
-        """End all that runs."""
+        """End all checks and the worker."""
         self._checks.stop()
         self.worker.stop()
 
     def findings(self, document: TextDocument) -> tuple[Diagnostic, ...]:
-        """What was found in this very text; nothing while it was not checked yet."""
+        """Return the findings in this state of a document; none if it was not checked yet."""
         found = self.found.get(document.uri)
         return found[1] if found is not None and found[0] is document else ()
 
@@ -76,16 +73,16 @@ class Session:
             self._publish_for(document.uri, {document.uri: [notice(f"{document.excess}: {_ADVICE}")]})
         else:
             self._checks.want(document.uri, pause)
-        self._check_those_that_read(document)
+        self._check_includers(document)
 
-    def _check_those_that_read(self, document: TextDocument) -> None:
-        """Check the documents again that include one."""
+    def _check_includers(self, document: TextDocument) -> None:
+        """Check the documents that include a document again."""
         for uri, files in self._read.items():
             if document.is_file and uri != document.uri and str(document.path.absolute()) in files:
                 self._checks.want(uri)
 
     def job(self, uri: str) -> CheckJob | None:
-        """What a task in another process has to know of a document; None for one that is not followed."""
+        """Return what the worker has to know of a document; None if the document is not followed."""
         document = self.documents.get(uri)
         if document is None:
             return None
@@ -94,12 +91,12 @@ class Session:
         return CheckJob(document.path.absolute(), self._unsaved(document), self.settings_of(document.path), is_part)
 
     def _unsaved(self, document: TextDocument) -> Mapping[str, bytes]:
-        """The texts of all files that are open, and that of a document, which may be no file."""
+        """Return the texts of all open files, and of a document, which may be no file."""
         files = [each for each in self.documents if each.is_file and not each.excess]
         return {os.path.realpath(each.path): each.data for each in (*files, document)}
 
     async def _show(self, uri: str, outcome: Checked | str) -> None:
-        """Show what came of a check."""
+        """Show the result of a check."""
         document = self.documents.get(uri)
         if document is None:
             return
@@ -119,7 +116,7 @@ class Session:
         self._publish_for(uri, made)
 
     def _publish_for(self, uri: str, made: dict[str, list[types.Diagnostic]]) -> None:
-        """Show for each file what is found there on the account of any document that is open."""
+        """Show what the check of a document found in each file, with the findings of other documents there."""
         touched = {*made, *self._shown.get(uri, {})}
         shown = {file: found for file, found in made.items() if found}
         if shown:
@@ -130,10 +127,10 @@ class Session:
             together = [each for own in self._shown.values() for each in own.get(file, ())]
             state = self.documents.state(file)
             version = state.version if state is not None else None
-            self._publish(types.PublishDiagnosticsParams(file, _once(together), version))
+            self._publish(types.PublishDiagnosticsParams(file, _drop_repeats(together), version))
 
 
-def _once(found: list[types.Diagnostic]) -> list[types.Diagnostic]:
-    """Diagnostics without those that say the same of the same place."""
+def _drop_repeats(found: list[types.Diagnostic]) -> list[types.Diagnostic]:
+    """Drop diagnostics that repeat another one at the same place."""
     seen = {(each.range.start.line, each.range.start.character, str(each.code), each.message): each for each in found}
     return list(seen.values())

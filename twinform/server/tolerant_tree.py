@@ -1,13 +1,13 @@
 """Tolerant XML tree: the elements of a text that somebody is typing, whatever is wrong with it.
 
-It is made for positions and names, not for validation: nothing is refused, a tag that breaks off ends where the next
-begins, an end tag closes what is open in it, and what is not closed ends with the element around it. Each character is
-looked at a few times at most, however the text is made.
+It is made for positions and names, not for validation. Nothing is refused: a tag that breaks off ends where the next
+one begins, an end tag closes all elements that are open inside its own, and an unclosed element ends with its parent.
+Parsing is linear in the length of any text.
 """
 
 import re
+from bisect import bisect_left
 from collections import Counter
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from twinform.diagnostics import Span
@@ -23,13 +23,14 @@ _ATTRIBUTE = re.compile(
 )
 _JUNK = re.compile(r"[\s\"'=]*")
 _BLANKS = re.compile(r"\s*")
+_LINE_END = re.compile(r"[\r\n]")
 
 
 @dataclass(slots=True, eq=False)
 class TolerantNode:
-    """An element: where its tags, attributes and children stand.
+    """An element: the places of its tags and attributes, and its children.
 
-    `closed` is whether it has its end tag or ends with `/>`, and `whole_tag` whether its start tag has its `>`.
+    `closed` says whether it has an end tag or ends with `/>`, and `whole_tag` whether its start tag has its `>`.
     """
 
     tag: str
@@ -47,39 +48,24 @@ class TolerantNode:
 
     @property
     def whole(self) -> Span:
-        """From the `<` to where it ends."""
+        """The whole element, from its `<` to its end."""
         return Span(self.start_tag.start, self.end)
 
     @property
     def content(self) -> Span:
-        """What is between its tags; nothing, behind the start tag, for an empty element."""
+        """The text between its tags; an empty span behind the start tag for an empty element."""
         return Span(self.start_tag.end, self.end_tag.start if self.end_tag else self.end)
 
     def get(self, attribute: str) -> str | None:
-        """The value of an attribute."""
+        """Return the value of an attribute."""
         return self.values.get(attribute)
-
-    def walk(self) -> Iterator["TolerantNode"]:
-        """This element and all in it, in the order of their start tags."""
-        pending: list[TolerantNode] = [self]
-        while pending:
-            here = pending.pop()
-            yield here
-            pending.extend(reversed(here.children))
-
-    def above(self) -> Iterator["TolerantNode"]:
-        """The elements around it, from the nearest on."""
-        here = self.parent
-        while here is not None:
-            yield here
-            here = here.parent
 
 
 @dataclass(frozen=True, slots=True)
 class Tree:
-    """The elements of a text. `root` is None where there is none; `asides` are comments and the like.
+    """The elements of a text, in the order of their start tags, and its comments, CDATA sections and instructions.
 
-    `whole` is whether nothing was missing: no tag broke off, and each was closed.
+    `whole` says whether the text is well-formed as far as the parser looks: every tag is complete and closed.
     """
 
     text: str
@@ -89,25 +75,24 @@ class Tree:
     whole: bool
 
     def at(self, offset: int) -> TolerantNode | None:
-        """The innermost element around an offset; a tag is in its element, and so is what follows a tag cut off."""
+        """Return the innermost element around an offset; its tags, and what follows a broken tag, are part of it."""
         here, found = self.root, None
         while here is not None and here.start_tag.start < offset and _reaches(here, offset):
             found, here = here, _child_at(here, offset)
         return found
 
     def release(self) -> None:
-        """Let go of the elements, which hold each other; the tree is of no use afterwards."""
+        """Cut the references between the elements; the tree is of no use afterwards."""
         for node in self.nodes:
-            # Parents and children hold each other. Left to the garbage collector, the trees of old
-            # states took 300 ms to find, in the middle of a key.
+            # The garbage collector took 300 ms to find the trees of old states, while somebody typed.
             node.parent = None
 
     def aside_at(self, offset: int) -> Span | None:
-        """The comment, section or instruction around an offset."""
+        """Return the comment, CDATA section or instruction around an offset."""
         return next((each for each in self.asides if each.start < offset < each.end), None)
 
     def text_of(self, node: TolerantNode) -> Span:
-        """The text directly in an element without children, without the blanks around it."""
+        """Return the text of an element without children, without blanks at its ends."""
         inside = node.content
         raw = inside.of(self.text)
         start = inside.start + len(raw) - len(raw.lstrip())
@@ -119,23 +104,17 @@ def _reaches(node: TolerantNode, offset: int) -> bool:
 
 
 def _child_at(node: TolerantNode, offset: int) -> TolerantNode | None:
-    """The last child that begins before an offset."""
-    low, high = 0, len(node.children)
-    while low < high:
-        middle = (low + high) // 2
-        if node.children[middle].start_tag.start < offset:
-            low = middle + 1
-        else:
-            high = middle
-    return node.children[low - 1] if low else None
+    """Return the last child that begins before an offset."""
+    place = bisect_left(node.children, offset, key=lambda child: child.start_tag.start)
+    return node.children[place - 1] if place else None
 
 
 def parse(text: str) -> Tree:
-    """The tree of a text."""
-    return _Scan(text).run()
+    """Parse a text."""
+    return _Parser(text).run()
 
 
-class _Scan:
+class _Parser:
     """One run over a text."""
 
     def __init__(self, text: str) -> None:
@@ -173,8 +152,7 @@ class _Scan:
             end = here + 1
         else:
             self.whole = False
-        # The counter of open names keeps a text of end tags without start tags linear: the stack is
-        # not searched.
+        # A counter of open names instead of a search in the stack keeps end tags without start tags linear.
         if not self.names[name]:
             self.whole = False
             return end
@@ -224,7 +202,7 @@ class _Scan:
             self.whole = False
 
     def _attributes(self, here: int) -> tuple[dict[str, AttributeSpan], dict[str, str], int]:
-        """The attributes of a start tag, and where what is behind them begins."""
+        """Parse the attributes of a start tag; return their spans and values, and where the rest begins."""
         spans: dict[str, AttributeSpan] = {}
         values: dict[str, str] = {}
         while (found := _ATTRIBUTE.match(self.text, here)) is not None:
@@ -244,15 +222,12 @@ class _Scan:
         return spans, values, junk.end() if junk else here
 
     def _value(self, found: re.Match[str]) -> Span:
-        """What is between the quotes; of a value that is not closed, what is left of its line."""
+        """Return the text between the quotes; if the value is not closed, the rest of its line."""
         for group in ("double", "single"):
             start, end = found.span(group)
             if start >= 0:
                 if not (found["end"] or found["stop"]):
-                    line_end = min(
-                        (at for at in (self.text.find("\n", start, end), self.text.find("\r", start, end)) if at >= 0),
-                        default=end,
-                    )
-                    return Span(start, line_end)
+                    line_end = _LINE_END.search(self.text, start, end)
+                    end = line_end.start() if line_end else end
                 return Span(start, end)
         return Span(found.end(), found.end())

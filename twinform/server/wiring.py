@@ -1,4 +1,4 @@
-"""The language server itself: which request is answered by which function, and with what."""
+"""The language server: the table of its requests, and the functions that answer them."""
 
 import threading
 from collections.abc import Callable
@@ -13,29 +13,27 @@ from pygls.protocol import default_converter
 
 from twinform import __version__
 from twinform.server.actions import FIX_ALL, RUN_PASSES, actions, edit_of, text_edits, word_of
+from twinform.server.checking import SettingsOf, no_settings
 from twinform.server.completion import complete
+from twinform.server.document_outline import folds, links, outline, search
 from twinform.server.documents import TextDocument
-from twinform.server.editor_uris import file_of
-from twinform.server.folding import folds
 from twinform.server.hover import hover, warm_up
-from twinform.server.links import links
+from twinform.server.locations import file_of
 from twinform.server.navigation import DocumentPlace, definitions, references, search_of
 from twinform.server.protocol import Protocol
 from twinform.server.rename_symbol import RenameRefusedError, prepare, rename
-from twinform.server.rewrite_document import Rewritten, lay_out, run_passes
+from twinform.server.rewrite_document import Rewritten, format_document, run_passes
+from twinform.server.scheduling import TaskError, Worker
 from twinform.server.session import Session
-from twinform.server.settings import SettingsOf, no_settings
-from twinform.server.symbols import outline, search
-from twinform.server.workers import TaskError, Worker
 
 Answer = TypeVar("Answer")
-# What a converter generates stays in `linecache` until the process ends, and takes longer to make than a session
-# takes to begin: all servers of a process share one.
+# Shared by all servers of a process: a converter takes longer to make than a session takes to begin, and the code
+# that it generates stays in `linecache` until the process ends.
 _converter = cache(default_converter)
 
 
 class Server(LanguageServer):
-    """The server with the session that it holds. `on_parent` is told the process of the editor, if that says so."""
+    """The server and its session; `on_parent` is called with the process id of the editor, if it sends one."""
 
     protocol: Protocol  # pyright: ignore[reportIncompatibleVariableOverride] - it is never replaced
 
@@ -47,13 +45,13 @@ class Server(LanguageServer):
         self.on_parent: Callable[[int], None] | None = None
 
     def report_server_error(self, error: Exception, source: type[PyglsError] | type[JsonRpcException]) -> None:
-        """Write into the log of the editor what went wrong with a notification; a request has it as its answer."""
+        """Log an error in a notification; an error in a request is its answer."""
         if source is not FeatureRequestError:
             self.protocol.log(f"this is a fault of twinform: {error!r}")
 
 
 def make_server(settings_of: SettingsOf = no_settings, worker: Worker | None = None) -> Server:
-    """A server that is ready to start."""
+    """Make a server that is ready to start."""
     server = Server(settings_of, worker)
     session = server.session
     _follow_documents(server, session)
@@ -64,7 +62,7 @@ def make_server(settings_of: SettingsOf = no_settings, worker: Worker | None = N
 
 
 def _follow_documents(server: Server, session: Session) -> None:
-    """Keep documents in step, from the beginning of the session to its end."""
+    """Keep documents in step with the editor, from the beginning of the session to its end."""
 
     @server.feature(types.INITIALIZE)
     def initialize(params: types.InitializeParams) -> None:
@@ -102,7 +100,7 @@ def _follow_documents(server: Server, session: Session) -> None:
 
 
 def _answer_at_places(server: LanguageServer, session: Session) -> None:
-    """Answer what is asked about a place in a document."""
+    """Answer requests about a place in a document."""
 
     def at(params: Any, answer: Callable[[TextDocument, int], Answer], otherwise: Answer) -> Answer:
         document = session.documents.get(params.text_document.uri)
@@ -145,7 +143,7 @@ def _answer_at_places(server: LanguageServer, session: Session) -> None:
 
 
 def _answer_about_documents(server: LanguageServer, session: Session) -> None:
-    """Answer what is asked about a whole document."""
+    """Answer requests about a whole document."""
 
     def about(params: Any, answer: Callable[[TextDocument], list[Answer]]) -> list[Answer]:
         document = session.documents.get(params.text_document.uri)
@@ -182,8 +180,8 @@ def _rewrite(server: LanguageServer, session: Session) -> None:
     """Change documents as a whole, in the process of the worker."""
 
     @server.feature(types.TEXT_DOCUMENT_FORMATTING)
-    async def format_document(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
-        document, done = await _rewritten(session, params.text_document.uri, lay_out)
+    async def formatted(params: types.DocumentFormattingParams) -> list[types.TextEdit]:
+        document, done = await _run_rewrite(session, params.text_document.uri, format_document)
         if document is None:
             _tell(server, f"The document cannot be formatted: {done.problem}")
             return []
@@ -196,7 +194,7 @@ def _rewrite(server: LanguageServer, session: Session) -> None:
                 pass
             case _:
                 raise JsonRpcInvalidParams(f"{RUN_PASSES} takes two texts: the URI of a document, and a pipeline")
-        document, done = await _rewritten(session, uri, run_passes, pipeline)
+        document, done = await _run_rewrite(session, uri, run_passes, pipeline)
         if document is None:
             _tell(server, f"{pipeline} has changed nothing: {done.problem}")
         elif not done.edits:
@@ -206,10 +204,10 @@ def _rewrite(server: LanguageServer, session: Session) -> None:
             await server.workspace_apply_edit_async(edit)
 
 
-async def _rewritten(
+async def _run_rewrite(
     session: Session, uri: str, task: Callable[..., Rewritten], *args: str
 ) -> tuple[TextDocument | None, Rewritten]:
-    """A document and its edits; no document where there are none, and why."""
+    """Rewrite a document in the worker; without a document in the result, `problem` says why there are no edits."""
     document, job = session.documents.get(uri), session.job(uri)
     if document is None or job is None:
         return None, Rewritten(problem="it is not open, or too large")
@@ -223,13 +221,13 @@ async def _rewritten(
 
 
 def _folders(server: Server) -> list[Path]:
-    """The folders of the workspace that are on this machine."""
+    """Return the folders of the workspace that are on this machine."""
     found = [file_of(uri) for uri in server.workspace.folders]
     return [each for each in found if each is not None]
 
 
 def _tell(server: LanguageServer, message: str) -> None:
-    # editors make links of `[text](command:...)`, and a message may quote the file
+    # editors turn `[text](command:...)` into links, and a message may quote the file
     message = message.replace("](", "] (")
     server.window_show_message(types.ShowMessageParams(types.MessageType.Warning, message))
 
@@ -239,7 +237,7 @@ def _locations(places: list[DocumentPlace]) -> list[types.Location]:
 
 
 def _or_refused(answer: Callable[[], Answer]) -> Answer:
-    """An answer, or the error of the protocol that shows why there is none."""
+    """Return an answer, or raise the protocol's error if the rename is refused."""
     try:
         return answer()
     except RenameRefusedError as error:

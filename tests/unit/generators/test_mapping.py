@@ -2,13 +2,13 @@
 
 import pytest
 
+from generators.mapping.file_rows import targets, unreachable
 from generators.mapping.measure import CASES
 from generators.mapping.notes import Note, destinations, notes
 from generators.mapping.page import page
 from testbed.corpus.files import ROOT
 from twinform.diagnostics.catalog import catalog
-from twinform.server.mapping.row_targets import field_of, targets
-from twinform.server.mapping.rows import FORMATS, FormatName, rows, sections, unreachable
+from twinform.server.mapping import FORMATS, FormatName, field_of, rows, sections
 
 PAGE = ROOT / "docs/explanation/mapping.md"
 

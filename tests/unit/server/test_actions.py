@@ -6,12 +6,11 @@ from lsprotocol import types
 
 from tests.unit.server.test_half_typed import session_with
 from twinform.diagnostics import Diagnostic, Fix, Location, Safety, Severity, Span, TextEdit, rules
-from twinform.server.actions import FIX_ALL, actions, edit_of, together
-from twinform.server.checking import CheckJob, check
+from twinform.server.actions import FIX_ALL, actions, compatible_edits, edit_of
+from twinform.server.checking import CheckJob, EditorSettings, check
 from twinform.server.documents import TextDocument
-from twinform.server.rewrite_document import lay_out, run_passes
+from twinform.server.rewrite_document import format_document, run_passes
 from twinform.server.session import Session
-from twinform.server.settings import EditorSettings
 from twinform.text import apply
 
 TEXT = '<robot name="a">\r\n  <link nam="b" name="é"/>\r\n  <link nam="c" name="d"/>\r\n</robot>\r\n'
@@ -67,7 +66,7 @@ def test_all_safe_problems_are_fixed_at_once() -> None:
 
 def test_findings_of_an_older_text_offer_nothing() -> None:
     session, document = offered(Safety.SAFE)
-    later = session.documents.open(document.uri, TEXT + " ", 2, "urdf")
+    later = session.documents.follow(document.uri, TEXT + " ", 2, "urdf")
     assert actions(session, later, START, ["quickfix", "source"]) == []
 
 
@@ -75,7 +74,7 @@ def test_of_fixes_that_meet_the_later_waits() -> None:
     def fix(*spans: tuple[int, int]) -> Fix:
         return Fix("", tuple(TextEdit(Span(*span), "x") for span in spans))
 
-    made = together([fix((0, 2), (8, 9)), fix((1, 3)), fix((8, 8)), fix((4, 4)), fix((4, 4))])
+    made = compatible_edits([fix((0, 2), (8, 9)), fix((1, 3)), fix((8, 8)), fix((4, 4)), fix((4, 4))])
     assert [edit.span for edit in made] == [(0, 2), (4, 4), (8, 8), (8, 9)]
 
 
@@ -110,10 +109,10 @@ def test_what_passes_cannot_do_is_told(tmp_path: Path) -> None:
 def test_the_formatter_makes_one_edit_of_what_differs(tmp_path: Path) -> None:
     path = tmp_path / "a.urdf"
     text = '<robot name="a">\n      <link name="b"/>\n</robot>\n'
-    done = lay_out(job(path, text))
+    done = format_document(job(path, text))
     assert apply(text, done.edits) == '<robot name="a">\n  <link name="b"/>\n</robot>\n'
-    assert lay_out(job(path, apply(text, done.edits))).edits == ()
-    assert lay_out(job(path, "<robot>")).problem
+    assert format_document(job(path, apply(text, done.edits))).edits == ()
+    assert format_document(job(path, "<robot>")).problem
 
 
 def test_a_check_reads_the_texts_of_the_editor(tmp_path: Path) -> None:

@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 
 from tests.profile import DEEP
+from twinform.server.checking import no_settings
+from twinform.server.document_outline import outline, search
 from twinform.server.documents import TextDocument
 from twinform.server.hover import hover
 from twinform.server.navigation import references
 from twinform.server.rename_symbol import RenameRefusedError, rename
 from twinform.server.session import Session
-from twinform.server.settings import no_settings
-from twinform.server.symbols import outline, search
 
 pytestmark = pytest.mark.slow
 
@@ -76,7 +76,7 @@ def calls(shape: str, answer: str, size: int, folder: Path) -> int:
     session = Session(no_settings, lambda _: None)
     session.folders = [folder]
     text = made(size)
-    document = session.documents.open((folder / ("r.sdf" if text[1] == "s" else "r.xacro")).as_uri(), text, 1, "")
+    document = session.documents.follow((folder / ("r.sdf" if text[1] == "s" else "r.xacro")).as_uri(), text, 1, "")
     count = 0
 
     def look(_frame: object, event: str, _argument: object) -> None:

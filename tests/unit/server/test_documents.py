@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from lsprotocol import types
 
 from twinform.server.documents import Documents
-from twinform.server.positions import Positions
+from twinform.server.locations import Positions
 
 ENCODINGS = st.sampled_from(list(types.PositionEncodingKind))
 TEXTS = st.text(alphabet="ab\n\r\u2028\x85é🤖<", max_size=30)
@@ -28,7 +28,7 @@ def test_changes_are_made_where_the_editor_makes_them(
 ) -> None:
     documents = Documents()
     documents.encoding = encoding
-    documents.open("file:///a.urdf", text, 1, "urdf")
+    documents.follow("file:///a.urdf", text, 1, "urdf")
     for one, other, new in changes:
         start, end = sorted((min(one, len(text)), min(other, len(text))))
         start, end = (each - (text[each - 1 : each + 1] == "\r\n") for each in (start, end))
@@ -50,7 +50,7 @@ def test_positions_outside_of_the_text_are_its_edge(
 
 def test_the_last_good_state_is_kept_while_the_text_is_broken() -> None:
     documents = Documents()
-    documents.open("file:///a.urdf", '<robot name="a"><link name="b"/></robot>', 1, "urdf")
+    documents.follow("file:///a.urdf", '<robot name="a"><link name="b"/></robot>', 1, "urdf")
     good = documents.get("file:///a.urdf")
     assert good is not None
     assert good.tree.whole

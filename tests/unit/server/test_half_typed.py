@@ -14,16 +14,14 @@ from testbed.editor.client import Editor, editor
 from tests.profile import DEEP
 from tests.unit.server.test_diagnostics import HOSTILE
 from twinform.server.actions import actions
+from twinform.server.checking import no_settings
 from twinform.server.completion import complete
+from twinform.server.document_outline import folds, links, outline
 from twinform.server.documents import TextDocument
-from twinform.server.folding import folds
 from twinform.server.hover import hover
-from twinform.server.links import links
 from twinform.server.navigation import definitions, references, search_of
 from twinform.server.rename_symbol import RenameRefusedError, prepare, rename
 from twinform.server.session import Session
-from twinform.server.settings import no_settings
-from twinform.server.symbols import outline
 
 pytestmark = pytest.mark.slow
 
@@ -34,7 +32,7 @@ FILES = ("arm.urdf", "cart.sdf", "rover.urdf.xacro", "wheel.xacro")
 def session_with(name: str, text: str) -> tuple[Session, TextDocument]:
     session = Session(no_settings, lambda _: None)
     uri = (SESSION / name).as_uri()
-    return session, session.documents.open(uri, text, 1, "urdf")
+    return session, session.documents.follow(uri, text, 1, "urdf")
 
 
 def ask_everything(session: Session, document: TextDocument, offset: int) -> None:

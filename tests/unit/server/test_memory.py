@@ -9,8 +9,7 @@ import pytest
 
 from testbed import robots
 from tests.profile import DEEP
-from twinform.server.checking import CheckJob, check
-from twinform.server.settings import EditorSettings
+from twinform.server.checking import CheckJob, EditorSettings, check
 
 pytestmark = pytest.mark.slow
 

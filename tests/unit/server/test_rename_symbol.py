@@ -10,11 +10,11 @@ import twinform
 from testbed.corpus.files import ROOT
 from twinform.diagnostics import TextEdit
 from twinform.passes.structure.rename_parts import RESERVED
+from twinform.server.checking import no_settings
 from twinform.server.document_names import names_of
 from twinform.server.documents import TextDocument
 from twinform.server.rename_symbol import RenameRefusedError, rename
 from twinform.server.session import Session
-from twinform.server.settings import no_settings
 from twinform.text import apply
 
 SESSION = Path(__file__).with_name("session")
@@ -25,7 +25,7 @@ EXAMPLES = ("rover.urdf", "gripper.urdf", "arm.urdf", "warehouse.sdf")
 def opened(path: Path, text: str | None = None) -> tuple[Session, TextDocument]:
     session = Session(no_settings, lambda _: None)
     content = path.read_bytes().decode() if text is None else text
-    return session, session.documents.open(path.as_uri(), content, 1, "")
+    return session, session.documents.follow(path.as_uri(), content, 1, "")
 
 
 def renamed(session: Session, document: TextDocument, at: str, new: str) -> dict[str, str]:

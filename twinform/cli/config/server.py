@@ -12,7 +12,7 @@ from twinform.compiler.input.load_options import profiles_of
 from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.diagnostics import Policy
 from twinform.profiles import Profile
-from twinform.server.settings import EditorSettings
+from twinform.server.checking import EditorSettings
 
 
 def settings_of(path: Path) -> EditorSettings:

@@ -1,15 +1,41 @@
-"""Names of xacro in a document: macros, their parameters, properties and arguments, and what refers to them."""
+"""Names at their place in a text, and those of xacro: macros, parameters, properties, arguments, and references."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from twinform.diagnostics import Span
+from twinform.passes.structure.rename_parts import LOOKUP_ORDER
 from twinform.server.documents import TextDocument
-from twinform.server.name import Name
+from twinform.server.schema import PREFIX
 from twinform.server.tolerant_tree import TolerantNode
 
-PREFIX = "xacro:"
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """A name at its place in a text, where it is defined or referred to.
+
+    `kind` is the kind of thing that has the name, such as `link`, or the kind of reference. `scope` is the model in
+    which the name counts; None if the format, or the kind, has a single scope.
+    """
+
+    text: str
+    span: Span
+    node: TolerantNode
+    kind: str
+    defines: bool
+    scope: TolerantNode | None = None
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The kinds of things that the name may mean."""
+        if self.defines or self.kind == "material":
+            return (self.kind,)
+        orders: Mapping[str, tuple[str, ...]] = {**LOOKUP_ORDER}
+        return orders.get(self.kind, (self.kind,))
+
+
 ELEMENTS: dict[str, tuple[tuple[str, ...], tuple[str, ...], str]] = {
     "macro": (("name", "params"), (), "A piece of the model with parameters, to be used by its name."),
     "property": (("name", "value"), ("default", "scope", "remove", "lazy_eval"), "A value, or a block, with a name."),
@@ -22,7 +48,7 @@ ELEMENTS: dict[str, tuple[tuple[str, ...], tuple[str, ...], str]] = {
     "element": (("xacro:name",), (), "An element whose name is known only when it is expanded."),
     "attribute": (("name", "value"), (), "An attribute of the element around it, whose name may be an expression."),
 }
-"""The elements of xacro: the attributes that each needs, those that it may have, and what it means."""
+"""The elements of xacro: required attributes, optional attributes, and meaning."""
 XACRO_KINDS = frozenset({"macro", "property", "arg", "param"})
 _DEFINES = {"xacro:macro": "macro", "xacro:property": "property", "xacro:arg": "arg"}
 _EXPRESSION = re.compile(r"\$\{(?P<expression>[^}]*)\}?|\$\(arg\s+(?P<arg>[^\s)]+)")
@@ -32,22 +58,22 @@ _RESERVED = frozenset(["and", "or", "not", "if", "else", "for", "in", "is", "Tru
 
 
 def xacro_names(document: TextDocument) -> Iterator[Name]:
-    """All names of xacro in a document."""
+    """Yield all names of xacro in a document."""
     if "xacro" not in document.text:
         return
     for node in document.tree.nodes:
         if node.tag.startswith(PREFIX):
-            yield from _of_element(node)
+            yield from _names_of_element(node)
         if "$" in node.start_tag.of(document.text):
             for attribute, span in node.attributes.items():
-                yield from _in_expressions(node.values[attribute], span.value.start, node)
+                yield from _names_in_expressions(node.values[attribute], span.value.start, node)
         if not node.children and not node.empty and node.closed:
             inside = node.content
-            yield from _in_expressions(inside.of(document.text), inside.start, node)
+            yield from _names_in_expressions(inside.of(document.text), inside.start, node)
 
 
 class MacroParameter(NamedTuple):
-    """A parameter of a macro. One that has no default is `needed`, unless it is a `block`, which is an element."""
+    """A parameter of a macro: `needed` if it has no default; a `block` takes an element instead of a value."""
 
     name: str
     written: str
@@ -56,14 +82,14 @@ class MacroParameter(NamedTuple):
 
 
 def parameter_names(macro: TolerantNode) -> list[MacroParameter]:
-    """The parameters of a macro, in their order."""
+    """Return the parameters of a macro, in their order."""
     return [
         MacroParameter(found["name"], found[0], "=" not in found[0] and found[0][0] != "*", found[0][0] == "*")
         for found in _PARAMETER.finditer(macro.get("params") or "")
     ]
 
 
-def _of_element(node: TolerantNode) -> Iterator[Name]:
+def _names_of_element(node: TolerantNode) -> Iterator[Name]:
     kind = _DEFINES.get(node.tag)
     called = node.get("name")
     if kind is not None and called:
@@ -79,17 +105,17 @@ def _of_element(node: TolerantNode) -> Iterator[Name]:
         yield Name(node.values["macro"], node.attributes["macro"].value, node, "macro", defines=False)
     local = node.tag.removeprefix(PREFIX)
     if local and local not in ELEMENTS:
-        yield from _of_call(node, local)
+        yield from _names_of_call(node, local)
 
 
-def _of_call(node: TolerantNode, macro: str) -> Iterator[Name]:
+def _names_of_call(node: TolerantNode, macro: str) -> Iterator[Name]:
     yield Name(macro, Span(node.name.start + len(PREFIX), node.name.end), node, "macro", defines=False)
     if node.end_tag is not None:
         start = node.end_tag.start + len("</") + len(PREFIX)
         yield Name(macro, Span(start, start + len(macro)), node, "macro", defines=False)
 
 
-def _in_expressions(text: str, start: int, node: TolerantNode) -> Iterator[Name]:
+def _names_in_expressions(text: str, start: int, node: TolerantNode) -> Iterator[Name]:
     for found in _EXPRESSION.finditer(text):
         if found["arg"]:
             yield Name(

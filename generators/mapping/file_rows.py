@@ -1,34 +1,15 @@
-"""Which row of the facts tables each element and attribute of a file is."""
+"""Rows of the facts tables for the generated pages: which rows a file uses, and which of both formats correspond."""
 
+from collections import defaultdict
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from functools import cache
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from twinform.schemas import XmlElement, table
 from twinform.schemas.facts import Fact, Version, parse_version
+from twinform.server.mapping import FORMATS, Chain, FormatName, MappingRow, chains_of, rows, sections
 
-FormatName = Literal["urdf", "sdf"]
-FORMATS: tuple[FormatName, ...] = ("urdf", "sdf")
-
-
-@dataclass(frozen=True, slots=True)
-class MappingRow:
-    """A row of a table: its definition, the steps from there, and the first version that has it.
-
-    A name may have several rows, one for each span of versions.
-    """
-
-    format: FormatName
-    definition: str
-    steps: str
-    since: Version
-    fact: Fact = field(compare=False, repr=False)
-
-    @property
-    def path(self) -> str:
-        """Definition and steps: `link/inertial/mass`."""
-        return f"{self.definition}/{self.steps}"
+_POSE = frozenset({"Pose.xyz", "Pose.rpy", "Pose.quat_xyzw"})
 
 
 class TablePart(NamedTuple):
@@ -39,43 +20,15 @@ class TablePart(NamedTuple):
     row: MappingRow
 
 
-@cache
-def rows(format: FormatName) -> tuple[MappingRow, ...]:
-    """All rows that a file may use, in the order of the table."""
-    reachable = frozenset(sections(format))
-    definitions = table(format).definitions.items()
-    return tuple(row for name, fact in definitions if name in reachable for row in _rows_below(format, name, fact, ""))
-
-
 def unreachable(format: FormatName) -> list[str]:
     """Definitions that no row refers to: the specification describes them and gives them no place."""
     reachable = frozenset(sections(format))
     return [name for name in table(format).definitions if name not in reachable]
 
 
-@cache
-def sections(format: FormatName) -> tuple[str, ...]:
-    """The definitions that a file may use, from the root outwards."""
-    facts = table(format)
-    found = [facts.root]
-    for name in found:  # it grows in the loop
-        for row in _rows_below(format, name, facts.definitions[name], ""):
-            if row.fact.reference and row.fact.reference not in found:
-                found.append(row.fact.reference)
-    return tuple(found)
-
-
 def holders(format: FormatName, definition: str) -> list[str]:
     """The paths of the rows that refer to a definition, each once."""
     return list(dict.fromkeys(row.path for row in rows(format) if row.fact.reference == definition))
-
-
-def _rows_below(format: FormatName, definition: str, fact: Fact, around: str) -> Iterator[MappingRow]:
-    for below in fact.rows:
-        steps = f"{around}{below.name}"
-        yield MappingRow(format, definition, steps, below.since, below)
-        if not below.reference:
-            yield from _rows_below(format, definition, below, f"{steps}/")
 
 
 def parts(root: XmlElement) -> Iterator[TablePart]:
@@ -104,3 +57,29 @@ def parts(root: XmlElement) -> Iterator[TablePart]:
 
 def _row(fact: Fact, name: str, version: Version) -> Fact | None:
     return next((row for row in fact.rows if row.name == name and row.exists_in(version)), None)
+
+
+def targets(row: MappingRow) -> list[str]:
+    """The paths of the rows of the other format that fill the same field, each once."""
+    chain = chains_of(row.format).get(row)
+    if not chain:
+        return []
+    other = next(name for name in FORMATS if name != row.format)
+    if chain[-1] in _POSE and other == "sdf":
+        return ["pose"]
+    found = (one.path for one, its in _by_field(other)[chain[-1]] if _fits(chain, its))
+    return list(dict.fromkeys(found))
+
+
+def _fits(one: Chain, other: Chain) -> bool:
+    """Whether they name the same field, as far as both state what it is in."""
+    return all(a == b for a, b in zip(reversed(one), reversed(other), strict=False))
+
+
+@cache
+def _by_field(format: FormatName) -> dict[str, list[tuple[MappingRow, Chain]]]:
+    found: dict[str, list[tuple[MappingRow, Chain]]] = defaultdict(list)
+    for row in rows(format):
+        if chain := chains_of(format).get(row):
+            found[chain[-1]].append((row, chain))
+    return found

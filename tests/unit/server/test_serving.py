@@ -4,7 +4,7 @@ from io import BytesIO
 
 import pytest
 
-from twinform.server.framing import LARGEST_MESSAGE, read_messages
+from twinform.server.serving import LARGEST_MESSAGE, read_messages
 
 GOOD = b"Content-Length: 2\r\n\r\n{}"
 
