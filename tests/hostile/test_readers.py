@@ -38,7 +38,7 @@ OTHERS = {
     "compiler/workers.py": "the null device, and an executor",
     "diagnostics/generated_files.py": DATA,
     "diagnostics/rule_files.py": DATA,
-    "file_access/regular_files.py": "the one reader",
+    "file_access.py": "the one reader",
     "passes/appearance/classic_materials.py": DATA,
     "passes/classic/tables.py": DATA,
     "passes/mesh_jobs/child.py": NOWHERE,
