@@ -11,11 +11,11 @@ from twinform.passes.plugins.ground_clearance import lowest_point
 from twinform.passes.plugins.sites import sensors_of
 from twinform.passes.plugins.world_systems import (
     WorldRequirements,
+    add_default_systems,
+    add_systems,
     kind_of_sensor,
-    needed_by_plugins,
     requirements_of,
-    with_defaults,
-    with_systems,
+    systems_needed_by_plugins,
 )
 
 # Satellite receivers need some place on earth; as long as none is given, any is as good.
@@ -61,7 +61,7 @@ def _world(document: Document, release: str, name: str) -> tuple[Document, World
     """A file with a world, and the world with light, ground, and what the models of a document need."""
     template = loads(resources.files("twinform.compiler").joinpath("world.sdf").read_bytes())
     needed = _needed(document, release)
-    world = with_systems(with_defaults(template.worlds[0].copy(name=name)), needed.systems)
+    world = add_systems(add_default_systems(template.worlds[0].copy(name=name)), needed.systems)
     return template, _with_place(world) if "spherical_coordinates" in needed.elements else world
 
 
@@ -76,7 +76,7 @@ def _needed(document: Document, release: str) -> WorldRequirements:
     kinds = [kind_of_sensor(sensor, release) for sensor, _ in sensors_of(document)]
     all_ = [requirements_of(kind) for kind in dict.fromkeys(kinds) if kind is not None]
     systems = dict.fromkeys(system for each in all_ for system in each.systems)
-    systems |= dict.fromkeys(needed_by_plugins(document, None, release))
+    systems |= dict.fromkeys(systems_needed_by_plugins(document, None, release))
     elements = dict.fromkeys(element for each in all_ for element in each.elements)
     return WorldRequirements(tuple(systems), tuple(elements))
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from twinform.ir import Element, Format, Model, Plugin
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
-from twinform.passes.plugins.base_link import base_link
+from twinform.passes.plugins.ground_clearance import base_link
 from twinform.schemas import format_value
 
 # Frames that gazebo_ros_p3d takes for the world; any other is a link that the pose is relative to.

@@ -23,8 +23,7 @@ from twinform.passes.classic.tables import ClassicSensorRow, Migration, migratio
 from twinform.passes.classic.topics import RosNames
 from twinform.passes.plugins.catalog import sensors
 from twinform.passes.plugins.catalog_types import Release
-from twinform.passes.plugins.elements import sensor_element, sensor_of
-from twinform.passes.plugins.sites import PluginSite
+from twinform.passes.plugins.sites import PluginSite, sensor_element, sensor_of
 from twinform.schemas import format_value
 
 _FRAMES = ("frame_id", "gz_frame_id", "ignition_frame_id")

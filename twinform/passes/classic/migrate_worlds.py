@@ -10,14 +10,14 @@ from twinform.passes.plugins.add_elements import add_world_plugin
 from twinform.passes.plugins.catalog_types import Release, SensorKind
 from twinform.passes.plugins.sites import sensors_of
 from twinform.passes.plugins.world_systems import (
-    as_xml,
     has_element,
     has_system,
     kind_of_sensor,
     missing_defaults,
-    needed_by_plugins,
     requirements_of,
     system_plugin,
+    system_xml,
+    systems_needed_by_plugins,
 )
 
 
@@ -58,7 +58,7 @@ def report_needs(document: Document, release: Release, sink: DiagnosticSink) -> 
                 noted.add(needed.name)
                 where = sensor.location if sensor.source or site.model is None else site.model.location
                 message = f"sensor {sensor.name!r} needs {needed.class_name} in the world"
-                help_ = f"the world needs {as_xml(needed)}"
+                help_ = f"the world needs {system_xml(needed)}"
                 sink.report(rules.WORLD_SYSTEM_NEEDED, message, where, help=help_)
 
 
@@ -75,7 +75,7 @@ def report_unread(document: Document, sink: DiagnosticSink) -> None:
 def _complete(world: World, release: Release, sink: DiagnosticSink) -> World:
     kinds = _kinds(world, release)
     needed = [kind for each in kinds for kind in requirements_of(each).systems]
-    needed += needed_by_plugins(Document(format=Format.SDF, worlds=(world,)), world, release.name)
+    needed += systems_needed_by_plugins(Document(format=Format.SDF, worlds=(world,)), world, release.name)
     # A world without any plugin gets the default systems from gz-sim itself; as soon as one is
     # written here, all of them have to be.
     defaults = missing_defaults(world.plugins) if world.plugins or needed else ()

@@ -18,8 +18,7 @@ from twinform.passes.classic.tables import MakeRow, Migration, migration_of
 from twinform.passes.classic.topics import RosNames
 from twinform.passes.plugins.catalog import systems_of_file
 from twinform.passes.plugins.catalog_types import Release
-from twinform.passes.plugins.elements import sensor_of
-from twinform.passes.plugins.sites import PluginSite
+from twinform.passes.plugins.sites import PluginSite, sensor_of
 from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
 from twinform.schemas import format_value
 

@@ -7,8 +7,7 @@ from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Element, Plugin
 from twinform.passes.classic.moving import DroppedParameter, truth_of
 from twinform.passes.classic.tables import Caveat, Migration
-from twinform.passes.plugins.elements import plugin_element
-from twinform.passes.plugins.sites import PluginSite
+from twinform.passes.plugins.sites import PluginSite, plugin_element
 
 
 def scratch(sink: DiagnosticSink) -> DiagnosticSink:

@@ -7,18 +7,31 @@ from pydantic import Field, model_validator
 
 from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.ir import Document, Model, Plugin, Sensor, World, replace_node
-from twinform.passes.plugins.add_elements import add_plugin, add_visual_plugin, add_world_plugin
-from twinform.passes.plugins.base_link import base_link
+from twinform.passes.plugins.add_elements import (
+    add_plugin,
+    add_visual_plugin,
+    add_world_plugin,
+    find_model,
+    find_world,
+    report_missing_target,
+    world_of,
+)
 from twinform.passes.plugins.catalog import nearest, releases, system
 from twinform.passes.plugins.catalog_types import PluginKind
+from twinform.passes.plugins.ground_clearance import base_link
 from twinform.passes.plugins.parameters import names_in
-from twinform.passes.plugins.pass_targets import find_model, find_world, missing, world_of
 from twinform.passes.plugins.plugin_options import MissingError, content_of, field_of, options_of
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sites import PluginSite, map_sensors
 from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
-from twinform.passes.plugins.world_systems import as_xml, lacking_for, system_plugin, with_defaults, with_systems
+from twinform.passes.plugins.world_systems import (
+    add_default_systems,
+    add_systems,
+    missing_system_for,
+    system_plugin,
+    system_xml,
+)
 
 _ODOMETRY_FRAMES = (("frame-id", "child-frame-id"), ("odom-frame", "robot-base-frame"))
 """The options of systems that report odometry: the frame that it is in, and that of the model."""
@@ -73,14 +86,14 @@ class AddPlugin(SelectingPass):
         if self.release not in kind.releases:
             have = ", ".join(each for each in releases() if each in kind.releases)
             raise ValueError(f"{kind.name} is not in {self.release}; it is in {have or 'no release yet'}")
-        for option in self._values():
+        for option in self._given_options():
             if self.release not in options_of(kind)[option][1].releases:
                 raise ValueError(f"{kind.name} does not read {option} in {self.release}")
         for option, (_, row) in options_of(kind).items():
-            if self.release in row.needed and option not in self._values():
+            if self.release in row.needed and option not in self._given_options():
                 raise ValueError(f"{kind.name} needs the option {option} in {self.release}")
         try:
-            content_of(kind, self._values())
+            content_of(kind, self._given_options())
         except MissingError as error:
             raise ValueError(f"{kind.name} needs the option {error}") from error
         return self
@@ -89,46 +102,50 @@ class AddPlugin(SelectingPass):
         """The document with the plugin."""
         kind = self._kind()
         if "model" in kind.scopes and self.on is None:
-            return self._in_model(document, sink)
+            return self._add_to_model(document, sink)
         if "world" in kind.scopes:
-            return self._in_world(document, sink)
-        return self._on_sensor(document, sink) if "sensor" in kind.scopes else self._on_visual(document, sink)
+            return self._add_to_world(document, sink)
+        return self._add_to_sensor(document, sink) if "sensor" in kind.scopes else self._add_to_visual(document, sink)
 
-    def _in_model(self, document: Document, sink: DiagnosticSink) -> Document:
+    def _add_to_model(self, document: Document, sink: DiagnosticSink) -> Document:
         model = find_model(document, self.model, sink)
-        if model is None or not self._names_are_there(model, sink):
+        if model is None or not self._check_references(model, sink):
             return document
-        plugin = self._plugin({**self._measured(model, document, sink), **self._frames(model, document)})
+        plugin = self._make_plugin(
+            {**self._measure_missing(model, document, sink), **self._odometry_frames(model, document)}
+        )
         if sink.has_errors:
             return document
         made = replace_node(document, model, add_plugin(model, plugin, document.format))
-        return self._with_needs(made, model, world_of(document, model), sink)
+        return self._add_needed_system(made, model, world_of(document, model), sink)
 
-    def _with_needs(self, document: Document, model: Model, world: World | None, sink: DiagnosticSink) -> Document:
-        """The document with the system of the world without which this one does not do what is meant."""
-        needed = lacking_for(self._kind(), world)
+    def _add_needed_system(
+        self, document: Document, model: Model, world: World | None, sink: DiagnosticSink
+    ) -> Document:
+        """The document with the system that the world needs for the plugin to work."""
+        needed = missing_system_for(self._kind(), world)
         if needed is None:
             return document
         if world is None:
             message = f"{self._kind().class_name} needs {needed.class_name} in the world"
-            help_ = f"the world needs {as_xml(needed)}"
+            help_ = f"the world needs {system_xml(needed)}"
             sink.report(rules.WORLD_SYSTEM_NEEDED, message, model.location, help=help_)
             return document
         message = f"world {world.name!r} gets {needed.class_name}"
         sink.report(rules.ADDED_WORLD_SYSTEM, message, world.location)
         # The plugin was added to a model in it, so the world is a new object by now.
         now = next(each for each in document.worlds if each.name == world.name)
-        return replace_node(document, now, with_systems(now, [needed]))
+        return replace_node(document, now, add_systems(now, [needed]))
 
-    def _in_world(self, document: Document, sink: DiagnosticSink) -> Document:
+    def _add_to_world(self, document: Document, sink: DiagnosticSink) -> Document:
         world = find_world(document, self.world, sink)
         if world is None:
             return document
-        made = add_world_plugin(with_defaults(world, self._kind()), self._plugin({}))
+        made = add_world_plugin(add_default_systems(world, self._kind()), self._make_plugin({}))
         return document if made is world else replace_node(document, world, made)
 
-    def _on_sensor(self, document: Document, sink: DiagnosticSink) -> Document:
-        plugin, seen = self._plugin({}), list[str]()
+    def _add_to_sensor(self, document: Document, sink: DiagnosticSink) -> Document:
+        plugin, seen = self._make_plugin({}), list[str]()
 
         def change(sensor: Sensor, _: PluginSite) -> Iterable[Sensor]:
             seen.append(sensor.name or "")
@@ -138,38 +155,38 @@ class AddPlugin(SelectingPass):
 
         made = map_sensors(document, change)
         if self.on not in seen:
-            missing(document, "sensor", self.on, seen, sink)
+            report_missing_target(document, "sensor", self.on, seen, sink)
         return made
 
-    def _on_visual(self, document: Document, sink: DiagnosticSink) -> Document:
+    def _add_to_visual(self, document: Document, sink: DiagnosticSink) -> Document:
         model = find_model(document, self.model, sink)
         if model is None:
             return document
-        made = add_visual_plugin(model, self.on or "", self._plugin({}), document.format)
+        made = add_visual_plugin(model, self.on or "", self._make_plugin({}), document.format)
         if made is None:
             names = [link.name for link in model.links]
-            missing(document, "visual or link", self.on, names, sink)
+            report_missing_target(document, "visual or link", self.on, names, sink)
             return document
         return replace_node(document, model, made)
 
     def _kind(self) -> PluginKind:
         return system(self.system)
 
-    def _values(self) -> dict[str, object]:
-        """The options of the system that are given."""
+    def _given_options(self) -> dict[str, object]:
+        """The options of the system that have a value."""
         written = {option: getattr(self, option.replace("-", "_"), None) for option in options_of(self._kind())}
         return {option: value for option, value in written.items() if value is not None}
 
-    def _plugin(self, measured: Mapping[str, object]) -> Plugin:
+    def _make_plugin(self, measured: Mapping[str, object]) -> Plugin:
         kind = self._kind()
-        content = content_of(kind, {**self._values(), **measured})
+        content = content_of(kind, {**self._given_options(), **measured})
         plugin = system_plugin(kind)
         return plugin.copy(content=content) if content else plugin
 
-    def _names_are_there(self, model: Model, sink: DiagnosticSink) -> bool:
-        """Whether the joints and links that are named exist; what does not is reported."""
+    def _check_references(self, model: Model, sink: DiagnosticSink) -> bool:
+        """Whether all joints and links that options name exist; reports those that do not."""
         good = True
-        for option, value in self._values().items():
+        for option, value in self._given_options().items():
             row = options_of(self._kind())[option][1]
             known = names_in(model, row.type) if row.type in {"joint", "link"} else None
             if known is None:
@@ -185,27 +202,29 @@ class AddPlugin(SelectingPass):
                 good = False
         return good
 
-    def _frames(self, model: Model, document: Document) -> dict[str, object]:
-        """The frames of the odometry by their names in ROS: those of gz have the model's name in them."""
+    def _odometry_frames(self, model: Model, document: Document) -> dict[str, object]:
+        """The odometry frames by their names in ROS, if not given: Gazebo's contain the name of the model."""
         base, options = base_link(model, document.format), options_of(self._kind())
         for frame, child in _ODOMETRY_FRAMES:
             if base is not None and {frame, child} <= options.keys():
                 return {
-                    option: name for option, name in ((frame, "odom"), (child, base)) if option not in self._values()
+                    option: name
+                    for option, name in ((frame, "odom"), (child, base))
+                    if option not in self._given_options()
                 }
         return {}
 
-    def _measured(self, model: Model, document: Document, sink: DiagnosticSink) -> dict[str, object]:
-        """What is not given and the model has."""
+    def _measure_missing(self, model: Model, document: Document, sink: DiagnosticSink) -> dict[str, object]:
+        """Values for options that are not given, measured on the model."""
         kind, found = self._kind(), dict[str, object]()
 
         def names(option: str) -> tuple[str, ...]:
-            return cast("tuple[str, ...]", self._values().get(option, ()))
+            return cast("tuple[str, ...]", self._given_options().get(option, ()))
 
         measured = Measured(model, document.format, names)
         for parameter, measure in MEASURES.get(kind.name, {}).items():
             option = parameter.replace("_", "-")
-            if option in self._values() or self._values().get("steering-only"):
+            if option in self._given_options() or self._given_options().get("steering-only"):
                 continue
             try:
                 found[option] = measure(measured)

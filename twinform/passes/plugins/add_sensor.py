@@ -10,17 +10,23 @@ from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Element, Format, Joint, Link, Model, Opaque, Pose, Sensor, replace_node
 from twinform.ir.frames import WORLD
 from twinform.ir.node import NOT_CONTENT
-from twinform.passes.plugins.add_elements import add_sensor
+from twinform.passes.plugins.add_elements import (
+    add_own_frame,
+    add_sensor,
+    find_model,
+    own_frame_name,
+    report_missing_target,
+    set_frame_id,
+    world_of,
+)
 from twinform.passes.plugins.catalog import releases, sensor
 from twinform.passes.plugins.catalog_types import SensorKind
-from twinform.passes.plugins.parameter_types import is_topic
-from twinform.passes.plugins.pass_targets import find_model, missing, world_of
+from twinform.passes.plugins.parameters import is_topic
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.selecting import Fields, SelectingPass
-from twinform.passes.plugins.sensor_frames import named_frame, own_frame, with_own_frame
-from twinform.passes.plugins.sensor_settings import addable, element_of, fields_of, settings_of
+from twinform.passes.plugins.sensor_settings import addable, setting_fields, settings_element, settings_of
 from twinform.passes.plugins.sites import sensors_of
-from twinform.passes.plugins.world_systems import as_xml, has_element, has_system, requirements_of, with_systems
+from twinform.passes.plugins.world_systems import add_systems, has_element, has_system, requirements_of, system_xml
 from twinform.passes.transforms.nodes import unique_name
 
 _Number = Annotated[float, Field(allow_inf_nan=False)]
@@ -77,7 +83,7 @@ class AddSensor(SelectingPass):
     @classmethod
     def fields_for(cls, word: str) -> Fields:
         """The options of a kind of sensor."""
-        return dict(fields_of(word))
+        return dict(setting_fields(word))
 
     @model_validator(mode="after")
     def _check(self) -> Self:
@@ -99,13 +105,13 @@ class AddSensor(SelectingPass):
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with the sensor."""
         model = find_model(document, self.model, sink)
-        holder = self._holder(model, document, sink) if model else None
+        holder = self._find_holder(model, document, sink) if model else None
         if model is None or holder is None:
             return document
-        content = self._content(model, holder, document.format, sink)
+        content = self._sensor_content(model, holder, document.format, sink)
         if sink.has_errors:
             return document
-        made, is_new = self._name_sensor(document, model, holder, content)
+        made, is_new = self._choose_name(document, model, holder, content)
         world = world_of(document, model)
         if is_new:
             # libsdformat lumps links on fixed joints of URDF, and the joint goes with its sensor
@@ -113,38 +119,38 @@ class AddSensor(SelectingPass):
             kept = isinstance(holder, Joint) and holder.type == "fixed"
             new = add_sensor(model, holder.name, made, document.format, kept=kept)
             type_ = sensor(self.type).type
-            own = own_frame(model, made, type_) if self.frame_id is None and self.link else None
+            own = own_frame_name(model, made, type_) if self.frame_id is None and self.link else None
             if own is not None:
-                new = with_own_frame(new, own, made, type_, self.link or "", document.format)
+                new = add_own_frame(new, own, made, type_, self.link or "", document.format)
             document = replace_node(document, model, new)
         # Nothing is added to a model without a world: a world system in a model works only until a
         # second model brings the same one. The finding has the line that the world needs instead.
         if world is None:
-            self._say_what_is_needed(made, holder, sink)
+            self._report_needed_systems(made, holder, sink)
             return document
-        return self._in_world(document, world.name, made, sink)
+        return self._add_to_world(document, world.name, made, sink)
 
-    def _name_sensor(
+    def _choose_name(
         self, document: Document, model: Model, holder: Link | Joint, content: tuple[Opaque, ...]
     ) -> tuple[Sensor, bool]:
-        """The sensor under the first name that no other has, and whether it is new; one with the same content is it."""
+        """The sensor with the first free name, and whether it is new; an equal sensor that is there keeps its name."""
         everywhere = list(sensors_of(document))
         here = [each for each, site in everywhere if site.model is model and site.link_or_joint == holder.name]
         taken, first = {each.name for each, _ in everywhere}, self.sensor_name or settings_of(self.type).name
         for number in count():
-            made = self._sensor(f"{first}_{number}" if number else first, content, model)
+            made = self._make_sensor(f"{first}_{number}" if number else first, content, model)
             # A pipeline that runs twice must not add a second sensor under a numbered name.
-            same = next((each for each in here if _plain(each) == _plain(made)), None)
+            same = next((each for each in here if _content_of(each) == _content_of(made)), None)
             if same is not None or made.name not in taken:
                 return made, same is None
         raise AssertionError  # there are more numbers than sensors
 
-    def _holder(self, model: Model, document: Document, sink: DiagnosticSink) -> Link | Joint | None:
+    def _find_holder(self, model: Model, document: Document, sink: DiagnosticSink) -> Link | Joint | None:
         word, name = ("joint", self.joint) if self.joint is not None else ("link", self.link)
         nodes: tuple[Link | Joint, ...] = model.joints if word == "joint" else model.links
         found = next((each for each in nodes if each.name == name), None)
         if found is None:
-            missing(model, word, name, [each.name for each in nodes], sink)
+            report_missing_target(model, word, name, [each.name for each in nodes], sink)
         # libsdformat takes the link `world` of a URDF for the world itself and makes no link of it.
         elif word == "link" and name == WORLD and document.format is Format.URDF:
             message = "a sensor cannot be on the link 'world': Gazebo takes it for the world itself"
@@ -152,14 +158,18 @@ class AddSensor(SelectingPass):
             return None
         return found
 
-    def _content(self, model: Model, holder: Link | Joint, format_: Format, sink: DiagnosticSink) -> tuple[Opaque, ...]:
-        """The elements in the sensor that have no typed form."""
+    def _sensor_content(
+        self, model: Model, holder: Link | Joint, format_: Format, sink: DiagnosticSink
+    ) -> tuple[Opaque, ...]:
+        """The untyped elements in the sensor."""
         values = {option: getattr(self, option.replace("-", "_"), None) for option in self.fields_for(self.type)}
         is_contact = sensor(self.type).type == "contact"
-        element = self._contact(model, holder, format_, sink) if is_contact else element_of(self.type, values)
+        element = (
+            self._contact_element(model, holder, format_, sink) if is_contact else settings_element(self.type, values)
+        )
         return (Opaque(element=element),) if element is not None else ()
 
-    def _sensor(self, name: str, content: tuple[Opaque, ...], model: Model) -> Sensor:
+    def _make_sensor(self, name: str, content: tuple[Opaque, ...], model: Model) -> Sensor:
         kind, settings = sensor(self.type), settings_of(self.type)
         topic, is_contact = self.topic or usual_topic(kind, name, settings.name), kind.type == "contact"
         made = Sensor(
@@ -170,25 +180,29 @@ class AddSensor(SelectingPass):
             update_rate=self.rate or float(settings.rate),
             visualize=self.visualize or None,
             topic=None if is_contact else topic,
-            opaque=tuple(map(_named_inside(topic), content)) if is_contact else content,
+            opaque=tuple(map(_add_topic_to_contact(topic), content)) if is_contact else content,
         )
-        frame = self.frame_id or (self.link and own_frame(model, made, kind.type)) or self.link
-        return named_frame(made, frame, self.release) if frame else made
+        frame = self.frame_id or (self.link and own_frame_name(model, made, kind.type)) or self.link
+        return set_frame_id(made, frame, self.release) if frame else made
 
-    def _contact(self, model: Model, holder: Link | Joint, format_: Format, sink: DiagnosticSink) -> Element | None:
-        names = list(_collisions(holder, format_))
+    def _contact_element(
+        self, model: Model, holder: Link | Joint, format_: Format, sink: DiagnosticSink
+    ) -> Element | None:
+        names = list(_collision_names(holder, format_))
         if not names or (self.collision is not None and self.collision not in names):
-            missing(model, "collision", self.collision, names, sink)
+            report_missing_target(model, "collision", self.collision, names, sink)
             return None
         chosen = [self.collision] if self.collision else names
         return Element(name="contact", children=tuple(Element(name="collision", text=each) for each in chosen))
 
-    def _say_what_is_needed(self, made: Sensor, holder: Link | Joint, sink: DiagnosticSink) -> None:
+    def _report_needed_systems(self, made: Sensor, holder: Link | Joint, sink: DiagnosticSink) -> None:
         for system in requirements_of(sensor(self.type)).systems:
             message = f"sensor {made.name!r} needs {system.class_name} in the world"
-            sink.report(rules.WORLD_SYSTEM_NEEDED, message, holder.location, help=f"the world needs {as_xml(system)}")
+            sink.report(
+                rules.WORLD_SYSTEM_NEEDED, message, holder.location, help=f"the world needs {system_xml(system)}"
+            )
 
-    def _in_world(self, document: Document, name: str, made: Sensor, sink: DiagnosticSink) -> Document:
+    def _add_to_world(self, document: Document, name: str, made: Sensor, sink: DiagnosticSink) -> Document:
         world = next(each for each in document.worlds if each.name == name)
         needed = requirements_of(sensor(self.type))
         for element in needed.elements:
@@ -200,18 +214,18 @@ class AddSensor(SelectingPass):
             return document
         listed = ", ".join(each.class_name for each in lacks)
         sink.report(rules.ADDED_WORLD_SYSTEM, f"world {world.name!r} gets {listed}", world.location)
-        return replace_node(document, world, with_systems(world, lacks))
+        return replace_node(document, world, add_systems(world, lacks))
 
 
 def usual_topic(kind: SensorKind, name: str, usual: str) -> str:
-    """The topic of a sensor of this name: short, and of its own."""
+    """The usual topic of a sensor of this name: short, and not shared with others."""
     if kind.element == "camera":
         return f"{name}/{kind.suffix}" if kind.suffix else name
     return kind.suffix if name == usual else f"{name}/{kind.suffix}"
 
 
-def _named_inside(topic: str) -> Callable[[Opaque], Opaque]:
-    """Puts the topic of a contact sensor into `<contact>`: Gazebo reads it there alone (contact/Contact.cc, Load)."""
+def _add_topic_to_contact(topic: str) -> Callable[[Opaque], Opaque]:
+    """A function that writes a topic into `<contact>`, where alone Gazebo reads it (contact/Contact.cc, Load)."""
 
     def change(part: Opaque) -> Opaque:
         if part.element is None or part.element.name != "contact":
@@ -222,8 +236,8 @@ def _named_inside(topic: str) -> Callable[[Opaque], Opaque]:
     return change
 
 
-def _collisions(holder: Link | Joint, format_: Format) -> Iterator[str]:
-    """The names of a link's collisions, as Gazebo calls those of URDF that have none."""
+def _collision_names(holder: Link | Joint, format_: Format) -> Iterator[str]:
+    """The names of the collisions of a link; in URDF those that Gazebo gives to collisions without a name."""
     taken: set[str] = set()
     for each in holder.collisions if isinstance(holder, Link) else ():
         name = each.name or (unique_name(f"{holder.name}_collision", taken) if format_ is Format.URDF else None)
@@ -232,5 +246,5 @@ def _collisions(holder: Link | Joint, format_: Format) -> Iterator[str]:
             yield name
 
 
-def _plain(node: Sensor) -> object:
+def _content_of(node: Sensor) -> object:
     return node.model_dump(exclude=set(NOT_CONTENT), exclude_defaults=True)

@@ -11,7 +11,7 @@ from twinform.passes.plugins.bridge import bridge_yaml, bridges
 from twinform.passes.plugins.release_names import ReleaseName
 
 
-def _yaml(path: str) -> str:
+def _check_yaml_name(path: str) -> str:
     if not path.endswith((".yaml", ".yml")):
         raise ValueError("takes the name of a YAML file, which ends in .yaml or .yml")
     return path
@@ -34,7 +34,7 @@ class BridgeConfig(SideFilePass):
     name: ClassVar[str] = "bridge-config"
     example: ClassVar[str] = "bridge-config{file=bridge.yaml release=harmonic}"
 
-    file: Annotated[CompanionPath, AfterValidator(_yaml)] = Field(
+    file: Annotated[CompanionPath, AfterValidator(_check_yaml_name)] = Field(
         description="Where to write it: a path below the folder of the result, ending in `.yaml` or `.yml`."
     )
     release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that runs the model.")

@@ -14,8 +14,7 @@ from importlib import resources
 from importlib.resources.abc import Traversable
 from typing import Any, Literal
 
-from twinform.passes.plugins.catalog_syntax import read_plugins
-from twinform.passes.plugins.catalog_types import PluginKind, Published, Release, SensorKind
+from twinform.passes.plugins.catalog_types import PluginKind, Published, Release, SensorKind, read_plugins
 
 __all__ = [
     "DEFAULT_SYSTEMS",
@@ -40,14 +39,14 @@ __all__ = [
 ]
 
 LATEST = "main"
-"""What comes after the last release: the development branch. No release has what is only there."""
+"""The development branch after the last release."""
 
 DEFAULT_SYSTEMS = ("physics", "user-commands", "scene-broadcaster")
-"""What gz-sim adds to a world without any plugin, and to no other one."""
+"""The systems that gz-sim adds to a world without any plugin, and to no other world."""
 
 # Beyond this many names none is suggested: a comparison takes 10 us, and a hostile file has many of
 # both.
-_TOO_MANY = 2000
+_MOST_NAMES = 2000
 
 Family = Literal["noetic", "ros2"]
 
@@ -57,7 +56,7 @@ _IGNITION_CLASS = re.compile(r"^(?:::)?(?:ignition::gazebo|gz::sim)(?:::v\d+)?::
 
 
 class UnknownNameError(LookupError):
-    """The catalog has nothing of this name; the message proposes what is near."""
+    """The catalog has nothing of this name; the message suggests a similar one."""
 
     def __init__(self, what: str, name: str, known: Iterator[str] | list[str]) -> None:
         listed = list(known)
@@ -67,9 +66,9 @@ class UnknownNameError(LookupError):
 
 
 def nearest(name: str, known: Iterator[str] | list[str] | tuple[str, ...]) -> str | None:
-    """The name that was probably meant; none where there are too many to compare with each."""
+    """The most similar name; None if none is similar, or if there are too many to compare."""
     listed = list(known)
-    if len(listed) > _TOO_MANY:
+    if len(listed) > _MOST_NAMES:
         return None
     near = get_close_matches(name, listed, n=1)
     if near:
@@ -84,7 +83,7 @@ def nearest(name: str, known: Iterator[str] | list[str] | tuple[str, ...]) -> st
 @cache
 def releases() -> dict[str, Release]:
     """The releases by name, oldest first."""
-    return {name: _release(name, row) for name, row in _toml("releases.toml").items()}
+    return {name: _make_release(name, row) for name, row in _read_toml("releases.toml").items()}
 
 
 def release(name: str) -> Release:
@@ -104,11 +103,11 @@ def release(name: str) -> Release:
 @cache
 def systems() -> dict[str, PluginKind]:
     """The systems of gz-sim by their name here, such as `diff-drive`."""
-    return {each.name: each for each in _tables("systems")}
+    return {each.name: each for each in _read_tables("systems")}
 
 
 def system(name: str) -> PluginKind:
-    """A system by its name here; underscores do as well.
+    """A system by its name in the catalog; underscores work as well.
 
     Raises:
         UnknownNameError: there is none of this name.
@@ -120,17 +119,17 @@ def system(name: str) -> PluginKind:
 
 
 def systems_of_file(file: str) -> tuple[PluginKind, ...]:
-    """The systems in a file, however it is spelt; one file may hold several."""
-    return _by_file().get(modern_file(file), ())
+    """The systems in a file, in any spelling of its name; one file may contain several."""
+    return _systems_by_file().get(modern_file(file), ())
 
 
 def system_of_class(name: str) -> PluginKind | None:
-    """The system that a class is, by its name now or that of Ignition."""
-    return _by_class().get(modern_class(name))
+    """The system with a class, by its current name or that of Ignition; None if there is none."""
+    return _systems_by_class().get(modern_class(name))
 
 
 def modern_file(file: str) -> str:
-    """A file of a system as gz-sim calls it now: `libignition-gazebo6-imu-system.so` is `gz-sim-imu-system`."""
+    """The current name of the file of a system: `gz-sim-imu-system` for `libignition-gazebo6-imu-system.so`."""
     name = file.rsplit("/", 1)[-1].strip()
     found = _SYSTEM_FILE.fullmatch(name)
     if found:
@@ -140,19 +139,19 @@ def modern_file(file: str) -> str:
 
 
 def modern_class(name: str) -> str:
-    """A class of a system as gz-sim calls it now."""
+    """The current name of the class of a system."""
     return _IGNITION_CLASS.sub("gz::sim::", name.strip())
 
 
 def is_ignition_name(name: str) -> bool:
-    """Whether a file or class has a name from before Gazebo was called so again."""
+    """Whether a file or class has a name from the time when Gazebo was called Ignition."""
     return "ignition-gazebo" in name or "ignition::gazebo" in name
 
 
 @cache
 def classic_plugins(family: Family) -> dict[str, PluginKind]:
-    """The plugins of Gazebo Classic for a ROS, by their name here: the file's without `gazebo_ros_`."""
-    kinds = read_plugins(_folder("classic", f"{family}.facts").read_text(encoding="utf-8"), _all_releases())
+    """The plugins of Gazebo Classic for ROS 1 or 2, by the names of their files without `gazebo_ros_`."""
+    kinds = read_plugins(_data("classic", f"{family}.facts").read_text(encoding="utf-8"), _all_releases())
     return {each.name: each for each in kinds}
 
 
@@ -170,7 +169,7 @@ def classic_plugins_of_file(file: str) -> dict[Family, PluginKind]:
 @cache
 def sensors() -> dict[str, SensorKind]:
     """The kinds of sensors by their type in SDF."""
-    return {type_: _sensor(type_, row) for type_, row in _toml("sensors.toml").items()}
+    return {type_: _make_sensor_kind(type_, row) for type_, row in _read_toml("sensors.toml").items()}
 
 
 def sensor(type_: str) -> SensorKind:
@@ -198,13 +197,13 @@ def custom_sensor(word: str) -> SensorKind | None:
 
 
 def ros_message(message: str) -> str | None:
-    """The type of ROS 2 for a message of gz; None where the bridge knows none."""
-    found = _toml("messages.toml").get(message)
+    """The type of ROS 2 for a message of Gazebo; None if the bridge knows none."""
+    found = _read_toml("messages.toml").get(message)
     return str(found) if found is not None else None
 
 
 @cache
-def _by_file() -> dict[str, tuple[PluginKind, ...]]:
+def _systems_by_file() -> dict[str, tuple[PluginKind, ...]]:
     found: dict[str, tuple[PluginKind, ...]] = defaultdict(tuple)
     for each in systems().values():
         found[modern_file(each.file)] += (each,)
@@ -212,7 +211,7 @@ def _by_file() -> dict[str, tuple[PluginKind, ...]]:
 
 
 @cache
-def _by_class() -> dict[str, PluginKind]:
+def _systems_by_class() -> dict[str, PluginKind]:
     return {each.class_name: each for each in systems().values()}
 
 
@@ -221,26 +220,26 @@ def _all_releases() -> tuple[str, ...]:
     return (*releases(), LATEST)
 
 
-def _tables(folder: str) -> Iterator[PluginKind]:
-    for file in sorted(_folder(folder).iterdir(), key=lambda each: each.name):
+def _read_tables(folder: str) -> Iterator[PluginKind]:
+    for file in sorted(_data(folder).iterdir(), key=lambda each: each.name):
         if file.name.endswith(".facts"):
             yield from read_plugins(file.read_text(encoding="utf-8"), _all_releases())
 
 
 @cache
-def _toml(name: str) -> dict[str, Any]:
-    return tomllib.loads(_folder(name).read_text(encoding="utf-8"))
+def _read_toml(name: str) -> dict[str, Any]:
+    return tomllib.loads(_data(name).read_text(encoding="utf-8"))
 
 
-def _folder(*path: str) -> Traversable:
+def _data(*path: str) -> Traversable:
     return resources.files("twinform.passes.plugins").joinpath("data", *path)
 
 
-def _release(name: str, row: dict[str, Any]) -> Release:
+def _make_release(name: str, row: dict[str, Any]) -> Release:
     return Release(name, row["sim"], row["sdf"], tuple(row["ros"]), row["lts"], row.get("frame"))
 
 
-def _sensor(type_: str, row: dict[str, Any]) -> SensorKind:
+def _make_sensor_kind(type_: str, row: dict[str, Any]) -> SensorKind:
     everything = _all_releases()
     return SensorKind(
         type=type_,
@@ -252,14 +251,14 @@ def _sensor(type_: str, row: dict[str, Any]) -> SensorKind:
         holders=tuple(row.get("holder", ("link",))),
         suffix=row["suffix"],
         releases=frozenset(everything[everything.index(row.get("since", everything[0])) :]),
-        publishes=tuple(_published(*each, everything=everything) for each in row["publishes"]),
+        publishes=tuple(_make_published(*each, everything=everything) for each in row["publishes"]),
         custom=row.get("custom"),
         triggered=frozenset(row.get("triggered", ())),
     )
 
 
-def _published(pattern: str, message: str, *options: str, everything: tuple[str, ...]) -> Published:
-    """A topic of a sensor. Options are `since=RELEASE`, `until=RELEASE`, and a setting with its message behind it."""
+def _make_published(pattern: str, message: str, *options: str, everything: tuple[str, ...]) -> Published:
+    """A topic of a sensor. Options are `since=RELEASE`, `until=RELEASE`, and a setting followed by its message."""
     spans = dict(each.split("=") for each in options if each.startswith(("since=", "until=")))
     first, last = spans.get("since", everything[0]), spans.get("until", everything[-1])
     where, instead = [*(each for each in options if not each.startswith(("since=", "until="))), "", ""][:2]

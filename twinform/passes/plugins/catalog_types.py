@@ -1,33 +1,51 @@
-"""Data types of the catalog: plugins, sensors and releases."""
+"""Plugins, sensors and releases of the catalog, and the syntax of its plugin tables.
 
-from collections.abc import Iterator
+    system wheel-slip  file=gz-sim-wheel-slip-system class=gz::sim::systems::WheelSlip scope=model
+      wheel         +  element
+        @link_name  1  link
+      limit         ?  number   default=1 since=harmonic
+      > topic  gz.msgs.Twist  /model/{model}/cmd_vel  alt=sub_topic:/model/{model}/{sub_topic}
+
+A block begins with `system` (of gz-sim) or `plugin` (of Gazebo Classic) and the name; a row is the name of a parameter,
+its count, its type, and options: `default=`, `unit=` (`rad|m` where it is for what turns and for what slides),
+`enum=a|b`, `since=`, `until=` and `except=` releases, `needed=` releases `a|b` that do not work without, `any` for
+content that is not known (in the first line: for more parameters). Rows that are indented further stand inside. `>`
+and `<` are topics that the plugin reads and writes: the parameter that sets it or `-`, the message, the default;
+`alt=PARAMETER[+PARAMETER]:TOPIC[:MESSAGE]` where these are written, `unless=` and `when=` with such
+`PARAMETER[+PARAMETER]`, separated by `|`, `each=PATH/OF/PARAMETER` for one topic a value, the spelling (`or-default`,
+`if-any`, `exact` or `raw`, see `Spelling`), the releases, and `stops` if there are no further topics without this one.
+In a topic, `{...}` is a value, and what stands in `(...)` alone becomes a valid topic, or nothing; of `(...|...)` the
+first that can. `! TOPIC` is a text of which the plugin makes a valid topic before all, and stops where it cannot; its
+options are the same. Values with blanks stand in double quotes, and `#` begins a comment.
+`needs=a|b` in the first line are systems of which the world has to have one.
+"""
+
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
-from typing import Literal
+from typing import Literal, NamedTuple, cast, get_args
 
 Count = Literal["1", "?", "*", "+"]
 """How often a parameter stands: once, at most once, any number of times, at least once."""
-
 ParameterType = Literal[
     "number", "integer", "bool", "text", "joint", "link", "collision", "topic", "vector", "numbers", "pose", "color",
     "element",
 ]  # fmt: skip
-
 Parameters = tuple[str, ...]
 """The names of parameters."""
-
-Spelling = Literal["valid", "if-any", "or-default", "exact", "raw"]
-"""What a plugin does with text that gz-transport refuses: it makes a valid topic of it; it makes one, and takes the
-default for a parameter without text; it makes one, and takes the default where nothing is left of a parameter; it takes
-the default at once; it has no topic."""
-
 Scope = Literal["world", "model", "link", "joint", "sensor", "visual", "actor", "gui"]
 """What a plugin stands in."""
+_DIRECTIONS = ("<", ">")
+Spelling = Literal["valid", "if-any", "or-default", "exact", "raw"]
+"""What a plugin does with a text that gz-transport refuses: it makes a valid topic of it; it makes one, and takes the
+default for a parameter without text; it makes one, and takes the default where nothing is left of a parameter; it takes
+the default at once; it has no topic."""
 
 
 @dataclass(frozen=True, slots=True)
 class Release:
-    """A release of Gazebo. `frame_element` names the frame of a sensor there; None where nothing is known to."""
+    """A release of Gazebo. `frame_element` is the element for the frame of a sensor; None if none is known."""
 
     name: str
     sim: int
@@ -39,11 +57,11 @@ class Release:
 
 @dataclass(frozen=True, slots=True)
 class PluginParameter:
-    """An element or attribute that a plugin reads. Names such as `[xyz][UVW]` stand for all that match them.
+    """An element or attribute that a plugin reads. Names such as `[xyz][UVW]` stand for all names that match them.
 
-    `free` means that what stands inside is not known. `releases` are those whose plugin reads it, `needed` those that
-    do not work without, where only some do not. `unit` is that of its numbers, or two of them where it
-    is for what turns and for what slides.
+    `free` means that any content is allowed. `releases` are those whose plugin reads it, `needed` those that do not
+    work without it if only some do not. `unit` is the unit of its numbers, or two units if it is for revolute and for
+    prismatic joints.
     """
 
     name: str
@@ -60,26 +78,26 @@ class PluginParameter:
 
     @property
     def is_required(self) -> bool:
-        """Whether the plugin does not work without."""
+        """Whether the plugin does not work without the parameter."""
         return self.count in {"1", "+"}
 
     def is_required_in(self, release: str) -> bool:
-        """Whether the plugin of a release does not work without."""
+        """Whether the plugin of a release does not work without the parameter."""
         return self.is_required or release in self.needed
 
     @property
     def is_many(self) -> bool:
-        """Whether it may stand several times."""
+        """Whether the parameter may stand several times."""
         return self.count in {"*", "+"}
 
     def matches(self, name: str) -> bool:
-        """Whether this is the parameter of a name."""
+        """Whether this is the parameter with a name."""
         return self.name == name or ("[" in self.name and fnmatchcase(name, self.name))
 
 
 @dataclass(frozen=True, slots=True)
 class Alternative:
-    """Another topic or message where all of some parameters are written and not false; an empty pattern keeps it."""
+    """Another topic or message if all these parameters are written and not false; an empty pattern keeps the topic."""
 
     parameters: Parameters
     pattern: str
@@ -135,7 +153,7 @@ class PluginKind:
     checks: tuple[TopicChannel, ...] = ()
 
     def parameter(self, *path: str) -> PluginParameter | None:
-        """The parameter at a path of names, such as `left_track`, `link`; attributes begin with `@`."""
+        """The parameter at a path of names, such as `left_track`, `link`; names of attributes begin with `@`."""
         rows, found = self.parameters, None
         for name in path:
             found = next((row for row in rows if row.matches(name)), None)
@@ -145,17 +163,17 @@ class PluginKind:
         return found
 
     def walk(self) -> Iterator[tuple[tuple[str, ...], PluginParameter]]:
-        """Every parameter with its path, from the outside in."""
-        yield from _walk((), self.parameters)
+        """Every parameter with its path, outer ones first."""
+        yield from _walk_parameters((), self.parameters)
 
 
-def _walk(
+def _walk_parameters(
     above: tuple[str, ...], rows: tuple[PluginParameter, ...]
 ) -> Iterator[tuple[tuple[str, ...], PluginParameter]]:
     for row in rows:
         path = (*above, row.name)
         yield path, row
-        yield from _walk(path, row.children)
+        yield from _walk_parameters(path, row.children)
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,3 +213,118 @@ class SensorKind:
     publishes: tuple[Published, ...]
     custom: str | None = None
     triggered: frozenset[str] = frozenset()
+
+
+class _CatalogLine(NamedTuple):
+    depth: int
+    words: list[str]
+
+
+def read_plugins(text: str, releases: Sequence[str]) -> Iterator[PluginKind]:
+    """Read the plugins of a table; `releases` are the names of all releases, oldest first."""
+    lines = [
+        _CatalogLine((len(line) - len(line.lstrip())) // 2, _split_line(line))
+        for line in text.splitlines()
+        if _split_line(line)
+    ]
+    starts = [index for index, line in enumerate(lines) if line.depth == 0]
+    for start, end in zip(starts, [*starts[1:], len(lines)], strict=True):
+        yield _read_plugin(lines[start].words, lines[start + 1 : end], releases)
+
+
+def _split_line(line: str) -> list[str]:
+    return [] if line.startswith("#") else shlex.split(line)
+
+
+def _read_plugin(head: list[str], lines: list[_CatalogLine], releases: Sequence[str]) -> PluginKind:
+    options = _read_options(head[2:])
+    own = _releases_between(options, releases)
+    channels = tuple(_read_channel(line.words, own, releases) for line in lines if line.words[0] in _DIRECTIONS)
+    checks = (["!", "-", "", *line.words[1:]] for line in lines if line.words[0] == "!")
+    return PluginKind(
+        name=head[1],
+        file=options["file"],
+        class_name=options["class"],
+        scopes=cast("tuple[Scope, ...]", tuple(options["scope"].split("|"))),
+        releases=own,
+        parameters=_read_parameters(
+            [line for line in lines if line.words[0] not in {"!", *_DIRECTIONS}], 1, own, releases
+        ),
+        channels=channels,
+        free="any" in head[2:],
+        needs=tuple(options["needs"].split("|")) if "needs" in options else (),
+        checks=tuple(_read_channel(words, own, releases) for words in checks),
+    )
+
+
+def _read_parameters(
+    lines: list[_CatalogLine], depth: int, above: frozenset[str], releases: Sequence[str]
+) -> tuple[PluginParameter, ...]:
+    """The parameters in rows of a depth, each with those in the deeper rows that follow it."""
+    starts = [index for index, line in enumerate(lines) if line.depth == depth]
+    ends = [*starts[1:], len(lines)] if starts else []
+    return tuple(
+        _read_parameter(lines[start].words, lines[start + 1 : end], depth + 1, above, releases)
+        for start, end in zip(starts, ends, strict=True)
+    )
+
+
+def _read_parameter(
+    words: list[str], inside: list[_CatalogLine], depth: int, above: frozenset[str], releases: Sequence[str]
+) -> PluginParameter:
+    name, count, type_, *rest = words
+    options = _read_options(rest)
+    own = _releases_between(options, releases) & above
+    choices = options.get("enum")
+    return PluginParameter(
+        name=name,
+        count=cast("Count", count),
+        type=cast("ParameterType", type_),
+        default=options.get("default"),
+        choices=tuple(choices.split("|")) if choices else (),
+        free="any" in rest,
+        releases=own,
+        is_attribute=name.startswith("@"),
+        children=_read_parameters(inside, depth, own, releases),
+        unit=options.get("unit"),
+        needed=own & frozenset(options.get("needed", "").split("|")),
+    )
+
+
+def _read_channel(words: list[str], above: frozenset[str], releases: Sequence[str]) -> TopicChannel:
+    direction, parameter, message, pattern, *rest = words
+    alternatives = [word.removeprefix("alt=").split(":") for word in rest if word.startswith("alt=")]
+    options = _read_options(rest)
+    return TopicChannel(
+        direction=cast('Literal["<", ">", "!"]', direction),
+        parameter=None if parameter == "-" else parameter,
+        message=message,
+        pattern=pattern,
+        alternatives=tuple(_read_alternative(*each) for each in alternatives),
+        unless=_split_conditions(options.get("unless")),
+        when=_split_conditions(options.get("when")),
+        each=tuple(options.get("each", "").split("/")) if "each" in options else (),
+        releases=_releases_between(options, releases) & above,
+        spelling=next((each for each in get_args(Spelling) if each in rest), "valid"),
+        stops="stops" in rest or direction == "!",
+    )
+
+
+def _split_conditions(text: str | None) -> tuple[tuple[str, ...], ...]:
+    return tuple(tuple(each.split("+")) for each in text.split("|")) if text else ()
+
+
+def _read_alternative(parameters: str, pattern: str, message: str | None = None) -> Alternative:
+    return Alternative(tuple(parameters.split("+")), pattern, message)
+
+
+def _read_options(words: Sequence[str]) -> dict[str, str]:
+    return dict(word.split("=", 1) for word in words if "=" in word)
+
+
+def _releases_between(options: Mapping[str, str], releases: Sequence[str]) -> frozenset[str]:
+    """The releases from `since` to `until`, without those of `except`."""
+    first = options.get("since", releases[0])
+    last = options.get("until", releases[-1])
+    span = releases[releases.index(first) : releases.index(last) + 1]
+    return frozenset(span) - frozenset(options.get("except", "").split("|"))

@@ -24,12 +24,12 @@ from twinform.passes.plugins.parameters import ModelNames, ParameterContext, che
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sites import PluginSite, plugins_of, sensors_of
 from twinform.passes.plugins.world_systems import (
-    as_xml,
     has_element,
     has_system,
     kind_of_sensor,
     missing_defaults,
     requirements_of,
+    system_xml,
 )
 
 _NATIVE_IGNITION = "fortress"
@@ -81,13 +81,13 @@ def _check_plugin(plugin: Plugin, site: PluginSite, release: str, names: ModelNa
     # A file that is in no table is somebody's own plugin and is left alone, unless its name or
     # class shows that a system of Gazebo was meant.
     if not kinds:
-        _check_stranger(plugin, sink)
+        _check_unknown_file(plugin, sink)
         return
-    kind = _class_of(plugin, kinds, sink)
+    kind = _find_class(plugin, kinds, sink)
     if release != _NATIVE_IGNITION and is_ignition_name(f"{plugin.filename} {plugin.name}"):
         found = kind or kinds[0]
         message = f"plugin {plugin.name!r} has a name from before Ignition became Gazebo"
-        sink.report(rules.IGNITION_PLUGIN_NAME, message, plugin.location, help=f"write {as_xml(found)}")
+        sink.report(rules.IGNITION_PLUGIN_NAME, message, plugin.location, help=f"write {system_xml(found)}")
     if kind is None:
         return
     if release not in kind.releases:
@@ -108,12 +108,12 @@ def _check_plugin(plugin: Plugin, site: PluginSite, release: str, names: ModelNa
 
 
 def _check_needs(plugin: Plugin, kind: PluginKind, site: PluginSite, sink: DiagnosticSink) -> None:
-    """Whether the world has one of the systems without which this one does nothing, or not what is meant."""
+    """Report if the world has none of the systems that this one needs."""
     choice = [system(name) for name in kind.needs]
     if not choice or (site.world is not None and any(has_system(site.world, each) for each in choice)):
         return
     listed = " or ".join(each.class_name for each in choice)
-    help_ = f"add {as_xml(choice[0])} to the world"
+    help_ = f"add {system_xml(choice[0])} to the world"
     if site.world is None:
         message = f"{kind.class_name} needs {listed} in the world"
         sink.report(rules.WORLD_SYSTEM_NEEDED, message, plugin.location, help=help_)
@@ -122,8 +122,8 @@ def _check_needs(plugin: Plugin, kind: PluginKind, site: PluginSite, sink: Diagn
         sink.report(rules.MISSING_WORLD_SYSTEM, message, plugin.location, help=help_, related=(site.world.location,))
 
 
-def _class_of(plugin: Plugin, kinds: tuple[PluginKind, ...], sink: DiagnosticSink) -> PluginKind | None:
-    """The system that is meant: the one of the name, or the only one of the file."""
+def _find_class(plugin: Plugin, kinds: tuple[PluginKind, ...], sink: DiagnosticSink) -> PluginKind | None:
+    """The system that is meant: the one with the class name, or the only one in the file."""
     if not plugin.name:
         return kinds[0] if len(kinds) == 1 else None
     name = modern_class(plugin.name)
@@ -135,8 +135,8 @@ def _class_of(plugin: Plugin, kinds: tuple[PluginKind, ...], sink: DiagnosticSin
     return found or (kinds[0] if len(kinds) == 1 else None)
 
 
-def _check_stranger(plugin: Plugin, sink: DiagnosticSink) -> None:
-    """A file that is no system's: it may be somebody's own, or meant to be one."""
+def _check_unknown_file(plugin: Plugin, sink: DiagnosticSink) -> None:
+    """Check a file that belongs to no system: it may be a plugin of the user, or a mistake."""
     file = plugin.filename or ""
     kind = system_of_class(plugin.name or "")
     if kind is not None:
@@ -153,7 +153,7 @@ def _check_stranger(plugin: Plugin, sink: DiagnosticSink) -> None:
 
 
 def is_classic(file: str) -> bool:
-    """Whether a file is known to be a plugin of Gazebo Classic."""
+    """Whether a file is known as a plugin of Gazebo Classic."""
     return modern_file(file).startswith(("gazebo_ros_", "gazebo_ros2_")) or bool(classic_plugins_of_file(file))
 
 
@@ -165,7 +165,7 @@ def _check_defaults(world: World, sink: DiagnosticSink) -> None:
     if missing:
         listed = ", ".join(kind.class_name.rsplit("::", 1)[-1] for kind in missing)
         message = f"the plugins of world {world.name!r} switch off the default systems, and it has no {listed}"
-        help_ = f"add {' '.join(map(as_xml, missing))}"
+        help_ = f"add {' '.join(map(system_xml, missing))}"
         sink.report(rules.DEFAULT_SYSTEMS_OFF, message, ours[0].location, help=help_)
 
 
@@ -177,16 +177,18 @@ def _check_sensor(sensor: Sensor, site: PluginSite, release: str, noted: set[str
             sink.report(rules.UNSUPPORTED_SENSOR, message, sensor.location, found=sensor.type)
         return
     if site.world is not None:
-        _check_world_of(sensor, kind, site.world, sink)
+        _check_sensor_world(sensor, kind, site.world, sink)
         return
     for needed in requirements_of(kind).systems:
         if needed.name not in noted:
             noted.add(needed.name)
             message = f"sensor {sensor.name!r} needs {needed.class_name} in the world"
-            sink.report(rules.WORLD_SYSTEM_NEEDED, message, sensor.location, help=f"the world needs {as_xml(needed)}")
+            sink.report(
+                rules.WORLD_SYSTEM_NEEDED, message, sensor.location, help=f"the world needs {system_xml(needed)}"
+            )
 
 
-def _check_world_of(sensor: Sensor, kind: SensorKind, world: World, sink: DiagnosticSink) -> None:
+def _check_sensor_world(sensor: Sensor, kind: SensorKind, world: World, sink: DiagnosticSink) -> None:
     needed = requirements_of(kind)
     for lacking in needed.systems:
         if not has_system(world, lacking):
@@ -195,7 +197,7 @@ def _check_world_of(sensor: Sensor, kind: SensorKind, world: World, sink: Diagno
                 rules.MISSING_WORLD_SYSTEM,
                 message,
                 sensor.location,
-                help=f"add {as_xml(lacking)} to the world",
+                help=f"add {system_xml(lacking)} to the world",
                 related=(world.location,),
             )
     for name in needed.elements:

@@ -1,7 +1,7 @@
-"""Checking the parameters of one plugin against those of its system."""
+"""Checking the parameters of one plugin against those of its system: names, counts, types of values, references."""
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from twinform.diagnostics import DiagnosticSink, Location, rules
@@ -9,11 +9,15 @@ from twinform.ir import Element, Model, Plugin
 from twinform.ir.scopes import scoped_models
 from twinform.passes.plugins.catalog import nearest
 from twinform.passes.plugins.catalog_types import PluginKind, PluginParameter
-from twinform.passes.plugins.parameter_types import problem_of
+from twinform.schemas import parse_value
+
+# Characters that gz-transport accepts in no topic.
+_NOT_IN_TOPICS = ("@", ":=", "//", "~")
+_TRUTHS = frozenset({"true", "false", "0", "1"})
 
 
 class ModelNames:
-    """The joints and links of models by name, each looked up once."""
+    """The names of joints and links of models, each model searched once."""
 
     def __init__(self) -> None:
         self._known: dict[tuple[int, str], set[str] | None] = {}
@@ -27,7 +31,7 @@ class ModelNames:
 
 
 class ParameterContext(NamedTuple):
-    """What a plugin is held against: its kind, the release, and the model that it names parts of."""
+    """What a plugin is compared with: its kind, the release, and the model whose parts it names."""
 
     kind: PluginKind
     release: str
@@ -37,14 +41,14 @@ class ParameterContext(NamedTuple):
 
 
 def check_parameters(plugin: Plugin, context: ParameterContext) -> None:
-    """Report what is wrong with the parameters of a plugin."""
-    _check_inside(plugin.content, context.kind.parameters, context, plugin.location)
+    """Report mistakes in the parameters of a plugin."""
+    _check_elements(plugin.content, context.kind.parameters, context, plugin.location)
 
 
 def names_in(model: Model, kind: str) -> set[str] | None:
-    """The names of the joints or links of a model, those of nested models in full.
+    """The names of the joints or links of a model, scoped names for those in nested models.
 
-    None where includes that were not read may bring others.
+    None where includes that were not read may add more.
     """
     names = set[str]()
     for scope, inner in scoped_models(model):
@@ -54,7 +58,7 @@ def names_in(model: Model, kind: str) -> set[str] | None:
     return names
 
 
-def _check_inside(
+def _check_elements(
     elements: Sequence[Element], rows: tuple[PluginParameter, ...], context: ParameterContext, where: Location
 ) -> None:
     counts = Counter[str]()
@@ -66,11 +70,11 @@ def _check_inside(
         if row is None and context.kind.free:
             continue
         if row is None or context.release not in row.releases:
-            _unknown(element.name, row, rows, context, at)
+            _report_unknown(element.name, row, rows, context, at)
             continue
         counts[element.name] += 1
         if counts[element.name] > 1 and not row.is_many:
-            message = f"<{element.name}> occurs twice; {_called(context.kind)} reads the first"
+            message = f"<{element.name}> occurs twice; {_short_name(context.kind)} reads the first"
             context.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, at, found=element.name)
         _check_element(element, row, context, at)
     present = {*counts}
@@ -80,12 +84,12 @@ def _check_inside(
             and not row.is_attribute
             and not any(row.matches(name) for name in present)
         ):
-            message = f"{_called(context.kind)} needs <{row.name}>"
+            message = f"{_short_name(context.kind)} needs <{row.name}>"
             context.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, where, expected=row.name)
 
 
 def _is_foreign(name: str) -> bool:
-    """Whether it has a prefix: then it is for somebody else."""
+    """Whether a name has a prefix, so that it is for another program."""
     return name.startswith("{") or ":" in name
 
 
@@ -94,7 +98,7 @@ def _check_element(element: Element, row: PluginParameter, context: ParameterCon
         return
     _check_attributes(element, row, context, at)
     if row.type == "element":
-        _check_inside(element.children, row.children, context, at)
+        _check_elements(element.children, row.children, context, at)
     else:
         _check_value(row, element.text or "", f"<{element.name}>", context, at)
 
@@ -106,19 +110,19 @@ def _check_attributes(element: Element, row: PluginParameter, context: Parameter
             continue
         found = rows.get(name)
         if found is None:
-            _unknown(f"@{name}", None, tuple(rows.values()), context, at)
+            _report_unknown(f"@{name}", None, tuple(rows.values()), context, at)
         else:
             _check_value(found, value, f"{name!r} of <{element.name}>", context, at)
     for name, each in rows.items():
         if each.is_required and element.get(name) is None:
-            message = f"{_called(context.kind)} needs {name!r} of <{element.name}>"
+            message = f"{_short_name(context.kind)} needs {name!r} of <{element.name}>"
             context.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, at, expected=name)
 
 
 def _check_value(row: PluginParameter, text: str, what: str, context: ParameterContext, at: Location) -> None:
     problem = problem_of(row, text)
     if problem:
-        message = f"{what} of {_called(context.kind)} is {text!r}, and has to be {problem}"
+        message = f"{what} of {_short_name(context.kind)} is {text!r}, and has to be {problem}"
         context.sink.report(rules.PLUGIN_PARAMETER_VALUE, message, at, found=text, expected=problem)
         return
     if row.type in {"joint", "link"} and context.model is not None:
@@ -130,29 +134,89 @@ def _check_reference(kind: str, name: str, what: str, context: ParameterContext,
     if known is None or name in known or (context.model and context.model.includes and "::" in name):
         return
     near = nearest(name, sorted(known))
-    message = f"{what} of {_called(context.kind)} names {name!r}, and the model has no such {kind}"
-    context.sink.report(rules.PLUGIN_REFERENCE, message, at, found=name, help=_meant(near))
+    message = f"{what} of {_short_name(context.kind)} names {name!r}, and the model has no such {kind}"
+    context.sink.report(rules.PLUGIN_REFERENCE, message, at, found=name, help=_did_you_mean(near))
 
 
-def _unknown(
+def _report_unknown(
     name: str, row: PluginParameter | None, rows: Sequence[PluginParameter], context: ParameterContext, at: Location
 ) -> None:
     called = f"<{name}>" if not name.startswith("@") else f"the attribute {name[1:]!r}"
     if row is not None:
-        message = f"{_called(context.kind)} does not read {called} in {context.release}"
+        message = f"{_short_name(context.kind)} does not read {called} in {context.release}"
     else:
-        message = f"{_called(context.kind)} does not read {called}"
-    near = nearest(name, list(_readable(rows, context.release)))
-    context.sink.report(rules.UNKNOWN_PLUGIN_PARAMETER, message, at, found=name.lstrip("@"), help=_meant(near))
+        message = f"{_short_name(context.kind)} does not read {called}"
+    near = nearest(name, list(_readable_names(rows, context.release)))
+    context.sink.report(rules.UNKNOWN_PLUGIN_PARAMETER, message, at, found=name.lstrip("@"), help=_did_you_mean(near))
 
 
-def _readable(rows: Sequence[PluginParameter], release: str) -> Iterator[str]:
+def _readable_names(rows: Sequence[PluginParameter], release: str) -> Iterator[str]:
     return (row.name for row in rows if release in row.releases and "[" not in row.name)
 
 
-def _meant(near: str | None) -> str | None:
+def _did_you_mean(near: str | None) -> str | None:
     return f"did you mean {near.lstrip('@')}?" if near else None
 
 
-def _called(kind: PluginKind) -> str:
+def _short_name(kind: PluginKind) -> str:
     return kind.class_name.rsplit("::", 1)[-1]
+
+
+def problem_of(row: PluginParameter, text: str) -> str | None:
+    """What a parameter has to be if its text is wrong, as the end of a sentence; None if the text is right."""
+    value = text.strip()
+    if row.choices and value not in row.choices:
+        return f"one of {', '.join(row.choices)}"
+    fits, expected = _TYPES.get(row.type, (_is_not_empty, "text"))
+    return None if fits(value) else expected
+
+
+def _is_not_empty(text: str) -> bool:
+    return bool(text)
+
+
+def _is_of_type(type_: str) -> Callable[[str], bool]:
+    def fits(text: str) -> bool:
+        try:
+            parse_value(type_, text)
+        except ValueError:
+            return False
+        return True
+
+    return fits
+
+
+def _are_numbers(*counts: int) -> Callable[[str], bool]:
+    is_number = _is_of_type("double")
+
+    def fits(text: str) -> bool:
+        words = text.split()
+        return (len(words) in counts if counts else bool(words)) and all(map(is_number, words))
+
+    return fits
+
+
+def is_topic(text: str) -> bool:
+    """Whether gz-transport accepts a text as the name of a topic."""
+    return bool(text) and not any(map(str.isspace, text)) and not any(part in text for part in _NOT_IN_TOPICS)
+
+
+def _is_truth(text: str) -> bool:
+    return text.lower() in _TRUTHS
+
+
+_TYPES: dict[str, tuple[Callable[[str], bool], str]] = {
+    "number": (_is_of_type("double"), "a number"),
+    "integer": (_is_of_type("int"), "a whole number"),
+    "bool": (_is_truth, "true or false"),
+    "vector": (_are_numbers(3), "three numbers"),
+    "numbers": (_are_numbers(), "numbers"),
+    "pose": (_are_numbers(6, 7), "a pose: six numbers"),
+    "color": (_are_numbers(3, 4), "a color: three or four numbers"),
+    "topic": (is_topic, "a topic, without blanks and `@`, `~`, `:=`, `//`"),
+    "joint": (_is_not_empty, "the name of a joint"),
+    "link": (_is_not_empty, "the name of a link"),
+    "collision": (_is_not_empty, "the name of a collision"),
+    "text": (lambda _: True, "text"),
+    "element": (lambda _: True, "elements"),
+}

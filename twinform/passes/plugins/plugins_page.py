@@ -22,37 +22,37 @@ _TIMES = {"1": "needed", "+": "needed, repeats", "?": "", "*": "repeats"}
 
 def plugins_page() -> str:
     """The catalog in Markdown."""
-    settings = [_settings(type_) for type_ in addable()]
-    parts = [_INTRODUCTION, _releases(), "# Sensors\n", _sensors(), *settings, "# Systems\n"]
-    return "\n".join([*parts, *(_system(kind) for _, kind in sorted(systems().items()))])
+    settings = [_settings_section(type_) for type_ in addable()]
+    parts = [_INTRODUCTION, _releases_table(), "# Sensors\n", _sensors_table(), *settings, "# Systems\n"]
+    return "\n".join([*parts, *(_system_section(kind) for _, kind in sorted(systems().items()))])
 
 
-def _releases() -> str:
+def _releases_table() -> str:
     rows = [
         f"| {each.name} | {each.sim} | {each.sdf} | {', '.join(each.ros) or '-'} | {'yes' if each.lts else 'no'} |"
         for each in releases().values()
     ]
-    return _table("| release | gz-sim | SDF | ROS 2 | long support |", rows)
+    return _format_table("| release | gz-sim | SDF | ROS 2 | long support |", rows)
 
 
-def _sensors() -> str:
+def _sensors_table() -> str:
     head = "| type | also called | on | systems of the world | publishes |"
-    return _table(head, [_sensor(kind) for kind in sensors().values()])
+    return _format_table(head, [_sensor_row(kind) for kind in sensors().values()])
 
 
-def _sensor(kind: SensorKind) -> str:
+def _sensor_row(kind: SensorKind) -> str:
     made = "; ".join(
         f"`{without_parentheses(each.pattern)}` {each.message} ({ros_message(each.message) or 'no ROS message'})"
         for each in kind.publishes
     )
     return (
-        f"| `{kind.type}`{_since(kind.releases)} | {', '.join(kind.aliases)} | {', '.join(kind.holders)} | "
+        f"| `{kind.type}`{_describe_releases(kind.releases)} | {', '.join(kind.aliases)} | {', '.join(kind.holders)} | "
         f"{', '.join((*kind.systems, *kind.world_elements))} | {made} |"
     )
 
 
-def _settings(type_: str) -> str:
-    """The options that `add-sensor` has for a kind of sensor."""
+def _settings_section(type_: str) -> str:
+    """The options of `add-sensor` for a kind of sensor."""
     settings = settings_of(type_)
     rows = [f"| `{option}` | {each.default or 'not set'} | {each.text} |" for option, each in settings.values.items()]
     rows += [
@@ -64,29 +64,29 @@ def _settings(type_: str) -> str:
         f"`add-sensor{{type={type_}}}`: called `{settings.name}`, {settings.rate:g} Hz.",
         "",
     ]
-    return "\n".join([*lines, _table("| option | where it is not given | |", rows)] if rows else lines)
+    return "\n".join([*lines, _format_table("| option | where it is not given | |", rows)] if rows else lines)
 
 
-def _system(kind: PluginKind) -> str:
+def _system_section(kind: PluginKind) -> str:
     lines = [
         f"## system {kind.name}",
         "",
-        f"`{kind.file}`, `{kind.class_name}`, in a {' or '.join(kind.scopes)}{_since(kind.releases)}.",
+        f"`{kind.file}`, `{kind.class_name}`, in a {' or '.join(kind.scopes)}{_describe_releases(kind.releases)}.",
         "",
     ]
-    rows = [_row(option, path, row, kind) for option, (path, row) in _families(kind)]
+    rows = [_option_row(option, path, row, kind) for option, (path, row) in _option_families(kind)]
     if rows:
-        lines.append(_table("| option | parameter | type | default | |", rows))
+        lines.append(_format_table("| option | parameter | type | default | |", rows))
     for channel in kind.channels:
         verb = "reads" if channel.direction == ">" else "writes"
         renamed = f", or `{channel.parameter}`" if channel.parameter else ""
-        since = _since(channel.releases & kind.releases, kind.releases)
+        since = _describe_releases(channel.releases & kind.releases, kind.releases)
         lines.append(f"It {verb} {channel.message} on `{without_parentheses(channel.pattern)}`{renamed}{since}.\n")
     return "\n".join(lines)
 
 
-def _families(kind: PluginKind) -> Iterator[tuple[str, tuple[tuple[str, ...], PluginParameter]]]:
-    """The options; of a family of names only the first."""
+def _option_families(kind: PluginKind) -> Iterator[tuple[str, tuple[tuple[str, ...], PluginParameter]]]:
+    """The options, of a family of names only the first."""
     seen: set[str] = set()
     for option, (path, row) in options_of(kind).items():
         if row.name not in seen or "[" not in row.name:
@@ -94,25 +94,29 @@ def _families(kind: PluginKind) -> Iterator[tuple[str, tuple[tuple[str, ...], Pl
         seen.add(row.name)
 
 
-def _row(option: str, path: tuple[str, ...], row: PluginParameter, kind: PluginKind) -> str:
+def _option_row(option: str, path: tuple[str, ...], row: PluginParameter, kind: PluginKind) -> str:
     shown = "/".join((*path[:-1], row.name))
     choices = f": {', '.join(row.choices)}" if row.choices else ""
     default = f"`{row.default}`" if row.default is not None else ""
     unit = f", {' or '.join(row.unit.split('|'))}" if row.unit else ""
-    remarks = [_TIMES[row.count], _needed(row), _since(row.releases & kind.releases, kind.releases).strip(" ()")]
+    remarks = [
+        _TIMES[row.count],
+        _describe_needed(row),
+        _describe_releases(row.releases & kind.releases, kind.releases).strip(" ()"),
+    ]
     more = ", ".join(filter(None, remarks))
     dots = ", ..." if "[" in row.name else ""
     return f"| `{option}`{dots} | `{shown}` | {row.type}{choices}{unit} | {default} | {more} |"
 
 
-def _needed(row: PluginParameter) -> str:
-    """The releases that do not work without."""
+def _describe_needed(row: PluginParameter) -> str:
+    """The releases that do not work without a parameter."""
     listed = ", ".join(each for each in releases() if each in row.needed)
     return f"needed in {listed}" if listed else ""
 
 
-def _since(mine: Iterable[str], all_: Iterable[str] | None = None) -> str:
-    """The releases that have it, where not all have."""
+def _describe_releases(mine: Iterable[str], all_: Iterable[str] | None = None) -> str:
+    """The releases that have something, in parentheses; empty if all of them do."""
     names, everything = set(mine), list(releases())
     wanted = [each for each in everything if each in names]
     if wanted == [each for each in everything if all_ is None or each in set(all_)]:
@@ -120,7 +124,7 @@ def _since(mine: Iterable[str], all_: Iterable[str] | None = None) -> str:
     return f" ({', '.join(wanted) or 'the development branch'})"
 
 
-def _table(head: str, rows: list[str]) -> str:
+def _format_table(head: str, rows: list[str]) -> str:
     return "\n".join([head, "|" + "---|" * (head.count("|") - 1), *rows]) + "\n"
 
 

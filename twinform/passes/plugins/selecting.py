@@ -16,66 +16,66 @@ Fields = Mapping[str, tuple[Any, Any]]
 
 
 class SelectingPass(Pass):
-    """A pass with one option, the `selector`, that decides which others there are.
+    """A pass with one option, the `selector`, that decides which other options there are.
 
-    A pass that is made is of a class of its own, which has the options of what was selected: so they are typed,
-    validated and printed as those of any other pass.
+    Every instance is of a class that is made with the options of its selection, so that these are typed, validated and
+    printed like the options of other passes.
     """
 
     selector: ClassVar[str]
     selected: ClassVar[bool] = False
     origin: ClassVar[Any] = None
-    """The class that one with options of what is selected was made of."""
+    """The class that a class with the options of a selection was made from."""
 
     @classmethod
     @abstractmethod
     def fields_for(cls, word: str) -> Fields:
-        """The options besides those of the class, for the value of the selector.
+        """The additional options for a value of the selector.
 
         Raises:
             UnknownNameError: there is nothing of this name.
         """
 
     def __new__(cls, **options: object) -> Self:
-        """A pass of the class that has the options of what is selected."""
-        return super().__new__(_class_of(cls, options))
+        """An instance of the class with the options of the selection."""
+        return super().__new__(_selected_class(cls, options))
 
     @classmethod
     def model_validate(cls, obj: Any, **how: Any) -> Self:
-        """A pass with the options of what is selected.
+        """The pass with the options of the selection.
 
         Raises:
             ValidationError: there is no such thing, or it has no such option or value.
         """
         if not cls.selected and isinstance(obj, Mapping):
-            made = _class_of(cls, cast("Mapping[str, object]", obj))
+            made = _selected_class(cls, cast("Mapping[str, object]", obj))
             if made is not cls:
                 return made.model_validate(obj, **how)
         return super().model_validate(obj, **how)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """A class that was made cannot be found again by name; the one that it was made of can, and makes it again."""
+        """Pickle by the original class: a class that was made cannot be found by name."""
         return self.origin.model_validate, (self.model_dump(by_alias=True, exclude_defaults=True),)
 
 
 P = Any
-"""A class of passes; type variables cannot express that a subclass is made of it."""
+"""A class of passes; a type variable cannot express that a subclass is made of it."""
 
 
-def _class_of(cls: P, options: Mapping[str, object]) -> P:
+def _selected_class(cls: P, options: Mapping[str, object]) -> P:
     word = options.get(cls.selector)
     if cls.selected or not isinstance(word, str):
         return cls
     try:
         made = _make_class(cls, word)
     except UnknownNameError as error:
-        raise _error(cls.name, cls.selector, str(error), word) from error
+        raise _option_error(cls.name, cls.selector, str(error), word) from error
     known = {field.alias or key for key, field in made.model_fields.items()}
     for option, value in options.items():
         if option.replace("_", "-") not in known:
             near = nearest(option, sorted(known))
             hint = f"did you mean {near}?" if near else f"it has {', '.join(sorted(known))}"
-            raise _error(cls.name, option, f"{word} has no such option; {hint}", value)
+            raise _option_error(cls.name, option, f"{word} has no such option; {hint}", value)
     return made
 
 
@@ -88,7 +88,7 @@ def _make_class(cls: P, word: str) -> P:
     return made
 
 
-def _error(title: str, option: str, message: str, value: object) -> ValidationError:
+def _option_error(title: str, option: str, message: str, value: object) -> ValidationError:
     complaint = PydanticCustomError("selected_option", "{message}", {"message": message})
     details = InitErrorDetails(type=complaint, loc=(option,), input=value)
     return ValidationError.from_exception_data(title, [details])

@@ -28,7 +28,7 @@ _STDDEV = Annotated[float | None, Field(ge=0, allow_inf_nan=False)]
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """A value below a sensor's element; nothing is written for an empty one."""
+    """A value below the element of a sensor; an empty value is not written."""
 
     path: str
     type: str
@@ -38,7 +38,7 @@ class Setting:
 
 @dataclass(frozen=True, slots=True)
 class NoiseSetting:
-    """The standard deviation of a Gaussian noise on some quantities, and what is usual for it."""
+    """The standard deviation of Gaussian noise on some quantities, with its typical value."""
 
     paths: tuple[str, ...]
     typical: float
@@ -47,7 +47,7 @@ class NoiseSetting:
 
 @dataclass(frozen=True, slots=True)
 class SensorSettings:
-    """What `add-sensor` knows of a kind of sensor: its name and rate in Hz, and the options that it has."""
+    """What `add-sensor` knows about a kind of sensor: its usual name and rate in Hz, and its options."""
 
     name: str
     rate: float
@@ -57,13 +57,13 @@ class SensorSettings:
 
 @cache
 def settings_of(type_: str) -> SensorSettings:
-    """The settings of a kind of sensor, by any of its names; one that cannot be added has none.
+    """The settings of a kind of sensor, by any of its names; empty for a kind that cannot be added.
 
     Raises:
         UnknownNameError: gz-sim simulates none of this type.
     """
     kind = sensor(type_)
-    row = _table().get(kind.type, {})
+    row = _settings_table().get(kind.type, {})
     return SensorSettings(
         name=row.get("name", kind.type),
         rate=row.get("rate", 0),
@@ -74,17 +74,17 @@ def settings_of(type_: str) -> SensorSettings:
 
 def addable() -> tuple[str, ...]:
     """The kinds of sensors that can be added."""
-    return tuple(type_ for type_ in sensors() if type_ in _table())
+    return tuple(type_ for type_ in sensors() if type_ in _settings_table())
 
 
 @cache
-def _table() -> dict[str, Any]:
+def _settings_table() -> dict[str, Any]:
     file = resources.files("twinform.passes.plugins").joinpath("data", "sensor_settings.toml")
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
 
-def fields_of(type_: str) -> Iterator[tuple[str, tuple[Any, Any]]]:
-    """The options of a kind of sensor with their types and fields, for a model of Pydantic."""
+def setting_fields(type_: str) -> Iterator[tuple[str, tuple[Any, Any]]]:
+    """The options of a kind of sensor with their types and fields, for a Pydantic model."""
     settings = settings_of(type_)
     for option, each in settings.values.items():
         yield option, (_TYPES[each.type], Field(default=each.default, description=each.text))
@@ -97,26 +97,26 @@ def fields_of(type_: str) -> Iterator[tuple[str, tuple[Any, Any]]]:
         yield option, (_STDDEV, optional)
 
 
-def element_of(type_: str, values: Mapping[str, object]) -> Element | None:
-    """The element with the parameters of a sensor; None where there is nothing to say."""
+def settings_element(type_: str, values: Mapping[str, object]) -> Element | None:
+    """The element with the parameters of a sensor; None if it would be empty."""
     kind, settings = sensor(type_), settings_of(type_)
     root = etree.Element(kind.element)
     for option, setting in settings.values.items():
         value = values.get(option, setting.default)
         if value != "":
-            _at(root, setting.path).text = format_value(value)
+            _find_or_make(root, setting.path).text = format_value(value)
     for option, noise in settings.noises.items():
         stddev = values.get(option)
         if stddev is None and values.get("noise") == "typical":
             stddev = noise.typical
         if stddev is not None:
             for path in noise.paths:
-                _write_noise(root, path, stddev, as_element=_noise_is_its_own(kind.element))
+                _write_noise(root, path, stddev, as_element=_has_one_noise(kind.element))
     return from_xml(root) if len(root) else None
 
 
-def _noise_is_its_own(element: str) -> bool:
-    """Whether a sensor's element has one noise, with its type in an element; of others each quantity has one."""
+def _has_one_noise(element: str) -> bool:
+    """Whether the element of a sensor has a single `<noise>` with a type element, and not one for each quantity."""
     facts = table("sdf")
     rows = [row for row in facts.definitions["sensor"].children if row.name == element]
     return any(
@@ -125,8 +125,8 @@ def _noise_is_its_own(element: str) -> bool:
 
 
 def _write_noise(root: XmlElement, path: str, stddev: object, *, as_element: bool) -> None:
-    """Gaussian noise without bias; `path` is that of the quantity, or of the noise itself."""
-    noise = _at(root, path if as_element else f"{path}/noise")
+    """Write Gaussian noise without bias; `path` is that of the quantity, or of the noise itself."""
+    noise = _find_or_make(root, path if as_element else f"{path}/noise")
     if as_element:
         etree.SubElement(noise, "type").text = "gaussian"
     else:
@@ -135,7 +135,7 @@ def _write_noise(root: XmlElement, path: str, stddev: object, *, as_element: boo
     etree.SubElement(noise, "stddev").text = format_value(stddev)
 
 
-def _at(element: XmlElement, path: str) -> XmlElement:
+def _find_or_make(element: XmlElement, path: str) -> XmlElement:
     for step in path.split("/"):
         found = element.find(step)
         element = found if found is not None else etree.SubElement(element, step)

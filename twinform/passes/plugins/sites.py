@@ -1,13 +1,16 @@
 """All plugins and sensors of a document, in URDF or SDF, with their locations.
 
-In SDF they are nodes of worlds, models, includes, links, joints, sensors and visuals; those of actors and of the GUI
-stand in elements without a typed form. In URDF they are elements in `<gazebo>`. A pass need not know which.
+In SDF they are nodes of worlds, models, includes, links, joints, sensors and visuals, except those of actors and the
+GUI, which are untyped elements. In URDF they are elements in `<gazebo>`. A pass does not need to know the difference.
 """
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
+from lxml import etree
+
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import (
     Document,
     Element,
@@ -25,21 +28,23 @@ from twinform.ir import (
     replace_fields,
 )
 from twinform.ir.tree_walks import node_fields
-from twinform.passes.plugins.elements import plugin_element, plugin_of, sensor_element, sensor_of
+from twinform.passes.carriers.carriers import to_element
+from twinform.schemas import Context, element_xml, reader, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-
 # Where a plugin of Gazebo may stand. The <plugin> in <hardware> of a <ros2_control> is one of
 # ros2_control.
 _SCOPES = frozenset({"world", "model", "include", "link", "joint", "sensor", "visual", "projector", "actor", "gui"})
+_LEAVES = frozenset({"plugins", "sensors"})
+"""Fields whose nodes are plugins or sensors."""
+_PLUGIN_ATTRIBUTES = frozenset({"name", "filename"})
 
 
 @dataclass(frozen=True, slots=True)
 class PluginSite:
     """Where a plugin or sensor stands: in a `scope` (`model`, `link`, `sensor`, ...) called `holder`.
 
-    `models` are those around it, the innermost last; `link_or_joint` is the name of the one around it. What is
-    included may be a model or an actor.
+    `models` are those around it, the innermost last; `link_or_joint` is the name of the link or joint around it.
     """
 
     scope: str = ""
@@ -53,29 +58,26 @@ class PluginSite:
 
     @property
     def model(self) -> Model | None:
-        """The model that it belongs to."""
+        """The innermost model around it."""
         return self.models[-1] if self.models else None
 
-
-_LEAVES = frozenset({"plugins", "sensors"})
-"""Fields whose nodes are what is looked for."""
 
 PluginChange = Callable[[Plugin, PluginSite], Iterable[Plugin]]
 SensorChange = Callable[[Sensor, PluginSite], Iterable[Sensor]]
 
 
 def map_plugins(document: Document, change: PluginChange) -> Document:
-    """The document with each plugin replaced by those that `change` makes of it; the same one where nothing changes."""
+    """The document with each plugin replaced by the results of `change`; the same document if nothing changes."""
     return _Walk(plugin=change).node(document, PluginSite())
 
 
 def map_sensors(document: Document, change: SensorChange) -> Document:
-    """The document with each sensor of a link or joint replaced by those that `change` makes of it."""
+    """The document with each sensor of a link or joint replaced by the results of `change`."""
     return _Walk(sensor=change).node(document, PluginSite())
 
 
 def plugins_of(document: Document) -> list[tuple[Plugin, PluginSite]]:
-    """Every plugin with its place, from the outside in."""
+    """Every plugin with its site, outer ones first."""
     found: list[tuple[Plugin, PluginSite]] = []
 
     def see(plugin: Plugin, site: PluginSite) -> Iterable[Plugin]:
@@ -87,7 +89,7 @@ def plugins_of(document: Document) -> list[tuple[Plugin, PluginSite]]:
 
 
 def sensors_of(document: Document) -> list[tuple[Sensor, PluginSite]]:
-    """Every sensor of a link or joint with its place."""
+    """Every sensor of a link or joint, with its site."""
     found: list[tuple[Sensor, PluginSite]] = []
 
     def see(sensor: Sensor, site: PluginSite) -> Iterable[Sensor]:
@@ -96,38 +98,6 @@ def sensors_of(document: Document) -> list[tuple[Sensor, PluginSite]]:
 
     map_sensors(document, see)
     return found
-
-
-def _site_in(node: Node, site: PluginSite) -> PluginSite:
-    """The place of what stands directly in a node."""
-    match node:
-        case World():
-            return PluginSite("world", node.name, node)
-        case Model():
-            return replace(site, scope="model", holder=node.name, models=(*site.models, node))
-        case Include():
-            return replace(site, scope="model", holder=node.name or "", included=True)
-        case Link():
-            return replace(site, scope="link", holder=node.name, link_or_joint=node.name)
-        case Joint():
-            return replace(site, scope="joint", holder=node.name, link_or_joint=node.name)
-        case Sensor():
-            return replace(site, scope="sensor", holder=node.name or "", sensor=node)
-        case Visual():
-            return replace(site, scope="visual", holder=node.name or "")
-        case GazeboExtension():
-            return _site_of_reference(node, site)
-        case _:
-            return site
-
-
-def _site_of_reference(extension: GazeboExtension, site: PluginSite) -> PluginSite:
-    name, model = extension.reference, site.model
-    if not name or model is None:
-        return site
-    # A link and a joint may have one name: then the reference means the link.
-    is_joint = all(link.name != name for link in model.links) and any(joint.name == name for joint in model.joints)
-    return replace(site, scope="joint" if is_joint else "link", holder=name, link_or_joint=name)
 
 
 class _Walk:
@@ -139,7 +109,7 @@ class _Walk:
 
     def node(self, node: AnyNode, site: PluginSite) -> AnyNode:
         """The node with what is in it changed. Models may be nested deeply, so there is one call for each level."""
-        site = _site_in(node, site)
+        site = _enter_node(node, site)
         update: dict[str, Any] = {}
         for field in node_fields(type(node)):
             old = getattr(node, field)
@@ -157,8 +127,8 @@ class _Walk:
 
     def _leaves(self, field: str, old: Any, site: PluginSite) -> Any:
         if field == "plugins":
-            return _replaced(old, lambda plugin: self._plugins(plugin, site))
-        return _replaced(old, lambda sensor: self._sensors(sensor, site))
+            return _flat_map(old, lambda plugin: self._plugins(plugin, site))
+        return _flat_map(old, lambda sensor: self._sensors(sensor, site))
 
     def _plugins(self, plugin: Plugin, site: PluginSite) -> Iterable[Plugin]:
         return self._plugin(plugin, site) if self._plugin else (plugin,)
@@ -167,7 +137,7 @@ class _Walk:
         return self._sensor(sensor, site) if self._sensor else (self.node(sensor, site),)
 
     def _opaque(self, parts: tuple[Opaque, ...], site: PluginSite) -> tuple[Opaque, ...]:
-        return _replaced(parts, lambda part: self._part(part, site))
+        return _flat_map(parts, lambda part: self._part(part, site))
 
     def _part(self, part: Opaque, site: PluginSite) -> Iterable[Opaque]:
         element = part.element
@@ -183,7 +153,7 @@ class _Walk:
         return tuple(part.copy(element=each) for each in made)
 
     def _elements(self, elements: tuple[Element, ...], site: PluginSite) -> tuple[Element, ...]:
-        return _replaced(elements, lambda element: self._element(element, site))
+        return _flat_map(elements, lambda element: self._element(element, site))
 
     def _element(self, element: Element, site: PluginSite) -> Iterable[Element]:
         if element.name == "plugin" and site.scope in _SCOPES:
@@ -210,9 +180,84 @@ class _Walk:
         return [element if each is sensor else sensor_element(each) for each in self._sensor(sensor, site)]
 
 
-One = TypeVar("One")
+Item = TypeVar("Item")
 
 
-def _replaced(old: tuple[One, ...], change: Callable[[One], Iterable[One]]) -> tuple[One, ...]:
-    """What becomes of each, in a row."""
+def _flat_map(old: tuple[Item, ...], change: Callable[[Item], Iterable[Item]]) -> tuple[Item, ...]:
+    """The results of a function for each item, in one tuple."""
     return tuple([new for each in old for new in change(each)])
+
+
+def _enter_node(node: Node, site: PluginSite) -> PluginSite:
+    """The site of what stands directly in a node."""
+    match node:
+        case World():
+            return PluginSite("world", node.name, node)
+        case Model():
+            return replace(site, scope="model", holder=node.name, models=(*site.models, node))
+        case Include():
+            return replace(site, scope="model", holder=node.name or "", included=True)
+        case Link():
+            return replace(site, scope="link", holder=node.name, link_or_joint=node.name)
+        case Joint():
+            return replace(site, scope="joint", holder=node.name, link_or_joint=node.name)
+        case Sensor():
+            return replace(site, scope="sensor", holder=node.name or "", sensor=node)
+        case Visual():
+            return replace(site, scope="visual", holder=node.name or "")
+        case GazeboExtension():
+            return _enter_reference(node, site)
+        case _:
+            return site
+
+
+def _enter_reference(extension: GazeboExtension, site: PluginSite) -> PluginSite:
+    name, model = extension.reference, site.model
+    if not name or model is None:
+        return site
+    # A link and a joint may have one name: then the reference means the link.
+    is_joint = all(link.name != name for link in model.links) and any(joint.name == name for joint in model.joints)
+    return replace(site, scope="joint" if is_joint else "link", holder=name, link_or_joint=name)
+
+
+def plugin_of(element: Element) -> Plugin:
+    """The plugin in an untyped element."""
+    others = tuple(Opaque(attribute=each) for each in element.attributes if each[0] not in _PLUGIN_ATTRIBUTES)
+    return Plugin(
+        name=element.get("name"),
+        filename=element.get("filename"),
+        text=element.text,
+        content=element.children,
+        opaque=others,
+        source=element.source,
+    )
+
+
+def plugin_element(plugin: Plugin) -> Element:
+    """A plugin as an untyped element; the elements in it keep their order."""
+    written = [
+        (name, value) for name, value in (("name", plugin.name), ("filename", plugin.filename)) if value is not None
+    ]
+    others = [part.attribute for part in plugin.opaque if part.attribute]
+    inside = tuple(part.element for part in plugin.opaque if part.element)
+    return Element(
+        name="plugin",
+        attributes=(*written, *others),
+        text=plugin.text,
+        children=(*plugin.content, *inside),
+        source=plugin.source,
+    )
+
+
+def sensor_of(element: Element) -> Sensor | None:
+    """The sensor in an untyped element; None if it has an error, which the check of the file reports."""
+    found = DiagnosticSink(file=element.source.file if element.source else "")
+    context = Context(found, found.file, "sdf", table("sdf").newest, declared=False)
+    xml = element_xml(element, etree.Element("link", {"name": ""}))
+    data: dict[str, Any] = reader("sdf", context.version).read(xml, context, "sensor", Sensor, element.source)
+    return None if found.has_errors else Sensor.unchecked(**data)
+
+
+def sensor_element(sensor: Sensor) -> Element:
+    """A sensor as an untyped element."""
+    return to_element(sensor, "sensor", "sdf").copy(source=sensor.source)

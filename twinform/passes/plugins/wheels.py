@@ -18,14 +18,14 @@ _PARALLEL = 0.999
 
 
 class NotMeasuredError(Exception):
-    """The model does not have what was asked for; the message has the reason."""
+    """Something cannot be measured on the model; the message has the reason."""
 
 
 @dataclass(frozen=True, slots=True)
 class Wheel:
-    """A wheel: the origin of its joint, the middle of its shape, the direction of its axle, and its radius.
+    """A wheel: the origin of its joint, the center of its shape, the direction of its axle, and its radius.
 
-    Where no shape gives the radius it is None, and the middle is the origin.
+    If no shape gives a radius, the radius is None and the center is the origin.
     """
 
     origin: Vector3
@@ -46,8 +46,8 @@ def wheel(model: Model, joint_name: str, format_: Format) -> Wheel:
     try:
         graph = FrameGraph(model)
         place = graph.pose(joint.name, MODEL, kind="joint", base="model")
-        axle = _axle(graph, joint, place, format_)
-        rims = _rims(model, graph, _rigid(model, joint.child), axle)
+        axle = _find_axle(graph, joint, place, format_)
+        rims = _find_rims(model, graph, _rigid_links(model, joint.child), axle)
     except FrameError as error:
         raise NotMeasuredError(error.message) from error
     if not rims:
@@ -59,7 +59,7 @@ def wheel(model: Model, joint_name: str, format_: Format) -> Wheel:
 
 
 def radius_of(wheels: Iterable[Wheel]) -> float:
-    """The one radius of wheels.
+    """The common radius of wheels.
 
     Raises:
         NotMeasuredError: a wheel has no round shape, or they differ.
@@ -77,7 +77,7 @@ def radius_of(wheels: Iterable[Wheel]) -> float:
 
 
 def separation_of(left: Sequence[Wheel], right: Sequence[Wheel]) -> float:
-    """How far the wheels of one side are from those of the other, along the axle.
+    """The distance between the wheels of the two sides, along the axle.
 
     Raises:
         NotMeasuredError: the axles do not point the same way, or nothing lies between the sides.
@@ -87,23 +87,27 @@ def separation_of(left: Sequence[Wheel], right: Sequence[Wheel]) -> float:
     # differential drives of the corpus with their joints in the file, 28 have the numbers measured
     # so; the 29th, in gz-sim's tunnel.sdf, has those of another vehicle.
     axle = _common_axle([*left, *right])
-    distance = abs(_mean([each.center for each in left], axle) - _mean([each.center for each in right], axle))
-    return _more_than_nothing(distance, "the wheels of both sides are at the same place along the axle")
+    distance = abs(
+        _mean_along([each.center for each in left], axle) - _mean_along([each.center for each in right], axle)
+    )
+    return _require_distance(distance, "the wheels of both sides are at the same place along the axle")
 
 
 def wheelbase_of(front: Sequence[Wheel], rear: Sequence[Wheel], across: Sequence[Wheel]) -> float:
-    """How far the front axle is from the rear one, along the ground and at right angles to the axle of `across`.
+    """The distance between the front and the rear axle, on the ground and at right angles to the axle of `across`.
 
     Raises:
         NotMeasuredError: the axles do not point the same way, or are one.
     """
     axle = _common_axle(across)
-    forward = _unit(cross(axle, (0.0, 0.0, 1.0)))
-    distance = abs(_mean([each.origin for each in front], forward) - _mean([each.origin for each in rear], forward))
-    return _more_than_nothing(distance, "the front and rear wheels are at the same place along the way")
+    forward = _normalize(cross(axle, (0.0, 0.0, 1.0)))
+    distance = abs(
+        _mean_along([each.origin for each in front], forward) - _mean_along([each.origin for each in rear], forward)
+    )
+    return _require_distance(distance, "the front and rear wheels are at the same place along the way")
 
 
-def _more_than_nothing(distance: float, otherwise: str) -> float:
+def _require_distance(distance: float, otherwise: str) -> float:
     if not (math.isfinite(distance) and distance > 1e-9):
         raise NotMeasuredError(otherwise)
     # Nanometers: composing poses leaves 0.30000000000000004 where the author meant 0.3.
@@ -117,22 +121,22 @@ def _common_axle(wheels: Sequence[Wheel]) -> Vector3:
     return axle
 
 
-def _mean(points: Sequence[Vector3], direction: Vector3) -> float:
+def _mean_along(points: Sequence[Vector3], direction: Vector3) -> float:
     return sum(dot(each, direction) for each in points) / len(points)
 
 
-def _axle(graph: FrameGraph, joint: Joint, place: Transform, format_: Format) -> Vector3:
+def _find_axle(graph: FrameGraph, joint: Joint, place: Transform, format_: Format) -> Vector3:
     axis = joint.axis
     frame = place
     if axis and axis.expressed_in:
         frame = graph.pose(axis.expressed_in, MODEL, kind="frame", base="model")
     elif axis and axis.use_parent_model_frame:
         frame = Transform()
-    return _unit(frame.rotate(direction(axis, format_)))
+    return _normalize(frame.rotate(direction(axis, format_)))
 
 
-def _rigid(model: Model, link: str) -> set[str]:
-    """The links that turn with a link: those below it on fixed joints."""
+def _rigid_links(model: Model, link: str) -> set[str]:
+    """The links that turn with a link: the link and those below it on fixed joints."""
     found = {link}
     below = {joint.child for joint in model.joints if joint.type == "fixed" and joint.parent == link} - found
     while below:
@@ -143,8 +147,8 @@ def _rigid(model: Model, link: str) -> set[str]:
     return found
 
 
-def _rims(model: Model, graph: FrameGraph, links: set[str], axle: Vector3) -> list[tuple[float, Vector3]]:
-    """Radius and middle of the round shapes that links touch with; of those that they show, where none is round."""
+def _find_rims(model: Model, graph: FrameGraph, links: set[str], axle: Vector3) -> list[tuple[float, Vector3]]:
+    """Radius and center of the round collisions of links; of the round visuals if no collision is round."""
     here = [link for link in model.links if link.name in links]
     # Collisions first, since they touch the ground. Visuals serve where the collisions are meshes.
     for field in ("collisions", "visuals"):
@@ -152,7 +156,7 @@ def _rims(model: Model, graph: FrameGraph, links: set[str], axle: Vector3) -> li
         for link in here:
             for part in getattr(link, field):
                 at = graph.resolve(part.pose, link.name, MODEL, base="model")
-                radius = _radius(part.geometry.shape if part.geometry else None, at, axle)
+                radius = _radius_about(part.geometry.shape if part.geometry else None, at, axle)
                 if radius is not None:
                     found.append((radius, at.translation))
         if found:
@@ -160,8 +164,8 @@ def _rims(model: Model, graph: FrameGraph, links: set[str], axle: Vector3) -> li
     return []
 
 
-def _radius(shape: Shape | None, at: Transform, axle: Vector3) -> float | None:
-    """The radius of a shape about an axle; None where it is not round about it."""
+def _radius_about(shape: Shape | None, at: Transform, axle: Vector3) -> float | None:
+    """The radius of a shape about an axle; None if it is not round about it."""
     # A sphere is round about any axle; a cylinder or capsule only where it lies along it. A
     # caster's cylinder that stands upright has no rolling radius.
     if isinstance(shape, Sphere):
@@ -172,7 +176,7 @@ def _radius(shape: Shape | None, at: Transform, axle: Vector3) -> float | None:
     return shape.radius if abs(dot(along, axle)) > _PARALLEL else None
 
 
-def _unit(vector: Vector3) -> Vector3:
+def _normalize(vector: Vector3) -> Vector3:
     length = math.hypot(*vector)
     if length == 0.0 or not math.isfinite(length):
         raise NotMeasuredError("the axle of a wheel has no direction, or stands upright")
@@ -181,19 +185,19 @@ def _unit(vector: Vector3) -> Vector3:
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """A model to measure; `names` are the joints or links that a parameter names, by its option."""
+    """A model to measure; `names` gives the joints or links that an option names."""
 
     model: Model
     format: Format
     names: Callable[[str], tuple[str, ...]]
 
     def __call__(self, parameter: str) -> tuple[Wheel, ...]:
-        """The wheels that the joints of a parameter turn."""
+        """The wheels on the joints that a parameter names."""
         return tuple(wheel(self.model, name, self.format) for name in self._named_parts(parameter))
 
     def middle(self, parameter: str) -> Vector3:
-        """The mean of the places of the links of a parameter."""
-        places = [_place(self.model, name) for name in self._named_parts(parameter)]
+        """The mean position of the links that a parameter names."""
+        places = [_link_position(self.model, name) for name in self._named_parts(parameter)]
         x, y, z = (sum(place[at] for place in places) / len(places) for at in range(3))
         return (x, y, z)
 
@@ -205,7 +209,7 @@ class Measured:
         return names
 
 
-def _place(model: Model, link: str) -> Vector3:
+def _link_position(model: Model, link: str) -> Vector3:
     try:
         return FrameGraph(model).pose(link, MODEL, base="model").translation
     except FrameError as error:
@@ -215,28 +219,28 @@ def _place(model: Model, link: str) -> Vector3:
 Measure = Callable[[Measured], float]
 
 
-def _sides(left: str, right: str) -> Measure:
+def _measure_separation(left: str, right: str) -> Measure:
     return lambda wheels: separation_of(wheels(left), wheels(right))
 
 
-def _radius_of(*joints: str) -> Measure:
+def _measure_radius(*joints: str) -> Measure:
     return lambda wheels: radius_of([wheel for each in joints for wheel in wheels(each)])
 
 
-def _tracks_apart(model: Measured) -> float:
-    """How far the tracks are from each other, across: a vehicle drives along x."""
+def _measure_tracks(model: Measured) -> float:
+    """The distance between the tracks along y, since a vehicle drives along x."""
     # Tracks are links without an axle, so the direction across is that of SDF's convention: x
     # forward, y left.
     left, right = model.middle("left_track_link"), model.middle("right_track_link")
-    return _more_than_nothing(abs(left[1] - right[1]), "the tracks of both sides are at the same place across")
+    return _require_distance(abs(left[1] - right[1]), "the tracks of both sides are at the same place across")
 
 
 _MECANUM = ("front_left_joint", "back_left_joint", "front_right_joint", "back_right_joint")
 
 MEASURES: dict[str, dict[str, Measure]] = {
     "diff-drive": {
-        "wheel_separation": _sides("left_joint", "right_joint"),
-        "wheel_radius": _radius_of("left_joint", "right_joint"),
+        "wheel_separation": _measure_separation("left_joint", "right_joint"),
+        "wheel_radius": _measure_radius("left_joint", "right_joint"),
     },
     "mecanum-drive": {
         "wheel_separation": lambda wheels: separation_of(
@@ -247,12 +251,12 @@ MEASURES: dict[str, dict[str, Measure]] = {
             (*wheels(_MECANUM[1]), *wheels(_MECANUM[3])),
             (*wheels(_MECANUM[0]), *wheels(_MECANUM[2])),
         ),
-        "wheel_radius": _radius_of(*_MECANUM),
+        "wheel_radius": _measure_radius(*_MECANUM),
     },
-    "tracked-vehicle": {"tracks_separation": _tracks_apart},
+    "tracked-vehicle": {"tracks_separation": _measure_tracks},
     "ackermann-steering": {
-        "wheel_separation": _sides("left_joint", "right_joint"),
-        "kingpin_width": lambda wheels: _distance(wheels("left_steering_joint"), wheels("right_steering_joint")),
+        "wheel_separation": _measure_separation("left_joint", "right_joint"),
+        "kingpin_width": lambda wheels: _ground_distance(wheels("left_steering_joint"), wheels("right_steering_joint")),
         "wheel_base": lambda wheels: wheelbase_of(
             (*wheels("left_steering_joint"), *wheels("right_steering_joint")),
             # With four driven wheels, two of them are the steered ones; the wheel base ends at the
@@ -260,18 +264,18 @@ MEASURES: dict[str, dict[str, Measure]] = {
             _rearmost(wheels("left_joint")) + _rearmost(wheels("right_joint")),
             wheels("left_joint"),
         ),
-        "wheel_radius": _radius_of("left_joint", "right_joint"),
+        "wheel_radius": _measure_radius("left_joint", "right_joint"),
     },
 }
 """What can be measured for each system, by parameter, from the wheels of its parameters for joints."""
 
 
 def _rearmost(wheels: tuple[Wheel, ...]) -> tuple[Wheel, ...]:
-    """The wheel at the end of the way that x points away from, of those that are driven on one side."""
+    """The wheel that is farthest back, against x, of the driven wheels of one side."""
     return (min(wheels, key=lambda each: each.origin[0]),)
 
 
-def _distance(left: Sequence[Wheel], right: Sequence[Wheel]) -> float:
-    """How far two upright axes are from each other along the ground."""
+def _ground_distance(left: Sequence[Wheel], right: Sequence[Wheel]) -> float:
+    """The distance between two upright axes on the ground."""
     dx, dy = (left[0].origin[at] - right[0].origin[at] for at in (0, 1))
-    return _more_than_nothing(math.hypot(dx, dy), "both steering joints are at the same place")
+    return _require_distance(math.hypot(dx, dy), "both steering joints are at the same place")

@@ -1,4 +1,4 @@
-"""World systems: those that a world has, and those that its sensors need."""
+"""World systems: those that a world has, and those that plugins and sensors need."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -15,7 +15,7 @@ from twinform.passes.plugins.catalog import (
 from twinform.passes.plugins.catalog_types import PluginKind, SensorKind
 from twinform.passes.plugins.sites import plugins_of
 
-_CUSTOM = "custom"
+_CUSTOM_TYPE = "custom"
 # Water up to a height of zero and air above, in kg/m^3. With one density everywhere, everything
 # would float away.
 _LAYERS = {"default_density": "1000", "above_depth": "0", "density": "1"}
@@ -23,56 +23,56 @@ _LAYERS = {"default_density": "1000", "above_depth": "0", "density": "1"}
 
 @dataclass(frozen=True, slots=True)
 class WorldRequirements:
-    """What a world has to have for a sensor."""
+    """What a sensor needs in the world."""
 
     systems: tuple[PluginKind, ...]
     elements: tuple[str, ...]
 
 
 def kind_of_sensor(node: Sensor, release: str) -> SensorKind | None:
-    """What a sensor is in a release; None where that release does not simulate such sensors."""
+    """The kind of a sensor; None if the release does not simulate it."""
     try:
-        found = custom_sensor(custom_type(node)) if node.type == _CUSTOM else sensor(node.type or "")
+        found = custom_sensor(custom_type(node)) if node.type == _CUSTOM_TYPE else sensor(node.type or "")
     except UnknownNameError:
         return None
     return found if found is not None and release in found.releases else None
 
 
 def custom_type(node: Sensor) -> str:
-    """The `gz:type` of a sensor, whatever its prefix stands for."""
+    """The `gz:type` of a sensor, with any prefix."""
     attributes = (part.attribute for part in node.opaque if part.attribute is not None and not part.at)
     return next((value for name, value in attributes if name.startswith("{") and name.endswith("}type")), "")
 
 
 def requirements_of(kind: SensorKind) -> WorldRequirements:
-    """What a world has to have for sensors of a kind."""
+    """What sensors of a kind need in the world."""
     return WorldRequirements(tuple(system(name) for name in kind.systems), kind.world_elements)
 
 
-def lacking_for(kind: PluginKind, world: World | None) -> PluginKind | None:
-    """The system that a world has to get for a plugin; None where it needs none, or the world has one that does."""
+def missing_system_for(kind: PluginKind, world: World | None) -> PluginKind | None:
+    """The system that a world lacks for a plugin; None if it needs none, or the world has one that will do."""
     choice = [system(name) for name in kind.needs]
     if not choice or (world is not None and any(has_system(world, each) for each in choice)):
         return None
     return choice[0]
 
 
-def needed_by_plugins(document: Document, world: World | None, release: str) -> Iterator[PluginKind]:
-    """The systems that the plugins of a document need in a world and that it does not have."""
+def systems_needed_by_plugins(document: Document, world: World | None, release: str) -> Iterator[PluginKind]:
+    """The systems that plugins of a document need and the world does not have."""
     for plugin, _ in plugins_of(document):
         for kind in systems_of_file(plugin.filename or ""):
-            needed = lacking_for(kind, world) if release in kind.releases else None
+            needed = missing_system_for(kind, world) if release in kind.releases else None
             if needed is not None:
                 yield needed
 
 
 def has_system(world: World, kind: PluginKind) -> bool:
-    """Whether a world has a system, by whatever spelling of its file."""
+    """Whether a world has a system, with any spelling of its file."""
     return any(kind in systems_of_file(plugin.filename or "") for plugin in world.plugins)
 
 
 def missing_defaults(plugins: Iterable[Plugin]) -> tuple[PluginKind, ...]:
-    """The systems that gz-sim would have added if there were no plugins."""
+    """The default systems of gz-sim that are not among the plugins."""
     # gz-sim adds its default systems only to a world without any plugin: the first explicit plugin
     # switches all of them off, physics included.
     has = {each.name for plugin in plugins for each in systems_of_file(plugin.filename or "")}
@@ -80,7 +80,7 @@ def missing_defaults(plugins: Iterable[Plugin]) -> tuple[PluginKind, ...]:
 
 
 def system_plugin(kind: PluginKind) -> Plugin:
-    """The plugin that is a system, with the parameters that nobody leaves out."""
+    """The plugin for a system, with the parameters that it should not be without."""
     # Buoyancy without parameters fills the whole world with water, and everything in it floats
     # away.
     content = {"sensors": (Element(name="render_engine", text="ogre2"),), "buoyancy": (_water_and_air(),)}
@@ -92,29 +92,29 @@ def _water_and_air() -> Element:
     return Element(name="graded_buoyancy", children=(density, Element(name="density_change", children=(depth, air))))
 
 
-def with_defaults(world: World, but: PluginKind | None = None) -> World:
-    """A world without any plugin with those that gz-sim adds only to such a world; `but` comes from elsewhere."""
+def add_default_systems(world: World, but: PluginKind | None = None) -> World:
+    """A world without plugins, with the default systems of gz-sim except `but`; any other world as it is."""
     if world.plugins:
         return world
     kinds = [kind for kind in missing_defaults(()) if kind is not but]
     return world.copy(plugins=tuple(map(system_plugin, kinds)))
 
 
-def with_systems(world: World, kinds: Iterable[PluginKind]) -> World:
-    """The world with systems that it lacks; the same one where it has them all."""
+def add_systems(world: World, kinds: Iterable[PluginKind]) -> World:
+    """The world with the systems that it lacks; the same world if it has all of them."""
     lacks = [kind for kind in dict.fromkeys(kinds) if not has_system(world, kind)]
     if not lacks:
         return world
-    world = with_defaults(world)
+    world = add_default_systems(world)
     more = [system_plugin(kind) for kind in lacks if not has_system(world, kind)]
     return world.copy(plugins=(*world.plugins, *more))
 
 
-def as_xml(kind: PluginKind) -> str:
-    """The line that adds a system to a world."""
+def system_xml(kind: PluginKind) -> str:
+    """The line of XML that adds a system to a world."""
     return f'<plugin filename="{kind.file}" name="{kind.class_name}"/>'
 
 
 def has_element(world: World, name: str) -> bool:
-    """Whether a world has an element without a typed form."""
+    """Whether a world has an untyped element of this name."""
     return any(part.element is not None and part.element.name == name and not part.at for part in world.opaque)

@@ -6,8 +6,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Element, Plugin, Sensor
 from twinform.passes.classic.migrate_sensors import SensorMigration
 from twinform.passes.plugins.catalog import release
-from twinform.passes.plugins.elements import sensor_of
-from twinform.passes.plugins.sites import PluginSite
+from twinform.passes.plugins.sites import PluginSite, sensor_of
 
 MINE = Plugin(name="mine", filename="libmine.so")
 DRIVER = Plugin(

@@ -3,12 +3,12 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from twinform.passes.plugins.yaml_text import quoted, yaml_text
+from twinform.passes.plugins.yaml_text import quote, yaml_text
 
 TEXTS = st.text(st.characters(exclude_categories=["Cs"])) | st.sampled_from(
     ["", "yes", "No", "null", "~", "1", "1e3", "0x1", "nan", ".inf", "a: b", "- a", "a #b", " a", "2001-01-01", "🤖"]
 )
-KEYS = TEXTS.filter(lambda key: len(quoted(key)) < 1000)
+KEYS = TEXTS.filter(lambda key: len(quote(key)) < 1000)
 SCALARS = TEXTS | st.booleans() | st.none() | st.integers() | st.floats(allow_nan=False, allow_infinity=False)
 VALUES = st.recursive(SCALARS, lambda inner: st.lists(inner) | st.dictionaries(KEYS, inner), max_leaves=12)
 
@@ -22,8 +22,8 @@ def test_what_is_written_is_read_back(value: dict[str, object]) -> None:
 
 @given(TEXTS)
 def test_quoted_text_is_text(text: str) -> None:
-    assert yaml.safe_load(quoted(text)) == text
-    assert quoted(text).isascii()
+    assert yaml.safe_load(quote(text)) == text
+    assert quote(text).isascii()
 
 
 def test_it_is_pleasant_to_read() -> None:

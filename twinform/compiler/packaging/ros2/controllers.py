@@ -9,7 +9,7 @@ from twinform.compiler.packaging.ros2.gazebo_control import runs_in_gazebo
 from twinform.compiler.packaging.ros2.systems import Component, System, systems_of
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Model
-from twinform.passes.plugins.base_link import base_link
+from twinform.passes.plugins.ground_clearance import base_link
 from twinform.passes.plugins.wheels import NotMeasuredError
 from twinform.passes.plugins.yaml_text import Value, yaml_text
 

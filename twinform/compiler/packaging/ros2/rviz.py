@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Mapping, Sequence
 
 from twinform.compiler.packaging.ros2.contents import PackageContents
-from twinform.passes.plugins.base_link import base_link
 from twinform.passes.plugins.bridge import Bridge
+from twinform.passes.plugins.ground_clearance import base_link
 from twinform.passes.plugins.yaml_text import Value, yaml_text
 
 _PLUGINS = "rviz_default_plugins"

@@ -9,9 +9,9 @@ from pydantic import Field
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Model, Sensor, rewrite
 from twinform.passes.framework.pass_base import Pass
+from twinform.passes.plugins.add_elements import add_own_frame, frames_of, is_placed, own_frame_name, set_frame_id
 from twinform.passes.plugins.catalog import release
 from twinform.passes.plugins.release_names import ReleaseName
-from twinform.passes.plugins.sensor_frames import frames_of, is_placed, named_frame, own_frame, with_own_frame
 from twinform.passes.plugins.sites import PluginSite, map_sensors, sensors_of
 from twinform.passes.plugins.world_systems import kind_of_sensor
 
@@ -38,15 +38,15 @@ class NameSensorFrames(Pass):
             link = site.link_or_joint
             if kind is None or site.scope != "link" or link is None or site.model is None or any(frames_of(sensor)):
                 return (sensor,)
-            own = own_frame(site.model, sensor, kind.type)
+            own = own_frame_name(site.model, sensor, kind.type)
             if own is not None:
                 own = f"{link}_{own}" if often[sensor.name] > 1 else own
                 added[site.model.name].append((own, sensor, kind.type, link))
-            return (named_frame(sensor, own or link, self.release),)
+            return (set_frame_id(sensor, own or link, self.release),)
 
         def with_frames(model: Model) -> Model:
             for own, sensor, type_, link in added.get(model.name, ()):
-                model = with_own_frame(model, own, sensor, type_, link, document.format)
+                model = add_own_frame(model, own, sensor, type_, link, document.format)
             return model
 
         named = map_sensors(document, change)

@@ -1,8 +1,14 @@
 """The notation of the tables of plugins: everything that a row can say, and where it goes."""
 
 from twinform.passes.plugins.catalog import LATEST, releases
-from twinform.passes.plugins.catalog_syntax import read_plugins
-from twinform.passes.plugins.catalog_types import Alternative, PluginKind, PluginParameter, Release, TopicChannel
+from twinform.passes.plugins.catalog_types import (
+    Alternative,
+    PluginKind,
+    PluginParameter,
+    Release,
+    TopicChannel,
+    read_plugins,
+)
 
 NAMES = ("old", "middle", "new", "main")
 EVER = frozenset(NAMES)

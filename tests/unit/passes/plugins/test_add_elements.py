@@ -7,7 +7,7 @@ import pytest
 import twinform
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Model, World
-from twinform.passes.plugins.pass_targets import find_model, find_world, world_of
+from twinform.passes.plugins.add_elements import find_model, find_world, world_of
 
 ONE = (
     '<sdf version="1.11">\n<model name="arm"><link name="l"/><model name="hand"><link name="l"/></model></model></sdf>'
