@@ -1,8 +1,9 @@
 """Did you mean: suggests the known name that is nearest to one that is not known, as the help of a finding."""
 
 import re
-from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections import Counter, defaultdict
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from functools import lru_cache
 from itertools import islice
 
 # The longest name that is compared: a longer one is no typing mistake.
@@ -17,9 +18,9 @@ _ALIKE = 0.6
 _ASKS = re.compile(r"did you mean (?P<quote>['\"]?)(?P<name>.+)(?P=quote)\?", re.DOTALL)
 
 
-def did_you_mean(name: str, known: Iterable[str | None]) -> str | None:
-    """Return the sentence that suggests a name; None if no name is near."""
-    near = nearest_name(name, known)
+def did_you_mean(name: str, known: Iterable[str | None], but: Collection[str | None] = ()) -> str | None:
+    """Return the sentence that suggests a known name, `but` none of these; None if no name is near."""
+    near = nearest_name(name, known, but=but)
     return f"did you mean {near!r}?" if near else None
 
 
@@ -29,24 +30,41 @@ def meant_name(sentence: str | None) -> str | None:
     return found["name"] if found else None
 
 
-def nearest_name(name: str, known: Iterable[str | None], alike: float = _ALIKE) -> str | None:
+def nearest_name(
+    name: str, known: Iterable[str | None], alike: float = _ALIKE, *, but: Collection[str | None] = ()
+) -> str | None:
     """Return the known name that was probably meant: capitals and separators count least, then letters.
 
-    `alike` is how much of the two has to be the same, from 0 to 1. The order of what is known does not matter.
+    `alike` is how much of the two has to be the same, from 0 to 1; names of `but` are not meant. The order of what is
+    known does not matter.
     """
     folded = _folded(name) if len(name) <= _LONGEST else ""
     others = list(islice(known, _MOST_KNOWN + 1))
     if not folded or len(others) > _MOST_KNOWN:
         return None
+    by_digits = _by_digits(frozenset(filter(None, others)))
+    digits = _digits(folded)  # joint_1 is not a typo of joint_2
+    groups = [by_digits.get(each, ()) for each in {"", digits}] if digits else by_digits.values()
     forms: dict[str, str] = {}
-    for each in sorted(each for each in others if each and each != name and _may_be(len(each), len(folded))):
-        forms.setdefault(_folded(each), each)
+    for other, form in sorted(pair for group in groups for pair in group):
+        if other != name and other not in but and _may_be(len(other), len(folded)):
+            forms.setdefault(form, other)
     if folded in forms:
         return forms[folded]
-    digits = _digits(folded)  # joint_1 is not a typo of joint_2
-    likely = (each for each in forms if not digits or _digits(each) in {"", digits})
-    near = _nearest(folded, islice(likely, _MOST_COMPARED), alike)
+    near = _nearest(folded, islice(forms, _MOST_COMPARED), alike)
     return forms[near] if near else None
+
+
+# A file with a thousand unknown names asks for each of them among the same known ones.
+@lru_cache(maxsize=4)
+def _by_digits(known: frozenset[str]) -> Mapping[str, Sequence[tuple[str, str]]]:
+    """Group known names, each with its folded form, by the digits in them."""
+    groups = defaultdict[str, list[tuple[str, str]]](list)
+    for each in known:
+        if len(each) <= _LONGEST:
+            form = _folded(each)
+            groups[_digits(form)].append((each, form))
+    return groups
 
 
 def _nearest(name: str, others: Iterable[str], alike: float) -> str:

@@ -4,6 +4,7 @@ Pure: from comments and their lines to suppressions, and from these and findings
 """
 
 import re
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -18,6 +19,8 @@ _WORDS = re.compile(
 )
 USAGE = "write 'twinform: allow RULE, RULE - reason', or 'allow-file' for all of the file; the reason may be left out"
 
+_FEW = 20
+"""An entry of fewer lines is found by its lines."""
 MOST = 1000
 """So many suppressions of a file count: every finding is held to all of them, and a hostile file has a million."""
 
@@ -50,10 +53,20 @@ class Suppressions:
     entries: tuple[Suppression, ...] = ()
     flaws: tuple[Flaw, ...] = ()
     used: set[tuple[int, str]] = field(default_factory=set[tuple[int, str]])
+    _by_line: dict[int, list[int]] = field(init=False)
+    """The places of the entries that cover a line; 0 stands for those of many lines."""
+
+    def __post_init__(self) -> None:
+        self._by_line = defaultdict(list)
+        for place, each in enumerate(self.entries):
+            is_short = each.last and each.last - each.first < _FEW
+            for line in range(each.first, each.last + 1) if is_short else (0,):
+                self._by_line[line].append(place)
 
     def covers(self, rule: str, line: int) -> bool:
         """Whether a comment allows a finding of this rule on this line."""
-        found = [(place, rule) for place, each in enumerate(self.entries) if each.covers(rule, line)]
+        near = (*self._by_line.get(0, ()), *(self._by_line.get(line, ()) if line else ()))
+        found = [(place, rule) for place in near if self.entries[place].covers(rule, line)]
         self.used.update(found)
         return bool(found)
 

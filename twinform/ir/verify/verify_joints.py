@@ -132,8 +132,7 @@ def verify_mimics(joints: Iterable[Joint], sink: DiagnosticSink) -> None:
             leaders[joint.name] = (mimic and mimic.joint) or ""
             continue
         message = f"joint {joint.name!r} mimics {mimic.joint!r}, {what}"
-        others = (each for each in known if each != joint.name)
-        hint = None if mimic.joint in known else did_you_mean(mimic.joint or "", others)
+        hint = None if mimic.joint in known else did_you_mean(mimic.joint or "", known, but=(joint.name,))
         sink.report(rules.UNKNOWN_LEADER, message, mimic.location, found=mimic.joint, help=hint)
     _report_circles(followers, leaders, sink)
 

@@ -1,6 +1,6 @@
 """Verifies names: there is one of each in its scope, and none that the format keeps for itself."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Literal
 
 from twinform.diagnostics import DiagnosticSink, Severity, rules
@@ -124,9 +124,9 @@ class VerifiedScope:
                 self._kinds.setdefault(include.name, "model")
         return unread
 
-    def names(self, *kinds: Found) -> Iterator[str]:
+    def names(self, *kinds: Found) -> Iterable[str]:
         """The names of these kinds, or of all, without those in nested models."""
-        return (name for name, kind in self._kinds.items() if not kinds or kind in kinds)
+        return (name for name, kind in self._kinds.items() if kind in kinds) if kinds else self._kinds
 
     def find(self, name: str) -> Found | None:
         """Return what a name stands for here; None for nothing."""

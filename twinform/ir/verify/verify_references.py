@@ -1,6 +1,6 @@
 """Verifies references of SDF by name: whether what is named is there, and is one thing only."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 
 from twinform.diagnostics import DiagnosticSink, Rule, Severity, did_you_mean, rules
 from twinform.ir.document import World
@@ -128,7 +128,7 @@ class References:
             self._look_up(rules.DANGLING_FRAME, f"there is no frame {name!r}", (node, step), name, (own,))
 
     def _look_up(
-        self, rule: Rule, message: str, part: tuple[Sourced, str], name: str, taken: Iterable[str | None] = ()
+        self, rule: Rule, message: str, part: tuple[Sourced, str], name: str, taken: Collection[str | None] = ()
     ) -> None:
         """Report a name that means nothing, or two things.
 
@@ -140,8 +140,8 @@ class References:
         node, step = part
         where = node.location.at(step)
         if found is None:
-            known = (each for each in self.scope.names() if each not in taken)
-            self.sink.report(rule, message, where, found=name, help=did_you_mean(name, known))
+            hint = did_you_mean(name, self.scope.names(), but=taken)
+            self.sink.report(rule, message, where, found=name, help=hint)
         else:
             message = f"{name!r} is the name of two things, so this reference is ambiguous"
             self.sink.report(rules.AMBIGUOUS_FRAME, message, where, found=name)

@@ -48,10 +48,8 @@ def _verify_joint(joint: Joint, links: set[str], sink: DiagnosticSink) -> None:
     for end, name in (("parent", joint.parent), ("child", joint.child)):
         if name is not None and name not in links:
             message = f"joint {joint.name!r} has the {end} {name!r}, but there is no such link"
-            others = (each for each in links if each not in {joint.parent, joint.child})
-            sink.report(
-                rules.DANGLING_LINK, message, joint.location.at(end), found=name, help=did_you_mean(name, others)
-            )
+            hint = did_you_mean(name, links, but=(joint.parent, joint.child))
+            sink.report(rules.DANGLING_LINK, message, joint.location.at(end), found=name, help=hint)
     verify_joint(joint, sink)
     for part in joint.opaque:
         if part.element and part.element.name == "dynamics" and not part.element.attributes:
