@@ -17,7 +17,7 @@ _SELDOM = (20_000, 20, 100)
 
 _TESTS = Path(__file__).parent
 _SLOW_ROOMS = frozenset(
-    {"batch", "browser", "corpus", "differential", "hostile", "oracles", "patterns", "portability", "ros2"}
+    {"batch", "browser", "corpus", "differential", "growth", "hostile", "oracles", "patterns", "portability", "ros2"}
 )
 """Folders whose tests are all slow: they start processes, browsers and engines, or read the whole corpus."""
 _QUICK = "not slow"

@@ -1,0 +1,1 @@
+"""How the work of commands grows with their files: documents of any size, and what is counted."""

@@ -1,0 +1,63 @@
+"""How much work a command does: the calls of functions, of Python and of C, which no other program disturbs."""
+
+from cProfile import Profile
+from math import log2
+from pathlib import Path
+
+from click.testing import CliRunner
+
+from testbed.growth.documents import GrowingDocument
+from twinform.cli import main
+
+SIZE = 150
+"""The smallest number of parts; twice and four times as many are tried as well."""
+COMMANDS = {
+    "check": ("check", "IN"),
+    "check --for": ("check", "--for", "gazebo", "IN"),
+    "check --fix": ("check", "--fix", "--diff", "IN"),
+    "convert": ("convert", "IN", "-o", "OUT"),
+    "convert to itself": ("convert", "IN", "-o", "SAME"),
+    "convert to JSON": ("convert", "IN", "--to", "json", "-o", "JSON"),
+    "diff": ("diff", "IN", "IN"),
+    "format": ("format", "--check", "IN"),
+    "stats": ("stats", "IN"),
+    "graph": ("graph", "IN"),
+    "advise": ("advise", "IN"),
+    "report": ("report", "IN", "-o", "REPORT"),
+}
+
+
+def growth(command: str, document: GrowingDocument, folder: Path, line_end: str = "\n") -> float:
+    """Return the exponent by which the work of a command grows when a document doubles: 1 is linear."""
+    _calls(command, document.format, _written(document, 1, folder, line_end))  # imports and caches
+    shorter, longer = (
+        _calls(command, document.format, _written(document, size, folder, line_end)) for size in (2 * SIZE, 4 * SIZE)
+    )
+    return log2(longer / shorter)
+
+
+def _written(document: GrowingDocument, size: int, folder: Path, line_end: str) -> Path:
+    path = folder / f"in{size}.{document.format}"
+    path.write_text(document.text(size, line_end), encoding="utf-8")
+    return path
+
+
+def _calls(command: str, format: str, path: Path) -> int:
+    other = "sdf" if format == "urdf" else "urdf"
+    places = {
+        "IN": path,
+        "OUT": path.with_name(f"out.{other}"),
+        "SAME": path.with_name(f"same.{format}"),
+        "JSON": path.with_name("out.json"),
+        "REPORT": path.with_name("report.md"),
+    }
+    arguments = [str(places.get(each, each)) for each in COMMANDS[command]]
+    profile = Profile()
+    profile.enable()
+    try:
+        result = CliRunner().invoke(main, arguments)
+    finally:
+        profile.disable()
+    if result.exception and not isinstance(result.exception, SystemExit):
+        raise result.exception
+    return sum(each.callcount for each in profile.getstats())

@@ -1,0 +1,1 @@
+"""Whether work grows in proportion to what a command is given."""

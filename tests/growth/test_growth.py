@@ -1,0 +1,35 @@
+"""The work of each command grows in proportion to its file, whatever the file has many of."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from testbed.growth.documents import GrowingDocument, growing_documents
+from testbed.growth.work import COMMANDS, growth
+from tests.profile import DEEP
+
+_STEEPEST = 1.15
+"""The largest exponent that still counts as linear; sorting, which takes the logarithm more, is below it."""
+_LINE_ENDS = {"on lines": "\n", "on one line": ""}
+
+
+def _tried() -> Iterator[tuple[GrowingDocument, str, str]]:
+    """Each document with `check` and one more command; the deep profile tries it with all, on lines and on one line."""
+    for number, document in enumerate(growing_documents()):
+        if DEEP:
+            yield from ((document, command, layout) for command in COMMANDS for layout in _LINE_ENDS)
+        else:
+            other = list(COMMANDS)[1:][number % (len(COMMANDS) - 1)]
+            yield from ((document, command, list(_LINE_ENDS)[number % 2]) for command in ("check", other))
+
+
+def _name(tried: tuple[GrowingDocument, str, str]) -> str:
+    document, command, layout = tried
+    return f"{command}: {document.format}, {document.name}, {layout}"
+
+
+@pytest.mark.parametrize("tried", _tried(), ids=_name)
+def test_work_is_linear(tried: tuple[GrowingDocument, str, str], tmp_path: Path):
+    document, command, layout = tried
+    assert growth(command, document, tmp_path, _LINE_ENDS[layout]) <= _STEEPEST
