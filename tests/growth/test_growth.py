@@ -29,7 +29,7 @@ def _name(tried: tuple[GrowingDocument, str, str]) -> str:
     return f"{command}: {document.format}, {document.name}, {layout}"
 
 
-@pytest.mark.parametrize("tried", _tried(), ids=_name)
+@pytest.mark.parametrize("tried", [*_tried()], ids=_name)
 def test_work_is_linear(tried: tuple[GrowingDocument, str, str], tmp_path: Path):
     document, command, layout = tried
     assert growth(command, document, tmp_path, _LINE_ENDS[layout]) <= _STEEPEST

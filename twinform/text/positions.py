@@ -48,6 +48,8 @@ class ElementSpan:
     end_tag: Span | None = None
     children: list["ElementSpan"] = field(default_factory=list["ElementSpan"])
     asides: list[Span] = field(default_factory=list[Span])
+    _places: dict[str, Span] | None = field(default=None, init=False, repr=False, compare=False)
+    """The first place of each text directly in it, once somebody has asked for one."""
 
     @property
     def whole(self) -> Span:
@@ -76,6 +78,16 @@ class ElementSpan:
             here = other.end
         if content.end > here:
             yield Span(here, content.end)
+
+    def find_text(self, wanted: str, text: str) -> Span | None:
+        """Find the first run of text directly in the element that is `wanted`, without the blanks around it."""
+        if self._places is None:
+            self._places = {}
+            for run in self.texts():
+                written = run.of(text)
+                start = run.start + len(written) - len(written.lstrip())
+                self._places.setdefault(written.strip(), Span(start, start + len(written.strip())))
+        return self._places.get(wanted)
 
     def walk(self) -> Iterator["ElementSpan"]:
         """Yield this element and all inside it in the order of their start tags, as `iter` of lxml does."""

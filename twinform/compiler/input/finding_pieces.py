@@ -4,7 +4,7 @@ The smallest piece is chosen that holds what was found; where none does without 
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from itertools import islice
 
 from twinform.diagnostics import Diagnostic, Rule, Span, nearest_name, rules
@@ -64,7 +64,7 @@ def piece(finding: Diagnostic, element: ElementSpan, text: str) -> Span:
         written = element.attributes.get(attribute)
         return _of_attribute(finding, written, text) if written else element.name
     if finding.rule is rules.STRAY_TEXT:
-        return next((span for span in _texts(element, text) if span.of(text) == finding.found), element.name)
+        return (finding.found and element.find_text(finding.found, text)) or element.name
     if finding.rule is rules.MISSING_ATTRIBUTE:
         return _misspelt(finding, element) or element.name
     if finding.rule in _NAMES:
@@ -175,15 +175,3 @@ def _own_text(element: ElementSpan, text: str) -> Span | None:
     start = element.content.start + len(written) - len(written.lstrip())
     end = element.content.start + len(written.rstrip())
     return Span(start, end) if start < end else None
-
-
-def _texts(element: ElementSpan, text: str) -> Iterator[Span]:
-    """The texts directly in an element, without blanks around them."""
-    for run in element.texts():
-        start, end = run
-        while start < end and text[start].isspace():
-            start += 1
-        while end > start and text[end - 1].isspace():
-            end -= 1
-        if start < end:
-            yield Span(start, end)
