@@ -54,6 +54,8 @@ class _Movable:
         return shortened(numbered)
 
 
+# The sliders are viser's own. `viser.extras.ViserUrdf` adds none, and reads URDF a second time, with yourdfpy; it knows
+# no SDF.
 @dataclass(slots=True)
 class JointControls:
     """Sliders of all joints of some figures."""

@@ -2,7 +2,7 @@
 
 import importlib
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -76,7 +76,7 @@ class Triangles:
 
 
 def triangles_of(shape: ShapeNode, meshes: MeshDrawings) -> Triangles:
-    """What is drawn of a shape; a box where it cannot be drawn."""
+    """Return the triangles of a shape; those of a small box if it cannot be drawn."""
     if isinstance(shape, Mesh):
         return _of_mesh(shape, meshes)
     make = _MAKERS.get(type(shape))
@@ -85,7 +85,7 @@ def triangles_of(shape: ShapeNode, meshes: MeshDrawings) -> Triangles:
     lengths = (shape.size or (1.0, 1.0)) if isinstance(shape, Plane) else sizes(shape)
     if not all(math.isfinite(each) and _SMALLEST < abs(each) < _LARGEST for each in lengths):
         return _stand_in("its size is zero, or not finite, or beyond what can be drawn")
-    made = make(shape, *map(abs, lengths))
+    made = make(shape, [abs(each) for each in lengths])
     return Triangles(np.asarray(made.vertices, dtype=np.float32), np.asarray(made.faces, dtype=np.uint32))
 
 
@@ -111,39 +111,8 @@ def _stand_in(problem: str) -> Triangles:
     return Triangles(np.asarray(made.vertices, np.float32), np.asarray(made.faces, np.uint32), None, problem)
 
 
-def _box(_: ShapeNode, x: float, y: float, z: float) -> Any:
-    return _edged(trimesh.creation.box((x, y, z)))
-
-
-def _cylinder(_: ShapeNode, radius: float, length: float) -> Any:
-    return _edged(trimesh.creation.cylinder(radius, length, sections=48))
-
-
-def _cone(_: ShapeNode, radius: float, length: float) -> Any:
-    made = trimesh.creation.cone(radius, length, sections=48)
-    # trimesh stands a cone on the origin; SDF centers it.
-    made.apply_translation((0, 0, -length / 2))
-    return _edged(made)
-
-
-def _capsule(_: ShapeNode, radius: float, length: float) -> Any:
-    made = trimesh.creation.capsule(length, radius, count=(24, 24))
-    made.apply_translation((0, 0, -made.bounds.mean(axis=0)[2]))
-    return made
-
-
-def _sphere(_: ShapeNode, radius: float) -> Any:
-    return trimesh.creation.icosphere(_ROUND, radius)
-
-
-def _ellipsoid(_: ShapeNode, x: float, y: float, z: float) -> Any:
-    made = trimesh.creation.icosphere(_ROUND, 1.0)
-    made.apply_scale((x, y, z))
-    return made
-
-
-def _plane(shape: ShapeNode, x: float, y: float) -> Any:
-    """A rectangle about the origin, as far as it is drawn; planes of worlds are larger."""
+def _make_plane(shape: ShapeNode, x: float, y: float) -> Any:
+    """Return a rectangle about the origin, of limited size: planes of worlds are larger."""
     half = min(x, _LARGEST_PLANE) / 2, min(y, _LARGEST_PLANE) / 2
     corners = [(-half[0], -half[1], 0), (half[0], -half[1], 0), (half[0], half[1], 0), (-half[0], half[1], 0)]
     made = trimesh.Trimesh(corners, [(0, 1, 2), (0, 2, 3)], process=False)
@@ -153,12 +122,22 @@ def _plane(shape: ShapeNode, x: float, y: float) -> Any:
     return made
 
 
-def _edged(made: Any) -> Any:
-    """The mesh with points for each side of an edge, so that light makes it one."""
+def _center(made: Any) -> Any:
+    return made.apply_translation((0, 0, -made.bounds.mean(axis=0)[2]))
+
+
+def _smooth(made: Any) -> Any:
+    """Return the mesh with points of its own for each side of an edge, so that light shows the edge."""
     return trimesh.graph.smooth_shade(made, angle=_SHARP)
 
 
-_MAKERS: Mapping[type[ShapeNode], Callable[..., Any]] = {
-    Box: _box, Cylinder: _cylinder, Cone: _cone, Capsule: _capsule, Sphere: _sphere, Ellipsoid: _ellipsoid,
-    Plane: _plane,
-}  # fmt: skip
+_MAKERS: Mapping[type[ShapeNode], Callable[[ShapeNode, Sequence[float]], Any]] = {
+    Box: lambda _, size: _smooth(trimesh.creation.box(size)),
+    Cylinder: lambda _, size: _smooth(trimesh.creation.cylinder(size[0], size[1], sections=48)),
+    # trimesh stands cones and capsules on the origin, or nearly; SDF centers them
+    Cone: lambda _, size: _smooth(_center(trimesh.creation.cone(size[0], size[1], sections=48))),
+    Capsule: lambda _, size: _center(trimesh.creation.capsule(size[1], size[0], count=(24, 24))),
+    Sphere: lambda _, size: trimesh.creation.icosphere(_ROUND, size[0]),
+    Ellipsoid: lambda _, size: trimesh.creation.icosphere(_ROUND, 1.0).apply_scale(size),
+    Plane: lambda shape, size: _make_plane(shape, *size),
+}

@@ -1,7 +1,7 @@
 """Reads tar archives forward, member by member, without believing what they say about their sizes.
 
-`tarfile` reads an extended header as a whole, whatever its size, and some versions of Python look for records in it in
-quadratic time. So only the blocks of fixed size are left to it here.
+`tarfile` reads an extended header as a whole, whatever its size, and some versions of Python search it for records in
+quadratic time. So `tarfile` only decodes the blocks of fixed size here.
 """
 
 import bz2
@@ -14,8 +14,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Protocol
 
-# 3 MB that unpacked to a header of 3 GiB took 3.2 GB of memory in `tarfile`, which also follows
-# chains of headers by recursion and ends at a broken header as if the archive ended there.
+# 3 MB that unpack to a header of 3 GiB take 3.2 GB of memory in `tarfile`, which also follows chains of headers by
+# recursion and ends at a broken header as if the archive ended there. Of the 52 hostile archives of the tests, the
+# standard library with its `data` filter takes more than 1 GiB or 5 s for 9, and safe-unzip 0.2 more than 5 s for 4; it
+# does not read bzip2 and xz.
 LONGEST_HEADER = 2**20
 """Bytes of an extended header. Extended attributes of files, which are the largest real ones, have at most 64 KiB."""
 XZ_MEMORY = 2**27
