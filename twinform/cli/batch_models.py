@@ -1,4 +1,4 @@
-"""Which models a batch has: the argument SRC, and the options that choose among them."""
+"""The models of a batch: the argument SRC, and the options that choose among them."""
 
 import sys
 from collections.abc import Callable, Generator, Mapping, Sequence
@@ -19,7 +19,7 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 class ModelOptions(TypedDict):
-    """Which models a batch works on."""
+    """Options that choose the models of a batch."""
 
     patterns: tuple[str, ...]
     names: Path | None
@@ -29,9 +29,9 @@ class ModelOptions(TypedDict):
 
 @dataclass(frozen=True, slots=True)
 class Models:
-    """The models of a run, the folder that they are in, and what that is called in messages if not by its name.
+    """The models of a run and their folder, which messages call `shown` if that is set.
 
-    Where the folder was just made, `contents` are the digests of its files.
+    `contents` has the digests of the files of a folder that was just unpacked.
     """
 
     folder: Path
@@ -40,7 +40,7 @@ class Models:
     contents: Mapping[str, str] = field(default_factory=dict[str, str])
 
 
-def _shard(_ctx: click.Context, _option: click.Parameter, value: str | None) -> Shard | None:
+def _parse_shard(_ctx: click.Context, _option: click.Parameter, value: str | None) -> Shard | None:
     if value is None:
         return None
     number, _, count = value.partition("/")
@@ -61,7 +61,7 @@ _PATTERN = click.option(
 _SHARD = click.option(
     "--shard",
     metavar="N/M",
-    callback=_shard,
+    callback=_parse_shard,
     help="Only part N of M; its name decides which one a model is in.",
 )
 _OPTIONS = (
@@ -78,17 +78,17 @@ _OPTIONS = (
 
 
 model_options = group("chosen", ModelOptions, *_OPTIONS)
-"""Gives a command the options that choose models."""
+"""Adds the options that choose models to a command."""
 
 
 def pair_options(command: Command) -> Command:
-    """Give a command those of them that fit where each model is compared with another."""
+    """Add the options that choose models to a command that compares the models of two folders."""
     return _PATTERN(_SHARD(command))
 
 
 @contextmanager
 def models(source: Path, options: ModelOptions, results: Path | None = None) -> Generator[Models]:
-    """The models of SRC: a folder, an archive, or `-` for a list of names on standard input.
+    """Yield the models of SRC: a folder, an archive, or `-` for a list of names on standard input.
 
     Raises:
         click.UsageError: there is no such folder, or an option does not fit it.
@@ -100,14 +100,14 @@ def models(source: Path, options: ModelOptions, results: Path | None = None) -> 
     try:
         if is_archive(source):
             with unpacked(source) as made:
-                yield Models(made.folder, _entries(made.folder, names, options, None), str(source), made.contents)
+                yield Models(made.folder, _find_entries(made.folder, names, options, None), str(source), made.contents)
             return
-        yield Models(source, _entries(source, names, options, results))
+        yield Models(source, _find_entries(source, names, options, results))
     except FolderError as error:
         raise click.UsageError(str(error)) from error
 
 
-def _entries(folder: Path, names: Path | None, options: ModelOptions, results: Path | None) -> list[ModelEntry]:
+def _find_entries(folder: Path, names: Path | None, options: ModelOptions, results: Path | None) -> list[ModelEntry]:
     try:
         if names is None:
             found = of_folder(folder, options["patterns"], results)

@@ -35,7 +35,7 @@ _EVERY = 30.0
 
 
 class RunOptions(TypedDict):
-    """How a batch is run."""
+    """Options of how a batch is run."""
 
     jobs: int | None
     timeout: float
@@ -70,7 +70,7 @@ _OPTIONS = (
 
 
 run_options = group("run", RunOptions, *_OPTIONS)
-"""Gives a command the options of how a batch is run."""
+"""Adds the options of how a batch is run to a command."""
 
 
 def run_and_end(ctx: click.Context, asked: Batch, options: RunOptions) -> NoReturn:
@@ -103,8 +103,8 @@ def run_and_end(ctx: click.Context, asked: Batch, options: RunOptions) -> NoRetu
 
 def _run(asked: Batch, options: RunOptions, summary: Summary) -> None:
     with ExitStack() as stack:
-        results = stack.enter_context(batch(asked, _runner(options)))
-        report = stack.enter_context(_report(options["report"]))
+        results = stack.enter_context(batch(asked, _make_runner(options)))
+        report = stack.enter_context(_open_report(options["report"]))
         shown = stack.enter_context(progress(len(asked.chosen), quiet=options["quiet"]))
         for result in results:
             summary.add(result.record.outcome, known=result.known)
@@ -122,7 +122,7 @@ def _print_failure(record: ModelRecord) -> None:
 
 
 @contextmanager
-def _report(path: Path | None) -> Generator[Callable[[str], object] | None]:
+def _open_report(path: Path | None) -> Generator[Callable[[str], object] | None]:
     """Yield a function that writes a line of the report, at once; folders that are missing are made."""
     if path is None:
         yield None
@@ -135,7 +135,7 @@ def _report(path: Path | None) -> Generator[Callable[[str], object] | None]:
             yield file.write
 
 
-def _runner(options: RunOptions) -> Runner:
+def _make_runner(options: RunOptions) -> Runner:
     if options["scheduler"] is None:
         return process_runner(options["jobs"], options["timeout"])
     from twinform.compiler.batch.dask_runner import dask_runner  # noqa: PLC0415 - few have more than one machine

@@ -17,13 +17,13 @@ _server: Any = importlib.import_module("websockets.asyncio.server")
 
 
 class Access:
-    """The token of a server, and what it asks of a request besides."""
+    """The token of a server, and the checks that every request has to pass."""
 
     def __init__(self) -> None:
         self.token = secrets.token_urlsafe(24)
 
     def allows(self, path: str, hosts: Sequence[str], origins: Sequence[str]) -> bool:
-        """Return whether a request for a path is answered; hosts and origins are the values of these headers.
+        """Return whether a request for a path is allowed; `hosts` and `origins` are the values of these headers.
 
         Any web page can make a browser send requests to this server. It does not know the token; where it asks for a
         WebSocket, the origin is its own; and where it has its own name lead to this machine, that name is the host.
@@ -43,7 +43,7 @@ class Access:
 
     @contextmanager
     def guard(self) -> Generator[None]:
-        """Make WebSocket servers that are started in the block refuse all other requests, those for pages included."""
+        """Make WebSocket servers that are started in the block refuse all other requests, including those for pages."""
         # what it refuses, or cannot read, is nothing for the terminal
         logging.getLogger("websockets.server").addHandler(logging.NullHandler())
         # viser makes its server deep inside, and has no hook for requests

@@ -1,4 +1,4 @@
-"""Moves joints with the mouse: the joint that a part hangs from follows the point that it was taken at."""
+"""Moves joints with the mouse: the joint above a part follows the point at which the part was grabbed."""
 
 import math
 from collections.abc import Callable
@@ -16,7 +16,7 @@ MODIFIER = "shift"
 
 @dataclass(slots=True)
 class Drag:
-    """A joint that is moved: its axis and where the part was taken, in the frame of the scene."""
+    """A joint that is being moved: its axis, and the point where the part was grabbed, in the frame of the scene."""
 
     joint: SceneJoint
     axis: Vector3
@@ -25,7 +25,7 @@ class Drag:
     position: float
 
     def position_at(self, pointer: Vector3) -> float:
-        """Where the joint is, in rad or m, with the grip as near to a point as it comes, up to half a turn away."""
+        """Return the position in rad or m that brings the grip nearest to a point, at most half a turn away."""
         if self.joint.degrees[0].slides:
             return self.position + dot(self.axis, minus(pointer, self.grip))
         start, end = (across(self.axis, minus(each, self.center)) for each in (self.grip, pointer))
@@ -35,27 +35,27 @@ class Drag:
 
 
 def drag_of(figure: Figure, link: str, grip: Vector3, positions: Positions) -> Drag | None:
-    """What moves when a link is taken at a point: the nearest joint above it that has one axis of its own."""
+    """Return a drag of the nearest joint above a link that has one axis of its own; None if there is none."""
     kinematics = figure.kinematics
     while link in kinematics.hung:
         joint = kinematics.hung[link]
         if len(joint.degrees) == 1 and joint.degrees[0].leader is None:
-            moved = _motion(figure, joint.parent)
+            moved = _find_motion(figure, joint.parent)
             axis, center = moved.rotate(joint.degrees[0].axis), moved.apply(joint.frame.translation)
             return Drag(joint, axis, center, grip, kinematics.position(joint.name, 0, positions))
         link = joint.parent
     return None
 
 
-def _motion(figure: Figure, link: str) -> Transform:
-    """How a link has moved from where it is with all joints at zero."""
+def _find_motion(figure: Figure, link: str) -> Transform:
+    """Return how a link has moved from its frame with all joints at zero."""
     pose = figure.poses.get(link)
     return pose.compose(figure.from_world(link)) if pose else Transform()
 
 
 @dataclass(slots=True)
 class Dragging:
-    """The drags of one figure; `move` puts a joint to a position, and gives the one that it may have."""
+    """The drags of one figure; `move` moves a joint to a position, within its limits."""
 
     figure: Figure
     positions: Positions
@@ -63,7 +63,7 @@ class Dragging:
     _drag: Drag | None = field(default=None, init=False)
 
     def listen(self, handle: Any, link: str) -> None:
-        """Move what a link hangs from when its part is dragged."""
+        """Move the joint above a link when a part of the link is dragged."""
 
         # Without the key, a drag turns the camera: a robot often fills the picture, and then there
         # would be nowhere to take it.
@@ -78,6 +78,6 @@ class Dragging:
                 self._drag = None
 
     def _in_figure(self, point: Vector3) -> Vector3:
-        """A point of the page in the frame of the figure, which may stand beside another one."""
+        """Return a point of the page in the frame of the figure, which may stand beside another one."""
         x, y, z = (float(each) for each in self.figure.base.position)
         return minus(point, (x, y, z))

@@ -74,7 +74,7 @@ class Figure:
             self.nodes[link.name] = self.api.add_frame(
                 f"{self.root}/links/{number}", show_axes=False, **placed(self.poses[link.name])
             )
-            self.called(self.nodes[link.name], self._about(link.name))
+            self.called(self.nodes[link.name], self._describe_link(link.name))
         self._with_visuals = frozenset(link for link, _, _ in self.shapes("visual"))
 
     def called(self, handle: Handle, *lines: str) -> Handle:
@@ -82,7 +82,7 @@ class Figure:
         self.labels[handle.name] = "\n".join(filter(None, (*lines, self.title)))
         return handle
 
-    def _about(self, link: str) -> str:
+    def _describe_link(self, link: str) -> str:
         joint = self.kinematics.hung.get(link)
         by = f"\n{joint.type} joint {shortened(joint.name)}" if joint else ""
         return f"{shortened(link)}{by}"
@@ -160,7 +160,7 @@ class Figure:
         if found.problem:
             return self.api.add_mesh_simple(name, found.points, found.faces, color=color, wireframe=True, **at)
         if found.colors is not None and self.look.color is None and shape.role == "visual":
-            return self.api.add_mesh_trimesh(name, _painted(found), **at)
+            return self.api.add_mesh_trimesh(name, _paint(found), **at)
         clear = opacity if opacity is not None and opacity < _OPAQUE else None
         return self.api.add_mesh_simple(
             name, found.points, found.faces, color=color, opacity=clear, side="double", **at
@@ -206,12 +206,12 @@ class Figure:
 
         Planes count only where there is nothing else: they are the ground.
         """
-        corners = self._boxes("visual") or self._boxes("collision")
+        corners = self._find_boxes("visual") or self._find_boxes("collision")
         corners += [np.asarray([pose.translation]) for pose in self.kinematics.at_zero.values() if _is_near(pose)]
         every = np.concatenate(corners) if corners else np.zeros((1, 3))
         return every.min(axis=0), every.max(axis=0)
 
-    def _boxes(self, role: str) -> list[Array]:
+    def _find_boxes(self, role: str) -> list[Array]:
         """The boxes around shapes that count for what is seen."""
         solid: list[Array] = []
         flat: list[Array] = []
@@ -249,7 +249,7 @@ def _is_near(pose: Transform) -> bool:
     return all(math.isfinite(each) and abs(each) < _FAR for each in pose.translation)
 
 
-def _painted(found: Triangles) -> Any:
+def _paint(found: Triangles) -> Any:
     trimesh = importlib.import_module("trimesh")
     return trimesh.Trimesh(found.points, found.faces, vertex_colors=found.colors, process=False)
 

@@ -24,7 +24,7 @@ LEAST_FILES = 5_000
 BYTES_PER_FILE = 200
 """For so many of its own bytes an archive may have one more; a small compressed model takes twice as much."""
 LEAST_BYTES = 2**28
-"""What any archive may unpack to."""
+"""Bytes that any archive may unpack to."""
 MOST_TIMES = 100
 """An archive may unpack to so many times its own size; XML shrinks to a tenth or twentieth."""
 # The most headers that a file in a tar archive has: its own, and two for a long name or its
@@ -57,13 +57,13 @@ class _Member:
 
 
 def is_archive(path: Path) -> bool:
-    """Whether a path is that of an archive, by its name."""
+    """Return whether a path has the name of an archive."""
     return path.name.lower().endswith(_ENDINGS) and not path.is_dir()
 
 
 @dataclass(frozen=True, slots=True)
 class Unpacked:
-    """The folder that an archive was unpacked to, and the digest of each file by its path in it."""
+    """The folder that an archive was unpacked to, and the digest of each file by its path there."""
 
     folder: Path
     contents: Mapping[str, str]
@@ -71,10 +71,11 @@ class Unpacked:
 
 @contextmanager
 def unpacked(archive: Path) -> Generator[Unpacked]:
-    """A folder with the regular files of an archive, each with its time, for as long as it is needed.
+    """Unpack the regular files of an archive into a temporary folder, and yield that.
 
-    The times in an archive say nothing about its files, and all else is new each time: so digests are made on the way.
-    Links, devices and the like are left out. Of two files of one name the last one counts, as tar has it.
+    The times in an archive prove nothing about its files, and the status of unpacked files is new each time, so the
+    digests are computed here. Links, devices and the like are left out. Of two files with one name the last one counts,
+    as in tar.
 
     Raises:
         FolderError: it is no archive, is broken, holds too much, or a name in it leads out of it.
@@ -85,11 +86,11 @@ def unpacked(archive: Path) -> Generator[Unpacked]:
 
 
 def _unpack(archive: Path, folder: Path) -> dict[str, str]:
-    """Write all files; gives their digests."""
+    """Write all files and return their digests."""
     try:
         Readable.of(archive).read(archive, 0)  # the readers of archives would wait for a pipe, and follow any link
-        room = _Room.of(archive, folder)
-        for member in _zip(archive, room) if archive.name.lower().endswith(".zip") else _tar(archive, room):
+        room = _UnpackingFolder.of(archive, folder)
+        for member in _read_zip(archive, room) if archive.name.lower().endswith(".zip") else _read_tar(archive, room):
             room.write(member)
     except OSError as error:
         raise FolderError(f"{archive} cannot be unpacked: {error.strerror or error}") from error
@@ -105,8 +106,8 @@ _FAULTS = (ValueError, zipfile.BadZipFile, zlib.error, lzma.LZMAError, struct.er
 
 
 @dataclass(slots=True)
-class _Room:
-    """The folder that an archive is unpacked to, and what may still be put there."""
+class _UnpackingFolder:
+    """The folder that an archive is unpacked to, and how much may still be written there."""
 
     folder: Path
     most_bytes: int
@@ -116,13 +117,13 @@ class _Room:
     _files: int = 0
 
     @classmethod
-    def of(cls, archive: Path, folder: Path) -> "_Room":
+    def of(cls, archive: Path, folder: Path) -> "_UnpackingFolder":
         size = archive.stat().st_size
         return cls(folder, max(LEAST_BYTES, MOST_TIMES * size), LEAST_FILES + size // BYTES_PER_FILE)
 
     def write(self, member: _Member) -> None:
         """Write a file. The size in its header is not believed."""
-        place, digest = _place(member.name), hashlib.sha256()
+        place, digest = _check_name(member.name), hashlib.sha256()
         path = self.folder / place
         try:
             self._make_folder(path.parent)
@@ -161,7 +162,7 @@ class _Room:
             raise LargeArchiveError(f"it has more than {self.most_files:,} files and folders")
 
 
-def _place(name: str) -> PurePosixPath:
+def _check_name(name: str) -> PurePosixPath:
     path = PurePosixPath(name)
     # A backslash separates folders on Windows, and `C:` or `name:stream` mean other places there.
     strange = "\\" in name or "\0" in name or ":" in path.parts[0] if path.parts else True
@@ -174,14 +175,14 @@ def _place(name: str) -> PurePosixPath:
     return path
 
 
-def _tar(archive: Path, room: _Room) -> Iterator[_Member]:
+def _read_tar(archive: Path, room: _UnpackingFolder) -> Iterator[_Member]:
     with opened(archive) as stream:
         for each in members(stream, room.most_bytes, _HEADERS * room.most_files):
             yield _Member(each.name, each.time, each)
 
 
-class _InPieces(io.BufferedReader):
-    """A zip archive, whose list of files `zipfile` reads at once, and whose contents in pieces."""
+class _BoundedZip(io.BufferedReader):
+    """A zip archive that limits how much is read at once: `zipfile` reads the list of files as a whole."""
 
     def __init__(self, archive: Path) -> None:
         super().__init__(io.FileIO(archive))
@@ -193,8 +194,8 @@ class _InPieces(io.BufferedReader):
         return super().read(size)
 
 
-def _zip(archive: Path, room: _Room) -> Iterator[_Member]:
-    with _InPieces(archive) as data, zipfile.ZipFile(data) as file:
+def _read_zip(archive: Path, room: _UnpackingFolder) -> Iterator[_Member]:
+    with _BoundedZip(archive) as data, zipfile.ZipFile(data) as file:
         listed = file.infolist()
         if sum(each.file_size for each in listed) > room.most_bytes:
             raise LargeArchiveError(f"it unpacks to more than {room.most_bytes:,} bytes")
@@ -206,10 +207,10 @@ def _zip(archive: Path, room: _Room) -> Iterator[_Member]:
             if each.compress_type not in _METHODS:
                 raise BrokenArchiveError(f"{each.orig_filename!r} in it is compressed in a way that is not read here")
             with file.open(each) as content:
-                yield _Member(each.orig_filename, _time(each), content)
+                yield _Member(each.orig_filename, _read_time(each), content)
 
 
-def _time(info: zipfile.ZipInfo) -> float:
+def _read_time(info: zipfile.ZipInfo) -> float:
     try:
         return time.mktime((*info.date_time, 0, 0, -1))
     except (ValueError, OverflowError):

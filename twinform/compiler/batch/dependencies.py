@@ -27,7 +27,7 @@ Status = Callable[[str], os.stat_result | None]
 
 
 class DependencyKind(StrEnum):
-    """What was found at a path, or done with it."""
+    """What was found at a path, or what was done with it."""
 
     ABSENT = "absent"
     READ = "read"
@@ -80,15 +80,17 @@ def dependencies_of(seen: Observation, root: str, *, outside: str | None) -> tup
             dependency = _record_content(path, kind, before)
             if dependency is None or seen.young.get(path, dependency.digest) != dependency.digest:
                 return None
-            found.append(_below_root(dependency, root))
+            found.append(_make_relative(dependency, root))
     looks = ((path, before) for path, before in seen.looked_at.items() if path not in seen.read)
-    found += [_below_root(_look(path, before), root) for path, before in looks if not _is_below(path, outside)]
+    found += [
+        _make_relative(_describe_status(path, before), root) for path, before in looks if not _is_below(path, outside)
+    ]
     return tuple(found)
 
 
 def stamp(path: Path, name: str, made: str) -> Dependency:
     """Return a result as it was written."""
-    return _stamped(Dependency(name, DependencyKind.READ, digest=made), path.stat())
+    return _add_status(Dependency(name, DependencyKind.READ, digest=made), path.stat())
 
 
 def are_current(
@@ -166,21 +168,21 @@ def _record_content(path: str, kind: DependencyKind, before: os.stat_result | No
     if before is None or now is None:
         return Dependency(path, DependencyKind.ABSENT) if before is now else None
     # The file has changed between being read and now: what was read may be any mixture of both.
-    if _status_marks(before) != _status_marks(now):
+    if _compare_key(before) != _compare_key(now):
         return None
     usual = stat.S_ISREG if kind is DependencyKind.READ else stat.S_ISDIR
     if not usual(now.st_mode):
-        return _look(path, now)
+        return _describe_status(path, now)
     made = _digest_content(path, kind)
-    return None if made is None else _stamped(Dependency(path, kind, digest=made), now)
+    return None if made is None else _add_status(Dependency(path, kind, digest=made), now)
 
 
-def _stamped(dependency: Dependency, now: os.stat_result) -> Dependency:
+def _add_status(dependency: Dependency, now: os.stat_result) -> Dependency:
     size = now.st_size if dependency.kind is DependencyKind.READ else 0
     return dependency._replace(size=size, time=now.st_mtime_ns, changed=now.st_ctime_ns, inode=now.st_ino)
 
 
-def _status_marks(status: os.stat_result) -> tuple[int, ...]:
+def _compare_key(status: os.stat_result) -> tuple[int, ...]:
     return status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino
 
 
@@ -196,7 +198,7 @@ def _digest_names(path: str) -> str:
     return digest(os.fsencode("\0".join(names))) if len(names) <= _MOST_NAMES else ""
 
 
-def _look(path: str, now: os.stat_result | None) -> Dependency:
+def _describe_status(path: str, now: os.stat_result | None) -> Dependency:
     if now is None:
         return Dependency(path, DependencyKind.ABSENT)
     if stat.S_ISREG(now.st_mode):
@@ -204,7 +206,7 @@ def _look(path: str, now: os.stat_result | None) -> Dependency:
     return Dependency(path, DependencyKind.FOLDER if stat.S_ISDIR(now.st_mode) else DependencyKind.OTHER)
 
 
-def _below_root(dependency: Dependency, root: str) -> Dependency:
+def _make_relative(dependency: Dependency, root: str) -> Dependency:
     if dependency.path != root and not _is_below(dependency.path, root):
         return dependency
     return dependency._replace(path=dependency.path[len(root) :].lstrip(os.sep))
@@ -216,7 +218,7 @@ def _is_below(path: str, folder: str | None) -> bool:
 
 def _is_current(dependency: Dependency, now: os.stat_result | None, noted: int | None) -> bool:
     if dependency.kind not in {DependencyKind.READ, DependencyKind.LISTED}:
-        return _look(dependency.path, now) == dependency
+        return _describe_status(dependency.path, now) == dependency
     if now is None or (dependency.kind is DependencyKind.READ and now.st_size != dependency.size):
         return False
     # Digests of everything in every run would need no trust at all, but they open every mesh: 28 s
@@ -236,7 +238,7 @@ def _renew(dependency: Dependency, path: str) -> Dependency | None:
     """Return a dependency with its status from before its content was compared; None if the content has changed."""
     now = status(path)
     if dependency.kind not in {DependencyKind.READ, DependencyKind.LISTED}:
-        return dependency if _look(dependency.path, now) == dependency else None
+        return dependency if _describe_status(dependency.path, now) == dependency else None
     if now is None or not dependency.digest or _digest_content(path, dependency.kind) != dependency.digest:
         return None
-    return _stamped(dependency, now)
+    return _add_status(dependency, now)

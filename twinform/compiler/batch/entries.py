@@ -1,4 +1,4 @@
-"""The models of a batch: those of a folder, of a list of names, of a table with arguments, or of a shard of these."""
+"""The models of a batch: from a folder, a list of names or a table with arguments, and the shards of a batch."""
 
 import csv
 import hashlib
@@ -19,14 +19,14 @@ _MODEL, _NAME = "model", "name"
 
 
 class FolderError(ValueError):
-    """A batch cannot be made from one folder into the other, or of these names."""
+    """The folders or names that were given do not make a batch."""
 
 
 @dataclass(frozen=True, slots=True)
 class ModelEntry:
-    """A model: its name, which is also its place among the results, and its path below the folder of the models.
+    """A model: its name, which is also its path among the results, and its path below the folder of the models.
 
-    `arguments` are those of xacro. `other` is the path of the model that it is compared with, in another folder.
+    `arguments` are for xacro. `other` is the path of the model that it is compared with, in another folder.
     """
 
     name: str
@@ -37,25 +37,25 @@ class ModelEntry:
 
 @dataclass(frozen=True, slots=True)
 class Shard:
-    """One of several runs that share the models of a batch."""
+    """One of several runs that share the work on a batch."""
 
     number: int
     count: int
 
     @property
     def label(self) -> str:
-        """What its files are called."""
+        """The part of its file names that names the shard."""
         return f"{self.number}-of-{self.count}"
 
     def has(self, entry: ModelEntry) -> bool:
-        """Whether a model is in this shard, which depends on its name alone."""
+        """Return whether a model is in this shard, which depends on its name alone."""
         # Not `hash`, which differs from process to process.
         place = int.from_bytes(hashlib.sha256(os.fsencode(entry.name)).digest()[:8], "big")
         return place % self.count == self.number - 1
 
 
 def of_folder(source: Path, patterns: Sequence[str] = PATTERNS, results: Path | None = None) -> list[ModelEntry]:
-    """The models below a folder, sorted; hidden folders and that of the results are left out.
+    """Return the models below a folder, sorted, without those in hidden folders and among the results.
 
     Raises:
         FolderError: there is no such folder.
@@ -74,19 +74,19 @@ def of_folder(source: Path, patterns: Sequence[str] = PATTERNS, results: Path | 
 
 
 def of_names(source: Path, text: bytes) -> list[ModelEntry]:
-    """The models that a list names, a name in a line or, where there is one, between zero bytes; each counts once.
+    """Return the models in a list of names, one in a line, or separated by zero bytes if there are any; each once.
 
     Raises:
         FolderError: one is not in the folder.
     """
     # As `find -print0` and `git ls-files -z` write them: a name may contain a line break.
     names = text.split(b"\0") if b"\0" in text else text.splitlines()
-    paths = {_inside(source, os.fsdecode(name)) for name in names if name.strip()}
+    paths = {_relative_path(source, os.fsdecode(name)) for name in names if name.strip()}
     return [ModelEntry(name, name) for name in sorted(paths)]
 
 
 def with_arguments(entries: Iterable[ModelEntry], table: Path) -> list[ModelEntry]:
-    """The same with arguments from a table of CSV or JSONL; a model with several rows becomes several models.
+    """Return the models with arguments from a CSV or JSONL table; a model with several rows becomes several models.
 
     Raises:
         FolderError: the table has no such form, names a model that is not there, or gives two of them one name.
@@ -95,7 +95,7 @@ def with_arguments(entries: Iterable[ModelEntry], table: Path) -> list[ModelEntr
     known = {entry.name: entry for entry in entries}
     named: set[str] = set()
     made: dict[str, ModelEntry] = {}
-    for where, row in _rows(table):
+    for where, row in _read_rows(table):
         path = normpath(row.pop(_MODEL, ""))
         name = normpath(row.pop(_NAME, "") or path)
         if path not in known:
@@ -109,8 +109,8 @@ def with_arguments(entries: Iterable[ModelEntry], table: Path) -> list[ModelEntr
 
 
 def pairs(a: Iterable[ModelEntry], b: Iterable[ModelEntry]) -> list[ModelEntry]:
-    """The models of two folders that have one name but for their endings, or all of it."""
-    ours, theirs = _by_stem(a), _by_stem(b)
+    """Pair the models of two folders that have the same name, with or without the endings of formats."""
+    ours, theirs = _index_by_stem(a), _index_by_stem(b)
     for name in [name for name in theirs if name not in ours and name.rpartition(".")[0] in ours]:
         theirs.setdefault(
             name.rpartition(".")[0], theirs.pop(name)
@@ -119,7 +119,7 @@ def pairs(a: Iterable[ModelEntry], b: Iterable[ModelEntry]) -> list[ModelEntry]:
 
 
 def stem(name: str) -> str:
-    """A name without the endings of formats."""
+    """Return a name without the endings of formats."""
     path = PurePosixPath(name)
     while path.suffix.lower() in _ENDINGS and path.stem:
         path = path.with_suffix("")
@@ -129,8 +129,8 @@ def stem(name: str) -> str:
 _ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".json", ".xacro"})
 
 
-def _by_stem(entries: Iterable[ModelEntry]) -> dict[str, str]:
-    """The paths by names without endings; where two would have one, both keep theirs."""
+def _index_by_stem(entries: Iterable[ModelEntry]) -> dict[str, str]:
+    """Return paths by their names without endings; of two with the same name, both keep their endings."""
     found: dict[str, list[str]] = {}
     for entry in entries:
         found.setdefault(stem(entry.name), []).append(entry.path)
@@ -138,8 +138,8 @@ def _by_stem(entries: Iterable[ModelEntry]) -> dict[str, str]:
     return alone | {path: path for paths in found.values() if len(paths) > 1 for path in paths}
 
 
-def _inside(source: Path, name: str) -> str:
-    """A name as a path below a folder."""
+def _relative_path(source: Path, name: str) -> str:
+    """Return a name as a path below a folder."""
     path = normpath(os.path.relpath(name, source) if os.path.isabs(name) else name)  # noqa: PTH117 - no Path for bytes
     if not _is_relative(path):
         raise FolderError(f"{name!r} is not in the folder {source}")
@@ -150,29 +150,29 @@ def _is_relative(path: str) -> bool:
     return path not in {"", "."} and not path.startswith(("/", "../")) and path != ".."
 
 
-def _rows(table: Path) -> Iterator[tuple[str, dict[str, str]]]:
-    """Each row with its place; cells that are empty are left out."""
+def _read_rows(table: Path) -> Iterator[tuple[str, dict[str, str]]]:
+    """Yield the rows of a table with file and line, without empty cells."""
     try:
         # Excel begins a CSV file with a byte order mark, which would be part of the first column's
         # name.
         text = Readable.of(table).read(table).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise FolderError(f"{table} is not in UTF-8") from error
-    rows = _csv(text) if table.suffix.lower() == ".csv" else _jsonl(text, table)
+    rows = _read_csv(text) if table.suffix.lower() == ".csv" else _read_jsonl(text, table)
     for number, row in rows:
         if not row.get(_MODEL):
             raise FolderError(f"{table}:{number}: there is nothing in the column {_MODEL!r}")
         yield f"{table}:{number}", {name: value for name, value in row.items() if value}
 
 
-def _csv(text: str) -> Iterator[tuple[int, Mapping[str, str]]]:
+def _read_csv(text: str) -> Iterator[tuple[int, Mapping[str, str]]]:
     reader = csv.DictReader(text.splitlines())
     for row in reader:
         cells = cast("Mapping[Any, Any]", row)
         yield reader.line_num, {str(key): value for key, value in cells.items() if isinstance(value, str) and key}
 
 
-def _jsonl(text: str, table: Path) -> Iterator[tuple[int, Mapping[str, str]]]:
+def _read_jsonl(text: str, table: Path) -> Iterator[tuple[int, Mapping[str, str]]]:
     for number, line in enumerate(text.splitlines(), start=1):
         try:
             row: object = json.loads(line) if line.strip() else None

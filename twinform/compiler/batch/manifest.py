@@ -1,6 +1,7 @@
-"""The manifest of earlier runs: a line of JSON for each model, of which the last one counts.
+"""The manifest of earlier runs: lines of JSON, of which the last one for each model counts.
 
-Lines stay on the disk; in memory is where each begins. Each shard of a run writes a file of its own.
+Lines stay on disk, and only their offsets are in memory. Each shard of a run writes a file of its own. joblib.Memory
+and diskcache keep results by their arguments: they know nothing of files that a model includes, or looks for in vain.
 """
 
 import errno
@@ -41,7 +42,7 @@ class BusyError(Exception):
 
 
 class Manifest:
-    """The records in the folder of the results. A run that is stopped loses nothing that was done."""
+    """The records in the folder of the results. A run that is killed loses nothing that was done."""
 
     def __init__(self, dest: Path, shard: str = "") -> None:
         self.folder = dest / FOLDER
@@ -55,7 +56,7 @@ class Manifest:
 
     @contextmanager
     def open(self) -> Generator["Manifest"]:
-        """Make the folder, hold it, read what is there, and get ready to add.
+        """Create and lock the folder, read its records, and prepare to add more.
 
         Raises:
             BusyError: another run is at work here.
@@ -81,7 +82,7 @@ class Manifest:
                 self.close()
 
     def close(self) -> None:
-        """Let go of the files."""
+        """Close the files."""
         for file in (*self._files, self._log, self._journal):
             if file is not None:
                 file.close()
@@ -91,7 +92,7 @@ class Manifest:
         return len(self._lines)
 
     def get(self, source: str) -> ModelRecord | None:
-        """What is known of a model."""
+        """Return the last record of a model; None if there is none."""
         line = self._lines.get(source)
         if line is None:
             return None
@@ -100,7 +101,7 @@ class Manifest:
         return parse_record(file.readline())
 
     def require_in_place(self) -> None:
-        """Raise where the folder of the results is no longer the one that the manifest was opened in.
+        """Raise if the folder of the results is no longer the one that the manifest was opened in.
 
         Raises:
             FileNotFoundError: it was removed, renamed or unmounted, and what is written would be somewhere else.
@@ -109,7 +110,7 @@ class Manifest:
             raise FileNotFoundError(errno.ENOENT, "it was removed, renamed or unmounted", str(self.folder.parent))
 
     def announce(self, source: str, results: tuple[Dependency, ...]) -> None:
-        """Note the results that are about to be written: a run that is killed before their record is there leaves them.
+        """Note which results are about to be written: a run that is killed now leaves them without a record.
 
         Raises:
             OSError: it cannot be written.
@@ -118,11 +119,11 @@ class Manifest:
             raise ValueError("the manifest is not open")
         # If the model has an error by the next run, nobody would know otherwise that these files
         # are ours to remove.
-        self._journal.write(record_line(_unasked(source, results)))
+        self._journal.write(record_line(_record_files(source, results)))
         self._journal.flush()
 
     def _recover(self) -> None:
-        """Count results that a killed run was writing among those of their model, which is done again."""
+        """Add the results that a killed run was writing to the record of their model, which is worked on again."""
         path = self._own.with_name(self._own.name.replace("manifest", "journal", 1))
         self._journal = path.open("a+b")
         self._journal.seek(0)
@@ -130,16 +131,16 @@ class Manifest:
         if announced is None:
             return
         known = self.get(announced.source)
-        standing = (known and known.standing) or _unasked(announced.source, ())
+        standing = (known and known.standing) or _record_files(announced.source, ())
         have = {(each.path, each.digest) for each in standing.results}
         new = tuple(each for each in announced.results if (each.path, each.digest) not in have)
         if new:
             kept = replace(standing, request="", results=(*standing.results, *new))
-            self.add(replace(_unasked(announced.source, ()), outcome=Outcome.UNWRITTEN, kept=kept))
+            self.add(replace(_record_files(announced.source, ()), outcome=Outcome.UNWRITTEN, kept=kept))
             self._read()
 
     def add(self, record: ModelRecord) -> None:
-        """Keep a record, at once and for later runs.
+        """Write a record to disk at once.
 
         Raises:
             OSError: it cannot be written.
@@ -154,7 +155,7 @@ class Manifest:
             self._journal.seek(0)
 
     def _read(self) -> None:
-        """Find the last line of each model, in the file that was written last."""
+        """Find the last line of each model, in the newest file that has one."""
         for file in self._files:
             file.close()
         self._files, self._lines, self._count = [], {}, 0
@@ -163,7 +164,7 @@ class Manifest:
             self._files.append(path.open("rb"))
             for offset, line in _lines(self._files[-1]):
                 self._count += 1
-                source = _source(line)
+                source = _read_source(line)
                 if source is not None:
                     self._lines[source] = _ManifestLine(len(self._files) - 1, offset)
 
@@ -191,13 +192,13 @@ class Manifest:
 _EMPTY = ModelRecord(source="", request="", outcome=Outcome.CONVERTED)
 
 
-def _unasked(source: str, results: tuple[Dependency, ...]) -> ModelRecord:
-    """A record that says which files are ours, and that no request has the same results as."""
+def _record_files(source: str, results: tuple[Dependency, ...]) -> ModelRecord:
+    """Return a record of files that we wrote, which matches no request."""
     return ModelRecord(source=source, request="", outcome=Outcome.CONVERTED, results=results)
 
 
 def record_line(record: ModelRecord) -> bytes:
-    """A record as a line of JSON."""
+    """Return a record as a line of JSON."""
     return json.dumps(_packed(record)).encode("ascii") + b"\n"
 
 
@@ -209,7 +210,7 @@ def _packed(record: ModelRecord) -> dict[str, Any]:
 
 
 def parse_record(line: bytes) -> ModelRecord | None:
-    """The record in a line; None where there is none, as in one that was cut off."""
+    """Return the record in a line; None if the line is no record or was cut off."""
     try:
         record = _unpacked(json.loads(line))
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
@@ -226,7 +227,7 @@ def _unpacked(whole: dict[str, Any]) -> ModelRecord:
 
 
 def read_records(path: Path) -> Iterator[ModelRecord]:
-    """The records in a manifest of somebody else, or of another folder.
+    """Yield the records of a manifest in another folder.
 
     Raises:
         OSError: it cannot be read.
@@ -248,8 +249,8 @@ def _lines(file: BinaryIO) -> Iterator[tuple[int, bytes]]:
         offset += len(line)
 
 
-def _source(line: bytes) -> str | None:
-    """The name in a line, without reading all of it."""
+def _read_source(line: bytes) -> str | None:
+    """Return the name of the model in a line, without parsing all of it."""
     if not (line.startswith(_BEGIN) and line.endswith(b"}\n")):
         return None
     try:

@@ -1,7 +1,7 @@
-"""Model folders of Gazebo in a batch: what lies beside a model that its model.config names comes along.
+"""Model folders of Gazebo in a batch: the files beside a model that a model.config names are copied along.
 
-A folder comes with the newest model that its model.config names. Its model.config then names what the models became;
-meshes, textures and all other files are copied, but for hidden ones, other models, and links that lead elsewhere.
+The files of a folder come with the newest model that its model.config names: meshes, textures and all others, without
+hidden files, other models, and links that lead elsewhere. The copied model.config names the results.
 """
 
 import os
@@ -17,17 +17,17 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.file_access import Readable
 
 _LARGEST = 2**28
-"""Bytes of all files that come along with a model."""
+"""Bytes of all files that are copied along with a model."""
 
 
 class FolderTooLargeError(Exception):
-    """There is too much beside a model."""
+    """The files beside a model are too large."""
 
 
 def folder_files(model: Path, output: str, request: ConversionRequest, version: str | None) -> dict[str, bytes]:
-    """What comes along with a model, by its place among the results; nothing where it has no folder of its own.
+    """Return the files to copy along with a model, by their paths among the results; none if it has no model folder.
 
-    `output` is the place of the model among them, and `version` what it has there.
+    `output` is the path of the model among the results, and `version` its SDF version there.
 
     Raises:
         FolderTooLargeError: there is too much.
@@ -39,26 +39,26 @@ def folder_files(model: Path, output: str, request: ConversionRequest, version: 
     place = PurePosixPath(output).parent
     files: dict[str, bytes] = {}
     size, readable = 0, Readable.of(model)
-    for path in _inside(model.parent):
+    for path in _find_files(model.parent):
         data = readable.read(path, _LARGEST)
         size += len(data)
         if size > _LARGEST:
             raise FolderTooLargeError(f"what lies beside it is larger than {_LARGEST >> 20} MiB")
         files[str(place / path.relative_to(model.parent).as_posix())] = data
-    files[str(place / config.name)] = _adapted(config, PurePosixPath(output).name, model.name, request, version)
+    files[str(place / config.name)] = _adapt_config(config, PurePosixPath(output).name, model.name, request, version)
     return files
 
 
 def _is_named(config: Path, model: Path) -> bool:
-    """Whether a model.config names this model as the newest one."""
+    """Return whether a model.config names this model as the newest one."""
     named = model_file(config, None, DiagnosticSink())
     # One of the versions has to bring the rest along, so that no two results have one place: the
     # one that a reader would take.
     return named is not None and named.resolve() == model.resolve()
 
 
-def _inside(folder: Path) -> Iterator[Path]:
-    """The files of a folder that are neither models nor those of a model folder in it, sorted."""
+def _find_files(folder: Path) -> Iterator[Path]:
+    """Yield the files of a folder, sorted, without models and model folders in it."""
     readable = Readable((os.path.realpath(folder),))
     for place, folders, files in os.walk(folder):
         here = Path(place)
@@ -72,8 +72,8 @@ def _inside(folder: Path) -> Iterator[Path]:
                 yield path
 
 
-def _adapted(config: Path, output: str, model: str, request: ConversionRequest, version: str | None) -> bytes:
-    """A model.config that names what the models became; where all become one version, only the newest model."""
+def _adapt_config(config: Path, output: str, model: str, request: ConversionRequest, version: str | None) -> bytes:
+    """Return the model.config with the names of results; only the newest model if all get the same SDF version."""
     data = Readable.of(config).read(config)
     try:
         tree = etree.fromstring(data, etree.XMLParser(resolve_entities=False, no_network=True)).getroottree()

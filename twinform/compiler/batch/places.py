@@ -11,11 +11,11 @@ from twinform.compiler.output.same_files import identities
 from twinform.storage.writing import is_stream
 
 LEDGER = ".ledger.json"
-"""What the name of a result has more where it is that of its ledger."""
+"""What is added to the name of a result for its ledger."""
 
 
 def require_apart(source: Path, dest: Path) -> None:
-    """Raise where results would become sources of the next run, or be written over them.
+    """Raise if results would become sources of the next run, or be written over sources.
 
     Raises:
         FolderError: the target is a file, or is the source or above it.
@@ -27,24 +27,24 @@ def require_apart(source: Path, dest: Path) -> None:
 
 
 def outputs(names: Iterable[str], to: str) -> Mapping[str, str]:
-    """Where each model goes: under its own name with the new ending; a world in SDF keeps `.world`.
+    """Return the path of each result: the name of the model with the new ending; a world in SDF keeps `.world`.
 
-    Where two would go to one place, as `a.urdf` and `a.sdf` do, both keep their old endings before the new one.
+    If two results would have the same path, as of `a.urdf` and `a.sdf`, both keep their old endings before the new one.
     """
-    plain = {name: f"{stem(name)}.{_ending(name, to)}" for name in names}
+    plain = {name: f"{stem(name)}.{_choose_ending(name, to)}" for name in names}
     taken = Counter(map(str.casefold, plain.values()))  # paths that some file systems take for one are one
     return {name: path if taken[path.casefold()] == 1 else f"{name}.{to}" for name, path in plain.items()}
 
 
-def _ending(name: str, to: str) -> str:
+def _choose_ending(name: str, to: str) -> str:
     return "world" if to == "sdf" and ".world" in map(str.lower, PurePosixPath(name).suffixes) else to
 
 
 class ResultPlaces:
     """The places of the results of one run, by the names of the models.
 
-    Where nothing in the folder of the results is a symbolic link, and a file has one name, its path is its
-    identity. So a million paths are only followed where there is a reason.
+    If the folder of the results has no symbolic links, and a file has no second name, its path is its identity. So a
+    million paths are only resolved where there is a reason.
     """
 
     def __init__(self, source: Path, dest: Path, entries: Sequence[ModelEntry], outputs: Mapping[str, str]) -> None:
@@ -52,7 +52,7 @@ class ResultPlaces:
         self._written: set[Hashable] = set()
 
     def require_free(self, report: Path) -> None:
-        """Raise where a report would be written over a model or a result.
+        """Raise if a report would be written over a model or a result.
 
         Raises:
             FolderError: it would.
@@ -64,13 +64,13 @@ class ResultPlaces:
             raise FolderError(f"the report {report} would be written over {over}")
 
     def problem(self, name: str, paths: Iterable[str]) -> str | None:
-        """Why the results of a model, paths below the folder of all, must not be written."""
+        """Return why the results of a model, which are paths below the folder of all, must not be written."""
         own = {self.outputs[name], self.outputs[name] + LEDGER}
         problems = (self._problem(inside, is_own=inside in own) for inside in paths)
         return next(filter(None, problems), None)
 
     def take(self, paths: Iterable[str]) -> None:
-        """Remember that results are in their places: another may have such a place without its path."""
+        """Remember which files were written: another result may lead to one of them by another path."""
         if self._has_links:
             self._written.update(each for inside in paths for each in identities(self.dest / inside))
 
@@ -90,7 +90,7 @@ class ResultPlaces:
 
     @cached_property
     def _has_links(self) -> bool:
-        """Whether anything in the folder of the results is a symbolic link."""
+        """Whether there is a symbolic link in the folder of the results."""
         for place, folders, files in os.walk(self.dest):
             if any(os.path.islink(os.path.join(place, name)) for name in (*folders, *files)):  # noqa: PTH114, PTH118 - many
                 return True
@@ -107,7 +107,7 @@ class ResultPlaces:
 
 
 def _has_one_name(path: Path) -> bool:
-    """Whether a file that is there has no other name by a hard link."""
+    """Return whether a file has no second name by a hard link."""
     try:
         return path.lstat().st_nlink == 1
     except OSError:

@@ -1,4 +1,4 @@
-"""Plans a batch: which models are as they were, by the status of their files."""
+"""Plans a batch: finds the models in which nothing has changed, by the status of their files."""
 
 import os
 from collections.abc import Iterator, Mapping
@@ -20,14 +20,14 @@ _MOST_REMEMBERED = 2**16
 
 
 class Known(NamedTuple):
-    """The record of an earlier run, and whether the manifest has it as the last one of the model."""
+    """The record of an earlier run, and whether it is the last one of its model in the manifest."""
 
     record: ModelRecord
     is_last: bool
 
 
 class BatchPlan:
-    """What is known of the models of a run."""
+    """What is known of the models of a run from earlier ones."""
 
     def __init__(
         self,
@@ -44,26 +44,26 @@ class BatchPlan:
         self._status = lru_cache(_MOST_REMEMBERED)(status)
 
     def known(self, entry: ModelEntry, output: str) -> Known | None:
-        """What came of a model in an earlier run, if nothing has changed that can be seen without opening a model."""
+        """Return the record of a model if it still counts, as far as can be seen without opening any file."""
         return next((each for each in self._candidates(entry, output) if self._is_current(each.record)), None)
 
     def candidate(self, entry: ModelEntry, output: str) -> ModelRecord | None:
-        """What came of a model in an earlier run, if what is asked for is the same and might end the same way."""
+        """Return the record of a model if the request is the same, and only the content of files has to be compared."""
         return next((each.record for each in self._candidates(entry, output)), None)
 
     def _candidates(self, entry: ModelEntry, output: str) -> Iterator[Known]:
-        """The record of a model, and that of the results which it left in their places, as far as they may hold."""
+        """Yield the last record of a model, and that of the results that are still in place, if they may count."""
         last = self._manifest.get(entry.name) if self._manifest and not self._fresh else None
         for record in (last, last and last.kept):
             if record is None or (record.request, record.output) != (request_of(self._request, entry), output):
                 continue
             is_whole = bool(record.dependencies) and (record.outcome is not Outcome.CONVERTED or bool(record.results))
-            results = self._results(record) if is_whole and record.outcome.is_final else None
+            results = self._check_results(record) if is_whole and record.outcome.is_final else None
             if results is not None:
                 yield Known(replace(record, results=results), record is last and results is record.results)
 
-    def _results(self, record: ModelRecord) -> tuple[Dependency, ...] | None:
-        """The results of a record, with their status now; None where one is not what was written."""
+    def _check_results(self, record: ModelRecord) -> tuple[Dependency, ...] | None:
+        """Return the results of a record with their status now; None if one is not what was written."""
         # the status of a result is asked once, and not kept
         if are_current(record.results, self._dest):
             return record.results
@@ -78,6 +78,6 @@ class BatchPlan:
 
 
 def request_of(request: str, entry: ModelEntry) -> str:
-    """The request for one model, with its file and its arguments where these are its own."""
+    """Return the digest of the request for one model, with its file and arguments if it has its own."""
     own = [entry.path, *entry.arguments] if entry.arguments or entry.path != entry.name else []
     return digest(f"{request}{own}".encode(errors="surrogateescape")) if own else request

@@ -13,7 +13,7 @@ Row = dict[str, object]
 
 
 class Outcome(StrEnum):
-    """How the work on a model ended."""
+    """The end that the work on a model came to."""
 
     CONVERTED = "converted"
     ACCEPTED = "accepted"
@@ -39,7 +39,7 @@ class Outcome(StrEnum):
 
     @property
     def exit_code(self) -> int:
-        """The exit code of the command for one model with this outcome."""
+        """The exit code of the command if one model has this outcome."""
         return _CODES.get(self, 1)
 
     @property
@@ -49,7 +49,7 @@ class Outcome(StrEnum):
 
     @property
     def is_final(self) -> bool:
-        """Whether it would end the same way again, as long as nothing changes."""
+        """Whether the work would end the same way again, as long as nothing changes."""
         return self in _FINAL
 
 
@@ -62,12 +62,12 @@ _CODES = {**dict.fromkeys(_GOOD, 0), Outcome.UNREADABLE: 2, Outcome.UNWRITTEN: 2
 class ModelRecord:
     """What came of a model, as the manifest keeps it.
 
-    `request` is the digest of what was asked for. `results` are the files that were written, `dependencies` and
-    `variables` what the work depended on, noted at a `time` in nanoseconds; without dependencies it is done again.
-    `kept` is the record of the results of an earlier run, which stay where they are until there is a verdict on the
-    model: it counts again as soon as everything is as it was then.
-    `message` is the reason why there is no result. `diagnostics` are those of `check --format json`; `ledger` counts
-    what became of the parts of the model. `details` are what else there is to report: statistics, differences.
+    `request` is the digest of the request. `results` are the files that were written; `dependencies` and `variables`
+    are what the work depended on, noted at `time` in nanoseconds. Without dependencies the work is done again.
+    `kept` is the record of results of an earlier run, which stay in place until there is a verdict on the model; it
+    counts again as soon as everything is as it was then. `message` says why there is no result. `diagnostics` are rows
+    as in `check --format json`, `ledger` counts the fates of the parts of the model, and `details` are statistics or
+    differences.
     """
 
     source: str
@@ -86,7 +86,7 @@ class ModelRecord:
 
     @property
     def standing(self) -> "ModelRecord | None":
-        """The record of the results that are in their places: this one, or that of an earlier run."""
+        """The record whose results are in place: this one, or that of an earlier run."""
         return self if self.outcome is Outcome.CONVERTED else self.kept
 
 
@@ -115,7 +115,7 @@ class ModelResult(NamedTuple):
 
 @dataclass(slots=True)
 class Summary:
-    """How many models met each end, and how many of these are known from an earlier run."""
+    """How many models have each outcome, and how many outcomes were known from an earlier run."""
 
     counts: Counter[Outcome] = field(default_factory=Counter[Outcome])
     known: int = 0
@@ -127,11 +127,11 @@ class Summary:
 
     @property
     def exit_code(self) -> int:
-        """The worst of all."""
+        """The worst exit code of all models."""
         return max((outcome.exit_code for outcome in self.counts), default=0)
 
     def __str__(self) -> str:
-        """In one line."""
+        """Return the counts in one line."""
         counts = [f"{self.counts[outcome]} {outcome}" for outcome in Outcome if self.counts[outcome]]
         total = self.counts.total()
         before = f" ({self.known} known from before)" if self.known else ""

@@ -64,12 +64,12 @@ class Batch:
 
     @property
     def chosen(self) -> list[ModelEntry]:
-        """The entries of this shard."""
+        """The models of this shard."""
         return [entry for entry in self.entries if self.shard is None or self.shard.has(entry)]
 
     @property
     def request(self) -> str:
-        """The digest of all that results depend on besides files."""
+        """The digest of everything besides files that results depend on."""
         load_options = self.load_options
         limits = (load_options.limits.size, load_options.limits.tags)
         asked: list[object] = [own_version(), load_options.strict, load_options.engine, load_options.xacro, limits]
@@ -85,10 +85,10 @@ class Batch:
 
 @contextmanager
 def batch(asked: Batch, executor: Executor | Runner | None = None) -> Generator[Iterator[ModelResult]]:
-    """Do the job with every model: gives what comes of each, and whether that was known before, as it comes.
+    """Do the job with every model, and yield an iterator of results, in the order in which they come.
 
-    Without an `executor` the work is done in processes that are started for it, one for each processor. One that breaks
-    ends the run; a `Runner` opens another.
+    Without an `executor` the work is done in processes, one for each processor. An executor that breaks ends the run; a
+    `Runner` opens another one.
 
     Raises:
         FolderError: the results would be among the sources, or a pass makes further files.
@@ -99,10 +99,10 @@ def batch(asked: Batch, executor: Executor | Runner | None = None) -> Generator[
         BrokenExecutor: it broke.
     """
     entries, request = asked.chosen, asked.request
-    names = _outputs(asked, entries)
-    runner = executor if isinstance(executor, Runner) else _runner(executor, asked.seconds)
+    names = _plan_outputs(asked, entries)
+    runner = executor if isinstance(executor, Runner) else _make_runner(executor, asked.seconds)
     if asked.dest is None:
-        with closing(_results(asked, entries, names, Recorder(request, None, None, asked.shown), runner)) as found:
+        with closing(_work_on_all(asked, entries, names, Recorder(request, None, None, asked.shown), runner)) as found:
             yield found
         return
     require_apart(asked.source, asked.dest)
@@ -111,11 +111,11 @@ def batch(asked: Batch, executor: Executor | Runner | None = None) -> Generator[
         places.require_free(asked.report)
     with Manifest(asked.dest, asked.shard.label if asked.shard else "").open() as manifest:
         recorder = Recorder(request, manifest, places, asked.shown)
-        with closing(_results(asked, entries, names, recorder, runner)) as found:
+        with closing(_work_on_all(asked, entries, names, recorder, runner)) as found:
             yield found
 
 
-def _results(
+def _work_on_all(
     asked: Batch,
     entries: Sequence[ModelEntry],
     names: Mapping[str, str],
@@ -132,7 +132,7 @@ def _results(
     )
     todo: list[ModelEntry] = []
     for entry in entries:
-        if missing := _missing(entry, asked, recorder.request):
+        if missing := _find_missing(entry, asked, recorder.request):
             yield ModelResult(missing, known=False)
         # Known results are passed on before any work begins, so that a run with nothing to do
         # starts no worker.
@@ -140,20 +140,20 @@ def _results(
             yield recorder.note(known)
         else:
             todo.append(entry)
-    tasks = (_task(entry, asked, names[entry.name], plan, recorder, runner) for entry in todo)
+    tasks = (_make_task(entry, asked, names[entry.name], plan, recorder, runner) for entry in todo)
     # One process plans and writes, and any executor does the work. A database of jobs that workers share would need a
     # server (SQLite does not work over a file server), and every worker would write where the results are. Here a
     # worker that dies has written nothing, and results are the same wherever they were made.
     for task, result in run_on(runner.for_jobs(len(todo)), work, tasks):
-        yield recorder.record(task, _done(task, result))
+        yield recorder.record(task, _interpret(task, result))
 
 
-def _runner(executor: Executor | None, seconds: float) -> Runner:
+def _make_runner(executor: Executor | None, seconds: float) -> Runner:
     return process_runner(seconds=seconds) if executor is None else Runner.of(executor)
 
 
-def _outputs(asked: Batch, entries: Sequence[ModelEntry]) -> Mapping[str, str]:
-    """The place of each result; none where there are no results."""
+def _plan_outputs(asked: Batch, entries: Sequence[ModelEntry]) -> Mapping[str, str]:
+    """Return the path of each result by the name of its model; empty paths for jobs without results."""
     job = asked.job
     if not isinstance(job, Convert):
         return {entry.name: "" for entry in entries}
@@ -165,8 +165,8 @@ def _outputs(asked: Batch, entries: Sequence[ModelEntry]) -> Mapping[str, str]:
     return {entry.name: every[entry.name] for entry in entries}
 
 
-def _missing(entry: ModelEntry, asked: Batch, request: str) -> ModelRecord | None:
-    """The record of a model that has nothing to be compared with."""
+def _find_missing(entry: ModelEntry, asked: Batch, request: str) -> ModelRecord | None:
+    """Return a record for a model that has none to be compared with; None if it has one."""
     if entry.path and (entry.other or not isinstance(asked.job, Diff)):
         return None
     side = "second" if entry.path else "first"
@@ -174,7 +174,9 @@ def _missing(entry: ModelEntry, asked: Batch, request: str) -> ModelRecord | Non
     return ModelRecord(source=entry.name, request=request, outcome=Outcome.MISSING, message=message)
 
 
-def _task(entry: ModelEntry, asked: Batch, output: str, plan: BatchPlan, recorder: Recorder, runner: Runner) -> Task:
+def _make_task(
+    entry: ModelEntry, asked: Batch, output: str, plan: BatchPlan, recorder: Recorder, runner: Runner
+) -> Task:
     manifest, search = recorder.manifest, asked.load_options.search
     folders = (asked.source, *search.own, *search.models, *search.packages, *search.workspaces)
     task = Task(
@@ -194,7 +196,7 @@ def _task(entry: ModelEntry, asked: Batch, output: str, plan: BatchPlan, recorde
     return replace(task, site=Worksite(versions(), tuple(map(str, folders))), size=size_of(task.path))
 
 
-def _done(task: Task, result: Done | Failure) -> Done:
+def _interpret(task: Task, result: Done | Failure) -> Done:
     # A worker that crashed or ran late says nothing about what it read, so nothing is remembered and the model is done
     # again.
     if isinstance(result, Failure):

@@ -19,9 +19,9 @@ from typing import IO, Protocol
 # standard library with its `data` filter takes more than 1 GiB or 5 s for 9, and safe-unzip 0.2 more than 5 s for 4; it
 # does not read bzip2 and xz.
 LONGEST_HEADER = 2**20
-"""Bytes of an extended header. Extended attributes of files, which are the largest real ones, have at most 64 KiB."""
+"""Bytes of an extended header; the largest real ones, with extended attributes of files, have 64 KiB."""
 XZ_MEMORY = 2**27
-"""What a dictionary of xz may take; `xz -9` needs half of it."""
+"""Bytes that a dictionary of xz may take; `xz -9` needs half of that."""
 _BLOCK = tarfile.BLOCKSIZE
 _PIECE = 2**20
 _EXTENDED = (tarfile.XHDTYPE, tarfile.SOLARIS_XHDTYPE)
@@ -32,33 +32,33 @@ _ENCODING, _ERRORS = "utf-8", "surrogateescape"
 
 
 class BrokenArchiveError(ValueError):
-    """What is wrong with an archive."""
+    """An archive is broken, or has a kind of file that is not read."""
 
 
 class LargeArchiveError(BrokenArchiveError):
-    """An archive holds more than it may."""
+    """An archive holds more than is allowed."""
 
 
 class ByteStream(Protocol):
-    """What can be read forward."""
+    """A stream that can be read forward."""
 
     def read(self, size: int, /) -> bytes:
-        """At most so many bytes; none at the end."""
+        """Return at most so many bytes; none at the end."""
         ...
 
 
 @dataclass(slots=True)
 class TarMember:
-    """A regular file in an archive; its content can be read until the next member is asked for."""
+    """A regular file in an archive, which can be read until the next member is asked for."""
 
     name: str
     time: float
     size: int
-    _source: "_Bounded"
+    _source: "_BoundedStream"
     _left: int
 
     def read(self, size: int) -> bytes:
-        """The next bytes of its content; none at its end.
+        """Return the next bytes of the content; none at its end.
 
         Raises:
             BrokenArchiveError: the archive ends before it.
@@ -78,7 +78,7 @@ class TarMember:
 
 @contextmanager
 def opened(archive: Path) -> Generator[ByteStream]:
-    """The unpacked bytes of an archive, by what it begins with: gzip, bzip2, xz, or as they are."""
+    """Open the decompressed stream of an archive, which its first bytes tell: gzip, bzip2, xz or none."""
     with archive.open("rb") as file:
         beginning = file.read(6)
         file.seek(0)
@@ -89,31 +89,31 @@ def opened(archive: Path) -> Generator[ByteStream]:
             with bz2.open(file) as unpacked:
                 yield unpacked
         elif beginning.startswith(b"\xfd7zXZ\0"):
-            yield _Xz(file)
+            yield _XzStream(file)
         else:
             yield file
 
 
 def members(stream: ByteStream, most_bytes: int, most_headers: int) -> Iterator[TarMember]:
-    """The regular files of an archive, in its order; links, devices and folders are left out.
+    """Yield the regular files of an archive in order, without links, devices and folders.
 
     Raises:
         LargeArchiveError: it unpacks to more bytes, or has more headers, than it may.
         BrokenArchiveError: it is broken, or has a kind of file that is not read here.
     """
-    source, name, records = _Bounded(stream, most_bytes), "", dict[bytes, bytes]()
+    source, name, records = _BoundedStream(stream, most_bytes), "", dict[bytes, bytes]()
     for _ in range(most_headers):
-        info = _header(source)
+        info = _read_header(source)
         if info is None:
             return
         if info.type in {*_EXTENDED, tarfile.XGLTYPE, tarfile.GNUTYPE_LONGNAME, tarfile.GNUTYPE_LONGLINK}:
-            content = _extension(source, info)
+            content = _read_extension(source, info)
             if info.type in _EXTENDED:
-                records.update(_records(content))
+                records.update(_parse_records(content))
             elif info.type == tarfile.GNUTYPE_LONGNAME:
                 name = content.partition(b"\0")[0].decode(_ENCODING, _ERRORS)
             continue
-        member = _member(source, info, name, records)
+        member = _make_member(source, info, name, records)
         # links, devices and folders have no content, whatever their size says
         filled = info.isreg() or info.type not in tarfile.SUPPORTED_TYPES
         if filled:
@@ -126,8 +126,8 @@ def members(stream: ByteStream, most_bytes: int, most_headers: int) -> Iterator[
     raise LargeArchiveError(f"it has more than {most_headers:,} headers")
 
 
-def _header(source: "_Bounded") -> tarfile.TarInfo | None:
-    """The next block as a header; None at the end."""
+def _read_header(source: "_BoundedStream") -> tarfile.TarInfo | None:
+    """Return the next block as a header; None at the end."""
     block = source.read(_BLOCK)
     if not block.strip(b"\0"):
         if not source.count:
@@ -139,8 +139,8 @@ def _header(source: "_Bounded") -> tarfile.TarInfo | None:
         raise BrokenArchiveError(f"there is no header at byte {source.count - len(block):,} ({error})") from error
 
 
-def _extension(source: "_Bounded", info: tarfile.TarInfo) -> bytes:
-    """The content of an extended header."""
+def _read_extension(source: "_BoundedStream", info: tarfile.TarInfo) -> bytes:
+    """Return the content of an extended header."""
     if not 0 <= info.size <= LONGEST_HEADER:
         raise BrokenArchiveError(f"the extended header {info.name!r} in it has more than {LONGEST_HEADER >> 20} MiB")
     content = source.exactly(info.size)
@@ -148,8 +148,8 @@ def _extension(source: "_Bounded", info: tarfile.TarInfo) -> bytes:
     return content
 
 
-def _records(content: bytes) -> Iterator[tuple[bytes, bytes]]:
-    """The records of an extended header, each of which begins with its own length."""
+def _parse_records(content: bytes) -> Iterator[tuple[bytes, bytes]]:
+    """Yield the records of an extended header, each of which begins with its own length."""
     start = 0
     while start < len(content) and content[start]:
         blank = content.find(b" ", start, start + _LONGEST_LENGTH)
@@ -161,18 +161,20 @@ def _records(content: bytes) -> Iterator[tuple[bytes, bytes]]:
         start = end
 
 
-def _member(source: "_Bounded", info: tarfile.TarInfo, name: str, records: Mapping[bytes, bytes]) -> TarMember:
+def _make_member(
+    source: "_BoundedStream", info: tarfile.TarInfo, name: str, records: Mapping[bytes, bytes]
+) -> TarMember:
     name = name or records.get(b"path", b"").decode(_ENCODING, _ERRORS) or info.name
     # No model needs sparse files, and a few bytes of one stand for any number of zeros.
     if info.type == tarfile.GNUTYPE_SPARSE or any(key.startswith(_SPARSE_RECORD) for key in records):
         raise BrokenArchiveError(f"{name!r} in it is stored without its holes: make the archive without --sparse")
-    size = _number(records, b"size", info.size)
+    size = _find_number(records, b"size", info.size)
     if not 0 <= size < 2**63:
         raise BrokenArchiveError(f"{name!r} in it has the size {size}")
-    return TarMember(name, _number(records, b"mtime", info.mtime), int(size), source, int(size))
+    return TarMember(name, _find_number(records, b"mtime", info.mtime), int(size), source, int(size))
 
 
-def _number(records: Mapping[bytes, bytes], key: bytes, usual: float) -> float:
+def _find_number(records: Mapping[bytes, bytes], key: bytes, usual: float) -> float:
     value = records.get(key)
     if value is None:
         return usual
@@ -182,15 +184,15 @@ def _number(records: Mapping[bytes, bytes], key: bytes, usual: float) -> float:
         raise BrokenArchiveError(f"the {key.decode()} of an extended header in it is no number") from error
 
 
-class _Bounded:
-    """A stream that counts what is read of it, up to a limit."""
+class _BoundedStream:
+    """A stream that counts the bytes that are read, up to a limit."""
 
     def __init__(self, stream: ByteStream, most: int) -> None:
         self._stream, self._most = stream, most
         self.count = 0
 
     def read(self, size: int) -> bytes:
-        """So many bytes, or those that are left; a stream of the standard library may give fewer at a time."""
+        """Return so many bytes, or all that are left; a stream of the standard library may return fewer at a time."""
         pieces: list[bytes] = []
         while size and (piece := self._stream.read(size)):
             pieces.append(piece)
@@ -200,12 +202,12 @@ class _Bounded:
         return b"".join(pieces)
 
     def expect(self, size: int) -> None:
-        """Raise where so many bytes more are too many."""
+        """Raise if so many more bytes would exceed the limit."""
         if self.count + size > self._most:
             raise LargeArchiveError(f"it unpacks to more than {self._most:,} bytes")
 
     def exactly(self, size: int) -> bytes:
-        """So many bytes.
+        """Return exactly so many bytes.
 
         Raises:
             BrokenArchiveError: there are fewer.
@@ -216,15 +218,15 @@ class _Bounded:
         return found
 
 
-class _Xz:
-    """The bytes in xz; `lzma.open` has no limit on what a dictionary takes."""
+class _XzStream:
+    """The decompressed bytes of xz; `lzma.open` has no limit on the memory of its dictionary."""
 
     def __init__(self, file: IO[bytes]) -> None:
         self._file = file
         self._decompressor = lzma.LZMADecompressor(memlimit=XZ_MEMORY)
 
     def read(self, size: int) -> bytes:
-        """At most so many bytes; none at the end."""
+        """Return at most so many bytes; none at the end."""
         while True:
             if self._decompressor.eof and not self._next_stream():
                 return b""
@@ -236,7 +238,7 @@ class _Xz:
                 raise EOFError("the compressed data end too early")
 
     def _next_stream(self) -> bool:
-        """Go on with the next of several streams in one file, between which there may be zeros."""
+        """Go on with the next stream of the file, with zeros before it if any; return whether there is one."""
         rest = self._decompressor.unused_data.lstrip(b"\0")
         while not rest:
             piece = self._file.read(_PIECE)

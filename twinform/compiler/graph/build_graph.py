@@ -1,4 +1,4 @@
-"""Builds the graph of a document; what it names and does not have is in it too, so that broken models can be drawn."""
+"""Builds the graph of a document, with the names that stand for nothing, so that broken models can be drawn."""
 
 import math
 from collections.abc import Iterable, Iterator
@@ -17,8 +17,8 @@ _WITH_LIMITS = frozenset({"revolute", "prismatic", "screw"}) | WITH_TWO_AXES
 
 
 def build_graph(document: Document, *, frames: bool = False, mimics: bool = False) -> Graph:
-    """The graph of a document, on request with its named frames and with which joints follow others."""
-    document = _with_extensions(document)
+    """Return the graph of a document; `frames` adds its named frames, and `mimics` which joints follow others."""
+    document = _fold_extensions(document)
     work = _GraphBuilder(document.format, with_frames=frames, with_mimics=mimics)
     for world in document.worlds:
         work.add_holder(world)
@@ -36,8 +36,8 @@ def build_graph(document: Document, *, frames: bool = False, mimics: bool = Fals
     )
 
 
-def _with_extensions(document: Document) -> Document:
-    """The document with the joints of `<gazebo>` elements among the others, where these can be understood."""
+def _fold_extensions(document: Document) -> Document:
+    """Return the document with the joints of `<gazebo>` elements among the others, if these can be read."""
     if document.format is not Format.URDF:
         return document
     from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - SDF does not need it
@@ -50,7 +50,7 @@ def _with_extensions(document: Document) -> Document:
 
 @dataclass(frozen=True, slots=True)
 class _GraphPlace:
-    """A model or world that is walked: the number of its graph, its prefix there, and its cluster."""
+    """A model or world that is visited: the number of its frame graph, its prefix there, and its cluster."""
 
     graph: FrameGraph
     number: int
@@ -72,7 +72,7 @@ class _GraphBuilder:
     """Ids by the number of a graph, what sort of thing it is, and its name in the graph."""
 
     def add_holder(self, holder: World | Model) -> None:
-        """A world, or a model that is in none, with all that is nested in it."""
+        """Add a world, or a model outside of worlds, with everything nested in it."""
         top = _GraphPlace(FrameGraph(holder), len(self.clusters), "", f"c{len(self.clusters)}")
         kind = "world" if isinstance(holder, World) else "model"
         self.clusters.append(Cluster(top.cluster, kind, holder.name))
@@ -87,7 +87,7 @@ class _GraphBuilder:
             for joint in one.joints:
                 self._add_joint(joint, place)
             if self.with_frames:
-                self._attach(one.frames, place)
+                self._add_attachments(one.frames, place)
         if self.with_mimics:
             for one, place in places:
                 self._add_followers(one.joints, place)
@@ -102,7 +102,7 @@ class _GraphBuilder:
             self._add("frame", frame.name, place, frame.location)
 
     def _add(self, kind: NodeKind, label: str, place: _GraphPlace, where: Location = NOWHERE) -> str:
-        """A node; of several of one name the first is what others mean by it."""
+        """Add a node and return its id; of several nodes with one name, others refer to the first."""
         node = f"n{len(self.nodes)}"
         name = place.prefix + label
         # Ids are ours and names are only labels: keywords, `::` and blanks then need no rules in
@@ -127,7 +127,7 @@ class _GraphBuilder:
         self._known.setdefault((place.number, "joint", found.name), found.id)
 
     def _find_end(self, name: str | None, place: _GraphPlace) -> str:
-        """The node that an end of a joint is: a frame where those are shown, else the link that it moves with."""
+        """Return the node at an end of a joint: a frame if frames are shown, else the link that it moves with."""
         if not name:
             return self._add_once("missing", "(not written)", place, prefix="")
         scoped = place.prefix + name
@@ -149,7 +149,7 @@ class _GraphBuilder:
         )
 
     def _find_include(self, scoped: str, place: _GraphPlace) -> str | None:
-        """The include that a name leads into."""
+        """Return the include that a name leads into."""
         while "::" in scoped:
             scoped = scoped.rpartition("::")[0]
             # The file was not read, so the name may well be right.
@@ -158,7 +158,7 @@ class _GraphBuilder:
         return None
 
     def _add_once(self, kind: NodeKind, label: str, place: _GraphPlace, *, prefix: str) -> str:
-        """A node that is there because something names it."""
+        """Return the node of a name that something refers to; add it the first time."""
         found = self._known.get((place.number, kind, prefix + label))
         if found:
             return found
@@ -166,7 +166,7 @@ class _GraphBuilder:
         inside = place if prefix else _GraphPlace(place.graph, place.number, "", top)
         return self._add(kind, label, inside)
 
-    def _attach(self, frames: Iterable[Frame], place: _GraphPlace) -> None:
+    def _add_attachments(self, frames: Iterable[Frame], place: _GraphPlace) -> None:
         for frame in frames:
             own = self._known[place.number, "frame", place.prefix + frame.name]
             holder = self._find_end(frame.attached_to or self._find_body(frame, place), place)
@@ -174,7 +174,7 @@ class _GraphBuilder:
                 self.attachments.append(Attachment(own, holder))
 
     def _find_body(self, frame: Frame, place: _GraphPlace) -> str | None:
-        """The link that a frame without `attached_to` moves with, as a name in its model."""
+        """Return the link that a frame without `attached_to` moves with, by its name in the model."""
         try:
             body = place.graph.body(place.prefix + frame.name, kind="frame")
         except FrameError:

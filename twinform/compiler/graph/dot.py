@@ -14,29 +14,29 @@ _SHAPES: Mapping[str, str] = {
 
 
 def dot(graph: Graph) -> str:
-    """A directed graph from the roots down: links are boxes, joints ellipses, frames hexagons."""
+    """Return a directed graph from the roots down: links are boxes, joints ellipses, frames hexagons."""
     lines = [f"digraph {quoted(graph.title)} {{", '  node [fontname="Helvetica"]', '  edge [fontname="Helvetica"]']
-    lines += write_clusters(graph, _node, _joint, _begin, "}")
-    lines += indent(_edges(graph))
+    lines += write_clusters(graph, _write_node, _write_joint, _begin_cluster, "}")
+    lines += indent(_write_edges(graph))
     return "\n".join((*lines, "}")) + "\n"
 
 
-def _node(node: GraphNode) -> str:
+def _write_node(node: GraphNode) -> str:
     return f"{node.id} [{_SHAPES[node.kind]} label={quoted(node.label)}]"
 
 
-def _joint(joint: GraphJoint) -> str:
+def _write_joint(joint: GraphJoint) -> str:
     # A mimic leads from joint to joint, and neither DOT nor Mermaid has edges between edges. So
     # joints are nodes, as `urdf_to_graphviz` draws them.
-    return f'{joint.id} [shape=ellipse color="#1f5fa8" label={_joint_label(joint)}]'
+    return f'{joint.id} [shape=ellipse color="#1f5fa8" label={_write_joint_label(joint)}]'
 
 
-def _begin(cluster: Cluster) -> tuple[str, str]:
+def _begin_cluster(cluster: Cluster) -> tuple[str, str]:
     return f"subgraph cluster_{cluster.id} {{", f"label={quoted(cluster.name)}"
 
 
 def quoted(text: str) -> str:
-    """A text as a string of DOT, in which neither escapes nor entities of HTML mean anything."""
+    """Return a text as a string of DOT in which no escape and no HTML entity has a meaning."""
     return f'"{_escaped(text)}"'
 
 
@@ -44,11 +44,11 @@ def _escaped(text: str) -> str:
     return shortened(text).replace("\\", "\\\\").replace('"', '\\"').replace("&", "&amp;")
 
 
-def _joint_label(joint: GraphJoint) -> str:
+def _write_joint_label(joint: GraphJoint) -> str:
     return '"' + "\\n".join(_escaped(each) for each in (joint.label, joint.type, *joint.details)) + '"'
 
 
-def _edges(graph: Graph) -> Iterator[str]:
+def _write_edges(graph: Graph) -> Iterator[str]:
     for joint in graph.joints:
         yield f"{joint.parent} -> {joint.id} [dir=none]"
         yield f"{joint.id} -> {joint.child}"

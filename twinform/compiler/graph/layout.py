@@ -28,7 +28,7 @@ _PADDING = 24
 
 
 class LayoutBox(NamedTuple):
-    """Where a node or cluster is."""
+    """The rectangle of a node or cluster."""
 
     x: float
     y: float
@@ -37,7 +37,7 @@ class LayoutBox(NamedTuple):
 
     @property
     def middle(self) -> float:
-        """The height that lines meet it at."""
+        """The y coordinate at which lines meet the box."""
         return self.y + self.height / 2
 
     @property
@@ -56,7 +56,7 @@ class LayoutBox(NamedTuple):
 
 
 class Hold(NamedTuple):
-    """What a node hangs by: an edge from `parent`, and the words that stand at it."""
+    """The edge of the tree that leads to a node, and the words that stand at it."""
 
     parent: str
     child: str
@@ -66,7 +66,7 @@ class Hold(NamedTuple):
 
 @dataclass(slots=True)
 class GraphLayout:
-    """Boxes by the ids of nodes and clusters, edges of the trees, and other joints, which are drawn across."""
+    """Boxes by the ids of nodes and clusters, the edges of the trees, and other joints, which are drawn across."""
 
     boxes: dict[str, LayoutBox] = field(default_factory=dict[str, LayoutBox])
     clusters: dict[str, LayoutBox] = field(default_factory=dict[str, LayoutBox])
@@ -77,11 +77,11 @@ class GraphLayout:
 
 
 def words_of(joint: GraphJoint) -> tuple[str, ...]:
-    """What stands at a joint: its name, and its type with limits."""
+    """Return what is written at a joint: its name, and its type with limits."""
     return shortened(joint.label), ", ".join((joint.type, *joint.details))
 
 
-def _following(leader: str, detail: str) -> tuple[str]:
+def _describe_follower(leader: str, detail: str) -> tuple[str]:
     return (", ".join(filter(None, (f"mimics {shortened(leader)}", detail))),)
 
 
@@ -90,28 +90,28 @@ def _following(leader: str, detail: str) -> tuple[str]:
 # more than linear), and its SVG is three times as large and without colors for dark screens. grandalf is under the GPL
 # and was last released in 2023; fast-sugiyama places points: boxes, words at edges and clusters would still be ours.
 def layout(graph: Graph) -> GraphLayout:
-    """Where everything of a graph is."""
-    holds, across = _holds(graph)
+    """Return the places of all nodes and clusters of a graph."""
+    holds, across = _find_holds(graph)
     children: dict[str, list[str]] = defaultdict(list)
     for node in graph.nodes:
         if node.id in holds:
             children[holds[node.id].parent].append(node.id)
     nodes = {node.id: node for node in graph.nodes}
     for below in children.values():
-        below.sort(key=lambda each: _place_of(nodes[each].cluster))
+        below.sort(key=lambda each: _cluster_number(nodes[each].cluster))
     order = depth_first([node.id for node in graph.nodes if node.id not in holds], children)
     made = GraphLayout(holds=[holds[each] for each, _ in order if each in holds], across=across)
-    _place(made, order, nodes, holds, children, _depths(graph))
-    made.clusters = _frames(graph, made.boxes)
-    _fit(made)
+    _place_boxes(made, order, nodes, holds, children, _measure_depths(graph))
+    made.clusters = _frame_clusters(graph, made.boxes)
+    _move_to_margin(made)
     return made
 
 
-def _holds(graph: Graph) -> tuple[dict[str, Hold], list[GraphJoint]]:
-    """What each node hangs by, and the joints that none hangs by."""
+def _find_holds(graph: Graph) -> tuple[dict[str, Hold], list[GraphJoint]]:
+    """Return the edge that leads to each node, and the joints that are in no tree."""
     tree = spanning_tree(joint for joint in graph.joints if joint.type != "gearbox")
     names = {each.id: each.label for each in (*graph.nodes, *graph.joints)}
-    follows = {each.joint: _following(names[each.leader], each.detail) for each in graph.followers}
+    follows = {each.joint: _describe_follower(names[each.leader], each.detail) for each in graph.followers}
     found = {
         child: Hold(joint.parent, child, (*words_of(joint), *follows.get(joint.id, ())), joint)
         for child, joint in tree.items()
@@ -133,7 +133,7 @@ def _hangs_from(node: str, top: str, tops: Mapping[str, str]) -> bool:
 
 
 def depth_first(roots: Iterable[str], children: Mapping[str, Sequence[str]]) -> list[tuple[str, int]]:
-    """All nodes with their levels, each before what hangs from it."""
+    """Return all nodes with their levels, each before its children."""
     order: list[tuple[str, int]] = []
     stack = [(root, 0) for root in reversed([*roots])]
     while stack:
@@ -143,7 +143,7 @@ def depth_first(roots: Iterable[str], children: Mapping[str, Sequence[str]]) -> 
     return order
 
 
-def _place(
+def _place_boxes(
     made: GraphLayout,
     order: Sequence[tuple[str, int]],
     nodes: Mapping[str, GraphNode],
@@ -179,16 +179,16 @@ def _place(
         made.boxes[node] = LayoutBox(columns[level], rows[node], box_width(nodes[node].label), BOX)
 
 
-def _depths(graph: Graph) -> dict[str | None, int]:
-    """How deep each cluster is nested."""
+def _measure_depths(graph: Graph) -> dict[str | None, int]:
+    """Return how deep each cluster is nested."""
     found: dict[str | None, int] = {None: 0}
     for cluster in graph.clusters:  # what is around one comes before it
         found[cluster.id] = found[cluster.inside] + 1
     return found
 
 
-def _frames(graph: Graph, boxes: Mapping[str, LayoutBox]) -> dict[str, LayoutBox]:
-    """A frame for each cluster that can have one with nothing of others in it; a single model needs none."""
+def _frame_clusters(graph: Graph, boxes: Mapping[str, LayoutBox]) -> dict[str, LayoutBox]:
+    """Return a frame for each cluster, unless nodes of others would be inside; a single model needs none."""
     tops = [cluster for cluster in graph.clusters if cluster.inside is None]
     bare = tops[0].id if len(tops) == 1 and tops[0].kind == "model" else None
     above = {cluster.id: cluster.inside for cluster in graph.clusters}
@@ -201,21 +201,21 @@ def _frames(graph: Graph, boxes: Mapping[str, LayoutBox]) -> dict[str, LayoutBox
     found: dict[str, LayoutBox] = {}
     for cluster in reversed(graph.clusters):  # those that are nested come after what they are in
         if inside := inner[cluster.id]:
-            around = _around(inside).grown(10, 16)
-            if cluster.id != bare and not _holds_others(around, own[cluster.id], boxes):
+            around = _enclose(inside).grown(10, 16)
+            if cluster.id != bare and not _overlaps_others(around, own[cluster.id], boxes):
                 found[cluster.id] = around
             if holder := above[cluster.id]:
-                inner[holder] += [found.get(cluster.id, _around(inside))]
+                inner[holder] += [found.get(cluster.id, _enclose(inside))]
                 own[holder] |= own[cluster.id]
     return {cluster.id: found[cluster.id] for cluster in graph.clusters if cluster.id in found}
 
 
-def _around(boxes: Sequence[LayoutBox]) -> LayoutBox:
+def _enclose(boxes: Sequence[LayoutBox]) -> LayoutBox:
     x, y = min(box.x for box in boxes), min(box.y for box in boxes)
     return LayoutBox(x, y, max(box.right for box in boxes) - x, max(box.bottom for box in boxes) - y)
 
 
-def _holds_others(around: LayoutBox, own: set[str], boxes: Mapping[str, LayoutBox]) -> bool:
+def _overlaps_others(around: LayoutBox, own: set[str], boxes: Mapping[str, LayoutBox]) -> bool:
     return any(
         node not in own
         and box.x < around.right
@@ -226,12 +226,12 @@ def _holds_others(around: LayoutBox, own: set[str], boxes: Mapping[str, LayoutBo
     )
 
 
-def _fit(made: GraphLayout) -> None:
-    """Move everything so that it begins at the margin."""
+def _move_to_margin(made: GraphLayout) -> None:
+    """Move everything so that the drawing begins at the margin."""
     every = [*made.boxes.values(), *made.clusters.values()]
     if not every:
         return
-    whole = _around(every)
+    whole = _enclose(every)
     right, down = MARGIN - whole.x, MARGIN - whole.y
     for known in (made.boxes, made.clusters):
         for key, box in known.items():
@@ -240,14 +240,14 @@ def _fit(made: GraphLayout) -> None:
 
 
 def box_width(label: str) -> float:
-    """The width of a box with a name in it."""
+    """Return the width of a box with a name in it."""
     return text_width((shortened(label),), _LETTER) + _PADDING
 
 
 def text_width(lines: Iterable[str], letter: float) -> float:
-    """About how wide texts are."""
+    """Estimate the width of the widest of some lines."""
     return max((sum(2 if east_asian_width(each) in "WF" else 1 for each in line) * letter for line in lines), default=0)
 
 
-def _place_of(cluster: str | None) -> int:
+def _cluster_number(cluster: str | None) -> int:
     return int(cluster[1:]) if cluster else -1

@@ -24,38 +24,42 @@ _PLAIN = re.compile(r"[^\w .,/()-]")
 
 
 def mermaid(graph: Graph) -> str:
-    """A flowchart from the roots down: links are boxes, joints rounded, frames hexagons."""
-    lines = ["flowchart TD", *write_clusters(graph, _node, _joint, _begin, "end"), *indent(_edges(graph))]
+    """Return a flowchart from the roots down: links are boxes, joints rounded, frames hexagons."""
+    lines = [
+        "flowchart TD",
+        *write_clusters(graph, _write_node, _write_joint, _begin_cluster, "end"),
+        *indent(_write_edges(graph)),
+    ]
     lines.append("  classDef missing stroke:#c62828,stroke-dasharray:5 4")
     return "\n".join(lines) + "\n"
 
 
 def fits(graph: Graph, text: str) -> bool:
-    """Whether Mermaid draws it with its default settings."""
+    """Return whether Mermaid draws a graph with its default settings."""
     edges = 2 * len(graph.joints) + len(graph.attachments) + len(graph.followers)
     return edges <= MOST_EDGES and len(text) <= MOST_CHARACTERS
 
 
 def escaped(text: str) -> str:
-    """A text in a label."""
+    """Return a text as it stands in a label."""
     plain = shortened(text).replace("\\n", "\\\N{WORD JOINER}n")  # of which it would make a new line
     return _PLAIN.sub(lambda found: f"#{ord(found[0])};", plain)
 
 
-def _begin(cluster: Cluster) -> tuple[str]:
+def _begin_cluster(cluster: Cluster) -> tuple[str]:
     return (f'subgraph {cluster.id}["{escaped(cluster.name) or " "}"]',)
 
 
-def _node(node: GraphNode) -> str:
+def _write_node(node: GraphNode) -> str:
     return node.id + _SHAPES[node.kind].format(escaped(node.label) or " ")
 
 
-def _joint(joint: GraphJoint) -> str:
+def _write_joint(joint: GraphJoint) -> str:
     label = "<br>".join(escaped(each) for each in (joint.label, joint.type, *joint.details))
     return f'{joint.id}(["{label}"])'
 
 
-def _edges(graph: Graph) -> Iterator[str]:
+def _write_edges(graph: Graph) -> Iterator[str]:
     for joint in graph.joints:
         yield f"{joint.parent} --- {joint.id} --> {joint.child}"
     for each in graph.attachments:

@@ -36,11 +36,11 @@ Part = TypeVar("Part", Link, Joint, Frame)
 
 
 def build_scene(document: Document) -> Scene:
-    """The scene of a document; what includes name is in it where they were expanded."""
+    """Return the scene of a document; included models are in it if the includes were expanded."""
     # The document is shown as it stands: a planar joint is three sliders and no chain of three
     # joints. A second reader in the page, such as urdf-loader, would show what *it* understands, so
     # scenes and conversions share this code.
-    document = Pipeline(_passes(document)).run(document, DiagnosticSink())
+    document = Pipeline(_choose_passes(document)).run(document, DiagnosticSink())
     work = _SceneBuilder(document.format)
     for world in document.worlds:
         graph = FrameGraph(world)
@@ -53,8 +53,8 @@ def build_scene(document: Document) -> Scene:
     return Scene(tuple(work.links), tuple(work.joints), tuple(work.frames), tuple(work.sensors), tuple(work.left_out))
 
 
-def _passes(document: Document) -> tuple[Pass, ...]:
-    """What makes all of a document's meaning stand in its fields."""
+def _choose_passes(document: Document) -> tuple[Pass, ...]:
+    """Return the passes that move everything a document means into its fields."""
     if document.format is Format.SDF:
         from twinform.passes.sdf_versions import raise_words  # noqa: PLC0415 - the other format does not need it
 
@@ -96,7 +96,7 @@ class _SceneScope:
 
 @dataclass(slots=True)
 class _SceneBuilder:
-    """What was found so far."""
+    """The parts of a scene that were found so far."""
 
     format: Format
     links: list[SceneLink] = field(default_factory=list[SceneLink])
@@ -106,7 +106,7 @@ class _SceneBuilder:
     left_out: list[str] = field(default_factory=list[str])
 
     def add_model(self, model: Model, prefix: str, around: FrameGraph | None) -> None:
-        """All of a model; `around` is the graph of the world that it is in."""
+        """Add a model; `around` is the frame graph of the world that it is in."""
         try:
             flat = flatten(model, lambda frame, _: frame)
             graph = FrameGraph(flat)
@@ -116,21 +116,21 @@ class _SceneBuilder:
             self.left_out.append(error.message)
             return
         for link in flat.links:
-            self._try(self._add_link, link, scope)
+            self._add_if_placed(self._add_link, link, scope)
         self.add_joints(flat.joints, scope)
         self.add_frames(flat.frames, scope)
 
     def add_joints(self, joints: Iterable[Joint], scope: _SceneScope) -> None:
-        """Joints, and the sensors in them."""
+        """Add joints, and the sensors in them."""
         for joint in joints:
-            self._try(self._add_joint, joint, scope)
+            self._add_if_placed(self._add_joint, joint, scope)
 
     def add_frames(self, frames: Iterable[Frame], scope: _SceneScope) -> None:
-        """Named frames."""
+        """Add named frames."""
         for frame in frames:
-            self._try(self._add_frame, frame, scope)
+            self._add_if_placed(self._add_frame, frame, scope)
 
-    def _try(self, add: Callable[[Part, _SceneScope], None], part: Part, scope: _SceneScope) -> None:
+    def _add_if_placed(self, add: Callable[[Part, _SceneScope], None], part: Part, scope: _SceneScope) -> None:
         try:
             add(part, scope)
         except FrameError as error:
@@ -138,12 +138,12 @@ class _SceneBuilder:
 
     def _add_link(self, link: Link, scope: _SceneScope) -> None:
         name = scope.name(link.name)
-        shapes, mass = tuple(_shapes(link, scope)), self._mass(link, scope)
+        shapes, mass = tuple(_find_shapes(link, scope)), self._find_mass(link, scope)
         self.links.append(SceneLink(name, scope.frame(link.name, "link"), shapes, mass, link.location))
         for sensor in link.sensors:
             self._add_sensor(sensor, name, scope.pose_in_link(sensor.pose, link.name))
 
-    def _mass(self, link: Link, scope: _SceneScope) -> Solid | None:
+    def _find_mass(self, link: Link, scope: _SceneScope) -> Solid | None:
         if link.inertial is None and self.format is Format.URDF:
             return None
         solid = written_solid(link.inertial, self.format)
@@ -169,7 +169,7 @@ class _SceneBuilder:
         self.frames.append(SceneFrame(scope.name(frame.name), scope.name(link), pose, frame.location))
 
 
-def _shapes(link: Link, scope: _SceneScope) -> Iterator[SceneShape]:
+def _find_shapes(link: Link, scope: _SceneScope) -> Iterator[SceneShape]:
     for each in (*link.visuals, *link.collisions):
         shape = each.geometry.shape if each.geometry else None
         if shape is not None and not isinstance(shape, Empty):

@@ -31,7 +31,7 @@ class SceneShape:
 
 @dataclass(frozen=True, slots=True)
 class Ray:
-    """A piece of a ray of a sensor, in the sensor's frame."""
+    """The measured part of a ray of a sensor, in the frame of the sensor."""
 
     start: Vector3
     end: Vector3
@@ -39,7 +39,7 @@ class Ray:
 
 @dataclass(frozen=True, slots=True)
 class Frustum:
-    """What a camera sees along the x axis of its sensor: angles of view, and the distances that it sees between."""
+    """The view of a camera along the x axis of its sensor: angles, and the nearest and farthest distance."""
 
     horizontal: float
     vertical: float
@@ -63,7 +63,7 @@ class SceneSensor:
 
 @dataclass(frozen=True, slots=True)
 class SceneLink:
-    """A link, where its frame is, and what it weighs, in its own frame; None for a link without mass."""
+    """A link, the pose of its frame, and its mass in its own frame, which is None for a link without mass."""
 
     name: str
     pose: Transform
@@ -81,7 +81,7 @@ class SceneJoint(PlacedJoint):
 
 @dataclass(frozen=True, slots=True)
 class SceneFrame:
-    """A frame besides those of links and joints, in the frame of the link that it moves with."""
+    """A named frame, in the frame of the link that it moves with."""
 
     name: str
     link: str
@@ -91,7 +91,7 @@ class SceneFrame:
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """Everything. `left_out` says what could not be placed."""
+    """The parts of a document that can be seen; `left_out` says what could not be placed."""
 
     links: tuple[SceneLink, ...] = ()
     joints: tuple[SceneJoint, ...] = ()
@@ -100,5 +100,5 @@ class Scene:
     left_out: tuple[str, ...] = ()
 
     def kinematics(self) -> Kinematics[SceneJoint]:
-        """What moves its links."""
+        """Return the kinematics of the scene."""
         return Kinematics({link.name: link.pose for link in self.links}, self.joints)

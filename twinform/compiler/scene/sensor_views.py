@@ -19,49 +19,49 @@ _LIDARS = frozenset({"ray", "lidar"})
 
 
 def frustums_of(sensor: Sensor) -> Iterator[Frustum]:
-    """What each camera of a sensor sees."""
+    """Yield the view of each camera of a sensor."""
     for part in sensor.opaque:
         if part.element and part.element.name == "camera":
-            yield _frustum(part.element)
+            yield _make_frustum(part.element)
 
 
 def rays_of(sensor: Sensor) -> Iterator[Ray]:
-    """Some rays of a lidar, the outermost among them; and the ray of a sonar."""
+    """Yield some rays of a lidar, the outermost among them."""
     for part in sensor.opaque:
         if part.element and RENAMED_ELEMENTS.get(part.element.name, part.element.name) in _LIDARS:
-            yield from _scan(part.element)
+            yield from _make_rays(part.element)
 
 
-def _frustum(camera: Element) -> Frustum:
+def _make_frustum(camera: Element) -> Frustum:
     width, height = image_size(camera.find("image"))
-    horizontal = min(_number(camera, "horizontal_fov", _HORIZONTAL_FOV), _WIDEST)
+    horizontal = min(_read_number(camera, "horizontal_fov", _HORIZONTAL_FOV), _WIDEST)
     clip = camera.find("clip")
-    near, far = _number(clip, "near", _NEAR), _number(clip, "far", _FAR)
+    near, far = _read_number(clip, "near", _NEAR), _read_number(clip, "far", _FAR)
     # square pixels: tan(v/2) / tan(h/2) = height / width
     vertical = 2 * math.atan(math.tan(horizontal / 2) * height / width) if width and height else horizontal
-    return Frustum(horizontal, vertical, near, max(near, far), Transform.from_pose(_pose(camera)))
+    return Frustum(horizontal, vertical, near, max(near, far), Transform.from_pose(_read_pose(camera)))
 
 
-def _scan(lidar: Element) -> Iterator[Ray]:
+def _make_rays(lidar: Element) -> Iterator[Ray]:
     scan, range_ = lidar.find("scan"), lidar.find("range")
-    near, far = _number(range_, "min", 0.0), _number(range_, "max", 0.0)
+    near, far = _read_number(range_, "min", 0.0), _read_number(range_, "max", 0.0)
     counts = samples(lidar)
-    around = [*_angles(scan, "horizontal", counts["horizontal"])]
-    for up in _angles(scan, "vertical", counts["vertical"]):
+    around = [*_choose_angles(scan, "horizontal", counts["horizontal"])]
+    for up in _choose_angles(scan, "vertical", counts["vertical"]):
         for aside in around:
             x, y, z = math.cos(up) * math.cos(aside), math.cos(up) * math.sin(aside), math.sin(up)
             yield Ray((near * x, near * y, near * z), (far * x, far * y, far * z))
 
 
-def _angles(scan: Element | None, direction: str, count: int) -> Iterator[float]:
+def _choose_angles(scan: Element | None, direction: str, count: int) -> Iterator[float]:
     element = scan.find(direction) if scan else None
-    least, most = _number(element, "min_angle", 0.0), _number(element, "max_angle", 0.0)
+    least, most = _read_number(element, "min_angle", 0.0), _read_number(element, "max_angle", 0.0)
     shown = min(count, _MOST_RAYS) if most - least > _FLAT else 1
     shares = (i / (shown - 1) if shown > 1 else 0.5 for i in range(shown))
     return (least * (1 - share) + most * share for share in shares)  # a difference may be too large for a number
 
 
-def _number(element: Element | None, name: str, usual: float) -> float:
+def _read_number(element: Element | None, name: str, usual: float) -> float:
     child = element.find(name) if element else None
     try:
         value = float((child.text or "").strip()) if child else usual
@@ -70,8 +70,8 @@ def _number(element: Element | None, name: str, usual: float) -> float:
     return value if math.isfinite(value) else usual
 
 
-def _pose(camera: Element) -> Pose | None:
-    """The `<pose>` of a camera in its sensor."""
+def _read_pose(camera: Element) -> Pose | None:
+    """Return the `<pose>` of a camera in its sensor; None if it has none, or one that cannot be read."""
     child = camera.find("pose")
     words = (child.text or "").split() if child else []
     if child is None or len(words) != 6 or child.get("relative_to"):

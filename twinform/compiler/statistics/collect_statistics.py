@@ -71,7 +71,7 @@ class ModelStatistics:
 
 
 def _measure_model(model: Model, format_: Format, meshes: tuple[MeshCost, ...]) -> ModelStatistics:
-    """Count what a model is made of; its automatic inertias have been written out where that can be done."""
+    """Count what a model is made of; automatic inertias were computed before, where that is possible."""
     nodes = list(walk(model))
     links = [node for node in nodes if isinstance(node, Link)]
     joints = [node for node in nodes if isinstance(node, Joint)]
@@ -112,7 +112,7 @@ def _kind(shaped: Visual | Collision) -> str:
 
 
 def _count_by_name(words: Iterable[str]) -> dict[str, int]:
-    """How often each name is there, by name."""
+    """Return how often each word occurs, sorted by word."""
     return dict(sorted(Counter(words).items()))
 
 

@@ -18,7 +18,7 @@ from twinform.passes.mesh_jobs.mesh_files import EXTRA, READ, RefusedMeshError, 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeshCost:
-    """One mesh file of a model: how often it is drawn and how often it touches, and what one of it costs.
+    """A mesh file of a model: how often it is used in visuals and collisions, and the cost of one use.
 
     `bytes` and `triangles` are None where they are not known; `problem` is the reason.
     """
@@ -39,7 +39,7 @@ class _MeshFile(NamedTuple):
 
 @dataclass(slots=True)
 class MeshFiles:
-    """The mesh files that the document in the file `beside` names; each is read once."""
+    """The mesh files that a document names, which was read from the file `beside`; each is read once."""
 
     search: SearchPath
     beside: Path
@@ -47,47 +47,47 @@ class MeshFiles:
     _known: dict[Path, _MeshFile] = field(default_factory=dict[Path, _MeshFile])
 
     def costs(self, model: Model) -> tuple[MeshCost, ...]:
-        """The mesh files of a model, in the order of their URIs."""
-        drawn, touched = _uses(model, Visual), _uses(model, Collision)
-        return tuple(self._cost(uri, drawn[uri], touched[uri]) for uri in sorted({*drawn, *touched}))
+        """Return the costs of the mesh files of a model, sorted by URI."""
+        drawn, touched = _count_uses(model, Visual), _count_uses(model, Collision)
+        return tuple(self._measure(uri, drawn[uri], touched[uri]) for uri in sorted({*drawn, *touched}))
 
-    def _cost(self, uri: str, visuals: int, collisions: int) -> MeshCost:
-        found = self._file(uri) if self.look else _MeshFile()
+    def _measure(self, uri: str, visuals: int, collisions: int) -> MeshCost:
+        found = self._look_up(uri) if self.look else _MeshFile()
         return MeshCost(uri=uri, visuals=visuals, collisions=collisions, **found._asdict())
 
-    def _file(self, uri: str) -> _MeshFile:
+    def _look_up(self, uri: str) -> _MeshFile:
         try:
             path = self.search.find(uri, self.beside)
         except UriError as error:
             return _MeshFile(problem=error.message)
         if path not in self._known:
-            self._known[path] = _looked_at(path)
+            self._known[path] = _read_mesh(path)
         return self._known[path]
 
 
-def _uses(model: Model, kind: type[Visual] | type[Collision]) -> Mapping[str, int]:
-    return Counter(_meshes(model, kind))
+def _count_uses(model: Model, kind: type[Visual] | type[Collision]) -> Mapping[str, int]:
+    return Counter(_find_meshes(model, kind))
 
 
-def _meshes(model: Model, kind: type[Visual] | type[Collision]) -> Iterator[str]:
+def _find_meshes(model: Model, kind: type[Visual] | type[Collision]) -> Iterator[str]:
     for node in walk(model):
         if isinstance(node, kind) and node.geometry and isinstance(node.geometry.shape, Mesh):
             yield (node.geometry.shape.uri or "").strip()
 
 
-def _looked_at(path: Path) -> _MeshFile:
+def _read_mesh(path: Path) -> _MeshFile:
     try:
         size = path.stat().st_size
         if not path.is_file():
             return _MeshFile(problem="it is no file")
         if kind_of(path) not in READ:
             return _MeshFile(size, problem=f"triangles are counted in {', '.join(sorted(READ))}")
-        return _counted(path, size)
+        return _count_triangles(path, size)
     except OSError as error:
         return _MeshFile(problem=f"it cannot be read: {error.strerror}")
 
 
-def _counted(path: Path, size: int) -> _MeshFile:
+def _count_triangles(path: Path, size: int) -> _MeshFile:
     from twinform.passes.mesh_jobs.child_process import do  # noqa: PLC0415 - most models have no meshes to read
 
     try:
@@ -113,7 +113,7 @@ class CostAdvice:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cost:
-    """Numbers that the time of a simulation grows with.
+    """Numbers that the time of a simulation depends on.
 
     `drawn_triangles` and `touched_triangles` are those of meshes in visuals and collisions, as often as they are used;
     `textures` are files. Sensors without an update rate, `rates_assumed`, count as if they worked at 1000 Hz, with
@@ -149,7 +149,7 @@ _ADVICE = (
 
 
 def cost_of(model: Model, meshes: Sequence[MeshCost]) -> Cost:
-    """What a model costs, with what there is to do about it."""
+    """Return the cost of a model, with advice on how to lower it."""
     nodes = list(walk(model))
     sensors = [cost for cost in map(sensor_cost, sensors_in(model)) if cost.pixels or cost.rays]
     textures = {
@@ -165,10 +165,10 @@ def cost_of(model: Model, meshes: Sequence[MeshCost]) -> Cost:
         rates_assumed=sum(each.assumed for each in sensors),
         plugins=sum(isinstance(node, Plugin) for node in nodes),
     )
-    return replace(cost, advice=tuple(_advice(cost)))
+    return replace(cost, advice=tuple(_advise(cost)))
 
 
-def _advice(cost: Cost) -> Iterator[CostAdvice]:
+def _advise(cost: Cost) -> Iterator[CostAdvice]:
     for row in _ADVICE:
         number: float = getattr(cost, row.field)
         if number > row.most:
