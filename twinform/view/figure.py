@@ -34,7 +34,7 @@ _SWELL = 1.02
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """How a robot is drawn: in one color instead of its own, and see-through."""
+    """How a robot is drawn: in one color instead of its own, and how opaque."""
 
     color: Rgb | None = None
     opacity: float | None = None
@@ -42,10 +42,10 @@ class Look:
 
 @dataclass(slots=True)
 class Figure:
-    """A scene as it is drawn below the node `root` of a viser scene.
+    """A scene, drawn below the node `root` of a viser scene.
 
-    `listen` is told of each part that is drawn, with its link; `title` says which one of two robots this is. `labels`
-    say what nodes are, by their names.
+    `listen` is called with each part that is drawn and its link; `title` says which of two robots this is. `labels` has
+    the texts that explain nodes, by their names.
     """
 
     api: Any
@@ -78,7 +78,7 @@ class Figure:
         self._with_visuals = frozenset(link for link, _, _ in self.shapes("visual"))
 
     def called(self, handle: Handle, *lines: str) -> Handle:
-        """What is drawn, of which the lines say what it is where the mouse is over it."""
+        """Label a node with lines that the page shows where the mouse is over it, and return the node."""
         self.labels[handle.name] = "\n".join(filter(None, (*lines, self.title)))
         return handle
 
@@ -88,12 +88,12 @@ class Figure:
         return f"{shortened(link)}{by}"
 
     def node_name(self, link: str) -> str:
-        """What a link's node is called; that of the world for a link that is none."""
+        """Return the name of the node of a link; that of the root for a name that is no link."""
         node = self.nodes.get(link)
         return node.name if node is not None else self.root
 
     def move(self, positions: Positions) -> None:
-        """Put every joint to a position, others to zero."""
+        """Move every joint to its position, or to zero without one."""
         poses = self.kinematics.poses(positions)
         for name, pose in poses.items():
             if pose != self.poses[name]:
@@ -102,7 +102,7 @@ class Figure:
         self.poses = poses
 
     def place(self, offset: Vector3, *, visible: bool) -> None:
-        """Move the whole, such as beside another one, and show or hide it."""
+        """Move the whole robot, for example beside another one, and show or hide it."""
         self.base.position, self.base.visible = offset, visible
 
     @property
@@ -114,18 +114,18 @@ class Figure:
         return self._size
 
     def from_world(self, link: str) -> Transform:
-        """From the world's frame with all joints at zero to that of a link."""
+        """Return the transform from the world to the frame of a link, with all joints at zero."""
         pose = self.kinematics.at_zero.get(link)
         return pose.inverse() if pose else Transform()
 
     def axes(self, name: str, pose: Transform, *lines: str) -> Handle:
-        """The axes of a frame; the lines say of what."""
+        """Draw the axes of a frame, labeled with lines."""
         length = self.size * _SHARE
         drawn = self.api.add_frame(name, axes_length=length, axes_radius=length * 0.04, **placed(pose))
         return self.called(drawn, *lines) if lines else drawn
 
     def show(self, layer: str, draw: Callable[["Figure"], Iterable[Handle]], *, visible: bool) -> None:
-        """Show or hide a layer, which is drawn when it is first seen."""
+        """Show or hide a layer, which is drawn when it is first shown."""
         if layer not in self._layers:
             if not visible:
                 return
@@ -134,28 +134,28 @@ class Figure:
             handle.visible = visible
 
     def shapes(self, role: str) -> Iterator[tuple[str, str, SceneShape]]:
-        """The visuals or collisions, each with its link, and a name for its node."""
+        """Yield the visuals or collisions, each with its link and a name for its node."""
         for link in self.scene.links:
             for number, shape in enumerate(link.shapes):
                 if shape.role == role:
                     yield link.name, f"{self.node_name(link.name)}/{role}/{number}", shape
 
     def triangles(self, shape: SceneShape) -> Triangles:
-        """The triangles of a shape, in its frame."""
+        """Return the triangles of a shape, in its frame."""
         found = self._triangles.get(shape)
         if found is None:
             found = self._triangles[shape] = triangles_of(shape.shape, self.meshes)
         return found
 
     def problems(self) -> Iterator[tuple[str, SceneShape, str]]:
-        """Shapes for which a box stands, each with its link and the reason."""
+        """Yield the shapes that are drawn as a box instead, each with its link and the reason."""
         for role in ("visual", "collision"):
             for link, _, shape in self.shapes(role):
                 if problem := self.triangles(shape).problem:
                     yield link, shape, problem
 
     def draw(self, shape: SceneShape, name: str, color: Rgb, opacity: float | None) -> Handle:
-        """A shape at its place; `color` counts where it has no colors of its own."""
+        """Draw a shape at its place, in `color` unless it has colors of its own."""
         found, at = self.triangles(shape), placed(shape.pose)
         if found.problem:
             return self.api.add_mesh_simple(name, found.points, found.faces, color=color, wireframe=True, **at)
@@ -167,7 +167,7 @@ class Figure:
         )
 
     def mark(self, links: Mapping[str, Rgb]) -> None:
-        """Color some links, and no others; a link without shapes has a ball at its frame."""
+        """Mark some links with colors, and no others; a link without shapes gets a ball at its frame."""
         for handle in self._marks:
             handle.remove()
         self._marks = []
@@ -195,16 +195,16 @@ class Figure:
 
     @property
     def has_ground(self) -> bool:
-        """Whether there is something as wide as the ground of a world, or a plane that is wider than all else."""
+        """Whether a shape is as wide as the ground of a world, or a plane is wider than everything else."""
         return any(
             (width := _width(self.triangles(shape).points)) >= _GROUND or (_is_plane(shape) and width > self.size)
             for _, _, shape in self.shapes("visual")
         )
 
     def bounds(self) -> tuple[Array, Array]:
-        """The least and greatest coordinates of what is drawn with all joints at zero, or of the links' frames.
+        """Return the least and greatest coordinates of shapes and frames, with all joints at zero.
 
-        Planes count only where there is nothing else: they are the ground.
+        Planes count only if there is nothing else: they are the ground.
         """
         corners = self._find_boxes("visual") or self._find_boxes("collision")
         corners += [np.asarray([pose.translation]) for pose in self.kinematics.at_zero.values() if _is_near(pose)]
@@ -212,7 +212,7 @@ class Figure:
         return every.min(axis=0), every.max(axis=0)
 
     def _find_boxes(self, role: str) -> list[Array]:
-        """The boxes around shapes that count for what is seen."""
+        """Return the corners of boxes around the shapes that the camera should show."""
         solid: list[Array] = []
         flat: list[Array] = []
         for link, _, shape in self.shapes(role):
@@ -223,13 +223,13 @@ class Figure:
 
 
 def placed(pose: Transform) -> dict[str, Any]:
-    """Where a node is, as viser takes it."""
+    """Return a pose as keywords of viser."""
     x, y, z, w = pose.quaternion()
     return {"position": pose.translation, "wxyz": (w, x, y, z)}
 
 
 def rgb(color: Iterable[float] | None, usual: Rgb = UNPAINTED) -> Rgb:
-    """Red, green and blue from 0 to 255."""
+    """Return red, green and blue from 0 to 255."""
     if color is None:
         return usual
     red, green, blue, *_ = (round(255 * min(1.0, max(0.0, part))) if math.isfinite(part) else 0 for part in color)
@@ -241,7 +241,7 @@ def _is_plane(shape: SceneShape) -> bool:
 
 
 def _width(points: Array) -> float:
-    """The longest edge of the box around points."""
+    """Return the longest edge of the box around points."""
     return float(np.ptp(points, axis=0).max())
 
 

@@ -28,7 +28,7 @@ Key = tuple[str, int]
 
 @dataclass(slots=True)
 class Choices:
-    """What a person has chosen, which stays when a file is shown again."""
+    """The choices of a person, which stay when a file is shown again."""
 
     positions: dict[Key, float] = field(default_factory=dict[Key, float])
     shown: dict[str, bool] = field(default_factory=dict[str, bool])
@@ -38,7 +38,7 @@ class Choices:
 
 @dataclass(frozen=True, slots=True)
 class _Movable:
-    """A degree of freedom that follows no other one."""
+    """A degree of freedom that mimics no other one."""
 
     joint: SceneJoint
     number: int
@@ -58,7 +58,7 @@ class _Movable:
 # no SDF.
 @dataclass(slots=True)
 class JointControls:
-    """Sliders of all joints of some figures."""
+    """The sliders of all joints of some figures."""
 
     gui: Any
     figures: Sequence[Figure]
@@ -69,40 +69,40 @@ class JointControls:
     _text: Any = field(default=None, init=False)
 
     def build(self) -> None:
-        """Put all controls into the panel."""
-        self._movable = list(_movable(self.figures))
+        """Add all controls to the panel."""
+        self._movable = list(_find_movable(self.figures))
         if not self._movable:
             self.gui.add_html(words.paragraph("No joint moves."))
             return
-        self._poses()
-        self._choice("Degrees", self.choices.degrees, self._show_degrees)
-        self._choice("Ignore limits", self.choices.beyond, self._ignore_limits)
+        self._add_poses()
+        self._add_choice("Degrees", self.choices.degrees, self._show_degrees)
+        self._add_choice("Ignore limits", self.choices.beyond, self._ignore_limits)
         self._folder = self.gui.add_folder(None)
         self._show_sliders()
         if len(self._movable) > _MOST_ROWS:
             self.gui.add_html(words.more(len(self._movable) - _MOST_ROWS, "joints"))
         with self.gui.add_folder("Positions as text", expand_by_default=False):
-            self._as_text()
+            self._add_text()
 
     def move(self, positions: Positions) -> None:
-        """Put joints to positions, and their sliders."""
+        """Move joints and their sliders to positions."""
         self._set_positions(positions)
-        self._write()
+        self._update_text()
 
     def _set_positions(self, positions: Positions) -> None:
         self.choices.positions |= positions
         for key, slider in self._sliders.items():
             if key in positions:
-                slider.value = _within(positions[key] * self._unit(key), slider.min, slider.max)
+                slider.value = _clamp(positions[key] * self._units_per_si(key), slider.min, slider.max)
         for figure in self.figures:
             figure.move(self.choices.positions)
 
-    def _unit(self, key: Key) -> float:
-        """How many of the unit that is shown are in a rad or m."""
+    def _units_per_si(self, key: Key) -> float:
+        """Return how many of the displayed units are one rad or m."""
         slides = next(each.degree.slides for each in self._movable if each.key == key)
         return math.degrees(1) if self.choices.degrees and not slides else 1.0
 
-    def _choice(self, label: str, value: bool, choose: Callable[[bool], None]) -> None:
+    def _add_choice(self, label: str, value: bool, choose: Callable[[bool], None]) -> None:
         box = self.gui.add_checkbox(label, value)
 
         @box.on_update
@@ -117,7 +117,7 @@ class JointControls:
     def _ignore_limits(self, chosen: bool) -> None:
         self.choices.beyond = chosen
 
-    def _poses(self) -> None:
+    def _add_poses(self) -> None:
         poses: Mapping[str, Callable[[Degree], float]] = {
             "Zero": lambda _: 0.0,
             "Middle": lambda degree: math.fsum(slider_range(degree)) / 2,
@@ -129,7 +129,7 @@ class JointControls:
         def _(event: object) -> None:
             del event
             choose = poses[group.value]
-            self.move({each.key: _within(choose(each.degree), *slider_range(each.degree)) for each in self._movable})
+            self.move({each.key: _clamp(choose(each.degree), *slider_range(each.degree)) for each in self._movable})
 
     def _show_sliders(self) -> None:
         for slider in self._sliders.values():
@@ -137,22 +137,22 @@ class JointControls:
         self._sliders = {}
         with self._folder:
             for each in self._movable[:_MOST_ROWS]:
-                self._slider(each)
+                self._add_slider(each)
 
-    def _slider(self, movable: _Movable) -> None:
+    def _add_slider(self, movable: _Movable) -> None:
         key, degree = movable.key, movable.degree
-        unit = self._unit(key)
+        unit = self._units_per_si(key)
         lower, upper = (each * unit for each in slider_range(degree, beyond=self.choices.beyond))
-        position = _within(self.choices.positions.get(key, 0.0), lower / unit, upper / unit)
+        position = _clamp(self.choices.positions.get(key, 0.0), lower / unit, upper / unit)
         self.choices.positions[key] = position
         slider = self.gui.add_slider(
             movable.label,
             lower,
             upper,
             min(_FINEST * max(1.0, unit), (upper - lower) / _STEPS),
-            _within(position * unit, lower, upper),
+            _clamp(position * unit, lower, upper),
             marks=((lower, f"{lower:.4g}"), (upper, f"{upper:.4g}")),
-            hint=_hint(movable, degrees=unit != 1.0),
+            hint=_describe_range(movable, degrees=unit != 1.0),
         )
         self._sliders[key] = slider
 
@@ -163,11 +163,13 @@ class JointControls:
             self.choices.positions[key] = slider.value / unit
             for figure in self.figures:
                 figure.move(self.choices.positions)
-            self._write()
+            self._update_text()
 
-    def _as_text(self) -> None:
-        """A field to copy all positions from, or to put them into."""
-        self._text = self.gui.add_text("JSON", self._json(), multiline=True, hint="In rad and m, to copy or to write")
+    def _add_text(self) -> None:
+        """Add a field to copy all positions from, or to write them into."""
+        self._text = self.gui.add_text(
+            "JSON", self._format_positions(), multiline=True, hint="In rad and m, to copy or to write"
+        )
 
         @self._text.on_update
         def _(event: Any) -> None:
@@ -177,11 +179,11 @@ class JointControls:
                     {key: value for key, value in positions_of(self._text.value).items() if key in known}
                 )
 
-    def _write(self) -> None:
+    def _update_text(self) -> None:
         if self._text is not None:
-            self._text.value = self._json()
+            self._text.value = self._format_positions()
 
-    def _json(self) -> str:
+    def _format_positions(self) -> str:
         found: dict[str, list[float]] = {}
         for each in self._movable:
             found.setdefault(each.joint.name, []).append(round(self.choices.positions.get(each.key, 0.0), 6))
@@ -189,7 +191,7 @@ class JointControls:
 
 
 def positions_of(text: str) -> dict[Key, float]:
-    """The positions that JSON says: numbers by the names of joints, or lists of them; nothing from other text."""
+    """Return the positions in a text of JSON: numbers, or lists of numbers, by the names of joints."""
     try:
         found: object = json.loads(text)
     except (ValueError, RecursionError):
@@ -197,10 +199,10 @@ def positions_of(text: str) -> dict[Key, float]:
     if not isinstance(found, dict):
         return {}
     joints = cast("dict[str, object]", found)
-    return {(name, number): each for name, value in joints.items() for number, each in enumerate(_numbers(value))}
+    return {(name, number): each for name, value in joints.items() for number, each in enumerate(_find_numbers(value))}
 
 
-def _numbers(value: object) -> Iterator[float]:
+def _find_numbers(value: object) -> Iterator[float]:
     several = cast("list[object]", value) if isinstance(value, list) else [value]
     for each in several:
         if isinstance(each, int | float) and abs(each) < _FARTHEST:
@@ -208,9 +210,9 @@ def _numbers(value: object) -> Iterator[float]:
 
 
 def slider_range(degree: Degree, *, beyond: bool = False) -> tuple[float, float]:
-    """The ends of a slider, in rad or m: the limits, or a way to both sides; some way where both limits are one.
+    """Return the ends of a slider in rad or m: the limits, or a fixed range to both sides if there are none.
 
-    It goes at least as far as without limits where these are ignored, `beyond` them.
+    A slider always has a range, even if both limits are equal. With `beyond` it ignores the limits and goes farther.
     """
     usual = _WAY if degree.slides else _TURN
     lower = degree.lower if math.isfinite(degree.lower) else -usual
@@ -224,8 +226,8 @@ def slider_range(degree: Degree, *, beyond: bool = False) -> tuple[float, float]
     return (lower, upper) if lower < upper else (-usual, usual)
 
 
-def _movable(figures: Sequence[Figure]) -> Iterator[_Movable]:
-    """Each degree of freedom, by the names of joints; the first figure that has a joint says how it moves."""
+def _find_movable(figures: Sequence[Figure]) -> Iterator[_Movable]:
+    """Yield the degrees of freedom of all joints; of two figures, the first that has a joint says how it moves."""
     known: set[str] = set()
     for figure in figures:
         for joint in figure.scene.joints:
@@ -234,12 +236,12 @@ def _movable(figures: Sequence[Figure]) -> Iterator[_Movable]:
                 yield from (_Movable(joint, i, each) for i, each in enumerate(joint.degrees) if each.leader is None)
 
 
-def _hint(movable: _Movable, *, degrees: bool) -> str:
+def _describe_range(movable: _Movable, *, degrees: bool) -> str:
     degree = movable.degree
     unit = "m" if degree.slides else "degrees" if degrees else "rad"
     limited = math.isfinite(degree.lower) or math.isfinite(degree.upper)
     return f"{movable.joint.type}, {unit}, {'within its limits' if limited else 'without limits'}"
 
 
-def _within(value: float, lower: float, upper: float) -> float:
+def _clamp(value: float, lower: float, upper: float) -> float:
     return min(max(value, lower), upper)

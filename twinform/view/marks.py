@@ -26,12 +26,12 @@ _JOINT_SHARE = 0.08
 
 
 def joint_axes(figure: Figure) -> Iterator[Handle]:
-    """An arrow for each axis, in the frame of the link that the joint moves."""
+    """Draw an arrow for each axis, in the frame of the link that the joint moves."""
     length = figure.size * _JOINT_SHARE
     for number, joint in enumerate(figure.scene.joints):
         into = figure.from_world(joint.child)
         start = into.apply(joint.frame.translation)
-        arrows = [(start, _plus(start, into.rotate(degree.axis), length)) for degree in joint.degrees]
+        arrows = [(start, _move_along(start, into.rotate(degree.axis), length)) for degree in joint.degrees]
         if arrows:
             drawn = figure.api.add_arrows(
                 f"{figure.node_name(joint.child)}/axes/{number}",
@@ -45,7 +45,7 @@ def joint_axes(figure: Figure) -> Iterator[Handle]:
 
 
 def about(joint: SceneJoint) -> Iterator[str]:
-    """What there is to say of a joint, line by line."""
+    """Yield the lines that describe a joint."""
     yield f"joint {shortened(joint.name)}"
     yield f"{joint.type}, from {shortened(joint.parent)} to {shortened(joint.child)}"
     for degree in joint.degrees:
@@ -57,7 +57,7 @@ def about(joint: SceneJoint) -> Iterator[str]:
 
 
 def joint_limits(figure: Figure) -> Iterator[Handle]:
-    """From the lower to the upper limit, in the frame of the link that the joint hangs from: arcs, and lines."""
+    """Draw arcs and lines from the lower to the upper limits, in the frame of the parent link."""
     length = figure.size * _JOINT_SHARE
     for number, joint in enumerate(figure.scene.joints):
         into = figure.from_world(joint.parent)
@@ -76,7 +76,7 @@ def _limit_lines(joint: SceneJoint, degree: Degree, length: float) -> Iterator[t
     if degree.slides:
         yield slide(degree.axis, degree.lower).apply(center), slide(degree.axis, degree.upper).apply(center)
         return
-    start = _plus(center, plane_across(degree.axis)[0], length)
+    start = _move_along(center, plane_across(degree.axis)[0], length)
     span = min(degree.upper - degree.lower, 2 * math.pi)
     angles = [degree.lower + span * step / _STEPS for step in range(_STEPS + 1)]
     arc = [turn(degree.axis, angle, center).apply(start) for angle in angles]
@@ -86,7 +86,7 @@ def _limit_lines(joint: SceneJoint, degree: Degree, length: float) -> Iterator[t
 
 
 def skeleton(figure: Figure) -> Iterator[Handle]:
-    """A line from each link's frame to those of its joints, and on to the links that these move."""
+    """Draw lines from the frame of each link to its joints, and on to the links that these move."""
     thick = figure.size * 0.008
     for number, joint in enumerate(figure.scene.joints):
         into = figure.from_world(joint.parent)
@@ -104,7 +104,7 @@ def skeleton(figure: Figure) -> Iterator[Handle]:
         yield figure.called(knuckle, *about(joint))
 
 
-def _plus(start: Vector3, direction: Vector3, length: float) -> Vector3:
+def _move_along(start: Vector3, direction: Vector3, length: float) -> Vector3:
     return tuple(a + b * length for a, b in zip(start, direction, strict=True))  # type: ignore[return-value]
 
 
@@ -116,7 +116,7 @@ _MASS_SHARE = 0.03
 
 
 def inertias(figure: Figure) -> Iterator[Handle]:
-    """Boxes that have the mass and the inertia of the links, filled evenly.
+    """Draw boxes of even density that have the mass and the inertia of the links.
 
     One that is larger than the whole robot, as of an inertia in a wrong unit, would hide it: it is cut, in red wire.
     """
@@ -140,7 +140,7 @@ def inertias(figure: Figure) -> Iterator[Handle]:
 
 
 def inertia_box(solid: Solid) -> tuple[Vector3, Transform] | None:
-    """The sides in meters, and the place in the link, of the box of even density with this mass and inertia.
+    """Return the sides in meters and the pose of the box of even density that has this mass and inertia.
 
     The moments of a box of sides a, b, c are m (b^2 + c^2) / 12 and so on, so a^2 = 6 (Iyy + Izz - Ixx) / m; a side
     whose square would be negative, as of no real body, is zero. None where it is not finite.
@@ -157,7 +157,7 @@ def inertia_box(solid: Solid) -> tuple[Vector3, Transform] | None:
 
 
 def centers(figure: Figure) -> Iterator[Handle]:
-    """A ball at each center of mass, whose volume grows with the mass."""
+    """Draw a ball at each center of mass, whose volume grows with the mass."""
     weights = [link.mass.mass for link in figure.scene.links if link.mass]
     for link in figure.scene.links:
         if link.mass and all(map(math.isfinite, link.mass.center)):
@@ -173,13 +173,13 @@ _FAR = 0.6
 
 
 def sensors(figure: Figure) -> Iterator[Handle]:
-    """Frusta of cameras, rays of lidars, and axes for all others; what reaches far is cut at the size of the whole."""
+    """Draw frusta of cameras, rays of lidars, and axes of other sensors; nothing reaches far beyond the robot."""
     far = figure.size * _FAR
     for number, sensor in enumerate(figure.scene.sensors):
         name = f"{figure.node_name(sensor.link)}/sensors/{number}"
         words = f"sensor {shortened(sensor.name)}", f"{sensor.type} on {shortened(sensor.link)}"
         lines = [piece for frustum in sensor.frustums for piece in _frustum_edges(frustum, far)]
-        lines += [(ray.start, _cut(ray.start, ray.end, far)) for ray in sensor.rays]
+        lines += [(ray.start, _shorten(ray.start, ray.end, far)) for ray in sensor.rays]
         if not lines:
             yield figure.axes(name, sensor.pose, *words)
             continue
@@ -190,7 +190,7 @@ def sensors(figure: Figure) -> Iterator[Handle]:
 
 
 def _frustum_edges(frustum: Frustum, far: float) -> Iterator[tuple[Vector3, Vector3]]:
-    """The lines of a frustum along x."""
+    """Yield the edges of a frustum along x."""
     depth = min(frustum.far, far)
     near, corners = min(frustum.near, depth), [(1, 1), (-1, 1), (-1, -1), (1, -1)]
     y, z = math.tan(frustum.horizontal / 2), math.tan(frustum.vertical / 2)
@@ -201,7 +201,7 @@ def _frustum_edges(frustum: Frustum, far: float) -> Iterator[tuple[Vector3, Vect
     yield from zip(front, back, strict=True)
 
 
-def _cut(start: Vector3, end: Vector3, far: float) -> Vector3:
+def _shorten(start: Vector3, end: Vector3, far: float) -> Vector3:
     length = math.dist(start, end)
     share = min(1.0, far / length) if length else 0.0
     x, y, z = (a + (b - a) * share for a, b in zip(start, end, strict=True))

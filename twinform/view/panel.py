@@ -1,4 +1,4 @@
-"""The panel beside the 3D view: joints, layers, the tree, what was found, and the part that is looked at."""
+"""The panel beside the 3D view: joints, layers, the tree, findings, and the selected part."""
 
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
@@ -28,8 +28,8 @@ _FEW_DRAWN = 0.5
 class Panel:
     """The controls of one or two figures, which stand on a grid.
 
-    What people do is handled in threads of viser: under the `lock`, and not when the panel has `ended`, since there is
-    another one in its place.
+    Events are handled in threads of viser: under the `lock`, and not after the panel has `ended`, since another one has
+    taken its place.
     """
 
     gui: Any
@@ -48,7 +48,7 @@ class Panel:
     _colors: dict[str, Rgb] = field(default_factory=dict[str, Rgb], init=False)
 
     def build(self) -> None:
-        """Put all controls into the panel."""
+        """Add all controls to the panel."""
         if self.comparison is not None:
             self._colors = words.difference_colors(self.comparison, self.subjects)
         self._joints = JointControls(self.gui, self.figures, self.choices)
@@ -59,18 +59,18 @@ class Panel:
         with tabs.add_tab("Joints"):
             self._joints.build()
         with tabs.add_tab("Show"):
-            self._layers()
+            self._add_layers()
         with tabs.add_tab("Tree"):
-            self._tree()
+            self._add_tree()
         if self.comparison is not None:
             with tabs.add_tab("Differences"):
-                self._differences(self.comparison)
+                self._add_differences(self.comparison)
         with tabs.add_tab("Findings"):
-            self._findings()
+            self._add_findings()
         self._mark()
 
     def select(self, links: Iterable[str], text: str = "") -> None:
-        """Mark links, and say what there is to know about them."""
+        """Mark links, and show what is known about them."""
         with self.lock:
             if self.ended:
                 return
@@ -80,11 +80,11 @@ class Panel:
             self._mark()
 
     def warn(self, title: str, lines: Iterable[str]) -> None:
-        """Say above all controls what has gone wrong."""
+        """Show above all controls what has gone wrong."""
         self._warning.content = words.alert(title, lines)
 
     def move(self, positions: Positions) -> None:
-        """Put joints to positions, and their sliders."""
+        """Move joints and their sliders to positions."""
         self._joints.move(positions)
 
     def listen(self, figure: Figure, handle: Handle, link: str) -> None:
@@ -102,18 +102,18 @@ class Panel:
         self.move({(joint.name, 0): min(max(position, lower), upper)})
 
     def _mark(self) -> None:
-        """Color what is different, and what is selected."""
+        """Color what differs and what is selected."""
         for figure in self.figures:
             figure.mark(self._colors | dict.fromkeys(self._selected, MARK))
-        self._tell_page()
+        self._update_page()
 
-    def _tell_page(self) -> None:
+    def _update_page(self) -> None:
         labels = {name: text for figure in self.figures for name, text in figure.labels.items()}
         self._page.content = words.control(labels, self._selected)
 
-    def _layers(self) -> None:
+    def _add_layers(self) -> None:
         if len(self.figures) > 1:
-            self._arrangement()
+            self._add_arrangement()
         for layer in LAYERS:
             shown = layer.shown or (layer.label == SKELETON and _few_are_drawn(self.figures))
             box = self.gui.add_checkbox(layer.label, self.choices.shown.setdefault(layer.label, shown))
@@ -123,20 +123,20 @@ class Panel:
             @box.on_update
             def _(event: object, layer: Any = layer, box: Any = box) -> None:
                 del event
-                self._show(layer, visible=box.value)
+                self._show_layer(layer, visible=box.value)
 
-        self._grid()
+        self._add_grid()
 
-    def _show(self, layer: Layer, *, visible: bool) -> None:
+    def _show_layer(self, layer: Layer, *, visible: bool) -> None:
         with self.lock:
             self.choices.shown[layer.label] = visible
             if self.ended:
                 return
             for figure in self.figures:
                 figure.show(layer.label, layer.draw, visible=visible)
-            self._tell_page()
+            self._update_page()
 
-    def _grid(self) -> None:
+    def _add_grid(self) -> None:
         has_ground = any(figure.has_ground for figure in self.figures)
         box = self.gui.add_checkbox("Grid", self.choices.shown.setdefault("Grid", not has_ground))
         self.grid.visible = box.value
@@ -146,7 +146,7 @@ class Panel:
             del event
             self.choices.shown["Grid"] = self.grid.visible = box.value
 
-    def _arrangement(self) -> None:
+    def _add_arrangement(self) -> None:
         first, second = self.figures
         where = self.gui.add_dropdown("B is", ["over A", "beside A", "hidden"])
 
@@ -157,8 +157,8 @@ class Panel:
             aside = 1.2 * float(greatest[1] - least[1]) + 0.05 * first.size
             second.place((0.0, -aside if where.value == "beside A" else 0.0, 0.0), visible=where.value != "hidden")
 
-    def _tree(self) -> None:
-        """A field that finds a link, which a click on a row of the tree fills too, and the trees."""
+    def _add_tree(self) -> None:
+        """Add the trees, and a field that finds a link; a click on a row of a tree fills the field too."""
         found = self.gui.add_text("Find", "", hint="A link or joint, or the beginning of its name")
 
         @found.on_update
@@ -166,22 +166,22 @@ class Panel:
             del event
             wanted = found.value.strip()
             if wanted:
-                self._find(wanted)
+                self._select_by_name(wanted)
 
         for subject, figure in zip(self.subjects, self.figures, strict=True):
             if figure.title:
                 self.gui.add_html(words.paragraph(figure.title))
-            self.gui.add_html(tree(subject.scene, self._marks(subject, figure)))
+            self.gui.add_html(tree(subject.scene, self._find_marks(subject, figure)))
 
-    def _find(self, wanted: str) -> None:
+    def _select_by_name(self, wanted: str) -> None:
         names = {joint.name: joint.child for figure in self.figures for joint in figure.scene.joints}
         names |= {link: link for subject in self.subjects for link in subject.links}
-        ranks = {name: rank for name in names if (rank := _rank(wanted, name)) is not None}
+        ranks = {name: rank for name in names if (rank := _rank_name(wanted, name)) is not None}
         if ranks:
             self.select([names[min(ranks, key=lambda name: (ranks[name], len(name)))]])
 
-    def _marks(self, subject: ViewSubject, figure: Figure) -> dict[str, list[Mark]]:
-        """What there is to see about links in the tree."""
+    def _find_marks(self, subject: ViewSubject, figure: Figure) -> dict[str, list[Mark]]:
+        """Return the marks of links in the tree."""
         marks: dict[str, list[Mark]] = {}
         for link, about in subject.about.items():
             marks[link] = [words.mark(each) for each in about if isinstance(each, Diagnostic)]
@@ -191,31 +191,33 @@ class Panel:
             marks.setdefault(link, []).append(Mark("\N{NOT EQUAL TO}", words.css(color), "differs"))
         return marks
 
-    def _findings(self) -> None:
+    def _add_findings(self) -> None:
         self.gui.add_html(words.verdict(self.subjects))
         for subject in self.subjects:
             rows = sorted(subject.findings, key=words.severity_rank)
             for found in rows[:_MOST_ROWS]:
                 label = f"{found.severity}: {found.rule.name}, line {found.location.line}"
                 color = words.severity_color(found)
-                self._row(label, words.finding(found), subject.links_at(found.location), color)
+                self._add_row(label, words.finding(found), subject.links_at(found.location), color)
             if len(rows) > _MOST_ROWS:
                 self.gui.add_html(words.more(len(rows) - _MOST_ROWS, "findings"))
         for figure in self.figures:
             for link, shape, problem in list(figure.problems())[:_MOST_ROWS]:
-                self._row(f"not drawn: {shortened(shape.name or shape.role)}", words.paragraph(problem), [link], MARK)
+                self._add_row(
+                    f"not drawn: {shortened(shape.name or shape.role)}", words.paragraph(problem), [link], MARK
+                )
 
-    def _differences(self, comparison: Comparison) -> None:
+    def _add_differences(self, comparison: Comparison) -> None:
         self.gui.add_html(words.compared(comparison))
         for found in comparison.counted[:_MOST_ROWS]:
             label = shortened(f"{found.group} {found.name}: {found.aspect}".rstrip(": "))
             links = words.links_of(found, self.subjects)
             color = next((self._colors[link] for link in links if link in self._colors), words.QUIET)
-            self._row(label, words.difference(found), links, color)
+            self._add_row(label, words.difference(found), links, color)
         if len(comparison.counted) > _MOST_ROWS:
             self.gui.add_html(words.more(len(comparison.counted) - _MOST_ROWS, "differences"))
 
-    def _row(self, label: str, text: str, links: Sequence[str], color: Rgb) -> None:
+    def _add_row(self, label: str, text: str, links: Sequence[str], color: Rgb) -> None:
         if not links:
             self.gui.add_html(words.heading(label, color) + text)
             return
@@ -229,13 +231,13 @@ class Panel:
 
 
 def _few_are_drawn(figures: Sequence[Figure]) -> bool:
-    """Whether so little can be drawn that a robot cannot be known by it."""
+    """Return whether so few shapes can be drawn that nobody would recognize the robot."""
     every = [figure.triangles(shape) for figure in figures for _, _, shape in figure.shapes("visual")]
     return sum(not each.problem for each in every) <= _FEW_DRAWN * len(every)
 
 
-def _rank(wanted: str, name: str) -> int | None:
-    """How well a name is what is wanted, 0 at best; None if it is not."""
+def _rank_name(wanted: str, name: str) -> int | None:
+    """Return how well a name matches, 0 at best; None if it does not match."""
     low, part = name.lower(), wanted.lower()
     if name == wanted:
         return 0

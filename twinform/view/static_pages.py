@@ -20,21 +20,21 @@ class ViewError(Exception):
 
 
 class ViewerMissingError(ViewError):
-    """What draws it is not installed."""
+    """A library that draws the view is not installed."""
 
     def __init__(self, library: str) -> None:
         super().__init__(f"the 3D view needs {library}: run pip install 'twinform[view]'")
 
 
 class PortTakenError(ViewError):
-    """Another program listens at its port."""
+    """Another program listens at the port."""
 
     def __init__(self, port: int) -> None:
         super().__init__(f"port {port} of this machine is taken: choose another one, or leave --port out")
 
 
 class NotDrawn(NamedTuple):
-    """A shape for which a box of wire stands, and why."""
+    """A shape that is drawn as a box of wire instead, and why."""
 
     link: str
     role: str
@@ -44,14 +44,14 @@ class NotDrawn(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class StandaloneView:
-    """A page with a 3D view, and what is not drawn in it."""
+    """A page with a 3D view, and the shapes that are not drawn in it."""
 
     page: str
     not_drawn: tuple[NotDrawn, ...] = ()
 
 
 def new_viewer(port: int = 0) -> "Viewer":
-    """A viewer; what it is made with is imported here.
+    """Start a viewer, and import the libraries that it needs.
 
     Raises:
         ViewerMissingError: the libraries are not installed.
@@ -74,10 +74,10 @@ def standalone_page(
     dark: bool = False,
     search: SearchPath | None = None,
 ) -> str:
-    """The text of an HTML page that shows a document, or two overlaid, with every joint at zero.
+    """Return an HTML page that shows a document, or two overlaid, with every joint at zero.
 
-    What the comparison of both found is red. Meshes are looked for beside the files that the documents were read from,
-    and in the folders of `search`.
+    Differences that the comparison found are red. Meshes are looked for beside the files that the documents were read
+    from, and in the folders of `search`.
 
     Raises:
         ViewerMissingError: the libraries are not installed.
@@ -93,7 +93,7 @@ def standalone_view(
     dark: bool = False,
     search: SearchPath | None = None,
 ) -> StandaloneView:
-    """Make the page of `view`, and list what could not be drawn in it.
+    """Return the page of `standalone_page`, with the shapes that could not be drawn.
 
     Raises:
         ViewerMissingError: the libraries are not installed.
@@ -101,7 +101,7 @@ def standalone_view(
     viewer = new_viewer()
     try:
         folders = search or SearchPath.of()
-        viewer.show([_subject(each, folders) for each in (first, second) if each is not None], comparison)
+        viewer.show([_make_subject(each, folders) for each in (first, second) if each is not None], comparison)
         found = (problem for figure in viewer.figures for problem in figure.problems())
         not_drawn = tuple(NotDrawn(link, shape.role, shape.name, problem) for link, shape, problem in found)
         return StandaloneView(viewer.page(dark=dark), not_drawn)
@@ -109,6 +109,6 @@ def standalone_view(
         viewer.stop()
 
 
-def _subject(document: Document, search: SearchPath) -> ViewSubject:
+def _make_subject(document: Document, search: SearchPath) -> ViewSubject:
     file = unexpanded_name(document.location.file)
     return ViewSubject(document, build_scene(document), file if file and Path(file).is_file() else "", search)

@@ -1,4 +1,4 @@
-"""What is looked at: a robot or world as a scene, what was found in it, and what a conversion makes of its parts."""
+"""What the viewer shows: a robot or world as a scene, with findings and the fates of its parts in a conversion."""
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
@@ -20,12 +20,12 @@ from twinform.passes import PassError
 from twinform.passes.analyses.candidates import candidates
 
 About = Diagnostic | LedgerEntry
-"""What is said about a place of the file: a finding, or what became of a piece."""
+"""A finding about a place in the file, or the fate of the part there in a conversion."""
 
 
 @dataclass(frozen=True)
 class ViewSubject:
-    """A document as it is shown. `path` is its file, beside which meshes are looked for.
+    """A document to be shown. `path` is its file; meshes are looked for beside it.
 
     `unconverted` says why there are no `entries` of a model.
     """
@@ -40,7 +40,7 @@ class ViewSubject:
 
     @property
     def beside(self) -> Path | None:
-        """Its file, if it is one."""
+        """The file of the document, if it has one."""
         return Path(self.path) if self.path else None
 
     @cached_property
@@ -50,7 +50,7 @@ class ViewSubject:
 
     @cached_property
     def about(self) -> Mapping[str, tuple[About, ...]]:
-        """By the names of links: what was found on them and on the joints that move them, and what becomes of these."""
+        """Findings and ledger entries about links and the joints that move them, by the names of links."""
         found: defaultdict[str, list[About]] = defaultdict(list)
         for each in (*self.findings, *self.entries):
             for link in self.links_at(each.location):
@@ -58,14 +58,14 @@ class ViewSubject:
         return {link: tuple(each) for link, each in found.items()}
 
     def links_at(self, place: Location) -> tuple[str, ...]:
-        """The links that a place in a file is about; for one in a joint, that which the joint moves.
+        """Return the links at a place in a file; for a joint, the link that it moves.
 
         A file that is included more than once has a link in each of its copies. Macros of xacro may be in another file
         than what they are used in: then the path alone counts.
         """
-        return self._at(place.file, place.path) or self._at(None, place.path)
+        return self._find_links(place.file, place.path) or self._find_links(None, place.path)
 
-    def _at(self, file: str | None, path: str) -> tuple[str, ...]:
+    def _find_links(self, file: str | None, path: str) -> tuple[str, ...]:
         while path:
             if found := self._parts.get((file, path)):
                 return found
@@ -74,7 +74,7 @@ class ViewSubject:
 
     @cached_property
     def _parts(self) -> Mapping[tuple[str | None, str], tuple[str, ...]]:
-        """The links that parts of the files are about, by the file and path of links and joints, and by the path."""
+        """Links by the file and path of links and joints, and by the path alone."""
         found: defaultdict[tuple[str | None, str], tuple[str, ...]] = defaultdict(tuple)
         places = [(link.where, link.name) for link in self.scene.links]
         places += [(joint.where, joint.child) for joint in self.scene.joints if joint.child in self.links]
@@ -88,26 +88,26 @@ _OTHER: Mapping[Format, Format] = {Format.URDF: Format.SDF, Format.SDF: Format.U
 
 
 def read_subject(source: Input, load_options: LoadOptions, *, name: str = "") -> tuple[ViewSubject | None, LoadResult]:
-    """What is to be shown of a file or document; None where so much is wrong with it that there is nothing to show."""
+    """Read a file or document for the viewer; None if so much is wrong with it that there is nothing to show."""
     loaded = inspect(expand(read(source, load_options, name=name), load_options), load_options)
     document = loaded.document
     if document is None:
         return None, loaded
     scene = build_scene(document)
-    entries, unconverted = _ledger(document) if loaded.accepted else ((), ("it has errors",))
+    entries, unconverted = _convert_each(document) if loaded.accepted else ((), ("it has errors",))
     subject = ViewSubject(
         document, scene, loaded.path, load_options.search, loaded.diagnostics, entries, unconverted
     )  # fmt: skip
     return subject, loaded
 
 
-def _ledger(document: Document) -> tuple[tuple[LedgerEntry, ...], tuple[str, ...]]:
-    """What conversions to the other format make of each model alone, and why there is none of some."""
+def _convert_each(document: Document) -> tuple[tuple[LedgerEntry, ...], tuple[str, ...]]:
+    """Convert each model alone to the other format; return the ledger entries, and why models were not converted."""
     entries: list[LedgerEntry] = []
     reasons: list[str] = []
     # With the world around it, each conversion would list all other models as dropped: 28 s and
     # 41,000 entries for 200 models instead of 0.4 s.
-    for alone in _each_alone(document):
+    for alone in _separate_models(document):
         try:
             entries += convert(alone, to=_OTHER[document.format].value).ledger.entries
         except (CompileError, PassError) as error:
@@ -115,8 +115,8 @@ def _ledger(document: Document) -> tuple[tuple[LedgerEntry, ...], tuple[str, ...
     return tuple(entries), tuple(reasons)
 
 
-def _each_alone(document: Document) -> Iterator[Document]:
-    """A document for each model, since URDF holds one robot; where it is in a world does not matter to its parts."""
+def _separate_models(document: Document) -> Iterator[Document]:
+    """Yield a document for each model, since URDF holds one robot; its pose in a world does not matter here."""
     found = [each.model for each in candidates(document) if isinstance(each.model, Model)]
     if len(found) < 2 and not document.worlds:
         yield document

@@ -24,7 +24,7 @@ _STYLE = """<style>
 
 
 class Mark(NamedTuple):
-    """A mark beside a link: its sign, its color in CSS, and what it says."""
+    """A mark beside a link: its sign, its color in CSS, and its text."""
 
     sign: str
     color: str
@@ -39,15 +39,15 @@ class _TreeRow(NamedTuple):
 
 
 def tree(scene: Scene, marks: Mapping[str, Sequence[Mark]]) -> str:
-    """The links below those that move them, with the joints; a loop's joint is listed where it closes the loop."""
+    """Return the tree of links and joints as HTML; a joint that closes a loop is listed where it closes it."""
     parts: list[str] = []
     open_: list[int] = []
     opens = len(scene.links) <= _MOST_OPEN
-    for row in _rows(scene):
+    for row in _list_rows(scene):
         while open_ and open_[-1] >= row.depth:
             open_.pop()
             parts.append("</details>")
-        text = _text(row, marks.get(row.link, ()))
+        text = _write_row(row, marks.get(row.link, ()))
         if row.folds and row.depth < _DEEPEST:
             parts.append(f"<details{' open' if opens or not row.depth else ''}><summary>{text}</summary>")
             open_.append(row.depth)
@@ -56,7 +56,7 @@ def tree(scene: Scene, marks: Mapping[str, Sequence[Mark]]) -> str:
     return f'{_STYLE}<div class="tf-tree">{"".join(parts)}{"</details>" * len(open_)}</div>'
 
 
-def _rows(scene: Scene) -> Iterator[_TreeRow]:
+def _list_rows(scene: Scene) -> Iterator[_TreeRow]:
     hung = spanning_tree(scene.joints)
     below: dict[str, list[SceneJoint]] = {}
     for joint in scene.joints:
@@ -71,7 +71,7 @@ def _rows(scene: Scene) -> Iterator[_TreeRow]:
         stack += [(each.child, each, depth + 1) for each in reversed(children)]
 
 
-def _text(row: _TreeRow, marks: Sequence[Mark]) -> str:
+def _write_row(row: _TreeRow, marks: Sequence[Mark]) -> str:
     joint = row.joint
     name, full = escape(shortened(row.link)), escape(row.link)
     by = f' <span class="by">{escape(joint.type)} {escape(shortened(joint.name))}</span>' if joint else ""

@@ -32,7 +32,7 @@ _SMALLEST, _LARGEST = 1e-9, 1e6
 
 
 class MeshDrawings:
-    """The meshes that the file `beside` names, each drawn once; `gltf_up` is the axis that is up in a glTF file."""
+    """The meshes that the file `beside` names, each read once; `gltf_up` is the axis that is up in a glTF file."""
 
     def __init__(self, search: SearchPath | None = None, beside: Path | None = None, *, gltf_up: str = "z") -> None:
         assets = LocalAssets(search, beside) if search and beside else NO_ASSETS
@@ -42,16 +42,16 @@ class MeshDrawings:
         self._known: dict[tuple[str, object], Mapping[str, bytes] | str] = {}
 
     def drawing(self, mesh: Mesh) -> Mapping[str, bytes] | str:
-        """`points`, `faces` and perhaps `colors` of a mesh without its scale; a text where it cannot be drawn."""
+        """Return `points`, `faces` and perhaps `colors` of a mesh without its scale, or why it cannot be drawn."""
         uri = (mesh.uri or "").strip()
         if not uri:
             return "it names no mesh"
         key = (uri, mesh.opaque)
         if key not in self._known:
-            self._known[key] = self._drawn(mesh)
+            self._known[key] = self._read(mesh)
         return self._known[key]
 
-    def _drawn(self, mesh: Mesh) -> Mapping[str, bytes] | str:
+    def _read(self, mesh: Mesh) -> Mapping[str, bytes] | str:
         try:
             # A mesh is a file of a stranger: the confined child process hands over arrays of
             # numbers. Textures become colors of vertices there, which needs no second kind of
@@ -63,7 +63,7 @@ class MeshDrawings:
 
 @dataclass(frozen=True, slots=True)
 class Triangles:
-    """Points in meters as rows of x, y, z in the frame of the shape, three indices of them for each triangle.
+    """Points in meters as rows of x, y, z in the frame of the shape, and three of their indices for each triangle.
 
     `colors` are rows of four bytes for each point, where the shape has its own. A `problem` says why this is only a
     box that stands for the shape.
@@ -78,7 +78,7 @@ class Triangles:
 def triangles_of(shape: ShapeNode, meshes: MeshDrawings) -> Triangles:
     """Return the triangles of a shape; those of a small box if it cannot be drawn."""
     if isinstance(shape, Mesh):
-        return _of_mesh(shape, meshes)
+        return _read_mesh(shape, meshes)
     make = _MAKERS.get(type(shape))
     if make is None:
         return _stand_in(f"a {shape.model_dump()['kind']} is not drawn")
@@ -89,7 +89,7 @@ def triangles_of(shape: ShapeNode, meshes: MeshDrawings) -> Triangles:
     return Triangles(np.asarray(made.vertices, dtype=np.float32), np.asarray(made.faces, dtype=np.uint32))
 
 
-def _of_mesh(shape: Mesh, meshes: MeshDrawings) -> Triangles:
+def _read_mesh(shape: Mesh, meshes: MeshDrawings) -> Triangles:
     found = meshes.drawing(shape)
     if isinstance(found, str):
         return _stand_in(found)

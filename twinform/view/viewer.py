@@ -38,7 +38,7 @@ _FROM = (0.85, -1.15, 0.65)
 
 
 class Viewer:
-    """A server that shows subjects; `port` 0 takes a free one.
+    """A server that shows subjects; with `port` 0 at any free port.
 
     Raises:
         PortTakenError: the port is not free.
@@ -46,12 +46,12 @@ class Viewer:
 
     def __init__(self, port: int = 0) -> None:
         self._access = Access()
-        with _silence(), self._access.guard():
+        with _silence_output(), self._access.guard():
             # viser (MIT, 9 MB) has controls, clicks, and pages that open without a server. meshcat
             # had its last release in 2021 and has neither sliders nor clicks; rerun is an
             # application of its own for recordings; three.js with urdf-loader would read the file a
             # second time by its own rules and knows no SDF.
-            self.server: Any = viser.ViserServer(host=HOST, port=_free(port), label="twinform", verbose=False)
+            self.server: Any = viser.ViserServer(host=HOST, port=_find_port(port), label="twinform", verbose=False)
         self._lock = RLock()
         self.panel: Panel | None = None
         self._shown = 0
@@ -59,16 +59,16 @@ class Viewer:
 
     @property
     def address(self) -> str:
-        """Where a browser finds it; whoever does not know all of it is refused."""
+        """The address for a browser; requests that do not know all of it are refused."""
         return f"http://{HOST}:{self.server.get_port()}/{self._access.token}"
 
     @property
     def figures(self) -> Sequence[Figure]:
-        """What is shown."""
+        """The figures that are shown."""
         return self.panel.figures if self.panel else ()
 
     def show(self, subjects: Sequence[ViewSubject], comparison: Comparison | None = None) -> None:
-        """Show one subject, or a second one over it, in place of what is shown; joints and cameras stay."""
+        """Show one subject, or two overlaid, in place of what is shown; joints and cameras stay."""
         with self._lock, self.server.atomic():
             choices = self.panel.choices if self.panel else Choices()
             is_first = self.panel is None
@@ -89,11 +89,11 @@ class Viewer:
 
     @property
     def _root(self) -> str:
-        """Above all that is shown; new each time: where a name comes again, browsers keep the pose that it had."""
+        """The root node, which is new each time: browsers keep the poses of names that they know."""
         return f"/{self._shown}"
 
     def aim(self) -> None:
-        """Put the cameras of all who look, and who come, to where all is seen."""
+        """Move the cameras of all browsers, also of later ones, to where everything is seen."""
         if not self.figures:
             return
         position, target = viewpoint(self.figures)
@@ -103,7 +103,7 @@ class Viewer:
             each.near, each.far = away / 100, away * 100
 
     def move(self, positions: Positions) -> None:
-        """Put joints to positions, as the sliders do."""
+        """Move joints to positions, as the sliders do."""
         if self.panel is not None:
             self.panel.move(positions)
 
@@ -113,12 +113,12 @@ class Viewer:
             self.panel.select([link])
 
     def warn(self, title: str, lines: Iterable[str] = ()) -> None:
-        """Say above the controls what has gone wrong; it stays until something is shown."""
+        """Show above the controls what has gone wrong, until something else is shown."""
         if self.panel is not None:
             self.panel.warn(title, lines)
 
     def page(self, *, dark: bool = False) -> str:
-        """What is shown as a page of its own, which opens without a server; the joints stand where they are."""
+        """Return a page that shows the same without a server, with joints at their positions."""
         labels = {name: text for figure in self.figures for name, text in figure.labels.items()}
         return words.with_script(self.server.scene.as_html(dark_mode=dark), labels)
 
@@ -127,15 +127,15 @@ class Viewer:
             self.panel.listen(figure, handle, link)
 
     def stop(self) -> None:
-        """End the server; browsers say that it has gone."""
-        with _silence():
+        """Stop the server; browsers show that it is gone."""
+        with _silence_output():
             self.server.stop()
 
 
 def draw(
     api: Any, subjects: Sequence[ViewSubject], root: str, listen: Callable[[Figure, Handle, str], None] | None = None
 ) -> tuple[list[Figure], Handle]:
-    """The figures of subjects below a node of viser, the second one in a color of its own, and a grid under them."""
+    """Draw subjects below a node of viser, the second one in a color of its own, and a grid under them."""
     figures: list[Figure] = []
     for subject, name, look in zip(subjects, "AB", (Look(), _SECOND), strict=False):
         meshes = MeshDrawings(subject.search, subject.beside)
@@ -159,17 +159,17 @@ def viewpoint(figures: Sequence[Figure]) -> tuple[Vector3, Vector3]:
 
 
 def _power_of_ten(length: float) -> float:
-    """The largest one that is not longer."""
+    """Return the largest power of ten that is not longer."""
     return 10.0 ** math.floor(math.log10(length))
 
 
-def _silence() -> AbstractContextManager[object]:
-    """Viser says on standard output that it begins and ends."""
+def _silence_output() -> AbstractContextManager[object]:
+    """Suppress standard output: viser prints when it begins and ends."""
     return contextlib.redirect_stdout(io.StringIO())
 
 
-def _free(port: int) -> int:
-    """The port, or one that the system gives.
+def _find_port(port: int) -> int:
+    """Return the port, or a free one for port 0.
 
     Raises:
         PortTakenError: it is not free.

@@ -1,4 +1,7 @@
-"""Text of the panel as HTML in which names do nothing: findings, differences, what is known of a part."""
+"""Texts of the panel as HTML in which names do nothing, and the script that adds names on hover to viser's client.
+
+The script, `data/page.js`, gets the labels of nodes and the selected links as JSON.
+"""
 
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -28,56 +31,56 @@ _SEVERITIES: Mapping[Severity, tuple[str, Rgb]] = {
 
 
 def css(color: Rgb) -> str:
-    """A color as styles have it."""
+    """Return a color in CSS."""
     return f"rgb{color}"
 
 
 def severity_color(found: Diagnostic) -> Rgb:
-    """The color of a finding."""
+    """Return the color of a finding."""
     return _SEVERITIES[found.severity][1]
 
 
 def severity_rank(found: Diagnostic) -> int:
-    """The worst come first."""
+    """Return a key that sorts the worst findings first."""
     return -found.severity
 
 
 def mark(found: Diagnostic) -> Mark:
-    """What stands in the tree for a finding."""
+    """Return the mark of a finding in the tree."""
     sign, color = _SEVERITIES[found.severity]
     return Mark(sign, css(color), f"{found.severity}: {found.message}")
 
 
 def heading(text: str, color: Rgb) -> str:
-    """A line above a text, where there is no part of the robot to show."""
+    """Return the heading of a text that has no part of the robot to show."""
     return f'<p style="margin:0.6em 0.75em 0;font-size:0.85em;font-weight:600;color:{css(color)}">{escape(text)}</p>'
 
 
 def alert(title: str, lines: Iterable[str]) -> str:
-    """What has gone wrong, in the color of errors."""
+    """Return what has gone wrong, in the color of errors."""
     text = "".join(map(paragraph, lines))
     return f'<div role="alert">{heading(title, _SEVERITIES[Severity.ERROR][1])}{text}</div>'
 
 
 def welcome(subjects: Sequence[ViewSubject], key: str) -> str:
-    """What there is to do at first."""
+    """Return what to do first."""
     if not any(subject.scene.links for subject in subjects):
         return paragraph("There is no link in it, so there is nothing to see: Findings may say why.")
     return paragraph(f"Click a part of the robot to see what it is; hold {key} and drag it to move its joint.")
 
 
 def paragraph(text: str) -> str:
-    """A text as it is."""
+    """Return a paragraph of plain text."""
     return f'<p style="margin:0.2em 0.75em;font-size:0.85em;overflow-wrap:anywhere">{escape(text)}</p>'
 
 
 def more(count: int, what: str) -> str:
-    """What is not listed."""
+    """Return how many more there are than are listed."""
     return paragraph(f"and {count:,} more {what}, which have no row here")
 
 
 def verdict(subjects: Sequence[ViewSubject]) -> str:
-    """How many findings there are."""
+    """Return how many findings there are, and what was left out."""
     found = [each for subject in subjects for each in subject.findings]
     errors = sum(each.severity is Severity.ERROR for each in found)
     warnings = sum(each.severity is Severity.WARNING for each in found)
@@ -88,12 +91,12 @@ def verdict(subjects: Sequence[ViewSubject]) -> str:
 
 
 def finding(found: Diagnostic) -> str:
-    """A finding without its rule."""
+    """Return the message and help of a finding."""
     return paragraph(found.message) + (paragraph(f"help: {found.help}") if found.help else "")
 
 
 def compared(comparison: Comparison) -> str:
-    """Whether two robots are the same."""
+    """Return whether two robots are the same, and what the colors mean."""
     if comparison.same:
         return paragraph("Both files describe the same robot.")
     legend = "".join(heading(f"\N{BLACK SQUARE} {text}", color) for text, color in MEANINGS.items())
@@ -101,24 +104,24 @@ def compared(comparison: Comparison) -> str:
 
 
 def difference(found: Difference) -> str:
-    """A difference with both values."""
+    """Return a difference with both values."""
     sides = "".join(paragraph(f"{name}: {side.text}") for name, side in (("A", found.a), ("B", found.b)) if side.text)
     return paragraph(found.message) + sides
 
 
 def part(link: str, subject: ViewSubject) -> str:
-    """What a file says of a link, what was found in it, and what a conversion makes of it."""
+    """Return a table of a link: what the file says, findings, and its fate in a conversion."""
     found = next((each for each in subject.scene.links if each.name == link), None)
     if found is None:
         return ""
-    rows = [*_facts(found, subject).items()]
+    rows = [*_list_facts(found, subject).items()]
     about = subject.about.get(link, ())
     rows += [(str(each.fate if isinstance(each, LedgerEntry) else each.severity), each.message) for each in about]
     cells = "".join(f"<tr><th>{escape(shortened(name))}</th><td>{escape(value)}</td></tr>" for name, value in rows)
     return f'<table style="font-size:0.8em;margin:0.5em 0.75em;text-align:left">{cells}</table>'
 
 
-def _facts(link: SceneLink, subject: ViewSubject) -> Mapping[str, str]:
+def _list_facts(link: SceneLink, subject: ViewSubject) -> Mapping[str, str]:
     joint = next((each for each in subject.scene.joints if each.child == link.name), None)
     visuals = sum(shape.role == "visual" for shape in link.shapes)
     facts = {"link": shortened(link.name), "line": str(link.where.line or "")}
@@ -134,7 +137,7 @@ def _facts(link: SceneLink, subject: ViewSubject) -> Mapping[str, str]:
 
 
 def difference_colors(comparison: Comparison, subjects: Sequence[ViewSubject]) -> dict[str, Rgb]:
-    """The colors of links that differ."""
+    """Return the colors of links that differ."""
     first, second = (subject.links for subject in subjects)
     found: dict[str, Rgb] = {}
     for link in (link for each in comparison.counted for link in links_of(each, subjects)):
@@ -143,13 +146,13 @@ def difference_colors(comparison: Comparison, subjects: Sequence[ViewSubject]) -
 
 
 def links_of(difference: Difference, subjects: Sequence[ViewSubject]) -> tuple[str, ...]:
-    """The links that a difference is seen on."""
-    found = (link for subject in subjects for link in _seen_on(difference, subject.scene))
+    """Return the links that a difference is seen on."""
+    found = (link for subject in subjects for link in _find_links(difference, subject.scene))
     return tuple(dict.fromkeys(found))
 
 
-def _seen_on(difference: Difference, scene: Scene) -> Iterator[str]:
-    """In scenes of several models, names have the model's before them."""
+def _find_links(difference: Difference, scene: Scene) -> Iterator[str]:
+    """Yield the links of a scene that a difference is seen on; with several models, names begin with the model."""
     model = difference.model.rpartition("::")[2]
     names = {difference.name, f"{model}::{difference.name}"}
     joints, frames = difference.group == "joint", difference.group == "frame"
@@ -172,22 +175,22 @@ document.head.append(s)}twinform.show(JSON.parse(this.dataset.news))"
 
 
 def control(labels: Mapping[str, str], selected: Iterable[str]) -> str:
-    """HTML for a control of viser, which runs the script and hands it texts by names of nodes, and selected links."""
+    """Return HTML for a control of viser that runs the script with labels by names of nodes, and selected links."""
     news = json.dumps({"labels": dict(labels), "selected": list(selected)})
     return (
         f'<img hidden alt="" src="data:," onerror="{escape(_RUN)}" '
-        f'data-script="{escape(_script())}" data-news="{escape(news)}">'
+        f'data-script="{escape(_read_script())}" data-news="{escape(news)}">'
     )
 
 
 def with_script(page: str, labels: Mapping[str, str]) -> str:
-    """A page of viser with the script, and texts by names of nodes."""
+    """Return a page of viser with the script, and labels by names of nodes."""
     # `</script>` in a name would end the script element.
     news = json.dumps({"labels": dict(labels)}).replace("<", "\\u003c")
     before, end, after = page.rpartition("</body>")
-    return f"{before}<script>{_script()}</script><script>twinform.show({news})</script>{end}{after}"
+    return f"{before}<script>{_read_script()}</script><script>twinform.show({news})</script>{end}{after}"
 
 
 @cache
-def _script() -> str:
+def _read_script() -> str:
     return (files("twinform.view") / "data" / "page.js").read_text(encoding="utf-8")
