@@ -13,9 +13,9 @@ from typing import Any
 
 from testbed.corpus.files import CORPUS, CorpusFile
 from testbed.corpus.plain_xacro import users_of_xacro
-from twinform.compiler.input.xacro.worker.expressions.budget import Budget
-from twinform.compiler.input.xacro.worker.expressions.expression_values import DotDict
-from twinform.compiler.input.xacro.worker.expressions.interpreter import Interpreter
+from twinform.compiler.input.xacro.worker.budget import Budget
+from twinform.compiler.input.xacro.worker.expression_values import DotDict
+from twinform.compiler.input.xacro.worker.interpreter import Interpreter
 from twinform.compiler.input.xacro.worker.vocabulary import vocabulary
 
 _XACRO: Any = import_module("xacro")

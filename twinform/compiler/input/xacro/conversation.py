@@ -15,8 +15,7 @@ from typing import Any, cast
 from twinform.child_python import python_command
 from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.input.size_limits import LARGEST
-from twinform.compiler.input.xacro.allowed_files import AllowedFiles, DeniedError
-from twinform.compiler.input.xacro.variables import variable
+from twinform.compiler.input.xacro.allowed_files import AllowedFiles, DeniedError, variable
 from twinform.compiler.observing import note_failure, note_variable
 from twinform.compiler.search.resolve_uris import SearchPath, UriError
 

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from twinform.compiler.input.xacro import allowed_files
-from twinform.compiler.input.xacro.allowed_files import AllowedFiles, DeniedError
-from twinform.compiler.input.xacro.variables import variable
+from twinform.compiler.input.xacro.allowed_files import AllowedFiles, DeniedError, variable
 from twinform.file_access import Readable
 
 

@@ -7,9 +7,9 @@ import pytest
 import yaml
 
 from twinform.compiler.input.xacro.worker import data_files
+from twinform.compiler.input.xacro.worker.budget import ExcessError
 from twinform.compiler.input.xacro.worker.data_files import DataFiles
-from twinform.compiler.input.xacro.worker.expressions.budget import ExcessError
-from twinform.compiler.input.xacro.worker.expressions.expression_values import DotDict, DotList
+from twinform.compiler.input.xacro.worker.expression_values import DotDict, DotList
 
 
 def _load(text: str) -> Any:

@@ -5,11 +5,10 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from twinform.compiler.input.xacro.worker import data_files
-from twinform.compiler.input.xacro.worker.expressions import budget, syntax
-from twinform.compiler.input.xacro.worker.expressions.budget import Budget
-from twinform.compiler.input.xacro.worker.expressions.functions import math_functions, python_functions
-from twinform.compiler.input.xacro.worker.expressions.methods import METHODS
+from twinform.compiler.input.xacro.worker import budget, data_files, interpreter
+from twinform.compiler.input.xacro.worker.budget import Budget
+from twinform.compiler.input.xacro.worker.operations import METHODS
+from twinform.compiler.input.xacro.worker.vocabulary import math_functions, python_functions
 
 _PAGE = Path(__file__).parents[5] / "docs" / "how-to" / "xacro.md"
 _NAME = re.compile(r"`(\w+)`")
@@ -46,7 +45,7 @@ def test_the_functions_are_those_of_the_page() -> None:
 
 def test_the_limits_are_those_of_the_page() -> None:
     page = _PAGE.read_text(encoding="utf-8")
-    for number in (budget.MOST_STEPS, budget.MOST_BITS, budget.LONGEST_TEXT, budget.MOST_ITEMS, syntax.LONGEST):
+    for number in (budget.MOST_STEPS, budget.MOST_BITS, budget.LONGEST_TEXT, budget.MOST_ITEMS, interpreter.LONGEST):
         assert f" {number:,} " in page
     assert data_files.LARGEST == 2**20
     assert budget.LARGEST_OUTPUT == 64 * 2**20

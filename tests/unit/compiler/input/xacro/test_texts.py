@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.profile import examples
-from twinform.compiler.input.xacro.worker.expressions.budget import Budget, ExcessError
-from twinform.compiler.input.xacro.worker.expressions.interpreter import Interpreter
+from twinform.compiler.input.xacro.worker.budget import Budget, ExcessError
+from twinform.compiler.input.xacro.worker.interpreter import Interpreter
 from twinform.compiler.input.xacro.worker.texts import TextEvaluator
 
 _XACRO: Any = import_module("xacro")

@@ -6,8 +6,8 @@ from typing import Any
 
 import yaml
 
-from twinform.compiler.input.xacro.worker.expressions.budget import LONGEST_TEXT, ExcessError
-from twinform.compiler.input.xacro.worker.expressions.expression_values import Value, dotted
+from twinform.compiler.input.xacro.worker.budget import LONGEST_TEXT, ExcessError
+from twinform.compiler.input.xacro.worker.expression_values import Value, dotted
 
 LARGEST = 2**20
 """In bytes. The largest real one that we know has 20,000."""

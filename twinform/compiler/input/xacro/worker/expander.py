@@ -1,21 +1,21 @@
 """xacro, with every function replaced by which it reads files, evaluates expressions, or leaves its own process."""
 
+import re
 import sys
 from collections.abc import Callable, Mapping
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 from xml.dom import minidom
 
+from twinform.compiler.input.xacro.worker.budget import Budget
 from twinform.compiler.input.xacro.worker.channel import Compiler, MissingFileError
-from twinform.compiler.input.xacro.worker.expressions.budget import Budget
-from twinform.compiler.input.xacro.worker.expressions.expression_values import ExpressionRefusedError, NameLookup, Value
-from twinform.compiler.input.xacro.worker.expressions.interpreter import Interpreter
-from twinform.compiler.input.xacro.worker.language import xacro_functions
+from twinform.compiler.input.xacro.worker.expression_values import DotDict, ExpressionRefusedError, Value, text_of
+from twinform.compiler.input.xacro.worker.interpreter import Interpreter
 from twinform.compiler.input.xacro.worker.places import FileLine, parse, place_of
-from twinform.compiler.input.xacro.worker.substitutions import Substitutions
-from twinform.compiler.input.xacro.worker.texts import TextEvaluator
+from twinform.compiler.input.xacro.worker.texts import Substitutions, TextEvaluator
 from twinform.compiler.input.xacro.worker.vocabulary import vocabulary
 
 if TYPE_CHECKING:
@@ -45,11 +45,11 @@ class Expander:
         self.budget = Budget()
         self.interpreter = Interpreter(self.budget, self.xacro.NameSpace)
         self.substitutions = Substitutions(
-            self.module, self.interpreter, self._package, compiler.environment, self._warn
+            self.module, self.interpreter, self._package, compiler.environment, self.xacro.warning
         )
         self.texts = TextEvaluator(self.interpreter.evaluate, self._substitute, self.xacro.XacroException, self.budget)
         theirs: Mapping[str, Any] = getattr(self.xacro, "_global_symbols", {})
-        self.names = vocabulary(theirs, xacro_functions(self), self.budget, self._warn)
+        self.names = vocabulary(theirs, self._functions(), self.budget, self.xacro.warning)
         self.data_files = self._data_files() if yaml else None
         self.lacks_yaml = False
         self.beside: Callable[[str], str] = self.xacro.abs_filename_spec
@@ -80,23 +80,42 @@ class Expander:
             raise ExpressionRefusedError("this process cannot read data files")
         return self.data_files.load(self.compiler.read(path), path)
 
-    def say(self, text: str) -> None:
-        """Have something reported: what is printed is noted with its place."""
-        print(text, file=sys.stderr)  # noqa: T201 - see above
+    def _functions(self) -> dict[str, Callable[..., Value]]:
+        """Every function that xacro documents; what they are given has been weighed."""
+        return {
+            "abs_filename": self.path,
+            "arg": self.argument,
+            "dotify": DotDict,
+            "error": partial(self._say, "error: "),
+            "fatal": self._fatal,
+            "load_yaml": self.data,
+            "message": partial(self._say, ""),
+            "print_location": self._locate,
+            "tokenize": _tokenize,
+            "warning": partial(self._say, "warning: "),
+        }
 
-    def locate(self) -> None:
+    def _say(self, start: str, /, *args: Value, alt_text: str | None = None, **_: Value) -> str:
+        """Have something reported: what is printed is noted with its place."""
+        print(f"{start if alt_text is None else alt_text}{self._joined(args)}", file=sys.stderr)  # noqa: T201 - see above
+        return ""
+
+    def _fatal(self, *args: Value) -> Value:
+        raise self.xacro.XacroException(self._joined(args))
+
+    def _joined(self, args: tuple[Value, ...]) -> str:
+        return self.budget.write(" ".join(text_of(each, self.budget) for each in args))
+
+    def _locate(self) -> str:
         """Have it reported which macros and files are being expanded."""
         self.print_location()
-
-    def failure(self, message: str) -> Exception:
-        """What stops the expansion."""
-        return self.xacro.XacroException(message)
+        return ""
 
     def _data_files(self) -> "DataFiles":
         from twinform.compiler.input.xacro.worker.data_files import DataFiles  # noqa: PLC0415 - see above
 
         units = {unit.value.tag: unit.value.conversion_constant for unit in self.xacro.ConstructUnits}
-        return DataFiles(units, self._measure)
+        return DataFiles(units, lambda expression: self.interpreter.evaluate(expression, self.names))
 
     def _replace(self) -> None:
         _replace(
@@ -105,7 +124,7 @@ class Expander:
                 "_global_symbols": self.names,
                 "abs_filename_spec": self.path,
                 "eval_extension": self._substitute,
-                "eval_text": self._text,
+                "eval_text": self.texts.value,
                 "glob": SimpleNamespace(glob=self.compiler.match),
                 "load_yaml": self.data,
                 "parse": self._parse,
@@ -130,10 +149,6 @@ class Expander:
 
         return call
 
-    def _text(self, text: str, symbols: NameLookup) -> Value:
-        """What xacro's function of the same arguments does."""
-        return self.texts.value(text, symbols)
-
     def _substitute(self, text: str) -> str:
         if text == "$(cwd)":
             return self.xacro.root_dir
@@ -149,12 +164,6 @@ class Expander:
 
     def _find(self, uri: str) -> str:
         return self.compiler.find(uri, (self.xacro.filestack or [None])[-1] or self.file)
-
-    def _warn(self, text: str) -> None:
-        self.xacro.warning(text)
-
-    def _measure(self, expression: str) -> Value:
-        return self.interpreter.evaluate(expression, self.names)
 
     def _parse(self, _: object, filename: str) -> minidom.Document:
         """What xacro's own function does, with lines."""
@@ -183,3 +192,10 @@ def _working_folder() -> str:
         return str(Path.cwd())
     except OSError:  # it was deleted
         return "."
+
+
+def _tokenize(text: str, sep: str = ",; ", skip_empty: bool = True) -> list[str]:
+    if "]" in sep:
+        raise ExpressionRefusedError("the separators of 'tokenize' must not have ']' among them")
+    found = re.split(f"[{sep}]", text)
+    return [each for each in found if each] if skip_empty else found

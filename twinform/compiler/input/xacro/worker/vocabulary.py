@@ -1,15 +1,205 @@
-"""The names that xacro gives to every expression, each with what it stands for here.
+"""The names that xacro gives to every expression, and the functions of Python and of `math` among them.
 
-They are taken from xacro itself, so that a name means something here whenever it does there: a function that is not
-offered is still a name, and refused when it is called.
+The names are taken from xacro itself, so that a name means something here whenever it does there. A function that is
+not offered is still a name, and refused when it is called. Of Python, that is what leads from a value to its class or
+shows where it lies in memory (`type`, `vars`, `hash`, ...); of `math`, what makes integers of any size.
 """
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from twinform.compiler.input.xacro.worker.expressions.budget import Budget
-from twinform.compiler.input.xacro.worker.expressions.expression_values import SCALARS, Function, Namespace, Value
-from twinform.compiler.input.xacro.worker.expressions.functions import math_functions, paying, python_functions, refused
+from twinform.compiler.input.xacro.worker.budget import Budget, require_items
+from twinform.compiler.input.xacro.worker.expression_values import (
+    MAPPINGS,
+    SCALARS,
+    ExpressionRefusedError,
+    Function,
+    Namespace,
+    Value,
+    each,
+    hashable,
+    items,
+    kind_of,
+    text_of,
+    weigh,
+)
+from twinform.compiler.input.xacro.worker.operations import add
+
+# Decimal places before or behind the point; there are no floating point numbers beyond.
+_MOST_ROUNDED = 400
+# Functions whose result never has more than a few hundred digits, whatever they are given.
+_NUMERIC = (
+    "acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "cbrt", "ceil", "copysign", "cos", "cosh", "degrees",
+    "dist", "erf", "erfc", "exp", "exp2", "expm1", "fabs", "floor", "fmod", "frexp", "fsum", "gamma", "gcd", "hypot",
+    "isclose", "isfinite", "isinf", "isnan", "isqrt", "ldexp", "lgamma", "log", "log10", "log1p", "log2", "modf",
+    "nextafter", "pow", "radians", "remainder", "sin", "sinh", "sqrt", "tan", "tanh", "trunc", "ulp",
+)  # fmt: skip
+
+
+def math_functions(budget: Budget) -> dict[str, Function]:
+    """The functions of `math`, as far as this Python has them."""
+    return {name: Function(name, paying(getattr(math, name), budget)) for name in _NUMERIC if hasattr(math, name)}
+
+
+def python_functions(budget: Budget) -> dict[str, Function]:
+    """The functions of Python, which keep to a budget."""
+    plain = {name: Function(name, paying(call, budget), kind) for name, (call, kind) in _PLAIN.items()}
+    careful = {name: Function(name, _bound(call, budget), kind) for name, (call, kind) in _CAREFUL.items()}
+    return plain | careful
+
+
+def refused(name: str) -> Function:
+    """What stands for a function of xacro that is not offered."""
+
+    def call(*_: Value, **__: Value) -> Value:
+        raise ExpressionRefusedError(f"an expression must not use {name!r}")
+
+    return Function(name, call)
+
+
+def _bound(call: Callable[..., Value], budget: Budget) -> Callable[..., Value]:
+    return lambda *args, **named: call(budget, *args, **named)
+
+
+def paying(python: Callable[..., Any], budget: Budget) -> Callable[..., Value]:
+    """A function that looks at no more than what it is given."""
+
+    def call(*args: Value, **named: Value) -> Value:
+        for value in (*args, *named.values()):
+            if type(value) not in SCALARS:
+                weigh(value, budget)
+        result = python(*args, **named)
+        budget.pay(result)
+        return result
+
+    return call
+
+
+def _text(budget: Budget, value: Value = "") -> str:
+    return text_of(value, budget)
+
+
+def _list(budget: Budget, values: Value = ()) -> list[Value]:
+    return list(each(values, budget))
+
+
+def _tuple(budget: Budget, values: Value = ()) -> tuple[Value, ...]:
+    return tuple(each(values, budget))
+
+
+def _set(budget: Budget, values: Value = ()) -> set[Value]:
+    return set(items(values, budget))
+
+
+def _dict(budget: Budget, values: Value = (), **named: Value) -> dict[Value, Value]:
+    given: Value = values.items() if kind_of(values) in MAPPINGS else values
+    pairs = [list(each(pair, budget)) for pair in each(given, budget)]
+    return dict([(hashable(key, budget), value) for key, value in pairs], **named)
+
+
+def _map(budget: Budget, function: Value, *several: Value) -> Value:
+    call = _function(function)
+    columns = [list(each(values, budget)) for values in several]
+    return iter([call(*args) for args in zip(*columns, strict=False)])
+
+
+def _zip(budget: Budget, *several: Value) -> Value:
+    return iter(list(zip(*(list(each(values, budget)) for values in several), strict=False)))
+
+
+def _enumerate(budget: Budget, values: Value, start: int = 0) -> Value:
+    return iter(list(enumerate(each(values, budget), start)))
+
+
+def _reversed(budget: Budget, values: Value) -> Value:
+    len(values)  # an iterator cannot be reversed
+    return iter(list(each(values, budget))[::-1])
+
+
+def _sorted(budget: Budget, values: Value, *, key: Value = None, reverse: bool = False) -> list[Value]:
+    return sorted(items(values, budget), key=_key(key), reverse=reverse)
+
+
+def _extreme(python: Callable[..., Value]) -> Callable[..., Value]:
+    def call(budget: Budget, *args: Value, key: Value = None, **default: Value) -> Value:
+        found = items(args[0] if len(args) == 1 else args, budget)
+        return python(found, key=_key(key), **default)
+
+    return call
+
+
+def _sum(budget: Budget, values: Value, start: Value = 0) -> Value:
+    if isinstance(start, str):
+        raise TypeError("sum() can't sum strings [use ''.join(seq) instead]")
+    total = start
+    for value in each(values, budget):
+        total = add(total, value, budget)
+    return total
+
+
+def _range(_: Budget, *args: int) -> range:
+    found = range(*args)
+    # `len` of a range overflows beyond `sys.maxsize`.
+    step = found.step
+    require_items((found.stop - found.start + step - (1 if step > 0 else -1)) // step)
+    return found
+
+
+def _round(_: Budget, number: Value, ndigits: int | None = None) -> Value:
+    if ndigits is not None and abs(ndigits) > _MOST_ROUNDED:
+        raise ExpressionRefusedError(f"'round' must not be asked for {ndigits} digits")
+    return round(number, ndigits)
+
+
+def _isinstance(budget: Budget, value: Value, wanted: Value) -> bool:
+    kinds = list(each(wanted, budget)) if isinstance(wanted, tuple) else [wanted]
+    types = [kind.kind for kind in kinds if isinstance(kind, Function) and kind.kind]
+    if len(types) != len(kinds):
+        raise TypeError("isinstance() arg 2 must be a type or a tuple of types")
+    return isinstance(value, tuple(types))
+
+
+def _function(value: Value) -> Callable[..., Value]:
+    if not isinstance(value, Function):
+        raise TypeError(f"{type(value).__name__!r} object is not callable")
+    return value.call
+
+
+def _key(value: Value) -> Callable[..., Value] | None:
+    return None if value is None else _function(value)
+
+
+_PLAIN: Mapping[str, tuple[Callable[..., Any], type | None]] = {
+    "abs": (abs, None),
+    "all": (all, None),
+    "any": (any, None),
+    "bool": (bool, bool),
+    "divmod": (divmod, None),
+    "float": (float, float),
+    "int": (int, int),
+    "len": (len, None),
+    "ord": (ord, None),
+}
+_CAREFUL: Mapping[str, tuple[Callable[..., Value], type | None]] = {
+    "dict": (_dict, dict),
+    "enumerate": (_enumerate, None),
+    "isinstance": (_isinstance, None),
+    "list": (_list, list),
+    "map": (_map, None),
+    "max": (_extreme(max), None),
+    "min": (_extreme(min), None),
+    "range": (_range, None),
+    "reversed": (_reversed, None),
+    "round": (_round, None),
+    "set": (_set, set),
+    "sorted": (_sorted, None),
+    "str": (_text, str),
+    "sum": (_sum, None),
+    "tuple": (_tuple, tuple),
+    "zip": (_zip, None),
+}
+
 
 _DEPRECATED = {"sorted": "python", "range": "python", "load_yaml": "xacro", "abs_filename": "xacro", "dotify": "xacro"}
 """Names that xacro still has outside of their namespaces."""

@@ -1,15 +1,16 @@
-"""The values of expressions: plain values of Python, functions that are offered, and names behind a dot."""
+"""The values of expressions: plain values of Python, functions that are offered, names behind a dot, and iteration."""
 
 from collections.abc import Callable, Iterator, Mapping
 from datetime import date, datetime, time
 from typing import Any, Protocol, SupportsIndex, cast
 
-from twinform.compiler.input.xacro.worker.expressions.budget import (
+from twinform.compiler.input.xacro.worker.budget import (
     CHARACTERS_A_STEP,
     ITEMS_A_STEP,
     LONGEST_TEXT,
     Budget,
     ExcessError,
+    require_items,
 )
 
 Value = Any
@@ -145,3 +146,33 @@ def text_of(value: Value, budget: Budget) -> str:
 
 def _described(value: object) -> str:
     return f"the namespace {value.name!r} as a value" if isinstance(value, Namespace) else "a namespace as a value"
+
+
+def each(value: Value, budget: Budget) -> Iterator[Value]:
+    """The items of a value, one by one, as a comprehension wants them.
+
+    Raises:
+        ExcessError: there are too many.
+        RefusedError: this is no value.
+    """
+    if type(value) not in TYPES:
+        weigh(value, budget)
+    for count, item in enumerate(value, 1):
+        budget.pay(item)
+        require_items(count)
+        yield item
+
+
+def items(value: Value, budget: Budget) -> list[Value]:
+    """The items of a value, none of which is so large that it cannot be compared or written."""
+    found = list(each(value, budget))
+    if any(type(item) not in SCALARS for item in found):
+        weigh(found, budget)
+    return found
+
+
+def hashable(value: Value, budget: Budget) -> Value:
+    """The value, if its hash can be had: that of a tuple goes through all that is in it."""
+    if type(value) not in SCALARS:
+        weigh(value, budget)
+    return value
