@@ -1,12 +1,16 @@
 """Strategies for edits of converted files, mutations of models, and XML documents that a schema accepts."""
 
+from collections.abc import Callable
 from random import Random
 from typing import Literal
 
 from hypothesis import strategies as st
+from lxml import etree
 
 from testbed.edits import Edit, draw_edits
-from testbed.edits.drawing import MOST
+from testbed.edits.arrangements import duplicate_carrier
+from testbed.edits.drawing import MOST, draw_edit
+from testbed.edits.scene import Scene
 from tests.mutations import MUTATIONS, OF_SDF, OF_URDF, Mutation
 from tests.schema_documents import document
 from twinform.compiler import convert
@@ -16,6 +20,8 @@ from twinform.ir import Document, Format
 from twinform.schemas import versions_of
 from twinform.testing.strategies import robots, sdf_models
 
+Draw = Callable[[bytes, Random], tuple[Edit, ...]]
+"""Draws edits of a file."""
 EditedFile = tuple[bytes, tuple[Edit, ...]]
 
 
@@ -30,13 +36,28 @@ def edits(*, text: bytes, max_size: int = MOST) -> st.SearchStrategy[tuple[Edit,
     return st.builds(draw, st.randoms(use_true_random=False))
 
 
+def copies_of_carriers(text: bytes, random: Random) -> tuple[Edit, ...]:
+    """A carrier of a file once more in any element of it, and another edit or none; no edit of what has no carriers."""
+    copy = duplicate_carrier(Scene(etree.fromstring(text)), random)
+    if copy is None or random.random() < 0.5:
+        return () if copy is None else (copy,)
+    return copy, draw_edit(copy.apply(text), random)[0]
+
+
 def edited_files(
-    *, models: st.SearchStrategy[Document] | None = None, max_size: int = MOST, sdf_version: str | None = None
+    *,
+    models: st.SearchStrategy[Document] | None = None,
+    max_size: int = MOST,
+    sdf_version: str | None = None,
+    draw: Draw | None = None,
 ) -> st.SearchStrategy[EditedFile]:
-    """What a model becomes in the other format, and edits of that file."""
+    """What a model becomes in the other format, and edits of that file, drawn from all kinds or by `draw`."""
 
     def edit(text: bytes) -> st.SearchStrategy[EditedFile]:
-        return st.tuples(st.just(text), edits(text=text, max_size=max_size))
+        drawn = edits(text=text, max_size=max_size)
+        if draw is not None:
+            drawn = st.builds(draw, st.just(text), st.randoms(use_true_random=False))
+        return st.tuples(st.just(text), drawn)
 
     def convert_(model: Document) -> bytes:
         to_sdf = model.format is Format.URDF

@@ -11,7 +11,7 @@ from testbed.edits import Edit, apply_all, draw_edits
 from testbed.edits.judging import unedited
 from testbed.edits.trips import TRIPS, trips
 from tests.edits.properties import assert_edits_win
-from tests.edits.strategies import edited_files
+from tests.edits.strategies import copies_of_carriers, edited_files
 from tests.profile import examples
 from twinform.testing import strategies
 
@@ -35,6 +35,16 @@ def test_an_edit_of_urdf_that_was_sdf_wins(edited: tuple[bytes, tuple[Edit, ...]
 def test_an_edit_of_older_sdf_wins(version: str) -> None:
     @_FEW
     @given(edited_files(models=strategies.robots(max_links=3), sdf_version=version))
+    def wins(edited: tuple[bytes, tuple[Edit, ...]]) -> None:
+        assert_edits_win(*edited)
+
+    wins()
+
+
+@pytest.mark.parametrize("version", ["1.6", "1.11"])
+def test_a_carrier_that_is_copied_anywhere_says_nothing_there(version: str) -> None:
+    @_SETTINGS
+    @given(edited_files(sdf_version=version, draw=copies_of_carriers))
     def wins(edited: tuple[bytes, tuple[Edit, ...]]) -> None:
         assert_edits_win(*edited)
 

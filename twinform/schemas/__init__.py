@@ -12,7 +12,7 @@ from twinform.schemas.facts import (
     versions_of,
 )
 from twinform.schemas.messages import Context
-from twinform.schemas.node_makers import LAST_LINE, element_xml
+from twinform.schemas.node_makers import LAST_LINE, element_xml, node_class
 from twinform.schemas.packaged import schema_text
 from twinform.schemas.reader import SchemaReader, reader
 from twinform.schemas.text_output import Item, WrittenParts, end_of_element, in_attribute
@@ -65,6 +65,7 @@ __all__ = [
     "is_followed",
     "is_valid_text",
     "libxml2_errors",
+    "node_class",
     "node_xml",
     "parse_value",
     "parse_version",

@@ -19,6 +19,7 @@ from twinform.ir import Document, Format, Model
 from twinform.ir.frames import FrameError
 from twinform.passes import Assets, Pass, Pipeline
 from twinform.passes.analyses.candidates import name_once_expanded, wanted_includes
+from twinform.passes.carriers.misplaced import without_misplaced
 from twinform.passes.carriers.token_mass import without_tokens
 from twinform.passes.legalise.changed_names import RestoreNames
 from twinform.passes.legalise.to_sdf import to_sdf
@@ -88,6 +89,7 @@ def _robots_seen(
     # makes every number below it another one; and an engine's numbers know nothing of colors,
     # sensors and plugins, nor of lines in the file.
     canonical = Pipeline(_to_newest_sdf(document)).with_files(assets).run(document, sink)
+    canonical = without_misplaced(canonical, DiagnosticSink())
     robots: dict[str, ComparedRobot] = {}
     around: dict[str, WorldSurroundings] = {}
     try:

@@ -37,12 +37,6 @@ def _is_in_carrier(carrier: XmlElement) -> bool:
     return any(str(above.tag).startswith(f"{{{NAMESPACE}}}") for above in carrier.iterancestors())
 
 
-def _is_in_pose(carrier: XmlElement) -> bool:
-    """Whether it stands where no conversion puts one, and nothing comes of it."""
-    parent = carrier.getparent()
-    return parent is not None and parent.tag == "pose"
-
-
 def _is_beside_another(carrier: XmlElement) -> bool:
     return any(carrier.get(name) is not None for name, _ in SECOND)
 
@@ -75,7 +69,7 @@ def urdf_pieces(element: XmlElement) -> Iterator[tuple[str, XmlElement]]:
     What stood beside another one of its kind, which readers take, is nothing to any of them.
     """
     for carrier in element.iter(_CARRIER["urdf"]):
-        if _is_in_carrier(carrier) or _is_in_pose(carrier) or _is_beside_another(carrier):
+        if _is_in_carrier(carrier) or _is_beside_another(carrier):
             continue
         at = "/".join(filter(None, (*_steps(element, carrier), carrier.get("at"))))
         if carrier.get("attribute") is not None or carrier.get("text") is not None:

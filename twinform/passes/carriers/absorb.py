@@ -75,7 +75,7 @@ def _absorb(node: AnyNode, piece: Opaque, condition: VersionCondition, version: 
     # put in its place, would be a look that nobody saw in the file.
     if condition.index and is_repeated(piece, node):
         return node.copy(opaque=(*node.opaque, piece))
-    if piece.element is not None and piece.element.name == "pose" and not piece.at:
+    if piece.element is not None and piece.element.name == "pose" and not piece.at and hasattr(node, "pose"):
         node = node.copy(pose=None)  # one pose stands for another
     return _merged(node, data, condition.index)
 
@@ -103,8 +103,10 @@ def _read(piece: Opaque, kind: type[Node], definition: str, version: Version) ->
     _put_piece(piece, holder)
     sink = DiagnosticSink()
     data = reader("sdf", version).read(xml, Context(sink, "", "sdf", version), definition, kind)
+    around = "/".join(("/sdf", definition, *filter(None, (piece.at,))))
     for found in sink.diagnostics:
-        if found.is_error and found.location.path != f"/sdf/{definition}":  # which lacks all that is not in the piece
+        lacks_the_rest = f"{around}/".startswith(f"{found.location.path}/")
+        if found.is_error and not lacks_the_rest:
             raise CarrierError(found.message)
     return {name: value for name, value in data.items() if name not in _REQUIRED or xml.get(name) is not None}
 

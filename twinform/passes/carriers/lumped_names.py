@@ -35,11 +35,9 @@ def followed(element: Element, names: Mapping[str, Followed], *, carriers: bool)
     children: list[Element] = []
     for child in element.children:
         found = names.get((child.text or "").strip())
-        if found is None or child.children:
-            children.append(followed(child, names, carriers=carriers))
-            continue
-        children.append(child.copy(text=found.name))
-        if carriers:
+        inner = followed(child, names, carriers=carriers)
+        children.append(inner.copy(text=found.name) if found else inner)
+        if found and carriers:
             text = (child.text or "").strip()
             children.append(Element.unchecked(name=_LUMPED, attributes=(("instead_of", found.name),), text=text))
     same = len(children) == len(element.children) and all(map(_is_same, children, element.children))

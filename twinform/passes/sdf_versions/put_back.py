@@ -22,6 +22,7 @@ from twinform.ir.record import field_values, fields_of
 from twinform.ir.verify.verify_joints import verify_mimics
 from twinform.passes.carriers.absorb import CarrierError, absorb, is_already_there
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours
+from twinform.passes.carriers.misplaced import is_misplaced
 from twinform.passes.carriers.removal import without_parts
 from twinform.passes.carriers.sdf_versions import DIALECT, VersionKeeper, carried, condition_of, is_version_carrier
 from twinform.passes.sdf_versions.steps import backward
@@ -108,7 +109,8 @@ def restored(node: AnyNode, version: Version) -> AnyNode:
 
 def restored_itself(node: AnyNode, version: Version) -> AnyNode:
     """The node with its own carriers unpacked."""
-    own = [part for part in node.opaque if is_version_carrier(part) and condition_of(part).fit(version)]
+    fitting = (part for part in node.opaque if is_version_carrier(part) and condition_of(part).fit(version))
+    own = [part for part in fitting if not is_misplaced(part, node)]
     if own:
         kept = tuple(part for part in node.opaque if not any(part is each for each in own))
         node = node.copy(opaque=kept)

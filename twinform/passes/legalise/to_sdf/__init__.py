@@ -3,6 +3,7 @@
 from twinform.ir import Format
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.changed_names import RestoreNames
+from twinform.passes.legalise.drop_misplaced import DropMisplaced
 from twinform.passes.legalise.drop_stale import DropStale
 from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers
 from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf
@@ -51,6 +52,7 @@ def to_sdf(
     """
     before_named_frames = parse_version(version) < _ONE_SCOPE
     return (
+        DropMisplaced.unchecked(),
         CarryUrdf.unchecked(carriers=carriers),  # before anything of SDF comes in
         RestoreShapeNames.unchecked(),
         FollowLumpedNames.unchecked(carriers=carriers),
@@ -76,6 +78,7 @@ def to_sdf(
         RestoreNames.unchecked(to=Format.SDF),
         NameScopes.unchecked(),
         RestoreFrames.unchecked(old_words=mixed and before_named_frames),
+        UnpackSdf.unchecked(of="repeated-poses"),  # when it is known where the first one is
         RestoreNested.unchecked(scopes=scopes and parse_version(version) >= _NAMES_MEAN_MODELS),
         DropStale.unchecked(to=Format.SDF),
         DeclareQuaternions.unchecked(),

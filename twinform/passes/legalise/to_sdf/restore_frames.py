@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, rules
-from twinform.ir import Axis, Element, Format, Frame, Joint, Link, Model, Node, Pose, replace_fields, rewrite
+from twinform.ir import Axis, Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose, replace_fields, rewrite
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph, Kind
 from twinform.ir.scopes import SCOPE
@@ -155,6 +155,9 @@ class _Restoring:
         found = find_annotation(node, POSE)
         name = found.get("relative_to") if found else None
         if not name:
+            return None
+        if isinstance(node, Inertial):
+            self._stale(f"an inertial is posed in its link, and cannot be in {name!r}", node)
             return None
         if name == WORLD or not graph.knows(self._in_frame(name)[0]):
             self._stale(f"there is no frame {name!r} any more, in which a pose was written", node)

@@ -16,9 +16,11 @@ from twinform.ir import (
     Model,
     Node,
     Opaque,
+    Pose,
     Visual,
     census_of,
     map_children,
+    rewrite,
 )
 from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import fields_of
@@ -36,6 +38,8 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 _HAVING = bits_of_ours("sdf", COLORS, SCRIPTS)
 _ENDS = frozenset({"lower", "upper"})
+_IDENTITY = Pose.unchecked(xyz=(0.0, 0.0, 0.0), rpy=(0.0, 0.0, 0.0))
+"""As it is written: without it the pose behind it would be the one that counts."""
 _ABOUT = NOT_CONTENT | {"opaque"}
 """Fields in which a node has nothing of its own, or one thing beside others."""
 
@@ -45,16 +49,18 @@ class UnpackSdf(ModelPass):
 
     Changes: carriers of shapes, scripts, colors of light, surfaces, axes of fixed joints and the like become what they
     were, where the model leaves open what they say, in URDF and in `<gazebo>`: with `of` "bodies" those of the
-    model and its links, with "parts" the others.
+    model and its links, with "parts" the others, and with "repeated-poses" those of a pose behind another one.
     Never touches: what does not fit; these carriers stay, and the last pass reports them.
     Diagnostics: `stale-carrier` for colors of a visual that has another one now.
     """
 
     name: ClassVar[str] = "unpack-sdf"
-    of: Literal["bodies", "parts"] = "parts"
+    of: Literal["bodies", "parts", "repeated-poses"] = "parts"
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without carriers of what is left open."""
+        if self.of == "repeated-poses":
+            return rewrite(model, Node, _with_repeated_poses, having=_HAVING)
         if self.of == "parts":
             return map_children(model, lambda node: self._parts(node, sink))
         if not census_of(model) & _HAVING:
@@ -73,10 +79,10 @@ class UnpackSdf(ModelPass):
 
 
 def _without_carriers(node: AnyNode) -> AnyNode:
-    carriers = [part for part in node.opaque if is_carrier(part, "sdf")] if node.opaque else []
+    carriers = [part for part in node.opaque if is_carrier(part, "sdf") and not _is_repeated_pose(part)]
     if not carriers:
         return node
-    node = node.copy(opaque=tuple(part for part in node.opaque if not is_carrier(part, "sdf")))
+    node = node.copy(opaque=tuple(part for part in node.opaque if part not in carriers))
     for carrier in sorted(carriers, key=partial(_is_second, node)):  # after what it repeats, which may travel too
         if _is_blank_pose(carrier):
             continue
@@ -85,6 +91,22 @@ def _without_carriers(node: AnyNode) -> AnyNode:
         more = None if is_memory(carrier) or _is_overruled(carrier, node) else _with(node, carrier)
         node = node.copy(opaque=(*node.opaque, carrier)) if more is None else more
     return node
+
+
+def _with_repeated_poses(node: Node) -> Node:
+    """The node with poses of which readers see none, behind the one that they take, which is written for that."""
+    if not any(map(_is_repeated_pose, node.opaque)) or not hasattr(node, "pose"):
+        return node
+    parts = tuple(piece for part in node.opaque for piece in (unpack(part) if _is_repeated_pose(part) else (part,)))
+    pose = getattr(node, "pose", None)
+    return node.copy(pose=_IDENTITY if pose in (None, Pose()) else pose, opaque=parts)
+
+
+def _is_repeated_pose(part: Opaque) -> bool:
+    element = part.element
+    if not is_carrier(part, "sdf") or element is None or element.get("index") is None or element.get("at"):
+        return False
+    return bool(element.children) and all(child.name == "pose" for child in element.children)
 
 
 def _is_blank_pose(carrier: Opaque) -> bool:

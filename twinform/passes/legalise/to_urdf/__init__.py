@@ -3,6 +3,7 @@
 from twinform.ir import Format
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.changed_names import RestoreNames
+from twinform.passes.legalise.drop_misplaced import DropMisplaced
 from twinform.passes.legalise.drop_stale import DropStale
 from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers
 from twinform.passes.legalise.to_urdf.build_tree import BuildTree
@@ -57,6 +58,7 @@ def to_urdf(
     return (
         # URDF holds one robot.
         SelectModel.unchecked(model=model),
+        DropMisplaced.unchecked(),
         ShowScopedElements.unchecked(),
         UpgradeSdf.unchecked(carriers=carriers, mixed=mixed_source),
         GatherImuNoise.unchecked(version=versions_of("sdf")[-1], annotated=True),

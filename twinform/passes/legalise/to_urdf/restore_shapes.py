@@ -69,7 +69,7 @@ def _as_written(inertial: Inertial) -> Inertial:
     names = (found.text or "").split()
     inertial = without_annotation(inertial, UNSAID)
     if "inertial" in names:
-        return _NOTHING if is_token(inertial) else inertial
+        return _NOTHING.copy(opaque=inertial.opaque) if is_token(inertial) else inertial
     update: dict[str, object] = {}
     if "mass" in names and (not inertial.mass or has_token_mass(inertial)):
         update["mass"] = None
