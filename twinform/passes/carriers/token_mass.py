@@ -53,8 +53,9 @@ def has_token_mass(inertial: Inertial) -> bool:
 
 def has_token_inertia(inertial: Inertial) -> bool:
     """Whether the inertia is the token."""
+    # a product of inertia that is not written is zero
     return inertial.inertia is not None and all(
-        getattr(inertial.inertia, name) == getattr(TOKEN.inertia, name) for name in MOMENTS
+        (getattr(inertial.inertia, name) or 0.0) == getattr(TOKEN.inertia, name) for name in MOMENTS
     )
 
 
