@@ -1,1 +1,1 @@
-"""Migration from Gazebo Classic to gz-sim."""
+"""Migration of models and worlds from Gazebo Classic to gz-sim."""

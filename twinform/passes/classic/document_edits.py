@@ -1,32 +1,131 @@
-"""Migration outside plugins and sensors: material scripts, `<ros2_control>` hardware, emptied `<gazebo>` elements."""
+"""Changes that a migration makes outside of plugins and sensors: models, worlds, materials, hardware, `<gazebo>`."""
+
+from collections import defaultdict
+from collections.abc import Callable
+from dataclasses import dataclass, field
 
 from twinform.diagnostics import DiagnosticSink, Fate, rules
-from twinform.ir import Document, Element, Format, GazeboExtension, Model, replace_fields, rewrite
-from twinform.passes.classic.element_edits import text_at, with_text
+from twinform.ir import (
+    Axis,
+    Document,
+    Element,
+    Format,
+    GazeboExtension,
+    Joint,
+    Mimic,
+    Model,
+    Plugin,
+    Sensor,
+    World,
+    replace_fields,
+    rewrite,
+)
+from twinform.passes.classic.moving import set_text, text_at
 from twinform.passes.classic.tables import hardware_names
 from twinform.passes.control.carried_elements import as_parts, elements, place_of, replace
 from twinform.passes.framework.pass_registry import find_pass, registered_passes
+from twinform.passes.plugins.add_elements import add_sensor, add_world_plugin
 from twinform.passes.plugins.catalog_types import Release
+from twinform.passes.plugins.sites import PluginSite
 
 _MATERIALS = "materials"
 # Fortress, whose ros2_control plugin has names of its own.
 _OWN_NAMES = 6
 _PLUGIN = "hardware/plugin"
+ModelPath = tuple[str, ...]
+"""The name of the world, or an empty text, and the names of the models down to the one that is meant."""
+ModelChange = Callable[[Model], Model]
 
 
-def in_colors(document: Document, sink: DiagnosticSink) -> Document:
-    """The document with material scripts as colors, by the pass that knows them, where it is installed."""
+@dataclass(slots=True)
+class DeferredEdits:
+    """Changes to models by their paths, and systems for worlds by their names, which are applied after all plugins."""
+
+    format: Format
+    models: dict[ModelPath, list[ModelChange]] = field(default_factory=lambda: defaultdict(list))
+    worlds: dict[str, list[Plugin]] = field(default_factory=lambda: defaultdict(list))
+
+    def sensor(self, site: PluginSite, holder: str, sensor: Sensor) -> None:
+        """Put a sensor on a link or joint later."""
+        self.models[model_path(site)].append(lambda model: _add_sensor(model, holder, sensor, self.format))
+
+    def mimic(self, site: PluginSite, follower: str, mimic: Mimic) -> None:
+        """Let a joint mimic another one later."""
+        self.models[model_path(site)].append(lambda model: _set_mimic(model, follower, mimic))
+
+    def change(self, site: PluginSite, change: ModelChange) -> None:
+        """Change a model in another way later."""
+        self.models[model_path(site)].append(change)
+
+    def run(self, document: Document) -> Document:
+        """The document with all changes."""
+        # Changes wait until all plugins are visited: the walk over plugins rebuilds the models, and
+        # a change made in between would be of a model that is no longer part of the document.
+        if not self.models and not self.worlds:
+            return document
+        models = tuple(self._model(model, ("",)) for model in document.models)
+        worlds = tuple(self._world(world) for world in document.worlds)
+        return document.copy(models=models, worlds=worlds)
+
+    def _world(self, world: World) -> World:
+        models = tuple(self._model(model, (world.name,)) for model in world.models)
+        world = world.copy(models=models)
+        for plugin in self.worlds.get(world.name, ()):
+            world = add_world_plugin(world, plugin)
+        return world
+
+    def _model(self, model: Model, above: ModelPath) -> Model:
+        path = (*above, model.name)
+        model = replace_fields(model, models=tuple(self._model(each, path) for each in model.models))
+        for change in self.models.get(path, ()):
+            model = change(model)
+        return model
+
+
+def model_path(site: PluginSite) -> ModelPath:
+    """The path of the model that a site is in."""
+    return (site.world.name if site.world else "", *(model.name for model in site.models))
+
+
+def _add_sensor(model: Model, holder: str, sensor: Sensor, format_: Format) -> Model:
+    model = add_sensor(model, holder, sensor, format_)
+    joint = next((each for each in model.joints if each.name == holder), None)
+    if format_ is Format.SDF or joint is None or joint.type != "fixed" or _is_preserved(model, holder):
+        return model
+    # libsdformat merges links on fixed joints, and the joint goes with its sensor
+    preserve = GazeboExtension(reference=holder, content=(Element(name="preserveFixedJoint", text="true"),))
+    return model.copy(extensions=(*model.extensions, preserve))
+
+
+def _is_preserved(model: Model, joint: str) -> bool:
+    names = {"preserveFixedJoint", "disableFixedJointLumping"}
+    return any(
+        each.reference == joint and any(child.name in names for child in each.content) for each in model.extensions
+    )
+
+
+def _set_mimic(model: Model, follower: str, mimic: Mimic) -> Model:
+    def follow(joint: Joint) -> Joint:
+        if joint.name != follower:
+            return joint
+        return joint.copy(axis=(joint.axis or Axis()).copy(mimic=mimic))
+
+    return model.copy(joints=tuple(map(follow, model.joints)))
+
+
+def convert_material_scripts(document: Document, sink: DiagnosticSink) -> Document:
+    """The document with colors in place of material scripts, if the pass for that is installed."""
     return find_pass(_MATERIALS)().run(document, sink) if _MATERIALS in registered_passes() else document
 
 
-def modern_hardware(document: Document, release: Release, sink: DiagnosticSink) -> Document:
-    """The document with the simulator's hardware in `<ros2_control>` under the name for a release."""
+def rename_hardware(document: Document, release: Release, sink: DiagnosticSink) -> Document:
+    """The document with the hardware of the simulator in `<ros2_control>` under the name for a release."""
     if release.sim <= _OWN_NAMES:
         return document
-    return rewrite(document, Model, lambda model: _with_modern_hardware(model, document.format, sink))
+    return rewrite(document, Model, lambda model: _rename_model_hardware(model, document.format, sink))
 
 
-def _with_modern_hardware(model: Model, format_: Format, sink: DiagnosticSink) -> Model:
+def _rename_model_hardware(model: Model, format_: Format, sink: DiagnosticSink) -> Model:
     names, result = hardware_names(), model
     for part, system in list(elements(model, format_, "ros2_control")):
         old = text_at(system, _PLUGIN)
@@ -36,19 +135,19 @@ def _with_modern_hardware(model: Model, format_: Format, sink: DiagnosticSink) -
         message = f"the hardware of ros2_control {system.get('name')!r} is {names[old]} now, and was {old}"
         sink.report(rules.MIGRATED_PLUGIN, message, where, found=old)
         sink.account(Fate.APPROXIMATED, rules.MIGRATED_PLUGIN, message, where.at("hardware/plugin"))
-        changed: Element = with_text(system, _PLUGIN, names[old])
+        changed: Element = set_text(system, _PLUGIN, names[old])
         result = replace(result, (part,), as_parts([changed], format_), after=part)
     return result
 
 
-def without_emptied(before: Document, after: Document) -> Document:
-    """The document without the `<gazebo>` elements from which everything has gone; empty ones of the source stay."""
+def remove_emptied(before: Document, after: Document) -> Document:
+    """The document without `<gazebo>` elements that became empty; those that were empty before stay."""
     if before is after:
         return after
-    return replace_fields(after, models=tuple(map(_without_emptied, before.models, after.models)))
+    return replace_fields(after, models=tuple(map(_remove_emptied, before.models, after.models)))
 
 
-def _without_emptied(before: Model, after: Model) -> Model:
+def _remove_emptied(before: Model, after: Model) -> Model:
     pairs = zip(before.extensions, after.extensions, strict=True)
     return replace_fields(after, extensions=tuple(new for old, new in pairs if not _is_emptied(old, new)))
 

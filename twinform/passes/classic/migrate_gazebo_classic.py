@@ -6,12 +6,16 @@ from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, Format, Model
-from twinform.passes.classic.deferred_edits import DeferredEdits
-from twinform.passes.classic.document_edits import in_colors, modern_hardware, without_emptied
+from twinform.passes.classic.document_edits import (
+    DeferredEdits,
+    convert_material_scripts,
+    remove_emptied,
+    rename_hardware,
+)
 from twinform.passes.classic.migrate_sensors import SensorMigration
-from twinform.passes.classic.migrate_worlds import complete_worlds, report_needs, report_unread, ship_models
+from twinform.passes.classic.migrate_worlds import complete_worlds, include_from_fuel, report_needs, report_unread
 from twinform.passes.classic.plugins import PluginMigration
-from twinform.passes.classic.reporting import accept, scratch
+from twinform.passes.classic.reporting import accept_trial, trial_sink
 from twinform.passes.control.carried_elements import declare_carriers
 from twinform.passes.control.ros2_control_from_transmissions import Ros2ControlFromTransmissions
 from twinform.passes.framework.pass_base import Pass
@@ -64,22 +68,22 @@ class MigrateGazeboClassic(Pass):
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document for gz-sim."""
-        target, raising = release(self.release), scratch(sink)
+        target, raising = release(self.release), trial_sink(sink)
         # <mimic>, <lidar> and <frame_id> are syntax of newer versions than most files for Gazebo
         # Classic have, so the version is raised first, by the steps of `--sdf-version`. Older
         # releases of gz-sim read no newer version than their own.
-        raised = _raised(document, target, raising)
-        migrating = scratch(sink)
-        changed = raised if raising.has_errors else self._migrated(raised, target, migrating)
+        raised = _raise_version(document, target, raising)
+        migrating = trial_sink(sink)
+        changed = raised if raising.has_errors else self._migrate(raised, target, migrating)
         if raising.has_errors or changed is not raised:
-            accept(sink, raising)
-        accept(sink, migrating)
+            accept_trial(sink, raising)
+        accept_trial(sink, migrating)
         if changed is raised:
             return document
         carried = any(entry.fate is Fate.CARRIED for entry in sink.entries)
         return declare_carriers(changed) if carried else changed
 
-    def _migrated(self, document: Document, target: Release, sink: DiagnosticSink) -> Document:
+    def _migrate(self, document: Document, target: Release, sink: DiagnosticSink) -> Document:
         # Sensors first: they take the plugins that belong to them, and what is left are plugins of
         # models and worlds.
         edits = DeferredEdits(document.format)
@@ -91,25 +95,25 @@ class MigrateGazeboClassic(Pass):
             edits=edits,
             keep=self.keep,
             controllers=self.controllers,
-            control=lambda model: self._controlled(model, document.format, sink),
+            control=lambda model: self._add_ros2_control(model, document.format, sink),
         )
-        done = edits.run(without_emptied(sensed, map_plugins(sensed, migration)))
-        done = ship_models(modern_hardware(done, target, sink), sink)
+        done = edits.run(remove_emptied(sensed, map_plugins(sensed, migration)))
+        done = include_from_fuel(rename_hardware(done, target, sink), sink)
         # Worlds are completed after all plugins and sensors have their new form, since the systems
         # that they need follow from these.
-        done = in_colors(complete_worlds(done, target, sink), sink)
+        done = convert_material_scripts(complete_worlds(done, target, sink), sink)
         if done is not document:
             report_needs(done, target, sink)
         report_unread(done, sink)
         return done
 
-    def _controlled(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
+    def _add_ros2_control(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
         hardware = _HARDWARE_BEFORE if self.release == "fortress" else _HARDWARE
         return Ros2ControlFromTransmissions(hardware=hardware).convert(model, format_, sink)
 
 
-def _raised(document: Document, target: Release, sink: DiagnosticSink) -> Document:
-    """An SDF document in the version that the release reads, where it is older."""
+def _raise_version(document: Document, target: Release, sink: DiagnosticSink) -> Document:
+    """An SDF document, raised to the version that the release reads if it is older."""
     if document.format is Format.URDF:
         return document
     if parse_version(known_version(document.version)) >= parse_version(target.sdf):

@@ -21,8 +21,8 @@ from twinform.passes.plugins.world_systems import (
 )
 
 
-def ship_models(document: Document, sink: DiagnosticSink) -> Document:
-    """The document with models that came with Gazebo Classic included from Fuel."""
+def include_from_fuel(document: Document, sink: DiagnosticSink) -> Document:
+    """The document that includes models from Fuel if they came with Gazebo Classic."""
     models = unread_parts()["models"]
 
     def change(include: Include) -> Include:
@@ -41,13 +41,13 @@ def ship_models(document: Document, sink: DiagnosticSink) -> Document:
 
 
 def complete_worlds(document: Document, release: Release, sink: DiagnosticSink) -> Document:
-    """The document with the systems that its worlds need: those of sensors, and all defaults once one is written."""
-    worlds = tuple(_complete(world, release, sink) for world in document.worlds)
+    """The document with the systems that its worlds need, and all default systems once any is written."""
+    worlds = tuple(_complete_world(world, release, sink) for world in document.worlds)
     return document if worlds == document.worlds else document.copy(worlds=worlds)
 
 
 def report_needs(document: Document, release: Release, sink: DiagnosticSink) -> None:
-    """Report which systems the world needs that the models of a document without one will stand in."""
+    """Report the systems that models of a document without a world need in the world."""
     sensors, noted = sensors_of(document), set[str]()
     for sensor, site in sensors:
         kind = kind_of_sensor(sensor, release.name)
@@ -63,17 +63,17 @@ def report_needs(document: Document, release: Release, sink: DiagnosticSink) -> 
 
 
 def report_unread(document: Document, sink: DiagnosticSink) -> None:
-    """Report which parts of worlds gz-sim does not read."""
+    """Report parts of worlds that gz-sim does not read."""
     parts = unread_parts()
     for world in document.worlds:
         for part in world.opaque:
             if part.element is not None and not part.at:
-                for element, reason in _unread(part.element, parts["world"], parts["world-inside"]):
-                    _say_unread(world, part, element, reason, sink)
+                for element, reason in _unread_elements(part.element, parts["world"], parts["world-inside"]):
+                    _report_unread_part(world, part, element, reason, sink)
 
 
-def _complete(world: World, release: Release, sink: DiagnosticSink) -> World:
-    kinds = _kinds(world, release)
+def _complete_world(world: World, release: Release, sink: DiagnosticSink) -> World:
+    kinds = _sensor_kinds(world, release)
     needed = [kind for each in kinds for kind in requirements_of(each).systems]
     needed += systems_needed_by_plugins(Document(format=Format.SDF, worlds=(world,)), world, release.name)
     # A world without any plugin gets the default systems from gz-sim itself; as soon as one is
@@ -94,14 +94,16 @@ def _complete(world: World, release: Release, sink: DiagnosticSink) -> World:
     return world
 
 
-def _kinds(world: World, release: Release) -> list[SensorKind]:
-    """The kinds of sensors in a world, those of nested models too."""
+def _sensor_kinds(world: World, release: Release) -> list[SensorKind]:
+    """The kinds of sensors in a world, also in nested models."""
     document = Document(format=Format.SDF, worlds=(world,))
     found = (kind_of_sensor(sensor, release.name) for sensor, _ in sensors_of(document))
     return list(dict.fromkeys(kind for kind in found if kind is not None))
 
 
-def _unread(element: Element, whole: Mapping[str, str], inside: Mapping[str, str]) -> Iterator[tuple[Element, str]]:
+def _unread_elements(
+    element: Element, whole: Mapping[str, str], inside: Mapping[str, str]
+) -> Iterator[tuple[Element, str]]:
     if element.name in whole:
         yield element, whole[element.name]
     # A stack, not recursion: opaque elements may be nested as deeply as the limits of the reader
@@ -115,7 +117,7 @@ def _unread(element: Element, whole: Mapping[str, str], inside: Mapping[str, str
         stack += [(child, f"{path}/{child.name}") for child in reversed(here.children)]
 
 
-def _say_unread(world: World, part: Opaque, element: Element, reason: str, sink: DiagnosticSink) -> None:
+def _report_unread_part(world: World, part: Opaque, element: Element, reason: str, sink: DiagnosticSink) -> None:
     where: Location = element.location if element.source else part.location if part.source else world.location
     message = f"<{element.name}> of world {world.name!r} is not read by gz-sim: {reason}"
     sink.report(rules.UNREAD_WORLD_PART, message, where, found=element.name)

@@ -1,25 +1,23 @@
-"""Conversion of parameters of Gazebo Classic plugins to the elements that gz-sim reads."""
+"""Moves parameters of Gazebo Classic plugins to the elements that gz-sim reads, at paths such as `camera/clip/near`."""
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from math import isfinite, pi, tan
 
 from twinform.ir import Element
-from twinform.passes.classic.element_edits import added, text_at, with_text
 from twinform.passes.classic.tables import Move, Moves
 from twinform.schemas import format_value
 
-_TRUTHS = {"true": "true", "True": "true", "1": "true", "false": "false", "False": "false", "0": "false"}
+_TRUTH_OF = {"true": "true", "True": "true", "1": "true", "false": "false", "False": "false", "0": "false"}
 _FIELD_OF_VIEW = 1.047
-"""What SDF has for a camera's field of view where nothing is written, in rad."""
-# The time in s over which a bias wanders where none is given: that of hector_gazebo's sensor
-# models.
+"""The default of SDF for the field of view of a camera, in rad."""
+# The default time in s over which a bias wanders: that of hector_gazebo's sensor models.
 _DRIFT_TIME = "3600"
 
 
 @dataclass(frozen=True, slots=True)
 class DroppedParameter:
-    """A parameter that went nowhere, and why; `harmless` where its value does not matter."""
+    """A parameter that has no counterpart, and why; `harmless` if its value makes no difference."""
 
     parameter: Element
     reason: str
@@ -28,10 +26,10 @@ class DroppedParameter:
 
 @dataclass(slots=True)
 class Moved:
-    """What the parameters made: the element that they went into, and what went nowhere.
+    """The element into which parameters were moved, and the parameters that have no counterpart.
 
-    Where a path `repeats`, values stand beside each other; else the first one stays. `is_valid` is whether the
-    element can be as it is; a parameter after which it cannot goes nowhere.
+    Values at a path that `repeats` stand beside each other; elsewhere the first one stays. `is_valid` says whether the
+    element is still valid; a parameter that makes it invalid is dropped.
     """
 
     element: Element
@@ -43,12 +41,12 @@ class Moved:
     offsets: dict[str, str] = field(default_factory=dict[str, str])
 
     def apply(self, parameters: Iterable[Element], moves: Moves) -> None:
-        """Take the parameters to their places; those that the moves do not know are left."""
+        """Move the parameters that the table knows; others are not touched."""
         for parameter in parameters:
             move = moves.get(parameter.name)
             if move is not None:
                 before = self.element
-                self._take(parameter, move)
+                self._move(parameter, move)
                 self.moved.add(parameter.name)
                 # One bad value (`<updateRate>$(arg rate)</updateRate>`) must not cost the whole
                 # sensor: the step is taken back and the parameter reported.
@@ -56,7 +54,7 @@ class Moved:
                     self.element = before
                     self.lost.append(DroppedParameter(parameter, f"{parameter.text!r} is no value for it"))
 
-    def _take(self, parameter: Element, move: Move) -> None:
+    def _move(self, parameter: Element, move: Move) -> None:
         text = (parameter.text or "").strip()
         if _is_harmless(text, move.harmless):
             self.lost.append(DroppedParameter(parameter, move.drop or "it is the default", harmless=True))
@@ -70,18 +68,18 @@ class Moved:
         elif move.first and parameter.name in self.moved:
             self.lost.append(DroppedParameter(parameter, "the system has one value for all", harmless=False))
         elif parameter.children or parameter.attributes:
-            self.element = added(self.element, parameter.copy(name=move.to or parameter.name))
+            self.element = add_child(self.element, parameter.copy(name=move.to or parameter.name))
         else:
             self._write_all(parameter, text, move)
 
     def _choose(self, parameter: Element, text: str, move: Move) -> None:
         choices = move.choose or {}
-        chosen = choices.get(text, choices.get(_TRUTHS.get(text, text)))
+        chosen = choices.get(text, choices.get(_TRUTH_OF.get(text, text)))
         if chosen is None:
             self.lost.append(DroppedParameter(parameter, f"{text!r} is none of {', '.join(choices)}"))
             return
         for path, value in chosen.items():
-            self.element = with_text(self.element, path, value)
+            self.element = set_text(self.element, path, value)
 
     def _write_all(self, parameter: Element, text: str, move: Move) -> None:
         for part in text.split(move.split) if move.split else [text]:
@@ -89,7 +87,7 @@ class Moved:
                 self._write(parameter, path, value, move)
         for path, value in move.also.items():
             if text_at(self.element, path) is None:
-                self.element = with_text(self.element, path, value)
+                self.element = set_text(self.element, path, value)
 
     def _values(self, text: str, move: Move) -> Iterator[tuple[str, str]]:
         if move.each:
@@ -98,14 +96,14 @@ class Moved:
             many = numbers if len(numbers) == len(move.each) else numbers[:1] * len(move.each)
             yield from zip(move.each, many, strict=False)
             return
-        value = text.strip("/") if move.bare else self._scaled(text, move)
+        value = text.strip("/") if move.bare else self._scale(text, move)
         for path in (move.to or "", *move.same):
             yield path, value
-        if move.mirror and (number := _number(value)) is not None:
+        if move.mirror and (number := _parse_number(value)) is not None:
             yield move.mirror, format_value(-number)
 
-    def _scaled(self, text: str, move: Move) -> str:
-        number, factor = _number(text), move.scale
+    def _scale(self, text: str, move: Move) -> str:
+        number, factor = _parse_number(text), move.scale
         if move.negative_times is not None:
             factor = -focal_length(self.element)
         return text if number is None or factor is None else format_value(number * factor)
@@ -121,85 +119,124 @@ class Moved:
         # Sensor and plugin both have a rate, and Gazebo Classic measured at the sensor's and
         # published at the plugin's: the smaller one is what subscribers saw.
         if move.least and old is not None:
-            value = _least(old, value)
+            value = _lower_rate(old, value)
         elif old is not None and self.repeats(path):
-            self.element = added(self.element, Element(name=path, text=value))
+            self.element = add_child(self.element, Element(name=path, text=value))
             return
         # Settings of the sensor count more than what its plugin repeats (ranges, clips, fields of
         # view); the plugin's value that differs is reported.
         elif old is not None:
-            if not _same(old, value):
+            if not _is_same_value(old, value):
                 self.lost.append(DroppedParameter(parameter, f"the {self.element.name} itself has {path} {old}"))
             return
-        self.element = with_text(self.element, path, value)
+        self.element = set_text(self.element, path, value)
         if move.noise:
             self._make_noise(path.rpartition("/")[0], move)
 
     def _keep_offset(self, parameter: Element, name: str, value: str) -> None:
-        numbers = _numbers(value)
+        numbers = _parse_numbers(value)
         if len(numbers) == len("xyz") and all(number is not None and isfinite(number) for number in numbers):
             self.offsets[name] = value
         else:
             self.lost.append(DroppedParameter(parameter, f"{value!r} is not three numbers"))
 
     def _make_noise(self, noise: str, move: Move) -> None:
-        self.element = with_text(self.element, f"{noise}/@type", "gaussian")
+        self.element = set_text(self.element, f"{noise}/@type", "gaussian")
         beside = {"mean": "0", "stddev": "0"}
         if move.drifts:
             beside["dynamic_bias_correlation_time"] = _DRIFT_TIME
         for name, value in beside.items():
             if text_at(self.element, f"{noise}/{name}") is None:
-                self.element = with_text(self.element, f"{noise}/{name}", value)
+                self.element = set_text(self.element, f"{noise}/{name}", value)
 
 
 def focal_length(sensor: Element) -> float:
     """The focal length of a camera in pixels, from its field of view and the width of its images."""
-    fov = _number(text_at(sensor, "camera/horizontal_fov") or "") or _FIELD_OF_VIEW
+    fov = _parse_number(text_at(sensor, "camera/horizontal_fov") or "") or _FIELD_OF_VIEW
     fov = fov if 0 < fov < pi else _FIELD_OF_VIEW
     return camera_width(sensor) / (2 * tan(fov / 2))
 
 
 def camera_width(sensor: Element) -> float:
     """The width of a camera's images in pixels."""
-    return _number(text_at(sensor, "camera/image/width") or "") or 320.0
+    return _parse_number(text_at(sensor, "camera/image/width") or "") or 320.0
 
 
 def camera_height(sensor: Element) -> float:
     """The height of a camera's images in pixels."""
-    return _number(text_at(sensor, "camera/image/height") or "") or 240.0
+    return _parse_number(text_at(sensor, "camera/image/height") or "") or 240.0
 
 
 def truth_of(text: str) -> bool | None:
-    """Whether a text means yes or no; None where it means neither."""
-    truth = _TRUTHS.get(text.strip())
+    """Whether a text means true or false; None if it means neither."""
+    truth = _TRUTH_OF.get(text.strip())
     return None if truth is None else truth == "true"
 
 
-def _number(text: str) -> float | None:
+def _parse_number(text: str) -> float | None:
     try:
         return float(text)
     except ValueError:
         return None
 
 
-def _numbers(text: str) -> list[float | None]:
-    return [_number(word) for word in text.split()]
+def _parse_numbers(text: str) -> list[float | None]:
+    return [_parse_number(word) for word in text.split()]
 
 
-def _same(one: str, other: str) -> bool:
-    numbers = _numbers(one)
+def _is_same_value(one: str, other: str) -> bool:
+    numbers = _parse_numbers(one)
     return (
         one == other
-        or _TRUTHS.get(one, one) == _TRUTHS.get(other, other)
-        or (bool(numbers) and None not in numbers and numbers == _numbers(other))
+        or _TRUTH_OF.get(one, one) == _TRUTH_OF.get(other, other)
+        or (bool(numbers) and None not in numbers and numbers == _parse_numbers(other))
     )
 
 
 def _is_harmless(text: str, harmless: Iterable[str]) -> bool:
-    return any(_same(text, each) for each in harmless)
+    return any(_is_same_value(text, each) for each in harmless)
 
 
-def _least(old: str, new: str) -> str:
-    """The smaller of two rates; zero means as often as possible."""
-    rates = {text: _number(text) or float("inf") for text in (old, new)}
+def _lower_rate(old: str, new: str) -> str:
+    """The lower of two rates; zero means as often as possible."""
+    rates = {text: _parse_number(text) or float("inf") for text in (old, new)}
     return new if rates[new] < rates[old] else old
+
+
+def text_at(element: Element, path: str) -> str | None:
+    """The text of an element or attribute at a path; None if there is none."""
+    *steps, last = path.split("/")
+    here: Element | None = element
+    for step in steps:
+        here = here.find(step) if here is not None else None
+    if here is None:
+        return None
+    if last.startswith("@"):
+        return here.get(last[1:])
+    found = here.find(last)
+    return found.text if found is not None else None
+
+
+def set_text(element: Element, path: str, text: str) -> Element:
+    """The element with a text at a path; missing elements on the path are made."""
+    step, _, rest = path.partition("/")
+    if step.startswith("@"):
+        others = tuple(each for each in element.attributes if each[0] != step[1:])
+        return element.copy(attributes=(*others, (step[1:], text)))
+    child = element.find(step) or Element(name=step)
+    new = set_text(child, rest, text) if rest else child.copy(text=text)
+    return replace_child(element, child, new)
+
+
+def replace_child(element: Element, old: Element, new: Element) -> Element:
+    """The element with one child in place of another; the child is appended if the other is not there."""
+    if any(child is old for child in element.children):
+        children = tuple(new if child is old else child for child in element.children)
+    else:
+        children = (*element.children, new)
+    return element.copy(children=children)
+
+
+def add_child(element: Element, child: Element) -> Element:
+    """The element with one more child."""
+    return element.copy(children=(*element.children, child))

@@ -1,59 +1,59 @@
-"""Gazebo Classic plugins replaced by systems of gz-sim."""
+"""Gazebo Classic plugins replaced by systems of gz-sim, with the parameters that their version for ROS 1 or 2 reads."""
 
 from collections.abc import Callable, Iterator
 
 from twinform.ir import Element, Plugin
-from twinform.passes.classic.classic_parameters import as_read
-from twinform.passes.classic.element_edits import added
-from twinform.passes.classic.moving import DroppedParameter, Moved, truth_of
+from twinform.passes.classic.moving import DroppedParameter, Moved, add_child, truth_of
 from twinform.passes.classic.tables import Migration, SystemRow
 from twinform.passes.classic.topics import RosNames, is_namespace
-from twinform.passes.plugins.catalog import system
+from twinform.passes.plugins.catalog import classic_plugins_of_file, system
 from twinform.passes.plugins.catalog_types import PluginKind
 from twinform.passes.plugins.sites import PluginSite
 
 _ON, _OFF = "{=/tf}", "=odom_transform"
-"""The topics of transforms that ROS is to have, and of those that it is not: the bridge takes the first for `/tf`."""
+"""The topics for transforms that are on and off in ROS: the bridge takes only the first for `/tf`."""
 _UNREAD = "the plugin of Gazebo Classic does not read it either"
 _UNREAD_BY_ROS2 = "the plugin for ROS 2 does not read it either"
+# The element with the settings of a node, which only plugins for ROS 2 have.
+_ROS = "ros"
 
 
-def made_systems(
+def make_systems(
     plugin: Plugin, migration: Migration, site: PluginSite, release: str
 ) -> tuple[list[tuple[Plugin, SystemRow]], list[DroppedParameter]]:
-    """The systems that take a plugin's place, with their rows, and the parameters that went nowhere.
+    """The systems that replace a plugin, with their rows, and the parameters that have no counterpart.
 
     Raises:
-        LookupError: the release has no such system; the error names it.
+        LookupError: the release does not have the system that the message names.
     """
-    read = as_read(plugin)
+    read = without_unread_parameters(plugin)
     names, lost, taken = RosNames(read), list[DroppedParameter](), set[str]()
     made: list[tuple[Plugin, SystemRow]] = []
     for row in migration.systems:
-        kind = _kind(row, release)
+        kind = _system_for(row, release)
         moved = Moved(Element(name="plugin"), repeats=_repeats(kind))
         moved.apply(read.content, {**migration.shared, **row.moves})
-        for each in _sets(row, site, moved.element):
-            moved.element = added(moved.element, each)
+        for each in _defaults(row, site, moved.element):
+            moved.element = add_child(moved.element, each)
         content = [*moved.element.children]
         content += [Element(name=path, text=names.topic(pattern)) for path, pattern in row.topics.items()]
-        content += _transforms(row, read, names)
+        content += _transform_topic(row, read, names)
         # The tables hold places for the newest release; an older one may not read a parameter,
         # which is then reported instead of written in vain.
-        kept, unread = _read_by(kind, content, release)
+        kept, unread = _split_by_release(kind, content, release)
         lost += [each for each in moved.lost if each.parameter.name not in taken]
         lost += [
             DroppedParameter(parameter, f"{kind.class_name} of {release} does not read <{name}>")
-            for parameter, name in _origins(read, row, unread)
+            for parameter, name in _sources_of(read, row, unread)
         ]
         taken |= moved.moved
-        made.append((_plugin(plugin, kind, kept, alone=len(migration.systems) == 1), row))
-    lost += unused(plugin, taken, names)
-    return made, _once(lost)
+        made.append((_system_plugin(plugin, kind, kept, alone=len(migration.systems) == 1), row))
+    lost += unused_parameters(plugin, taken, names)
+    return made, _without_repeats(lost)
 
 
-def unused(plugin: Plugin, taken: set[str], names: RosNames) -> Iterator[DroppedParameter]:
-    """The parameters that nothing has taken."""
+def unused_parameters(plugin: Plugin, taken: set[str], names: RosNames) -> Iterator[DroppedParameter]:
+    """The parameters that no row of the table has used."""
     read = {id(parameter) for parameter in names.plugin.content}
     for parameter in plugin.content:
         if id(parameter) not in read:
@@ -74,22 +74,22 @@ def _repeats(kind: PluginKind) -> Callable[[str], bool]:
     return repeats
 
 
-def _kind(row: SystemRow, release: str) -> PluginKind:
+def _system_for(row: SystemRow, release: str) -> PluginKind:
     for name in (row.system, row.before):
         if name is not None and release in (kind := system(name)).releases:
             return kind
     raise LookupError(f"gz-sim of {release} has no {system(row.system).class_name}")
 
 
-def _sets(row: SystemRow, site: PluginSite, element: Element) -> Iterator[Element]:
-    """What is written where no parameter sets it."""
+def _defaults(row: SystemRow, site: PluginSite, element: Element) -> Iterator[Element]:
+    """The values that a row writes where no parameter has set them."""
     for name, value in row.sets.items():
         if element.find(name) is None:
             yield Element(name=name, text=site.model.name if value == "$model" and site.model else value)
 
 
-def _transforms(row: SystemRow, plugin: Plugin, names: RosNames) -> Iterator[Element]:
-    """Where the transforms of the odometry go; no system has an option to publish none."""
+def _transform_topic(row: SystemRow, plugin: Plugin, names: RosNames) -> Iterator[Element]:
+    """The topic for the transforms of odometry; no system has an option to publish none."""
     if row.transforms is None:
         return
     on = dict(row.transforms)
@@ -103,30 +103,59 @@ def _transforms(row: SystemRow, plugin: Plugin, names: RosNames) -> Iterator[Ele
     yield Element(name="tf_topic", text="/" + names.topic(_ON if all(on.values()) else _OFF))
 
 
-def _read_by(kind: PluginKind, content: list[Element], release: str) -> tuple[list[Element], set[str]]:
+def _split_by_release(kind: PluginKind, content: list[Element], release: str) -> tuple[list[Element], set[str]]:
     """The parameters that the system reads in this release, and the names of the others."""
     read = {row.name for row in kind.parameters if release in row.releases}
     kept = [each for each in content if each.name in read]
     return kept, {each.name for each in content if each.name not in read}
 
 
-def _origins(plugin: Plugin, row: SystemRow, unread: set[str]) -> Iterator[tuple[Element, str]]:
-    """The parameters from which values came that the system does not read."""
+def _sources_of(plugin: Plugin, row: SystemRow, unread: set[str]) -> Iterator[tuple[Element, str]]:
+    """The parameters whose values went to elements that the system does not read."""
     for parameter in plugin.content:
         move = row.moves.get(parameter.name)
         if move is not None and move.to is not None and move.to.partition("/")[0] in unread:
             yield parameter, move.to
 
 
-def _plugin(plugin: Plugin, kind: PluginKind, content: list[Element], *, alone: bool) -> Plugin:
+def _system_plugin(plugin: Plugin, kind: PluginKind, content: list[Element], *, alone: bool) -> Plugin:
     # A location belongs to one node. Where one plugin became several systems, none of them is the
     # plugin.
     source = plugin.source if alone else None
     return Plugin(name=kind.class_name, filename=kind.file, content=tuple(content), source=source)
 
 
-def _once(lost: list[DroppedParameter]) -> list[DroppedParameter]:
+def _without_repeats(lost: list[DroppedParameter]) -> list[DroppedParameter]:
     seen: dict[int, DroppedParameter] = {}
     for each in lost:
         seen.setdefault(id(each.parameter), each)
     return list(seen.values())
+
+
+def ros2_kind(plugin: Plugin) -> PluginKind | None:
+    """The kind of a plugin for ROS 2; None if it is, or may be, for ROS 1.
+
+    A plugin is for ROS 2 if it has `<ros>`, or if its file or its parameters only exist there.
+    """
+    kinds = classic_plugins_of_file(plugin.filename or "")
+    if "ros2" not in kinds:
+        return None
+    written = {child.name for child in plugin.content}
+    new = {row.name for row in kinds["ros2"].parameters}
+    old = {row.name for row in kinds["noetic"].parameters} if "noetic" in kinds else set[str]()
+    # Files of gazebo_ros_pkgs have one name for ROS 1 and ROS 2, and many robots keep parameters of
+    # both in one plugin. A mixture counts as ROS 1 unless <ros> says otherwise: nothing that was
+    # read then gets lost.
+    is_new = _ROS in written or not old or (bool(written & new - old) and not written & old - new)
+    return kinds["ros2"] if is_new else None
+
+
+def without_unread_parameters(plugin: Plugin) -> Plugin:
+    """The plugin; if it is for ROS 2, without the parameters that only its version for ROS 1 reads."""
+    kind = ros2_kind(plugin)
+    if kind is None or kind.free:
+        return plugin
+    # What the plugin of ROS 2 does not read had no effect, so it must have none after the migration
+    # either.
+    content = tuple(child for child in plugin.content if kind.parameter(child.name) is not None)
+    return plugin if len(content) == len(plugin.content) else plugin.copy(content=content)

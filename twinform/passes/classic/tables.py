@@ -128,7 +128,7 @@ class MakeRow(_TableRow):
 
 
 class Migration(_TableRow):
-    """What becomes of one plugin."""
+    """What becomes of one plugin of Gazebo Classic."""
 
     files: tuple[str, ...] = ()
     native: tuple[str, ...] = ()
@@ -148,7 +148,7 @@ class Migration(_TableRow):
 
     @property
     def shared(self) -> Moves:
-        """The parameters that it shares with others."""
+        """The moves that the plugin shares with others."""
         return {name: move for table in self.uses for name, move in shared_moves(table).items()}
 
     @property
@@ -160,87 +160,87 @@ class Migration(_TableRow):
             tables.append(self.sensor.moves)
             more = (*self.sensor.topics_of.values(), *self.sensor.topics_where.values())
             patterns += [pattern for topics in (self.sensor.topics, *more) for pattern in topics.values()]
-        named = {name for pattern in patterns for name in names_in(pattern)}
+        named = {name for pattern in patterns for name in parameters_in(pattern)}
         switches = {name for row in self.systems for name in row.transforms or ()}
         makers = set(self.make.of if self.make else ())
         return frozenset({name for table in tables for name in table} | named | switches | makers)
 
 
 def migration_of(filename: str, content: tuple[Element, ...] = ()) -> Migration | None:
-    """The migration of a plugin, by its file and parameters; None for one that is not of Gazebo Classic."""
+    """The migration of a plugin, by its file and parameters; None if it is not of Gazebo Classic."""
     key = modern_file(filename)
     written = {element.name for element in content}
-    for migration in _by_file().get(key, ()):
+    for migration in _migrations_by_file().get(key, ()):
         if not migration.reads or written.intersection(migration.reads):
             return migration
     return None
 
 
 def migrations() -> Mapping[str, Migration]:
-    """All tables by their names."""
-    return _migrations()
+    """All migrations by the names of their tables."""
+    return _read_migrations()
 
 
 def hardware_names() -> Mapping[str, str]:
-    """The hardware plugins of ros2_control for Gazebo, old and new."""
-    return _toml("control.toml")["hardware"]
+    """The hardware plugins of ros2_control for Gazebo, current names by old ones."""
+    return _read_toml("control.toml")["hardware"]
 
 
 @cache
 def unread_parts() -> Mapping[str, Mapping[str, str]]:
-    """What gz-sim does not read of worlds and sensors with the reasons, and the models that were shipped."""
-    return _toml("worlds.toml")
+    """The parts of worlds and sensors that gz-sim does not read, with reasons, and models that moved to Fuel."""
+    return _read_toml("worlds.toml")
 
 
 @cache
 def shared_moves(table: str) -> Moves:
     """A table of parameters that several plugins have."""
-    return {name: _move(row) for name, row in _toml("shared.toml")[table].items()}
+    return {name: _read_move(row) for name, row in _read_toml("shared.toml")[table].items()}
 
 
-def names_in(pattern: str) -> Iterator[str]:
-    """The parameters that a pattern of a topic names."""
+def parameters_in(pattern: str) -> Iterator[str]:
+    """The parameters in a pattern of a topic."""
     for choice in re.findall(r"\{([^{}]*+)\}", pattern):
         yield from (word for word in choice.split("|") if word[0] not in "=$")
 
 
 @cache
-def _by_file() -> Mapping[str, tuple[Migration, ...]]:
+def _migrations_by_file() -> Mapping[str, tuple[Migration, ...]]:
     found: dict[str, tuple[Migration, ...]] = {}
-    for migration in _migrations().values():
+    for migration in _read_migrations().values():
         for file in migration.files:
             found[file] = (*found.get(file, ()), migration)
     return found
 
 
 @cache
-def _migrations() -> Mapping[str, Migration]:
+def _read_migrations() -> Mapping[str, Migration]:
     found: dict[str, Migration] = {}
     for file in _FILES:
-        tables = {name: row for name, row in _toml(file).items() if name != "hardware"}
-        found |= {name: Migration.model_validate(_with_moves(row)) for name, row in tables.items()}
-    for file, reason in _toml("without.toml").items():
+        tables = {name: row for name, row in _read_toml(file).items() if name != "hardware"}
+        found |= {name: Migration.model_validate(_expand_moves(row)) for name, row in tables.items()}
+    for file, reason in _read_toml("without.toml").items():
         found[file] = Migration(files=(file,), none=reason)
     return found
 
 
-def _with_moves(row: Any) -> Any:
-    """The row with every move as a table, where a text means its place alone."""
+def _expand_moves(row: Any) -> Any:
+    """The row with every move as a table; a text is only the path."""
     if isinstance(row, list):
-        return [_with_moves(each) for each in row]  # pyright: ignore[reportUnknownVariableType] - TOML has any type
+        return [_expand_moves(each) for each in row]  # pyright: ignore[reportUnknownVariableType] - TOML has any type
     if not isinstance(row, dict):
         return row
-    made: dict[str, Any] = {str(name): _with_moves(value) for name, value in row.items()}  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType] - TOML has any type
+    made: dict[str, Any] = {str(name): _expand_moves(value) for name, value in row.items()}  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType] - TOML has any type
     if isinstance(made.get("moves"), dict):
-        made["moves"] = {name: _move(value) for name, value in made["moves"].items()}
+        made["moves"] = {name: _read_move(value) for name, value in made["moves"].items()}
     return made
 
 
-def _move(row: Any) -> Move:
+def _read_move(row: Any) -> Move:
     return Move(to=row) if isinstance(row, str) else Move.model_validate(row)
 
 
 @cache
-def _toml(name: str) -> dict[str, Any]:
+def _read_toml(name: str) -> dict[str, Any]:
     text = resources.files("twinform.passes.classic").joinpath("data", name).read_text(encoding="utf-8")
     return tomllib.loads(text)

@@ -1,8 +1,8 @@
 """ROS topics of plugins: namespaces, names and remappings resolved into one name.
 
-A pattern has pieces between slashes; each is a name behind `=`, or in braces a choice between parameters, `$plugin`,
-`$sensor` and `$camera`, and such a name: `{cameraName|$sensor}/{imageTopicName|=image_raw}`. In a name, `$plugin` is
-that of the node, which is the plugin's. A piece that begins with a slash is absolute, as in ROS.
+A pattern has pieces separated by slashes. A piece is a name after `=`, or in braces a choice between parameters,
+`$plugin`, `$sensor`, `$camera`, and such a name: `{cameraName|$sensor}/{imageTopicName|=image_raw}`. In a name,
+`$plugin` is the name of the node, which is that of the plugin. A piece that begins with a slash is absolute, as in ROS.
 """
 
 import re
@@ -13,13 +13,16 @@ from twinform.ir import Element, Plugin
 
 _NAMESPACES = ("robotNamespace", "robot_namespace")
 _REMAPPINGS = frozenset({"remapping", "argument"})
-_BETWEEN = re.compile(r"/(?![^{}]{0,100}+\})")
-"""A choice has fewer characters than that."""
+_SEPARATOR = re.compile(r"/(?![^{}]{0,100}+\})")
+"""A slash outside of braces; a choice in braces has fewer than 100 characters."""
 
 
 @dataclass(slots=True)
 class RosNames:
-    """How a plugin calls its topics. `used` and `remapped` fill up with the parameters and remappings that did it."""
+    """The names of the topics of a plugin.
+
+    `used` and `remapped` collect the parameters and remappings that the names depend on.
+    """
 
     plugin: Plugin
     sensor: str | None = None
@@ -28,23 +31,23 @@ class RosNames:
     remapped: set[str] = field(default_factory=set[str])
 
     def topic(self, pattern: str) -> str:
-        """The name that a pattern stands for here, without the slash that it begins with."""
-        pieces = [self._piece(piece) for piece in _BETWEEN.split(pattern)]
+        """The name that a pattern stands for, without its first slash."""
+        pieces = [self._fill_piece(piece) for piece in _SEPARATOR.split(pattern)]
         # As in ROS, an absolute name discards everything before it, the namespace included.
         last = next((at for at in reversed(range(len(pieces))) if pieces[at].startswith("/")), None)
         name = "/".join(pieces) if last is None else "/".join(pieces[last:])
         # The name that the topic had in ROS becomes the topic of gz-transport, so the bridge joins
         # equal names and the programs of ROS need no change.
-        return self._remapped(name if last is not None else f"{self.namespace}/{name}")
+        return self._apply_remapping(name if last is not None else f"{self.namespace}/{name}")
 
     @property
     def namespace(self) -> str:
-        """The namespace of its node."""
+        """The namespace of the node."""
         for child in self.plugin.content:
             if child.name in _NAMESPACES:
                 self.used.add(child.name)
                 return child.text or ""
-        given = self._setting("__ns")
+        given = self._node_setting("__ns")
         if given is not None:
             return given
         inside = (ros.find("namespace") for ros in self._ros())
@@ -52,11 +55,11 @@ class RosNames:
 
     @property
     def node(self) -> str:
-        """The name of its node."""
-        return self._setting("__node") or self._setting("__name") or self.plugin.name or ""
+        """The name of the node."""
+        return self._node_setting("__node") or self._node_setting("__name") or self.plugin.name or ""
 
-    def _setting(self, name: str) -> str | None:
-        """What a remapping of the node itself has."""
+    def _node_setting(self, name: str) -> str | None:
+        """The value of a remapping of the node itself."""
         found = next((new for old, new in self._remappings() if old == name), None)
         if found is not None:
             self.remapped.add(name)
@@ -65,45 +68,45 @@ class RosNames:
     def _ros(self) -> Iterator[Element]:
         return (child for child in self.plugin.content if child.name == "ros")
 
-    def _piece(self, piece: str) -> str:
+    def _fill_piece(self, piece: str) -> str:
         for word in piece.strip("{}").split("|"):
             if word.startswith("="):
                 return word[1:].replace("$plugin", self.node)
             if word.startswith("$"):
                 value = {"$sensor": self.sensor, "$camera": self.camera}.get(word, self.node)
             else:
-                value = self._parameter(word)
+                value = self._use_parameter(word)
             if value:
                 return value
         return ""
 
-    def _parameter(self, name: str) -> str | None:
+    def _use_parameter(self, name: str) -> str | None:
         found = next((child for child in self.plugin.content if child.name == name), None)
         if found is None:
             return None
         self.used.add(name)
         return found.text
 
-    def _remapped(self, name: str) -> str:
-        """A name as the first rule about it has it; rules are about whole names (rcl, remap.c)."""
+    def _apply_remapping(self, name: str) -> str:
+        """A name after the first rule that applies to it; rules are about whole names (rcl, remap.c)."""
         # So `image_raw:=x`, which older documentation teaches for cameras, renames nothing in Foxy
         # and later: the topic is CAMERA/image_raw. It is reported as a leftover.
         for old, new in self._remappings():
-            if _clean(name) == self._expanded(old):
+            if _clean_name(name) == self._expand(old):
                 self.remapped.add(old)
-                return self._expanded(new)
-        return _clean(name)
+                return self._expand(new)
+        return _clean_name(name)
 
-    def _expanded(self, name: str) -> str:
+    def _expand(self, name: str) -> str:
         """A name in a rule, with the namespace and the name of the node that it is relative to."""
         name = name.removeprefix("rostopic://")
         node, colon, rest = name.partition(":")
         # A rule `node:old:=new` is for the node of that name only.
         if colon:
-            return self._expanded(rest) if node == self.node else ""
+            return self._expand(rest) if node == self.node else ""
         if name.startswith("/"):
-            return _clean(name)
-        return _clean("/".join((self.namespace, self.node if name.startswith("~") else "", name)))
+            return _clean_name(name)
+        return _clean_name("/".join((self.namespace, self.node if name.startswith("~") else "", name)))
 
     def _remappings(self) -> Iterator[tuple[str, str]]:
         """What is to be called otherwise, in order; older versions have remappings in `<argument>`."""
@@ -114,7 +117,7 @@ class RosNames:
                     yield old.strip(), new.strip()
 
     def leftovers(self) -> Iterator[tuple[Element, str]]:
-        """The parts of `<ros>` that no topic has used, with the reason why they go nowhere."""
+        """The parts of `<ros>` that no topic depends on, with the reason why they have no counterpart."""
         for ros in self._ros():
             for child in ros.children:
                 old = (child.text or "").partition(":=")[0].strip()
@@ -128,5 +131,5 @@ def is_namespace(name: str) -> bool:
     return name in _NAMESPACES
 
 
-def _clean(name: str) -> str:
+def _clean_name(name: str) -> str:
     return "/".join(piece for piece in name.split("/") if piece and piece != "~")

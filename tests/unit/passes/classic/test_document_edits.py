@@ -24,9 +24,9 @@ DOCUMENT = Document(format=Format.URDF)
 def test_the_pass_materials_runs_where_it_is_installed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(document_edits, "registered_passes", lambda: {"materials": None})
     monkeypatch.setattr(document_edits, "find_pass", {"materials": Recolored}.__getitem__)
-    assert document_edits.in_colors(DOCUMENT, DiagnosticSink()).version == "recolored"
+    assert document_edits.convert_material_scripts(DOCUMENT, DiagnosticSink()).version == "recolored"
 
 
 def test_without_it_materials_stay(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(document_edits, "registered_passes", dict)
-    assert document_edits.in_colors(DOCUMENT, DiagnosticSink()) is DOCUMENT
+    assert document_edits.convert_material_scripts(DOCUMENT, DiagnosticSink()) is DOCUMENT
