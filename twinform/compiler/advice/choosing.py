@@ -8,7 +8,7 @@ from twinform.compiler.advice.forms import Form, Loss
 from twinform.diagnostics.rules import MODEL_NOT_CHOSEN
 from twinform.ir import Document, Format, Joint, walk
 from twinform.passes.analyses.candidates import candidates
-from twinform.passes.control.carried_elements import elements
+from twinform.passes.control.carried_elements import urdf_elements
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +83,10 @@ def _loses_in_sdf(facts: Facts) -> str:
 def _is_driven(facts: Facts) -> str:
     names = ("transmission", "ros2_control")
     found = [
-        name for model in facts.document.models for name in names for _ in elements(model, facts.document.format, name)
+        name
+        for model in facts.document.models
+        for name in names
+        for _ in urdf_elements(model, facts.document.format, name)
     ]
     kinds = " and ".join(f"<{name}>" for name in names if name in found)
     return f"it has {kinds}, which ROS reads from URDF only" if found else ""

@@ -58,7 +58,7 @@ class OtherDocuments:
 
     def _in_terms_of(self, around: Document, document: Document, path: Path, sink: DiagnosticSink) -> Document | None:
         from twinform.compiler.request import ConversionRequest  # noqa: PLC0415 - few conversions need a second file
-        from twinform.passes.includes.relocate import relocate  # noqa: PLC0415 - as above
+        from twinform.passes.includes.expand import relocate  # noqa: PLC0415 - as above
 
         own = DiagnosticSink(str(path), self.load_options.strict, origins=sink.origins)
         version = around.version if around.format is Format.SDF else None

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from twinform.diagnostics import DiagnosticSink, Location, did_you_mean, rules
 from twinform.ir import Document, Element, Model
-from twinform.passes.control.carried_elements import elements
+from twinform.passes.control.carried_elements import urdf_elements
 
 _HOLDERS = ("transmission", "ros2_control")
 _JOINTS = ("joint", "passive_joint")
@@ -22,7 +22,7 @@ def report_driven_joints(document: Document, sink: DiagnosticSink) -> None:
 def _report(model: Model, document: Document, sink: DiagnosticSink) -> None:
     joints = {joint.name for joint in model.joints}
     for holder in _HOLDERS:
-        for part, element in elements(model, document.format, holder):
+        for part, element in urdf_elements(model, document.format, holder):
             called = element.get("name") or ""
             if holder == "transmission" and not any(child.name in _WITH_JOINT for child in element.children):
                 message = f"transmission {called!r} has no <joint>: it drives nothing"

@@ -1,1 +1,1 @@
-"""Passes on appearance and contact: materials, surfaces, and the URIs of their files."""
+"""Passes on appearance and contact: materials, surfaces, shapes, and the URIs of their files."""

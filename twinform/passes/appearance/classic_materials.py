@@ -26,25 +26,25 @@ class ClassicMaterial:
 
 @cache
 def classic_materials() -> dict[str, ClassicMaterial]:
-    """Return the materials of Gazebo Classic that have colors or images, by name."""
+    """The materials of Gazebo Classic that have colors or images, by name."""
     text = files("twinform.passes.appearance").joinpath(_DATA).read_text(encoding="utf-8")
     rows: dict[str, dict[str, list[float] | list[str] | float]] = tomllib.loads(text)
-    return {name: _material(row) for name, row in rows.items() if row}
+    return {name: _read_material(row) for name, row in rows.items() if row}
 
 
-def _material(row: dict[str, list[float] | list[str] | float]) -> ClassicMaterial:
+def _read_material(row: dict[str, list[float] | list[str] | float]) -> ClassicMaterial:
     shininess, textures = row.get("shininess"), row.get("textures")
     return ClassicMaterial(
-        ambient=_color(row.get("ambient")) or (*_WHITE, 1.0),
-        diffuse=_color(row.get("diffuse")) or (*_WHITE, 1.0),
-        specular=_color(row.get("specular")),
-        emissive=_color(row.get("emissive")),
+        ambient=_opaque_color(row.get("ambient")) or (*_WHITE, 1.0),
+        diffuse=_opaque_color(row.get("diffuse")) or (*_WHITE, 1.0),
+        specular=_opaque_color(row.get("specular")),
+        emissive=_opaque_color(row.get("emissive")),
         shininess=float(shininess) if isinstance(shininess, int | float) else None,
         textures=tuple(map(str, textures)) if isinstance(textures, list) else (),
     )
 
 
-def _color(value: object) -> Color | None:
+def _opaque_color(value: object) -> Color | None:
     """Red, green, blue, and an alpha of one."""
     if not isinstance(value, list):
         return None

@@ -28,17 +28,17 @@ class DropBareScripts(Pass):
         """The document without such scripts."""
         if document.format is not Format.SDF:
             return document
-        return rewrite(document, Material, lambda material: _without(material, sink))
+        return rewrite(document, Material, lambda material: _remove_script(material, sink))
 
 
 def is_bare(script: Script | None) -> bool:
-    """Whether a script lacks its name or URI."""
+    """Whether a script lacks a name or a URI."""
     # libsdformat refuses the whole file for it (Material.cc, Load): "A <script> element is missing
     # a child <uri>".
     return script is not None and (script.name in _NOTHING or not script.uris or not _NOTHING.isdisjoint(script.uris))
 
 
-def _without(material: Material, sink: DiagnosticSink) -> Material:
+def _remove_script(material: Material, sink: DiagnosticSink) -> Material:
     script = material.script
     if script is None or not is_bare(script):
         return material

@@ -28,13 +28,13 @@ class DropFlatShapes(Pass):
         """The document without flat shapes."""
 
         def drop(link: Link) -> Link:
-            visuals, collisions = _without_flat(link, link.visuals, sink), _without_flat(link, link.collisions, sink)
+            visuals, collisions = _remove_flat(link, link.visuals, sink), _remove_flat(link, link.collisions, sink)
             return replace_fields(link, visuals=visuals, collisions=collisions)
 
         return rewrite(document, Link, drop)
 
 
-def _without_flat(link: Link, parts: tuple[Part, ...], sink: DiagnosticSink) -> tuple[Part, ...]:
+def _remove_flat(link: Link, parts: tuple[Part, ...], sink: DiagnosticSink) -> tuple[Part, ...]:
     for part in filter(is_flat, parts):
         kind = type(part).__name__.lower()
         name = f" {part.name!r}" if part.name else ""

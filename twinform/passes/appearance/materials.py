@@ -51,26 +51,26 @@ class Materials(Pass):
             return self.model_copy(update={"pbr": False}).run(document, sink)
 
         if document.format is Format.URDF:
-            return rewrite(document, GazeboExtension, lambda extension: self._extension(extension, sink))
-        return rewrite(document, Link, lambda link: self._link(link, sink))
+            return rewrite(document, GazeboExtension, lambda extension: self._convert_extension(extension, sink))
+        return rewrite(document, Link, lambda link: self._convert_link(link, sink))
 
-    def _is_meant(self, link: str | None) -> bool:
+    def _is_selected(self, link: str | None) -> bool:
         return link is not None and matches(link, self.links)
 
-    def _link(self, link: Link, sink: DiagnosticSink) -> Link:
-        if not self._is_meant(link.name):
+    def _convert_link(self, link: Link, sink: DiagnosticSink) -> Link:
+        if not self._is_selected(link.name):
             return link
-        return rewrite(link, Material, lambda material: self._material(material, sink))
+        return rewrite(link, Material, lambda material: self._convert_material(material, sink))
 
-    def _material(self, material: Material, sink: DiagnosticSink) -> Material:
+    def _convert_material(self, material: Material, sink: DiagnosticSink) -> Material:
         script, found = material.script, None
         if self.scripts and script is not None and script.name:
-            found = _known(script.name, script.location, sink)
+            found = _find_classic_material(script.name, script.location, sink)
             if found:
-                material = _colored(material, found)
-        return self._made_pbr(material, found) if self.pbr else material
+                material = _add_colors(material, found)
+        return self._add_pbr(material, found) if self.pbr else material
 
-    def _made_pbr(self, material: Material, script: ClassicMaterial | None) -> Material:
+    def _add_pbr(self, material: Material, script: ClassicMaterial | None) -> Material:
         """The material with metalness and roughness, if it has a color and no PBR."""
         color = material.diffuse or material.ambient
         # A workflow of the author stays as it is, and a material without any color gets none from
@@ -91,34 +91,36 @@ class Materials(Pass):
             return self.roughness
         return min(1.0, math.sqrt(2 / (script.shininess + 2)))
 
-    def _extension(self, extension: GazeboExtension, sink: DiagnosticSink) -> GazeboExtension:
+    def _convert_extension(self, extension: GazeboExtension, sink: DiagnosticSink) -> GazeboExtension:
         """A `<gazebo>` element of URDF with the colors of the script that it names."""
-        if not self.scripts or not self._is_meant(extension.reference):
+        if not self.scripts or not self._is_selected(extension.reference):
             return extension
-        return replace_fields(extension, content=tuple(self._tag(element, sink) for element in extension.content))
+        return replace_fields(
+            extension, content=tuple(self._convert_tag(element, sink) for element in extension.content)
+        )
 
-    def _tag(self, element: Element, sink: DiagnosticSink) -> Element:
+    def _convert_tag(self, element: Element, sink: DiagnosticSink) -> Element:
         name = (element.get("value") or element.text or "").strip()
         if element.name != "material" or element.children or not name:
             return element
-        found = _known(name, element.location, sink)
+        found = _find_classic_material(name, element.location, sink)
         if found is None:
             return element
-        material = _colored(Material(), found)
-        made = to_element(self._made_pbr(material, found) if self.pbr else material, "material", "sdf")
+        material = _add_colors(Material(), found)
+        made = to_element(self._add_pbr(material, found) if self.pbr else material, "material", "sdf")
         return Element(name="visual", children=(made,), source=element.source)
 
 
 def _has_pbr(document: Document) -> bool:
-    """Whether the document's version has PBR; what stands in the `<gazebo>` elements of URDF is of the newest."""
+    """Whether the version of the document has PBR; `<gazebo>` elements of URDF are of the newest version."""
     version = document.version
     if document.format is not Format.SDF or version is None or version not in versions_of("sdf"):
         return True
     return parse_version(version) >= _PBR_SINCE
 
 
-def _known(name: str, where: Location, sink: DiagnosticSink) -> ClassicMaterial | None:
-    """The material of a script; what is not known of it is noted."""
+def _find_classic_material(name: str, where: Location, sink: DiagnosticSink) -> ClassicMaterial | None:
+    """The colors of a script; reports a script without known colors, or with images."""
     found = classic_materials().get(name)
     if found is None:
         message = f"the colors of the material script {name!r} are not known; it is kept"
@@ -129,7 +131,7 @@ def _known(name: str, where: Location, sink: DiagnosticSink) -> ClassicMaterial 
     return found
 
 
-def _colored(material: Material, found: ClassicMaterial) -> Material:
+def _add_colors(material: Material, found: ClassicMaterial) -> Material:
     """The material with the colors of a script, where it has none itself."""
     return material.copy(
         script=None,

@@ -12,7 +12,7 @@ from twinform.passes.framework.pass_base import Pass
 from twinform.passes.transforms.nodes import unique_name
 
 _PLAIN = "material"
-"""What materials without a name are called, with a number."""
+"""The name, before a number, for materials without a name."""
 
 
 class TidyMaterials(Pass):
@@ -43,20 +43,20 @@ class TidyMaterials(Pass):
         """The document with tidy materials."""
         if document.format is not Format.URDF:
             return document
-        return rewrite(document, Model, lambda model: self._tidied(model, sink))
+        return rewrite(document, Model, lambda model: self._tidy(model, sink))
 
-    def _tidied(self, model: Model, sink: DiagnosticSink) -> Model:
-        model = rewrite(model, Material, lambda material: _without_empty_texture(material, sink))
+    def _tidy(self, model: Model, sink: DiagnosticSink) -> Model:
+        model = rewrite(model, Material, lambda material: _remove_empty_texture(material, sink))
         if self.textures == "drop":
-            model = rewrite(model, Material, lambda material: _without_texture(material, sink))
+            model = rewrite(model, Material, lambda material: _remove_texture(material, sink))
         work = _Materials(model, sink)
         shared = tuple(work.shared())
         links = tuple(replace_fields(link, visuals=tuple(map(work.of_visual, link.visuals))) for link in model.links)
         return replace_fields(model, materials=shared, links=links)
 
 
-def _without_empty_texture(material: Material, sink: DiagnosticSink) -> Material:
-    """Without textures that name no file, which the document keeps as they are."""
+def _remove_empty_texture(material: Material, sink: DiagnosticSink) -> Material:
+    """The material without textures that name no file, which are kept as opaque parts."""
     kept = tuple(each for each in material.opaque if not (each.element and each.element.name == "texture"))
     if len(kept) == len(material.opaque) and material.texture != "":
         return material
@@ -66,7 +66,7 @@ def _without_empty_texture(material: Material, sink: DiagnosticSink) -> Material
     return material.copy(texture=material.texture or None, opaque=kept)
 
 
-def _without_texture(material: Material, sink: DiagnosticSink) -> Material:
+def _remove_texture(material: Material, sink: DiagnosticSink) -> Material:
     if material.texture is None:
         return material
     message = f"the texture {material.texture!r} of material {material.name!r} is left out"
@@ -79,21 +79,23 @@ _GRAY = (0.5, 0.5, 0.5, 1.0)
 
 
 class _Materials:
-    """The materials of a model: which names are taken, and what each stands for so far."""
+    """The materials of a model: the names that are taken, and the first appearance for each name."""
 
     def __init__(self, model: Model, sink: DiagnosticSink) -> None:
         self.model, self.sink = model, sink
-        self.taken = {each.name for each in _every(model) if each.name}
-        self.later = {each.name: each for each in reversed(list(_every(model))) if each.name and _says_something(each)}
+        self.taken = {each.name for each in _all_materials(model) if each.name}
+        self.later = {
+            each.name: each for each in reversed(list(_all_materials(model))) if each.name and _has_appearance(each)
+        }
         self.known: dict[str, Material] = {}
 
     def shared(self) -> Iterator[Material]:
         """The shared materials that stay."""
         for material in self.model.materials:
-            name = material.name or self._fresh(material)
+            name = material.name or self._name_nameless(material)
             # urdfdom refuses the whole file for a shared material without color and texture, and
             # for two of one name.
-            if not _says_something(material):
+            if not _has_appearance(material):
                 self._drop(material, f"the shared material {name!r} has no color and no texture")
             elif name in self.known:
                 self._drop(material, f"the shared material {name!r} is there twice")
@@ -102,24 +104,24 @@ class _Materials:
                 yield replace_fields(material, name=name)
 
     def of_visual(self, visual: Visual) -> Visual:
-        """A visual with a tidy material."""
+        """The visual with a tidy material."""
         return visual if visual.material is None else replace_fields(visual, material=self._tell_apart(visual.material))
 
     def _tell_apart(self, material: Material) -> Material | None:
         name = material.name or ""
-        if not _says_something(material):
-            return self._referred(material, name)
+        if not _has_appearance(material):
+            return self._resolve_reference(material, name)
         if not name:
-            name = self._fresh(material)
-        elif name in self.known and not _look_alike(self.known[name], material):
-            other = self._unused(name)
+            name = self._name_nameless(material)
+        elif name in self.known and not _is_compatible(self.known[name], material):
+            other = self._take_name(name)
             self._report(material, f"material {name!r} has another color before, and is called {other!r} here")
             name = other
         self.known.setdefault(name, material)
         return replace_fields(material, name=name)
 
-    def _referred(self, material: Material, name: str) -> Material | None:
-        """A material that only has a name."""
+    def _resolve_reference(self, material: Material, name: str) -> Material | None:
+        """A material that is only a name, with the appearance that a later one defines; None if none does."""
         if name in self.known:
             return material
         if name not in self.later:
@@ -132,12 +134,12 @@ class _Materials:
         self.known[name] = defined
         return material.copy(color=defined.color, texture=defined.texture)
 
-    def _fresh(self, material: Material) -> str:
-        name = self._unused(_PLAIN)
+    def _name_nameless(self, material: Material) -> str:
+        name = self._take_name(_PLAIN)
         self._report(material, f"a material without a name is called {name!r}")
         return name
 
-    def _unused(self, stem: str) -> str:
+    def _take_name(self, stem: str) -> str:
         name = unique_name(stem, self.taken)
         self.taken.add(name)
         return name
@@ -150,15 +152,15 @@ class _Materials:
         self.sink.account(Fate.DROPPED, TIDIED_MATERIAL, message, material.location)
 
 
-def _every(model: Model) -> Iterator[Material]:
+def _all_materials(model: Model) -> Iterator[Material]:
     yield from model.materials
     for link in model.links:
         yield from (visual.material for visual in link.visuals if visual.material is not None)
 
 
-def _says_something(material: Material) -> bool:
+def _has_appearance(material: Material) -> bool:
     return material.color is not None or bool(material.texture)
 
 
-def _look_alike(one: Material, other: Material) -> bool:
+def _is_compatible(one: Material, other: Material) -> bool:
     return (other.color is None or one.color == other.color) and (not other.texture or one.texture == other.texture)

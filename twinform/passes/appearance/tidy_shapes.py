@@ -39,15 +39,15 @@ class TidyShapes(Pass):
         """The document with tidy shapes."""
         if document.format is not Format.URDF:
             return document
-        return rewrite(document, Link, lambda link: _tidied(link, sink))
+        return rewrite(document, Link, lambda link: _tidy_link(link, sink))
 
 
-def _tidied(link: Link, sink: DiagnosticSink) -> Link:
-    visuals, collisions = _parts(link, link.visuals, sink), _parts(link, link.collisions, sink)
+def _tidy_link(link: Link, sink: DiagnosticSink) -> Link:
+    visuals, collisions = _tidy_shapes(link, link.visuals, sink), _tidy_shapes(link, link.collisions, sink)
     return replace_fields(link, visuals=visuals, collisions=collisions)
 
 
-def _parts(link: Link, parts: tuple[Part, ...], sink: DiagnosticSink) -> tuple[Part, ...]:
+def _tidy_shapes(link: Link, parts: tuple[Part, ...], sink: DiagnosticSink) -> tuple[Part, ...]:
     names = {part.name for part in parts if part.name}
     return tuple(made for part in parts for made in _tidy_shape(link, part, names, sink))
 
@@ -63,7 +63,7 @@ def _tidy_shape(link: Link, part: Part, names: set[str], sink: DiagnosticSink) -
     elif isinstance(shape, Capsule):
         message = f"a capsule of link {link.name!r} becomes a cylinder and two spheres"
         sink.report(REPLACED_SHAPE, message, part.location)
-        yield from _of_capsule(part, shape, names)
+        yield from _replace_capsule(part, shape, names)
     elif geometry.opaque:
         message = f"what is beside the shape of a {kind} of link {link.name!r} is left out"
         sink.report(REPLACED_SHAPE, message, part.location)
@@ -78,7 +78,7 @@ def _drop(part: Visual | Collision, message: str, sink: DiagnosticSink) -> None:
     sink.account(Fate.DROPPED, REPLACED_SHAPE, message, part.location)
 
 
-def _of_capsule(part: Part, shape: Capsule, names: set[str]) -> Iterator[Part]:
+def _replace_capsule(part: Part, shape: Capsule, names: set[str]) -> Iterator[Part]:
     radius, length = sizes(shape)
     yield replace_fields(part, geometry=Geometry(shape=Cylinder(radius=radius, length=length)))
     for height in (length / 2, -length / 2):
@@ -86,10 +86,10 @@ def _of_capsule(part: Part, shape: Capsule, names: set[str]) -> Iterator[Part]:
         if part.name:
             name = unique_name(f"{part.name}_end", names)
             names.add(name)
-        pose = _above(part.pose, height)
+        pose = _move_along_z(part.pose, height)
         yield part.copy(name=name, pose=pose, geometry=Geometry(shape=Sphere(radius=radius)))
 
 
-def _above(pose: Pose | None, height: float) -> Pose:
-    """A place along the z axis of another one."""
+def _move_along_z(pose: Pose | None, height: float) -> Pose:
+    """A pose moved along its own z axis."""
     return Transform.from_pose(pose).compose(Transform((0.0, 0.0, height))).to_pose()

@@ -8,12 +8,15 @@ from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, Format, Model
 from twinform.passes.classic.document_edits import (
     DeferredEdits,
+    complete_worlds,
     convert_material_scripts,
+    include_from_fuel,
     remove_emptied,
     rename_hardware,
+    report_needs,
+    report_unread,
 )
 from twinform.passes.classic.migrate_sensors import SensorMigration
-from twinform.passes.classic.migrate_worlds import complete_worlds, include_from_fuel, report_needs, report_unread
 from twinform.passes.classic.plugins import PluginMigration
 from twinform.passes.classic.reporting import accept_trial, trial_sink
 from twinform.passes.control.carried_elements import declare_carriers

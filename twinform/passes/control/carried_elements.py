@@ -1,7 +1,4 @@
-"""Elements of URDF that a model keeps unchanged, in URDF and SDF.
-
-In a URDF document they are opaque parts of the model; in SDF each stands in a carrier.
-"""
+"""Elements of URDF that a model keeps unchanged: opaque parts in a URDF document, carriers in SDF."""
 
 from collections.abc import Iterable, Iterator
 
@@ -11,7 +8,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, is_carrier, pac
 
 
 def element_of(part: Opaque, format_: Format) -> Element | None:
-    """The element of URDF that an opaque part of a model stands for."""
+    """The URDF element in an opaque part of a model; None if there is none."""
     if format_ is Format.URDF:
         return part.element
     if not is_carrier(part, "urdf"):
@@ -22,8 +19,8 @@ def element_of(part: Opaque, format_: Format) -> Element | None:
     return pieces[0].element if len(pieces) == 1 and not pieces[0].at else None
 
 
-def elements(model: Model, format_: Format, name: str) -> Iterator[tuple[Opaque, Element]]:
-    """The elements of this name, with the parts that hold them."""
+def urdf_elements(model: Model, format_: Format, name: str) -> Iterator[tuple[Opaque, Element]]:
+    """The URDF elements with this name, each with the part that holds it."""
     for part in model.opaque:
         found = element_of(part, format_)
         if found is not None and found.name == name:
@@ -31,13 +28,13 @@ def elements(model: Model, format_: Format, name: str) -> Iterator[tuple[Opaque,
 
 
 def as_parts(new: Iterable[Element], format_: Format) -> tuple[Opaque, ...]:
-    """Elements of URDF as parts of a model."""
+    """URDF elements as parts of a model."""
     parts = tuple(Opaque(element=each) for each in new)
     return parts if format_ is Format.URDF else pack(parts, "urdf")
 
 
-def replace(model: Model, gone: Iterable[Opaque], new: Iterable[Opaque], *, after: Opaque) -> Model:
-    """The model without some parts, and with new ones behind one that it has, or had."""
+def replace_parts(model: Model, gone: Iterable[Opaque], new: Iterable[Opaque], *, after: Opaque) -> Model:
+    """The model without some parts, and with new ones after a part that it has or had."""
     gone_ids = {id(part) for part in gone}
     parts: list[Opaque] = []
     for part in model.opaque:
@@ -51,13 +48,13 @@ def replace(model: Model, gone: Iterable[Opaque], new: Iterable[Opaque], *, afte
 
 
 def declare_carriers(document: Document) -> Document:
-    """The document with the prefix of carriers declared, where it is SDF."""
+    """The document with the prefix of carriers declared if it is SDF."""
     pair = (PREFIX, NAMESPACE)
     if document.format is Format.URDF or pair in document.namespaces:
         return document
     return document.copy(namespaces=(*document.namespaces, pair))
 
 
-def place_of(part: Opaque, model: Model) -> Location:
-    """Where a part was written; where its model was, if a pass has made the part."""
+def location_of(part: Opaque, model: Model) -> Location:
+    """The location of a part; of its model if a pass has made the part."""
     return part.location if part.source else model.location

@@ -8,9 +8,21 @@ from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Document, Element, Format, Joint, Model, Opaque, rewrite
-from twinform.passes.control.carried_elements import as_parts, declare_carriers, elements, place_of, replace
-from twinform.passes.control.interfaces import PLUGINS, STATES, commands_of
-from twinform.passes.control.transmission import Transmission, new_transmission, read_transmission
+from twinform.passes.control.carried_elements import (
+    as_parts,
+    declare_carriers,
+    location_of,
+    replace_parts,
+    urdf_elements,
+)
+from twinform.passes.control.transmission import (
+    PLUGINS,
+    STATES,
+    Transmission,
+    commands_of,
+    read_transmission,
+    write_ros2_transmission,
+)
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.transforms.nodes import unique_name
 
@@ -57,9 +69,9 @@ class Ros2ControlFromTransmissions(Pass):
 
     def convert(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
         """One model with a system in place of its transmissions."""
-        found = [(part, read_transmission(element)) for part, element in elements(model, format_, "transmission")]
+        found = [(part, read_transmission(element)) for part, element in urdf_elements(model, format_, "transmission")]
         work = _ModelRun(model, format_, sink)
-        taken = [(part, each) for part, each in found if work.takes(part, each)]
+        taken = [(part, each) for part, each in found if work.check(part, each)]
         if not taken:
             return model
         system = self._system(model, format_, work.joints(taken), [each for _, each in taken])
@@ -68,24 +80,24 @@ class Ros2ControlFromTransmissions(Pass):
         gone = [part for part, each in taken if not (self.keep or each.foreign)]
         for part, each in taken:
             work.account(part, each, stays=part not in gone)
-        return replace(model, gone, as_parts([system], format_), after=taken[-1][0])
+        return replace_parts(model, gone, as_parts([system], format_), after=taken[-1][0])
 
     def _system(
         self, model: Model, format_: Format, joints: Iterable[Element], transmissions: Iterable[Transmission]
     ) -> Element:
-        taken = {element.get("name") or "" for _, element in elements(model, format_, "ros2_control")}
+        taken = {element.get("name") or "" for _, element in urdf_elements(model, format_, "ros2_control")}
         name = unique_name(self.system or f"{model.name}_system", taken)
         hardware = Element(name="hardware", children=(Element(name="plugin", text=self.hardware),))
         return Element(
             name="ros2_control",
             attributes=(("name", name), ("type", "system")),
-            children=(hardware, *joints, *map(new_transmission, transmissions)),
+            children=(hardware, *joints, *map(write_ros2_transmission, transmissions)),
         )
 
 
 @dataclass
 class _ModelRun:
-    """One run over one model."""
+    """The conversion of one model."""
 
     model: Model
     format: Format
@@ -95,7 +107,7 @@ class _ModelRun:
 
     def __post_init__(self) -> None:
         self.known = {joint.name: joint for joint in self.model.joints}
-        systems = [element for _, element in elements(self.model, self.format, "ros2_control")]
+        systems = [element for _, element in urdf_elements(self.model, self.format, "ros2_control")]
         self.controlled = {
             child.get("name") or "": system.get("name") or ""
             for system in systems
@@ -103,26 +115,26 @@ class _ModelRun:
             if child.name == "joint"
         }
 
-    def takes(self, part: Opaque, transmission: Transmission) -> bool:
-        """Whether it can be expressed in ROS 2; why not, where it cannot."""
-        reason = self._obstacle(transmission)
+    def check(self, part: Opaque, transmission: Transmission) -> bool:
+        """Whether a transmission can be expressed in ROS 2; reports why not."""
+        reason = self._find_obstacle(transmission)
         if reason:
             message = f"transmission {transmission.name!r} is not converted: {reason}"
             self.sink.report(rules.UNCONVERTED_TRANSMISSION, message, self._place(part), found=transmission.name)
         return not reason
 
     def joints(self, taken: Iterable[tuple[Opaque, Transmission]]) -> list[Element]:
-        """The joints of the system, in the order of the transmissions; several of one joint come together."""
+        """The joints of the system, in the order of the transmissions, each once."""
         commands: dict[str, list[str]] = {}
         for part, transmission in taken:
             for end in transmission.joints:
                 listed = commands.setdefault(end.name, [])
                 for interface in end.interfaces:
                     listed += self._commands(part, end.name, interface)
-        return [_joint(name, dict.fromkeys(listed)) for name, listed in commands.items()]
+        return [_joint_element(name, dict.fromkeys(listed)) for name, listed in commands.items()]
 
     def account(self, part: Opaque, transmission: Transmission, *, stays: bool) -> None:
-        """Say what became of one transmission."""
+        """Report and account for one converted transmission."""
         where, name = self._place(part), transmission.name
         message = f"transmission {name!r} became a part of a ros2_control system"
         self.sink.report(rules.CONVERTED_TRANSMISSION, message, where, found=name)
@@ -131,7 +143,7 @@ class _ModelRun:
             message = f"transmission {name!r} has the type {kind}, which only another package can provide"
             self.sink.report(rules.FOREIGN_TRANSMISSION, message, where, found=transmission.type or None)
         if transmission.foreign:
-            names = ", ".join(dict.fromkeys(_bare(each) for each in transmission.foreign))
+            names = ", ".join(dict.fromkeys(_local_tag(each) for each in transmission.foreign))
             message = f"transmission {name!r} is kept beside <ros2_control>: other programs read its {names}"
             self.sink.report(rules.UNCONVERTED_TRANSMISSION, message, where, found=names)
         if not stays:
@@ -139,7 +151,7 @@ class _ModelRun:
             message = f"transmission {name!r} is written as a part of <ros2_control>"
             self.sink.account(Fate.APPROXIMATED, rules.CONVERTED_TRANSMISSION, message, where, weight)
 
-    def _obstacle(self, transmission: Transmission) -> str:
+    def _find_obstacle(self, transmission: Transmission) -> str:
         if not transmission.joints:
             return "it has no joint"
         for end in transmission.joints:
@@ -171,20 +183,20 @@ class _ModelRun:
         return axis is not None and axis.mimic is not None
 
     def _place(self, part: Opaque) -> Location:
-        return place_of(part, self.model)
+        return location_of(part, self.model)
 
 
-def _joint(name: str, commands: Iterable[str]) -> Element:
-    interfaces = [_interface("command_interface", each) for each in commands]
+def _joint_element(name: str, commands: Iterable[str]) -> Element:
+    interfaces = [_interface_element("command_interface", each) for each in commands]
     # JointStateHandle of ros_control tells all three for every joint, so controllers that were
     # written for it expect all three.
-    interfaces += [_interface("state_interface", each) for each in STATES]
+    interfaces += [_interface_element("state_interface", each) for each in STATES]
     return Element(name="joint", attributes=(("name", name),), children=tuple(interfaces))
 
 
-def _interface(kind: str, name: str) -> Element:
+def _interface_element(kind: str, name: str) -> Element:
     return Element(name=kind, attributes=(("name", name),))
 
 
-def _bare(name: str) -> str:
+def _local_tag(name: str) -> str:
     return f"<{name.rpartition('}')[2]}>"

@@ -37,10 +37,10 @@ class TidyTransmissions(Pass):
         """The document with complete transmissions."""
         if document.format is not Format.URDF:
             return document
-        return rewrite(document, Model, lambda model: replace_fields(model, opaque=tuple(_tidied(model, sink))))
+        return rewrite(document, Model, lambda model: replace_fields(model, opaque=tuple(_tidy_parts(model, sink))))
 
 
-def _tidied(model: Model, sink: DiagnosticSink) -> Iterator[Opaque]:
+def _tidy_parts(model: Model, sink: DiagnosticSink) -> Iterator[Opaque]:
     joints = {joint.name for joint in model.joints}
     names, actuators = set[str](), set[str]()
     for part in model.opaque:
@@ -57,14 +57,14 @@ def _tidied(model: Model, sink: DiagnosticSink) -> Iterator[Opaque]:
 
 
 def _is_usable(element: Element, joints: set[str]) -> bool:
-    """Whether there is a joint of the robot, and nothing but such, and an actuator with a name."""
-    ends = list(_all(element, "joint"))
+    """Whether all joints of a transmission belong to the robot, and it has a joint and a named actuator."""
+    ends = list(_children(element, "joint"))
     named = [joint.get("name") for joint in ends]
     return (
         bool(ends)
         and set(named) <= joints
-        and all(each.get("name") for each in _all(element, "actuator"))
-        and any(_all(element, "actuator"))
+        and all(each.get("name") for each in _children(element, "actuator"))
+        and any(_children(element, "actuator"))
     )
 
 
@@ -75,32 +75,32 @@ def _drop(part: Opaque, element: Element, sink: DiagnosticSink) -> None:
 
 
 def _complete(element: Element, names: set[str], actuators: set[str]) -> Element:
-    joint = next(_all(element, "joint"))
+    joint = next(_children(element, "joint"))
     name = unique_name(element.get("name") or f"{joint.get('name')}_transmission", names)
     names.add(name)
-    kind = next((child.text or "" for child in _all(element, "type")), None) or element.get("type") or _TYPE
-    interfaces = [child for each in _all(element, "actuator") for child in _all(each, "hardwareInterface")]
-    reduction = next((child for child in _all(element, "mechanicalReduction") if _is_number(child.text)), None)
+    kind = next((child.text or "" for child in _children(element, "type")), None) or element.get("type") or _TYPE
+    interfaces = [child for each in _children(element, "actuator") for child in _children(each, "hardwareInterface")]
+    reduction = next((child for child in _children(element, "mechanicalReduction") if _is_number(child.text)), None)
     children = [Element(name="type", text=kind)]
     for child in element.children:
         if child.name == "joint":
-            children.append(_joint(child, interfaces))
+            children.append(_complete_joint(child, interfaces))
         elif child.name == "actuator":
-            children.append(_actuator(child, reduction, actuators))
+            children.append(_complete_actuator(child, reduction, actuators))
         elif child.name not in {"type", "mechanicalReduction"}:
             children.append(child)
     attributes = (("name", name), *(pair for pair in element.attributes if pair[0] not in {"name", "type"}))
     return element.copy(attributes=attributes, children=tuple(children), text=None)
 
 
-def _joint(element: Element, interfaces: list[Element]) -> Element:
-    if any(_all(element, "hardwareInterface")):
+def _complete_joint(element: Element, interfaces: list[Element]) -> Element:
+    if any(_children(element, "hardwareInterface")):
         return element
     wanted = tuple(interfaces[:1]) or (Element(name="hardwareInterface", text=_INTERFACE),)
     return element.copy(children=(*element.children, *wanted))
 
 
-def _actuator(element: Element, reduction: Element | None, taken: set[str]) -> Element:
+def _complete_actuator(element: Element, reduction: Element | None, taken: set[str]) -> Element:
     name = unique_name(element.get("name") or "", taken)
     taken.add(name)
     kept = [each for each in element.children if each.name != "mechanicalReduction" or _is_number(each.text)]
@@ -110,7 +110,7 @@ def _actuator(element: Element, reduction: Element | None, taken: set[str]) -> E
     return element.copy(attributes=attributes, children=tuple(kept))
 
 
-def _all(element: Element, name: str) -> Iterator[Element]:
+def _children(element: Element, name: str) -> Iterator[Element]:
     return (child for child in element.children if child.name == name)
 
 

@@ -1,15 +1,56 @@
-"""A transmission, read from any generation of `<transmission>` of ROS 1 or from `<ros2_control>`."""
+"""A transmission, read from `<transmission>` of ROS 1 or from `<ros2_control>`, and written as either of them.
+
+Names of interfaces and types are from ros_control's `hardware_interface` and `transmission_interface`,
+`pr2_mechanism_model`, and the packages of the same names in ros2_control.
+"""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from twinform.ir import Element
-from twinform.passes.control.interfaces import COMMANDED_BY_TYPE, OLDER_TYPES, SIMPLE
 
 _REDUCTION = "mechanicalReduction"
 _KNOWN = frozenset({"type", "plugin", "joint", "actuator", "param", _REDUCTION})
-_KNOWN_OF_END = frozenset({"hardwareInterface", "role", _REDUCTION, "mechanical_reduction", "offset", "param"})
+_KNOWN_IN_END = frozenset({"hardwareInterface", "role", _REDUCTION, "mechanical_reduction", "offset", "param"})
 _INTERFACE = "hardwareInterface"
+STATES = ("position", "velocity", "effort")
+"""The states of every joint of ros_control: `JointStateHandle` has all three."""
+COMMANDS: dict[str, tuple[str, ...]] = {
+    "PositionJointInterface": ("position",),
+    "VelocityJointInterface": ("velocity",),
+    "EffortJointInterface": ("effort",),
+    "PosVelJointInterface": ("position", "velocity"),
+    "PosVelAccJointInterface": ("position", "velocity", "acceleration"),
+    "JointStateInterface": (),
+}
+"""The command interfaces that an interface of ros_control stands for."""
+CLASSES: dict[str, str] = {
+    "position": "hardware_interface/PositionJointInterface",
+    "velocity": "hardware_interface/VelocityJointInterface",
+    "effort": "hardware_interface/EffortJointInterface",
+}
+"""The class of ros_control for one command interface."""
+STATE_CLASS = "hardware_interface/JointStateInterface"
+SIMPLE = "transmission_interface/SimpleTransmission"
+PLUGINS = frozenset({
+    SIMPLE,
+    "transmission_interface/DifferentialTransmission",
+    "transmission_interface/FourBarLinkageTransmission",
+})  # fmt: skip
+"""The transmissions that come with ros2_control; they have the same names in ros_control."""
+OLDER_TYPES: dict[str, str] = {
+    "SimpleTransmission": SIMPLE,
+    "pr2_mechanism_model/SimpleTransmission": SIMPLE,
+}
+"""Older names of transmissions."""
+COMMANDED_BY_TYPE: dict[str, str] = {"pr2_mechanism_model/SimpleTransmission": "EffortJointInterface"}
+"""The implied command interface of a type: the mechanism of the PR2 only commands efforts."""
+
+
+def commands_of(interface: str) -> tuple[str, ...] | None:
+    """The command interfaces of an interface of ros_control; None if ros_control does not have it."""
+    package, _, name = interface.rpartition("/")
+    return COMMANDS.get(name) if package in {"", "hardware_interface"} else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,7 +58,7 @@ class End:
     """A joint or actuator of a transmission.
 
     `reduction` and `offset` are as they were written; joint position = actuator position / reduction + offset.
-    `parameters` are its other content, by name.
+    `parameters` is its other content, by name.
     """
 
     name: str
@@ -30,7 +71,7 @@ class End:
 
 @dataclass(frozen=True, slots=True)
 class Transmission:
-    """What leads from actuators to joints. `foreign` are names of parts that only other programs know."""
+    """A transmission from actuators to joints; `foreign` are names of parts that only other programs know."""
 
     name: str
     type: str
@@ -41,73 +82,75 @@ class Transmission:
 
 
 def read_transmission(element: Element) -> Transmission:
-    """A `<transmission>` of either generation; what has no place becomes parameters, or is foreign."""
+    """Read a `<transmission>` of ROS 1 or 2; unknown content becomes parameters, or is foreign."""
     type_ = _text(element, "type") or _text(element, "plugin") or element.get("type") or ""
-    ends = {kind: tuple(_end(each) for each in element.children if each.name == kind) for kind in ("joint", "actuator")}
+    ends = {
+        kind: tuple(_read_end(each) for each in element.children if each.name == kind) for kind in ("joint", "actuator")
+    }
     joints, actuators = ends["joint"], ends["actuator"]
     whole = _text(element, _REDUCTION)
     if whole and len(actuators) == 1 and actuators[0].reduction is None:
-        actuators = (_with_reduction(actuators[0], whole),)
+        actuators = (_set_reduction(actuators[0], whole),)
     if type_ in COMMANDED_BY_TYPE:
-        joints = tuple(_with_interface(joint, COMMANDED_BY_TYPE[type_]) for joint in joints)
+        joints = tuple(_set_interface(joint, COMMANDED_BY_TYPE[type_]) for joint in joints)
     return Transmission(
         name=element.get("name") or "_".join(joint.name for joint in joints),
         type=OLDER_TYPES.get(type_, type_),
         joints=joints,
         actuators=actuators,
-        parameters=tuple(_parameters(element, _KNOWN)),
-        foreign=tuple(_foreign(element)),
+        parameters=tuple(_read_parameters(element, _KNOWN)),
+        foreign=tuple(_foreign_parts(element)),
     )
 
 
-def new_transmission(transmission: Transmission) -> Element:
-    """Write a transmission as an element of `<ros2_control>`.
-
-    A simple transmission of ROS 1 has its reduction at the actuator, one of ROS 2 at the joint.
-    """
-    joints, actuators = transmission.joints, transmission.actuators
-    if transmission.type == SIMPLE and len(joints) == len(actuators) == 1 and actuators[0].reduction:
-        joints = (_with_reduction(joints[0], actuators[0].reduction),)
-        actuators = (_with_reduction(actuators[0], None),)
-    children = [Element(name="plugin", text=transmission.type)]
-    children += [_new_end("actuator", actuator, number) for number, actuator in enumerate(actuators, 1)]
-    children += [_new_end("joint", joint, number) for number, joint in enumerate(joints, 1)]
-    children += [_param(name, value) for name, value in transmission.parameters]
-    for end in (*joints, *actuators):
-        children += [_param(f"{end.name}.{name}", value) for name, value in end.parameters]
-    return Element(name="transmission", attributes=(("name", transmission.name),), children=tuple(children))
-
-
-def old_transmission(transmission: Transmission) -> Element:
-    """Write a transmission as a `<transmission>` of ROS 1."""
-    joints, actuators = transmission.joints, transmission.actuators
-    if transmission.type == SIMPLE and len(joints) == len(actuators) == 1 and joints[0].reduction:
-        actuators = (_with_reduction(actuators[0], joints[0].reduction),)
-        joints = (_with_reduction(joints[0], None),)
-    children = [Element(name="type", text=transmission.type)]
-    children += [_leaf(name, value) for name, value in _own_parameters(transmission)]
-    alone = len(joints) == len(actuators) == 1
-    children += [_old_end("joint", joint, transmission, role=not alone) for joint in joints]
-    children += [_old_end("actuator", actuator, transmission, role=not alone) for actuator in actuators]
-    return Element(name="transmission", attributes=(("name", transmission.name),), children=tuple(children))
-
-
-def _end(element: Element) -> End:
+def _read_end(element: Element) -> End:
     return End(
         name=element.get("name") or "",
         role=_text(element, "role") or element.get("role"),
         reduction=_text(element, _REDUCTION) or _text(element, "mechanical_reduction"),
         offset=_text(element, "offset"),
         interfaces=tuple(each.text for each in element.children if each.name == _INTERFACE and each.text),
-        parameters=tuple(_parameters(element, _KNOWN_OF_END)),
+        parameters=tuple(_read_parameters(element, _KNOWN_IN_END)),
     )
 
 
-def _with_reduction(end: End, reduction: str | None) -> End:
+def write_ros2_transmission(transmission: Transmission) -> Element:
+    """Write a transmission as an element of `<ros2_control>`.
+
+    A simple transmission of ROS 1 has its reduction at the actuator, one of ROS 2 at the joint.
+    """
+    joints, actuators = transmission.joints, transmission.actuators
+    if transmission.type == SIMPLE and len(joints) == len(actuators) == 1 and actuators[0].reduction:
+        joints = (_set_reduction(joints[0], actuators[0].reduction),)
+        actuators = (_set_reduction(actuators[0], None),)
+    children = [Element(name="plugin", text=transmission.type)]
+    children += [_write_ros2_end("actuator", actuator, number) for number, actuator in enumerate(actuators, 1)]
+    children += [_write_ros2_end("joint", joint, number) for number, joint in enumerate(joints, 1)]
+    children += [_param_element(name, value) for name, value in transmission.parameters]
+    for end in (*joints, *actuators):
+        children += [_param_element(f"{end.name}.{name}", value) for name, value in end.parameters]
+    return Element(name="transmission", attributes=(("name", transmission.name),), children=tuple(children))
+
+
+def write_ros1_transmission(transmission: Transmission) -> Element:
+    """Write a transmission as a `<transmission>` of ROS 1."""
+    joints, actuators = transmission.joints, transmission.actuators
+    if transmission.type == SIMPLE and len(joints) == len(actuators) == 1 and joints[0].reduction:
+        actuators = (_set_reduction(actuators[0], joints[0].reduction),)
+        joints = (_set_reduction(joints[0], None),)
+    children = [Element(name="type", text=transmission.type)]
+    children += [_text_element(name, value) for name, value in _shared_parameters(transmission)]
+    alone = len(joints) == len(actuators) == 1
+    children += [_write_ros1_end("joint", joint, transmission, role=not alone) for joint in joints]
+    children += [_write_ros1_end("actuator", actuator, transmission, role=not alone) for actuator in actuators]
+    return Element(name="transmission", attributes=(("name", transmission.name),), children=tuple(children))
+
+
+def _set_reduction(end: End, reduction: str | None) -> End:
     return End(end.name, end.role, reduction, end.offset, end.interfaces, end.parameters)
 
 
-def _with_interface(end: End, interface: str) -> End:
+def _set_interface(end: End, interface: str) -> End:
     return End(end.name, end.role, end.reduction, end.offset, end.interfaces or (interface,), end.parameters)
 
 
@@ -120,7 +163,7 @@ def _is_plain(element: Element) -> bool:
     return not (element.attributes or element.children or element.name.startswith("{") or ":" in element.name)
 
 
-def _parameters(element: Element, known: frozenset[str]) -> Iterator[tuple[str, str]]:
+def _read_parameters(element: Element, known: frozenset[str]) -> Iterator[tuple[str, str]]:
     for child in element.children:
         if child.name == "param":
             yield child.get("name") or "", child.text or ""
@@ -128,24 +171,24 @@ def _parameters(element: Element, known: frozenset[str]) -> Iterator[tuple[str, 
             yield child.name, child.text or ""
 
 
-def _foreign(element: Element) -> Iterator[str]:
-    for holder, known in ((element, _KNOWN), *((end, _KNOWN_OF_END) for end in element.children)):
+def _foreign_parts(element: Element) -> Iterator[str]:
+    for holder, known in ((element, _KNOWN), *((end, _KNOWN_IN_END) for end in element.children)):
         if holder is not element and holder.name not in {"joint", "actuator"}:
             continue
         yield from (child.name for child in holder.children if child.name not in known and not _is_plain(child))
 
 
-def _new_end(kind: str, end: End, number: int) -> Element:
-    """ros2_control wants a role written."""
+def _write_ros2_end(kind: str, end: End, number: int) -> Element:
+    """An end for `<ros2_control>`, which requires a role."""
     values = (("mechanical_reduction", end.reduction), ("offset", end.offset))
     return Element(
         name=kind,
         attributes=(("name", end.name), ("role", end.role or f"{kind}{number}")),
-        children=tuple(_leaf(name, value) for name, value in values if value),
+        children=tuple(_text_element(name, value) for name, value in values if value),
     )
 
 
-def _old_end(kind: str, end: End, transmission: Transmission, *, role: bool) -> Element:
+def _write_ros1_end(kind: str, end: End, transmission: Transmission, *, role: bool) -> Element:
     values = [(_INTERFACE, interface) for interface in end.interfaces]
     values += [("role", end.role)] if role and end.role else []
     values += [(name, value) for name, value in (("offset", end.offset), (_REDUCTION, end.reduction)) if value]
@@ -153,19 +196,19 @@ def _old_end(kind: str, end: End, transmission: Transmission, *, role: bool) -> 
     parameters = [
         (name.removeprefix(prefix), value) for name, value in transmission.parameters if name.startswith(prefix)
     ]
-    children = tuple(_leaf(name, value) for name, value in (*values, *parameters))
+    children = tuple(_text_element(name, value) for name, value in (*values, *parameters))
     return Element(name=kind, attributes=(("name", end.name),), children=children)
 
 
-def _own_parameters(transmission: Transmission) -> Iterator[tuple[str, str]]:
+def _shared_parameters(transmission: Transmission) -> Iterator[tuple[str, str]]:
     """The parameters that do not belong to an end."""
     prefixes = tuple(f"{end.name}." for end in (*transmission.joints, *transmission.actuators))
     return ((name, value) for name, value in transmission.parameters if not name.startswith(prefixes))
 
 
-def _leaf(name: str, text: str) -> Element:
+def _text_element(name: str, text: str) -> Element:
     return Element(name=name, text=text or None)
 
 
-def _param(name: str, value: str) -> Element:
+def _param_element(name: str, value: str) -> Element:
     return Element(name="param", attributes=(("name", name),), text=value or None)

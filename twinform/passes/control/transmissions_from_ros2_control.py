@@ -8,9 +8,23 @@ from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Element, Format, Model, Opaque, rewrite
-from twinform.passes.control.carried_elements import as_parts, declare_carriers, elements, place_of, replace
-from twinform.passes.control.interfaces import CLASSES, PLUGINS, SIMPLE, STATE_CLASS
-from twinform.passes.control.transmission import End, Transmission, old_transmission, read_transmission
+from twinform.passes.control.carried_elements import (
+    as_parts,
+    declare_carriers,
+    location_of,
+    replace_parts,
+    urdf_elements,
+)
+from twinform.passes.control.transmission import (
+    CLASSES,
+    PLUGINS,
+    SIMPLE,
+    STATE_CLASS,
+    End,
+    Transmission,
+    read_transmission,
+    write_ros1_transmission,
+)
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.transforms.nodes import unique_name
 
@@ -48,27 +62,27 @@ class TransmissionsFromRos2Control(Pass):
 
     def convert(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
         """One model with transmissions in place of its systems."""
-        there = [element for _, element in elements(model, format_, "transmission")]
+        there = [element for _, element in urdf_elements(model, format_, "transmission")]
         names = {element.get("name") or "" for element in there}
         driven = {end.name for element in there for end in read_transmission(element).joints}
         result = model
-        for part, system in list(elements(model, format_, "ros2_control")):
+        for part, system in list(urdf_elements(model, format_, "ros2_control")):
             if not any(child.name == "joint" for child in system.children):
-                _report_unsayable(model, part, system, sink, stays=True)
+                _report_inexpressible(model, part, system, sink, stays=True)
                 continue
-            missing = [
-                each for each in _transmissions(system) if not driven.issuperset(end.name for end in each.joints)
-            ]
-            made = list(_named(missing, names))
-            _report(model, part, system, made, sink, stays=self.keep)
+            missing = [each for each in _read_system(system) if not driven.issuperset(end.name for end in each.joints)]
+            made = list(_name_uniquely(missing, names))
+            _report_converted(model, part, system, made, sink, stays=self.keep)
             rest = () if self.keep else _rest_of_system(system)
-            new = as_parts([*map(old_transmission, made), *rest], format_)
-            result = replace(result, () if self.keep else (part,), new, after=part)
+            new = as_parts([*map(write_ros1_transmission, made), *rest], format_)
+            result = replace_parts(result, () if self.keep else (part,), new, after=part)
         return result
 
 
-def _transmissions(system: Element) -> Iterator[Transmission]:
-    interfaces = {joint.get("name") or "": _interfaces(joint) for joint in system.children if joint.name == "joint"}
+def _read_system(system: Element) -> Iterator[Transmission]:
+    interfaces = {
+        joint.get("name") or "": _interface_classes(joint) for joint in system.children if joint.name == "joint"
+    }
     done: set[str] = set()
     for element in system.children:
         if element.name == "transmission":
@@ -82,29 +96,29 @@ def _transmissions(system: Element) -> Iterator[Transmission]:
             yield Transmission(f"{name}_transmission", SIMPLE, (End(name, interfaces=classes),), actuators)
 
 
-def _named(transmissions: Iterable[Transmission], taken: set[str]) -> Iterator[Transmission]:
+def _name_uniquely(transmissions: Iterable[Transmission], taken: set[str]) -> Iterator[Transmission]:
     for each in transmissions:
         name = unique_name(each.name, taken)
         taken.add(name)
         yield changed(each, name=name)
 
 
-def _interfaces(joint: Element) -> tuple[str, ...]:
-    """The classes of ros_control; a joint that is only looked at has one too."""
+def _interface_classes(joint: Element) -> tuple[str, ...]:
+    """The classes of ros_control for the commands of a joint; a joint without commands has the class for states."""
     commands = [each.get("name") or "" for each in joint.children if each.name == "command_interface"]
     return tuple(CLASSES[name] for name in commands if name in CLASSES) or (STATE_CLASS,)
 
 
 def _rest_of_system(system: Element) -> tuple[Element, ...]:
-    """The system without what became transmissions; nothing where nothing is left but its hardware."""
+    """The system without what became transmissions; nothing if only its hardware is left."""
     left = tuple(child for child in system.children if child.name not in {"joint", "transmission"})
     return (system.copy(children=left),) if any(child.name != "hardware" for child in left) else ()
 
 
-def _report(
+def _report_converted(
     model: Model, part: Opaque, system: Element, made: list[Transmission], sink: DiagnosticSink, *, stays: bool
 ) -> None:
-    where, name = place_of(part, model), system.get("name")
+    where, name = location_of(part, model), system.get("name")
     message = f"the joints of ros2_control {name!r} are in {len(made)} transmissions"
     sink.report(rules.CONVERTED_ROS2_CONTROL, message, where, found=name)
     for each in made:
@@ -113,12 +127,12 @@ def _report(
             sink.report(rules.FOREIGN_TRANSMISSION, message, where, found=each.type)
     if not stays:
         sink.account(Fate.APPROXIMATED, rules.CONVERTED_ROS2_CONTROL, message, where, system.weight)
-    _report_unsayable(model, part, system, sink, stays=stays)
+    _report_inexpressible(model, part, system, sink, stays=stays)
 
 
-def _report_unsayable(model: Model, part: Opaque, system: Element, sink: DiagnosticSink, *, stays: bool) -> None:
-    where = place_of(part, model)
-    for what, lost in _unsayable(system):
+def _report_inexpressible(model: Model, part: Opaque, system: Element, sink: DiagnosticSink, *, stays: bool) -> None:
+    where = location_of(part, model)
+    for what, lost in _inexpressible_parts(system):
         end = " and is left out" if lost and not stays else ", so it is left unchanged" if not lost else ""
         message = f"{what} of ros2_control {system.get('name')!r} has no equivalent in ROS 1{end}"
         sink.report(rules.UNSAYABLE_IN_TRANSMISSIONS, message, where, found=what)
@@ -126,19 +140,19 @@ def _report_unsayable(model: Model, part: Opaque, system: Element, sink: Diagnos
             sink.account(Fate.DROPPED, rules.UNSAYABLE_IN_TRANSMISSIONS, message, where, 0)
 
 
-def _unsayable(system: Element) -> Iterator[tuple[str, bool]]:
-    """What ROS 1 cannot express, and whether it goes with the element."""
+def _inexpressible_parts(system: Element) -> Iterator[tuple[str, bool]]:
+    """What ROS 1 cannot express, and whether it is lost with the element."""
     goes = not _rest_of_system(system)
     for child in system.children:
         if child.name == "hardware":
-            yield f"the hardware {_text(child)!r}", goes
+            yield f"the hardware {_plugin_name(child)!r}", goes
         elif child.name not in _EXPRESSED:
             yield f"<{child.name}> {child.get('name')!r}", False
         elif child.name == "joint":
-            yield from ((each, True) for each in _unsayable_of_joint(child))
+            yield from ((each, True) for each in _inexpressible_in_joint(child))
 
 
-def _unsayable_of_joint(joint: Element) -> Iterator[str]:
+def _inexpressible_in_joint(joint: Element) -> Iterator[str]:
     for child in joint.children:
         of = f"of joint {joint.get('name')!r}"
         if child.name in {"param", "limits"}:
@@ -149,6 +163,6 @@ def _unsayable_of_joint(joint: Element) -> Iterator[str]:
             yield f"<{child.children[0].name}> in the interface {child.get('name')!r} {of}"
 
 
-def _text(hardware: Element) -> str:
+def _plugin_name(hardware: Element) -> str:
     plugin = hardware.find("plugin")
     return (plugin.text if plugin is not None else None) or ""

@@ -1,7 +1,9 @@
-"""Replacing the includes of a document by the models of other files."""
+"""Replaces the includes of a document by the models of other files, with their paths and versions adapted."""
 
+import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
+from posixpath import normpath
 from typing import TypeVar
 
 from twinform.diagnostics import DiagnosticSink, rules
@@ -9,24 +11,33 @@ from twinform.ir import Document, Include, Model, World, replace_fields
 from twinform.ir.element import joined
 from twinform.ir.scopes import nested_includes, outer_models
 from twinform.ir.transform import Transform
-from twinform.passes.includes.merge import merge_into_model, merge_into_world
-from twinform.passes.includes.place import account_replaced, placed_actor, placed_light, placed_model, report_leftovers
-from twinform.passes.includes.relocate import relocate
-from twinform.passes.includes.upgrade import newest, upgrade_document
+from twinform.passes.includes.merge import (
+    account_replaced_include,
+    merge_into_model,
+    merge_into_world,
+    place_actor,
+    place_light,
+    place_model,
+    report_leftovers,
+)
+from twinform.passes.transforms.document_uris import map_uris
+from twinform.schemas import parse_version, versions_of
 
 Holder = TypeVar("Holder", Document, World)
-
 _NESTED_MODELS = "1.5"
 _NAMED_FRAMES = "1.7"
-"""The versions of SDF since which there are these."""
+"""The first versions of SDF with nested models and with named frames."""
+_NOT_RELATIVE = re.compile(r"[A-Za-z][\w+.-]*:|/|__")
+"""The beginning of a URI, of a path from the root, or of a name such as `__default__`."""
+_HERE = frozenset({"", "."})
 
 
 @dataclass(frozen=True, slots=True)
 class Included:
-    """The document that an include names, itself expanded, and the URI of the folder that it lies in.
+    """The document that an include names, with its own includes expanded, and the URI of its folder.
 
-    `frame` is that of its model in the one that the include places: for URDF that is the root link, whatever frame the
-    model had in the SDF that it was converted from.
+    `frame` is the frame of its model relative to the frame that the include places: that of the root link for URDF,
+    whatever frame the model had in the SDF that it was converted from.
     """
 
     document: Document
@@ -35,7 +46,7 @@ class Included:
 
 
 Resolver = Callable[[Include], Included | None]
-"""Gives the document of an include; None leaves the include where it is."""
+"""Returns the document of an include; None leaves the include where it is."""
 
 
 def has_includes(document: Document) -> bool:
@@ -44,15 +55,17 @@ def has_includes(document: Document) -> bool:
 
 
 def expand_includes(document: Document, resolve: Resolver, sink: DiagnosticSink, *, carriers: bool = True) -> Document:
-    """The document with what its includes name in their place.
+    """The document with included models in place of its includes.
 
-    Files of different versions come together in the newest of them: older ones are upgraded to it, and what it
-    lacks is carried, or dropped without `carriers`.
+    All files are upgraded to the newest version among them. What that version lacks is carried, or dropped without
+    `carriers`.
     """
     found = [resolve(include) for include in _includes(document)]
     # The newest version wins where files meet: to lower a file would carry away what its author
     # wrote, and to raise one only rewrites it.
-    version = newest(document.version, *(each.document.version for each in found if each), *_needs(document))
+    version = newest_version(
+        document.version, *(each.document.version for each in found if each), *_needed_versions(document)
+    )
     document = upgrade_document(document, version, sink, carriers=carriers)
     # By identity, since two equal includes in different folders may name different files. Upgrading
     # makes new nodes, so the pairs are made after it.
@@ -62,8 +75,8 @@ def expand_includes(document: Document, resolve: Resolver, sink: DiagnosticSink,
     return document.copy(namespaces=namespaces)
 
 
-def _needs(document: Document) -> Iterator[str]:
-    """The versions that have what includes in models become: models in models, and frames for merged ones."""
+def _needed_versions(document: Document) -> Iterator[str]:
+    """The versions that included models need: for nested models, and for frames of merged ones."""
     inner = [include for model in outer_models(document) for include in nested_includes(model)]
     if inner:
         yield _NESTED_MODELS
@@ -81,7 +94,7 @@ def _includes(document: Document) -> Iterator[Include]:
 
 @dataclass(slots=True)
 class _Expansion:
-    """One expansion; `found` has the document of each include by the include's identity, which copies keep."""
+    """One expansion; `found` has the document of each include by the identity of the include, which copies keep."""
 
     found: dict[int, Included | None]
     version: str | None
@@ -93,7 +106,7 @@ class _Expansion:
         models = tuple(map(self.model, document.models))
         worlds = tuple(map(self.world, document.worlds))
         document = document.copy(models=models, worlds=worlds, version=self.version)
-        for include, source in self._split(document.includes):
+        for include, source in self._found_includes(document.includes):
             if include.merge:
                 self._refuse_merge(include, "the root of a file is no model")
                 continue
@@ -102,9 +115,9 @@ class _Expansion:
 
     def world(self, world: World) -> World:
         world = world.copy(models=tuple(map(self.model, world.models)))
-        for include, source in self._split(world.includes):
+        for include, source in self._found_includes(world.includes):
             if include.merge:
-                model = self._model(include, source)
+                model = self._included_model(include, source)
                 world = merge_into_world(world, include, model, self.sink, source.frame) if model else world
                 continue
             world = self._add_included(world, include, source)
@@ -114,27 +127,27 @@ class _Expansion:
         model = replace_fields(model, models=tuple(map(self.model, model.models)))
         if not model.includes:
             return model
-        for include, source in self._split(model.includes):
-            included = self._model(include, source)
+        for include, source in self._found_includes(model.includes):
+            included = self._included_model(include, source)
             if included is not None and include.merge:
                 model = merge_into_model(model, include, included, self.sink, source.frame)
             elif included is not None:
-                nested = placed_model(include, included, self.sink, source.frame)
+                nested = place_model(include, included, self.sink, source.frame)
                 model = model.copy(models=(*model.models, nested))
         return model.copy(includes=self._unread_includes(model.includes))
 
-    def _split(self, includes: Iterable[Include]) -> Iterator[tuple[Include, Included]]:
+    def _found_includes(self, includes: Iterable[Include]) -> Iterator[tuple[Include, Included]]:
         for include in includes:
             source = self.found.get(id(include))
             if source is not None:
-                account_replaced(include, self.sink)
+                account_replaced_include(include, self.sink)
                 yield include, source
 
     def _unread_includes(self, includes: Iterable[Include]) -> tuple[Include, ...]:
         return tuple(include for include in includes if self.found.get(id(include)) is None)
 
-    def _ready(self, source: Included) -> Document:
-        """The document of an include in the version and with the paths of this one."""
+    def _prepare(self, source: Included) -> Document:
+        """The document of an include with the version and the paths of the including document."""
         done = self.ready.get(id(source))
         if done is None:
             done = upgrade_document(source.document, self.version, self.sink, carriers=self.carriers)
@@ -145,25 +158,25 @@ class _Expansion:
         return done
 
     def _add_included(self, holder: Holder, include: Include, source: Included) -> Holder:
-        """The world or root with what is included: a model, a light or an actor."""
-        document = self._ready(source)
+        """The world or document with an included model, light or actor."""
+        document = self._prepare(source)
         lights = document.lights if not document.models else ()
         if lights:
-            light = placed_light(include, lights[0])
+            light = place_light(include, lights[0])
             report_leftovers(include, self.sink)
             return holder.copy(lights=(*holder.lights, light))
-        actor = None if document.models else placed_actor(include, document)
+        actor = None if document.models else place_actor(include, document)
         if actor is not None:
             report_leftovers(include, self.sink)
             return holder.copy(opaque=(*holder.opaque, actor))
-        model = self._model(include, source)
+        model = self._included_model(include, source)
         if model is None:
             return holder
-        placed = placed_model(include, model, self.sink, source.frame)
+        placed = place_model(include, model, self.sink, source.frame)
         return holder.copy(models=(*holder.models, placed))
 
-    def _model(self, include: Include, source: Included) -> Model | None:
-        models = self._ready(source).models
+    def _included_model(self, include: Include, source: Included) -> Model | None:
+        models = self._prepare(source).models
         if not models:
             message = f"{include.uri!r} has no model that could be included here"
             self.sink.report(rules.INCLUDE_WITHOUT_MODEL, message, include.location, found=include.uri)
@@ -177,3 +190,42 @@ class _Expansion:
     def _refuse_merge(self, include: Include, why: str) -> None:
         message = f"{include.uri!r} cannot be merged: {why}"
         self.sink.report(rules.UNMERGEABLE_INCLUDE, message, include.location, found=include.uri)
+
+
+def relocate(document: Document, folder: str) -> Document:
+    """The document with relative paths that lead to the same files from outside of its `folder`."""
+    if folder in _HERE:
+        return document
+    return map_uris(document, lambda path, _kind, _where: relocate_path(path, folder) or path)
+
+
+def relocate_path(path: str | None, folder: str) -> str | None:
+    """A relative path from outside of the folder; any other text as it is."""
+    if not path or not path.strip() or _NOT_RELATIVE.match(path.strip()) or folder in _HERE:
+        return path
+    # `model://arm` and `meshes/a.dae` are `model://arm/meshes/a.dae`; without taking the scheme
+    # apart, normpath would make one slash of two.
+    scheme, separator, rest = folder.rpartition("://")
+    return f"{scheme}{separator}{normpath(f'{rest}/{path.strip()}')}"
+
+
+def newest_version(*versions: str | None) -> str | None:
+    """The newest of some versions; the first one where none of them is known."""
+    known = [version for version in versions if version in versions_of("sdf")]
+    return max(known, key=parse_version, default=versions[0])
+
+
+def upgrade_document(document: Document, version: str | None, sink: DiagnosticSink, *, carriers: bool) -> Document:
+    """The document in the syntax of a version that is not older than its own."""
+    known = versions_of("sdf")
+    if document.version == version or document.version not in known or version not in known:
+        return document
+    from twinform.passes.sdf_versions import raise_for_merging  # noqa: PLC0415 - few files need all the steps
+
+    own = DiagnosticSink(document.location.file or sink.file, sink.strict, origins=sink.origins)
+    for step in raise_for_merging(document.version, version, carriers=carriers):
+        document = step.run(document, own)
+    # A file that is included a hundred times is reported once.
+    sink.extend_new(own.diagnostics)
+    sink.entries.extend(own.entries)
+    return document

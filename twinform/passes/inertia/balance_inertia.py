@@ -90,7 +90,7 @@ class BalanceInertia(Pass):
             message = f"the inertia of link {link.name!r} {what}, so there is no nearest possible inertia"
             sink.report(UNBALANCED_INERTIA, message, inertial.location, help="run fill-inertia{replace=impossible}")
             return link
-        floor = self._floor(inertial.mass or 0.0, matrix)
+        floor = self._least_second_moment(inertial.mass or 0.0, matrix)
         # MuJoCo's `balanceinertia` sets all three moments to their mean, which also moves those
         # that were right; adding a constant until the triangle inequality holds moves the smallest
         # ones most.
@@ -99,28 +99,28 @@ class BalanceInertia(Pass):
             message = f"the inertia that is nearest to that of link {link.name!r} is too large for a double"
             sink.report(UNBALANCED_INERTIA, message, inertial.location)
             return link
-        _report(link, inertial, matrix, found, sink)
+        _report_change(link, inertial, matrix, found, sink)
         inertia = with_tensor(inertial.inertia, found)
         return link.copy(inertial=inertial.copy(inertia=inertia))
 
-    def _floor(self, mass: float, matrix: Symmetric) -> float:
-        """The least second moment of mass along an axis, in kg m^2: a principal moment is the sum of two."""
+    def _least_second_moment(self, mass: float, matrix: Symmetric) -> float:
+        """The least second moment of mass along an axis, in kg m^2; a principal moment is the sum of two."""
         exponent = common_exponent(matrix)
         trace = abs(sum(times_each(matrix, -exponent)[:3]))
         return max(times_power(self.margin * trace, exponent), mass * self.thickness * self.thickness, self.least / 2)
 
 
-def _part(old: Symmetric, new: Symmetric) -> float:
-    """How large a change is beside what is changed."""
+def _relative_change(old: Symmetric, new: Symmetric) -> float:
+    """How large a change is relative to what is changed."""
     exponent = common_exponent((*old, *new)) + 1  # so that no difference overflows
     before, after = times_each(old, -exponent), times_each(new, -exponent)
     size = distance(before, _NOTHING)
     return distance(before, after) / size if size else math.inf
 
 
-def _report(link: Link, inertial: Inertial, old: Symmetric, new: Symmetric, sink: DiagnosticSink) -> None:
+def _report_change(link: Link, inertial: Inertial, old: Symmetric, new: Symmetric, sink: DiagnosticSink) -> None:
     was, now = (", ".join(f"{moment:.6g}" for moment in principal_moments(each)) for each in (old, new))
-    part = _part(old, new)
+    part = _relative_change(old, new)
     change = f"by {part:.2g} of its size" if any(old) else "from zero"
     message = f"the inertia of link {link.name!r} is changed {change}: its principal moments were {was} and are {now}"
     severity = Severity.INFO if part < _NOTHING_MUCH else None

@@ -22,7 +22,7 @@ _AMOUNTS = ("density", "mass", "total_mass")
 
 
 class _Filling(NamedTuple):
-    """What a link is to get: a solid in its frame, whether its mass was written, and of what shapes it is made."""
+    """The solid for a link in its frame, whether its mass was written, and the shapes that it is made of."""
 
     solid: Solid
     keeps_mass: bool
@@ -81,7 +81,7 @@ class FillInertia(AssetPass):
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with inertias."""
-        fillings = self._fillings(document, sink)
+        fillings = self._compute_fillings(document, sink)
         amounts = [one.solid.mass for one in fillings.values() if not one.keeps_mass]
         exponent = common_exponent(amounts)
         units = math.fsum(times_power(amount, -exponent) for amount in amounts)
@@ -93,21 +93,23 @@ class FillInertia(AssetPass):
             if self.total_mass is not None and not filling.keeps_mass:
                 part = times_power(filling.solid.mass, -exponent) * (self.total_mass / units)
                 filling = filling._replace(solid=with_mass(filling.solid, part))
-            return _filled(link, filling, sink) if _is_solid(link, filling.solid, filling.shapes, sink) else link
+            return (
+                _set_inertial(link, filling, sink) if _check_solid(link, filling.solid, filling.shapes, sink) else link
+            )
 
         filled = rewrite(document, Link, fill)
-        _report_empty(filled, self.links, sink)
+        _report_bodies_without_shapes(filled, self.links, sink)
         return filled
 
-    def _fillings(self, document: Document, sink: DiagnosticSink) -> dict[int, _Filling]:
-        """What each link is to get, by its identity: equal links are still two."""
+    def _compute_fillings(self, document: Document, sink: DiagnosticSink) -> dict[int, _Filling]:
+        """The filling of each link, by the identity of the link: equal links are still two."""
         meshes, found = Meshes(self._assets, self.open_meshes == "hull"), dict[int, _Filling]()
         for model in movable_models(document):
             places = ShapePlaces(model)
             for link in model.links:
                 if not matches(link.name, self.links) or not self._is_wanted(link.inertial, document.format):
                     continue
-                filling = self._filling(link, places, meshes, sink)
+                filling = self._compute_filling(link, places, meshes, sink)
                 if filling:
                     found[id(link)] = filling
         return found
@@ -121,8 +123,10 @@ class FillInertia(AssetPass):
             return True
         return self.replace == "impossible" and not is_possible(inertial, format_)
 
-    def _filling(self, link: Link, places: ShapePlaces, meshes: Meshes, sink: DiagnosticSink) -> _Filling | None:
-        """The solid of a link; None where it has no shape, or one that cannot be used."""
+    def _compute_filling(
+        self, link: Link, places: ShapePlaces, meshes: Meshes, sink: DiagnosticSink
+    ) -> _Filling | None:
+        """The filling of a link; None where it has no shape, or one that cannot be used."""
         try:
             shapes = tuple(places.shapes(link, self.shapes))
             whole = combined([solid_of(one, self.density, meshes) for one in shapes])
@@ -133,12 +137,12 @@ class FillInertia(AssetPass):
         except FrameError as error:
             error.report(sink)
             return None
-        if not shapes or not _is_solid(link, whole, shapes, sink):
+        if not shapes or not _check_solid(link, whole, shapes, sink):
             return None
-        return self._weighed(link.inertial, whole, shapes)
+        return self._set_mass(link.inertial, whole, shapes)
 
-    def _weighed(self, inertial: Inertial | None, whole: Solid, shapes: tuple[PlacedShape, ...]) -> _Filling:
-        """The solid with the mass that it is to have, but for its part of the total."""
+    def _set_mass(self, inertial: Inertial | None, whole: Solid, shapes: tuple[PlacedShape, ...]) -> _Filling:
+        """The solid with its mass, except for its share of a total."""
         overrides = self.replace == "all" and any(getattr(self, name) is not None for name in _AMOUNTS)
         # A mass is mostly weighed or taken from CAD; of an inertia with a placeholder the mass is
         # still worth keeping.
@@ -147,8 +151,8 @@ class FillInertia(AssetPass):
         return _Filling(whole if self.mass is None else with_mass(whole, self.mass), keeps_mass=False, shapes=shapes)
 
 
-def _is_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], sink: DiagnosticSink) -> bool:
-    """Whether the numbers are those of a body: sizes may be zero, or their powers larger or smaller than doubles."""
+def _check_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], sink: DiagnosticSink) -> bool:
+    """Whether the numbers are those of a body, and report if not: sizes may be zero, or their powers overflow."""
     numbers = (whole.mass, *whole.center, *whole.inertia)
     if all(map(math.isfinite, numbers)) and min(whole.mass, *whole.inertia[:3]) >= sys.float_info.min:
         return True
@@ -158,7 +162,7 @@ def _is_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], sink: D
     return False
 
 
-def _filled(link: Link, filling: _Filling, sink: DiagnosticSink) -> Link:
+def _set_inertial(link: Link, filling: _Filling, sink: DiagnosticSink) -> Link:
     found = filling.solid
     kept = ", as the file has it" if filling.keeps_mass else ""
     count = f"{len(filling.shapes)} shape{'' if len(filling.shapes) == 1 else 's'}"
@@ -168,8 +172,8 @@ def _filled(link: Link, filling: _Filling, sink: DiagnosticSink) -> Link:
     return link.copy(inertial=inertial_of(found, link.inertial))
 
 
-def _report_empty(document: Document, patterns: tuple[str, ...], sink: DiagnosticSink) -> None:
-    """Name the bodies that move and have nothing to compute a mass from."""
+def _report_bodies_without_shapes(document: Document, patterns: tuple[str, ...], sink: DiagnosticSink) -> None:
+    """Report moving bodies that have nothing to compute a mass from."""
     for body in moving_bodies(document):
         if any(link.inertial for link in body) or any(link.collisions or link.visuals for link in body):
             continue

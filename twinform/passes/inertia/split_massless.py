@@ -1,18 +1,86 @@
 """Give mass to massless bodies that move."""
 
-from typing import ClassVar, Literal
+from collections.abc import Iterator
+from typing import ClassVar, Literal, NamedTuple
 
 from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import SPLIT_MASS, TOKEN_MASS
-from twinform.ir import Document, Format, Joint, Link, Sphere, rewrite
-from twinform.ir.frames import FrameError
-from twinform.ir.solids import NOTHING, solid, with_mass
+from twinform.ir import Document, Format, Inertial, Joint, Link, Model, Sphere, rewrite
+from twinform.ir.defaults import MOMENT
+from twinform.ir.frames import FrameError, FrameGraph
+from twinform.ir.principal_moments import Symmetric
+from twinform.ir.scopes import outer_models, scoped_links
+from twinform.ir.solids import NOTHING, ORIGIN, Solid, placed, solid, with_mass, with_tensor
+from twinform.ir.verify.verify_bodies import inertia_matrix
+from twinform.passes.analyses.link_shapes import inertial_of
 from twinform.passes.analyses.moving_bodies import Body, ConnectedBodies, moving_bodies, neighbors
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
-from twinform.passes.inertia.masses import Masses
-from twinform.passes.inertia.physical_consistency import has_mass
+from twinform.passes.inertia.physical_consistency import has_mass, is_possible
+
+
+class _LinkAddress(NamedTuple):
+    """The model at the root around a link, and the scoped name of the link in it."""
+
+    root: Model
+    name: str
+
+
+class Masses:
+    """The masses of the links of a document during the pass, by the identity of links: equal links are still two."""
+
+    def __init__(self, document: Document) -> None:
+        self._default = MOMENT[document.format]
+        self._format = document.format
+        self._link_addresses = dict(_link_addresses(document))
+        self._graphs: dict[int, FrameGraph] = {}
+        self._changed: dict[int, Inertial] = {}
+
+    def of(self, link: Link) -> Inertial | None:
+        """The inertial of a link."""
+        return self._changed.get(id(link), link.inertial)
+
+    def can_give(self, link: Link) -> bool:
+        """Whether a link was written with a mass and inertia that can be divided; what it was given stays its own."""
+        inertial = link.inertial
+        return inertial is not None and not inertial.auto and is_possible(inertial, self._format)
+
+    def mass(self, link: Link) -> float:
+        """The mass of a link, in kg; zero where none is written."""
+        inertial = self.of(link)
+        return inertial.mass or 0.0 if inertial else 0.0
+
+    def give(self, link: Link, what: Solid) -> None:
+        """Set the inertial of a link to a solid in its own frame."""
+        self._changed[id(link)] = inertial_of(what, link.inertial)
+
+    def share(self, donor: Link, taker: Link, part: float) -> float:
+        """Move a share of the mass of one link to another, at its place with all joints at zero; the mass in kg.
+
+        Raises:
+            FrameError: the poses of the links cannot be resolved.
+        """
+        inertial = self.of(donor) or Inertial()
+        mass, matrix = inertial.mass or 0.0, inertia_matrix(inertial.inertia, self._default) or NOTHING.inertia
+        address = self._link_addresses[id(donor)]
+        graph = self._graph(address.root)
+        at = graph.resolve(inertial.pose, address.name, self._link_addresses[id(taker)].name)
+        # As if the body had been split at the joint: mass, center of mass and inertia at the zero
+        # position stay exactly what they were. A token mass would change the robot, and is too
+        # little for some solvers and too much for others.
+        taken = placed(with_mass(Solid(mass, ORIGIN, matrix), part * mass), at)
+        self._changed[id(donor)] = _scale_inertial(inertial, matrix, 1 - part)
+        self.give(taker, taken)
+        return taken.mass
+
+    def apply(self, link: Link) -> Link:
+        """The link with its new inertial."""
+        changed = self._changed.get(id(link))
+        return link if changed is None else link.copy(inertial=changed)
+
+    def _graph(self, root: Model) -> FrameGraph:
+        return self._graphs.setdefault(id(root), FrameGraph(root))
 
 
 class SplitMassless(Pass):
@@ -61,14 +129,14 @@ class SplitMassless(Pass):
                 _report_fixed(taker, joints, sink)
             else:
                 self._weigh(taker, masses, sink)
-        document = rewrite(document, Joint, lambda joint: _fixed(joint) if id(joint) in fixed else joint)
-        return rewrite(document, Link, masses.applied)
+        document = rewrite(document, Joint, lambda joint: _fix_joint(joint) if id(joint) in fixed else joint)
+        return rewrite(document, Link, masses.apply)
 
     def _is_meant(self, body: Body) -> bool:
         return any(matches(link.name, self.links) for link in body)
 
     def _split(self, donor: Link, taker: Link, masses: Masses, sink: DiagnosticSink) -> bool:
-        """Let one link take a share of another; false where it is not known where they are."""
+        """Move a share of the mass of one link to another; false where their poses are unknown."""
         try:
             mass = masses.share(donor, taker, self.share)
         except FrameError:
@@ -86,7 +154,7 @@ class SplitMassless(Pass):
 
 
 class _BodyTree:
-    """Which body carries which, and by which joints. A body is known by the identity of its first link."""
+    """Which body carries which, and by which joints; bodies are known by the identity of their first links."""
 
     def __init__(self, document: Document) -> None:
         self._carried: dict[int, list[ConnectedBodies]] = {}
@@ -100,11 +168,11 @@ class _BodyTree:
                 self._carried.setdefault(id(each.parent[0]), []).append(each)
 
     def leads(self, joints: list[Joint]) -> bool:
-        """Whether others mimic one of these joints, so that they have to move."""
+        """Whether other joints mimic one of these joints."""
         return any(joint.name in self._leaders for joint in joints)
 
     def moving(self, body: Body) -> list[Joint]:
-        """The joints that a body is the child of."""
+        """The joints whose child is the body."""
         return self._moving.get(id(body[0]), [])
 
     def carrier(self, body: Body) -> Link:
@@ -113,7 +181,7 @@ class _BodyTree:
         return next((link for link in body if link.name in ends), body[0])
 
     def nearest_carried(self, body: Body, masses: Masses) -> Link | None:
-        """The heaviest link of the nearest body that this one carries and that has a mass to give."""
+        """The heaviest link of the nearest carried body that has a mass to give."""
         seen, queue = {id(body[0])}, [body]
         for each in queue:  # grows while it is walked
             for one in self._carried.get(id(each[0]), []):
@@ -131,14 +199,26 @@ def _weighs(body: Body, format_: Format) -> bool:
 
 
 def _has_mass(link: Link, format_: Format) -> bool:
-    """Whether a link has a mass: its own, the default of SDF, or one that is computed."""
+    """Whether a link has a mass: its own, the default of SDF, or a computed one."""
     inertial = link.inertial
     if inertial is None or inertial.mass is None:
         return format_ is Format.SDF
     return bool(inertial.auto) or has_mass(inertial)
 
 
-def _fixed(joint: Joint) -> Joint:
+def _link_addresses(document: Document) -> Iterator[tuple[int, _LinkAddress]]:
+    for root in outer_models(document):
+        yield from ((id(link), _LinkAddress(root, name)) for name, link in scoped_links(root))
+
+
+def _scale_inertial(inertial: Inertial, matrix: Symmetric, factor: float) -> Inertial:
+    """The inertial with mass and inertia multiplied by a factor."""
+    xx, yy, zz, xy, xz, yz = (factor * each for each in matrix)
+    inertia = with_tensor(inertial.inertia, (xx, yy, zz, xy, xz, yz))
+    return inertial.copy(mass=(inertial.mass or 0.0) * factor, inertia=inertia)
+
+
+def _fix_joint(joint: Joint) -> Joint:
     return joint.copy(type="fixed", axis=None, axis2=None)
 
 

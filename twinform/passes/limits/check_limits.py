@@ -11,7 +11,7 @@ from twinform.diagnostics.rules import UNBOUNDED_LIMIT
 from twinform.ir import Axis, Document, Format, Joint, Limit, rewrite
 from twinform.ir.defaults import UNLIMITED, with_range
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
-from twinform.passes.limits.soft_limits import soft_limits
+from twinform.passes.limits.tighten_limits import limit_location, soft_limits
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 _TURNING = frozenset({"revolute", "universal", "revolute2"})
@@ -73,15 +73,15 @@ class CheckLimits(Pass):
                 yield from self._range(joint, axis.limit or Limit(), format_)
             if joint.type in _DRIVEN:
                 yield from self._drive(joint, axis.limit or Limit())
-            yield from _dynamics(joint, axis)
-        yield from _soft(joint)
+            yield from _check_dynamics(joint, axis)
+        yield from _check_soft_limits(joint)
 
     def _range(self, joint: Joint, limit: Limit, format_: Format) -> Iterator[_Finding]:
         written = with_range(limit, format_) if format_ is Format.URDF and limit.source else limit
         lower, upper = written.lower, written.upper
         if lower is None or upper is None or not lower <= upper:
             return
-        where, found = _place(joint, limit), f"{lower:g} to {upper:g}"
+        where, found = limit_location(joint, limit), f"{lower:g} to {upper:g}"
         named = f"the limits of joint {joint.name!r} are {lower:g} and {upper:g}"
         if lower == upper:
             message = f"joint {joint.name!r} cannot move: both of its limits are {lower:g}"
@@ -94,24 +94,24 @@ class CheckLimits(Pass):
             yield _Finding(rules.ZERO_OUT_OF_RANGE, f"{named}, and exclude its zero position", where, found)
 
     def _drive(self, joint: Joint, limit: Limit) -> Iterator[_Finding]:
-        where = _place(joint, limit)
-        open_ends = [name for name in ("effort", "velocity") if _is_open(getattr(limit, name))]
+        where = limit_location(joint, limit)
+        open_ends = [name for name in ("effort", "velocity") if _is_unlimited(getattr(limit, name))]
         if open_ends:
             message = f"joint {joint.name!r} has no limit of {' and '.join(open_ends)}"
             yield _Finding(UNBOUNDED_LIMIT, message, where, "none")
         for name, most in (("effort", self.effort), ("velocity", self.velocity)):
             value = getattr(limit, name)
-            if not _is_open(value) and value > most:
+            if not _is_unlimited(value) and value > most:
                 message = f"joint {joint.name!r} has a limit of {name} of {value:g}, which is more than actuators reach"
                 yield _Finding(rules.IMPLAUSIBLE_LIMIT, message, where, f"{value:g}", f"at most {most:g}")
 
 
-def _is_open(value: float | None) -> bool:
-    """Whether a limit is none: in SDF so is a negative one, and one that stands for infinity."""
+def _is_unlimited(value: float | None) -> bool:
+    """Whether a limit is none: not written, negative (in SDF), or a value that stands for infinity."""
     return value is None or value < 0 or value >= UNLIMITED
 
 
-def _dynamics(joint: Joint, axis: Axis) -> Iterator[_Finding]:
+def _check_dynamics(joint: Joint, axis: Axis) -> Iterator[_Finding]:
     if axis.dynamics is None:
         return
     for name in ("damping", "friction"):
@@ -121,24 +121,20 @@ def _dynamics(joint: Joint, axis: Axis) -> Iterator[_Finding]:
             yield _Finding(rules.NEGATIVE_DYNAMICS, message, axis.dynamics.location, f"{value:g}", "0 or more")
 
 
-def _soft(joint: Joint) -> Iterator[_Finding]:
+def _check_soft_limits(joint: Joint) -> Iterator[_Finding]:
     soft, limit = soft_limits(joint), joint.axis.limit if joint.axis else None
     if soft is None:
         return
     written, where = str(soft), joint.location.at("safety_controller")
-    if _less(soft.upper, soft.lower):
+    if _is_less(soft.upper, soft.lower):
         message = f"the lower soft limit of joint {joint.name!r} is above the upper one: {written}"
         yield _Finding(rules.SOFT_LIMIT_OUTSIDE, message, where, written)
         return
     hard = limit if joint.type in _BOUNDED else None
-    if hard and (_less(soft.lower, hard.lower) or _less(hard.upper, soft.upper)):
+    if hard and (_is_less(soft.lower, hard.lower) or _is_less(hard.upper, soft.upper)):
         message = f"the soft limits of joint {joint.name!r}, {written}, are outside of the hard ones"
         yield _Finding(rules.SOFT_LIMIT_OUTSIDE, message, where, written)
 
 
-def _less(one: float | None, other: float | None) -> bool:
+def _is_less(one: float | None, other: float | None) -> bool:
     return one is not None and other is not None and one < other
-
-
-def _place(joint: Joint, limit: Limit) -> Location:
-    return limit.location if limit.source else joint.location

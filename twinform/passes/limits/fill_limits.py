@@ -4,10 +4,11 @@ from typing import ClassVar, Self
 
 from pydantic import Field, model_validator
 
-from twinform.diagnostics import DiagnosticSink, Location
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import FILLED_LIMIT, UNFILLED_LIMIT
 from twinform.ir import Axis, Document, Dynamics, Format, Joint, Limit, Node, rewrite
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
+from twinform.passes.limits.tighten_limits import limit_location
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 _DRIVEN = _BOUNDED | {"continuous"}
@@ -98,7 +99,7 @@ class FillLimits(Pass):
 
 
 def _is_upside_down(limit: Limit, values: dict[str, float]) -> bool:
-    """Whether the values would turn a range around; one that is written so is none of our business."""
+    """Whether the values would make the lower limit the greater one; a range that is written so does not count."""
     if not values.keys() & {"lower", "upper"}:
         return False
     lower, upper = values.get("lower", limit.lower), values.get("upper", limit.upper)
@@ -112,13 +113,9 @@ def _report_open_end(joint: Joint, limit: Limit, values: dict[str, float], sink:
         f"the {open_end} limit of joint {joint.name!r} was not filled: "
         f"{values[open_end]:g} is {side} its other limit, {written:g}"
     )
-    sink.report(UNFILLED_LIMIT, message, _place(joint, limit), found=f"{written:g}")
+    sink.report(UNFILLED_LIMIT, message, limit_location(joint, limit), found=f"{written:g}")
 
 
 def _report_filled(joint: Joint, limit: Limit, values: dict[str, float], sink: DiagnosticSink) -> None:
     listed = ", ".join(f"{name} {value:g}" for name, value in values.items())
-    sink.report(FILLED_LIMIT, f"limits of joint {joint.name!r} filled: {listed}", _place(joint, limit))
-
-
-def _place(joint: Joint, limit: Limit) -> Location:
-    return limit.location if limit.source else joint.location
+    sink.report(FILLED_LIMIT, f"limits of joint {joint.name!r} filled: {listed}", limit_location(joint, limit))

@@ -37,35 +37,35 @@ class OrderLimits(Pass):
         def order(joint: Joint) -> Joint:
             if joint.type not in _BOUNDED or not matches(joint.name, self.joints):
                 return joint
-            axis, second = (_ordered(joint, each, sink) for each in (joint.axis, joint.axis2))
+            axis, second = (_order_axis(joint, each, sink) for each in (joint.axis, joint.axis2))
             return joint.copy(axis=axis, axis2=second)
 
         return rewrite(document, Joint, order)
 
 
-def _ordered(joint: Joint, axis: Axis | None, sink: DiagnosticSink) -> Axis | None:
+def _order_axis(joint: Joint, axis: Axis | None, sink: DiagnosticSink) -> Axis | None:
     if axis is None:
         return None
-    limit, dynamics = _in_order(joint, axis.limit, sink), _positive(joint, axis.dynamics, sink)
+    limit, dynamics = _order_limit(joint, axis.limit, sink), _remove_negative(joint, axis.dynamics, sink)
     if limit is axis.limit and dynamics is axis.dynamics:
         return axis
     return axis.copy(limit=limit, dynamics=dynamics)
 
 
 def is_usable(axis: Axis) -> bool:
-    """Whether its limits are in order and numbers, and its damping and friction are not negative."""
+    """Whether the limits of an axis are ordered numbers, and damping and friction are not negative."""
     limit, dynamics = axis.limit or Limit(), axis.dynamics or Dynamics()
     numbers = [number for number in (limit.lower, limit.upper) if number is not None]
     in_order = len(numbers) < 2 or not numbers[0] > numbers[1]
-    return in_order and not any(map(math.isnan, numbers)) and not _negative(dynamics)
+    return in_order and not any(map(math.isnan, numbers)) and not _negative_names(dynamics)
 
 
-def _negative(dynamics: Dynamics) -> list[str]:
+def _negative_names(dynamics: Dynamics) -> list[str]:
     values = {"damping": dynamics.damping, "friction": dynamics.friction}
     return [name for name, value in values.items() if value is not None and value < 0]
 
 
-def _in_order(joint: Joint, limit: Limit | None, sink: DiagnosticSink) -> Limit | None:
+def _order_limit(joint: Joint, limit: Limit | None, sink: DiagnosticSink) -> Limit | None:
     if limit is None:
         return None
     lower, upper = (None if each is None or math.isnan(each) else each for each in (limit.lower, limit.upper))
@@ -82,8 +82,8 @@ def _in_order(joint: Joint, limit: Limit | None, sink: DiagnosticSink) -> Limit 
     return limit.copy(lower=upper, upper=lower)
 
 
-def _positive(joint: Joint, dynamics: Dynamics | None, sink: DiagnosticSink) -> Dynamics | None:
-    if dynamics is None or not (names := _negative(dynamics)):
+def _remove_negative(joint: Joint, dynamics: Dynamics | None, sink: DiagnosticSink) -> Dynamics | None:
+    if dynamics is None or not (names := _negative_names(dynamics)):
         return dynamics
     for name in names:
         message = f"the {name} of joint {joint.name!r} was below zero and is 0"

@@ -27,20 +27,20 @@ class ReplaceContinuous(Pass):
         """The document without continuous joints."""
         if document.format is not Format.SDF:
             return document
-        return rewrite(document, Joint, lambda joint: _revolute(joint, sink))
+        return rewrite(document, Joint, lambda joint: _make_revolute(joint, sink))
 
 
-def _revolute(joint: Joint, sink: DiagnosticSink) -> Joint:
+def _make_revolute(joint: Joint, sink: DiagnosticSink) -> Joint:
     if joint.type != "continuous":
         return joint
     message = f"joint {joint.name!r} was continuous and is revolute, without limits"
     sink.report(REPLACED_CONTINUOUS, message, joint.location.at("@type"), found=joint.name)
     # No engine of Gazebo has `continuous` (DART makes such a joint a fixed one), and Drake turns
     # it. An SDF file may be meant for either, so nothing is changed unless this pass is asked for.
-    return joint.copy(type="revolute", axis=_endless(joint.axis))
+    return joint.copy(type="revolute", axis=_remove_range(joint.axis))
 
 
-def _endless(axis: Axis | None) -> Axis | None:
+def _remove_range(axis: Axis | None) -> Axis | None:
     if axis is None or axis.limit is None:
         return axis
     limit = axis.limit.copy(lower=None, upper=None)

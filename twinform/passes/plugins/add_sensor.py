@@ -22,8 +22,8 @@ from twinform.passes.plugins.add_elements import (
 from twinform.passes.plugins.catalog import releases, sensor
 from twinform.passes.plugins.catalog_types import SensorKind
 from twinform.passes.plugins.parameters import is_topic
+from twinform.passes.plugins.plugin_options import Fields, SelectingPass
 from twinform.passes.plugins.release_names import ReleaseName
-from twinform.passes.plugins.selecting import Fields, SelectingPass
 from twinform.passes.plugins.sensor_settings import addable, setting_fields, settings_element, settings_of
 from twinform.passes.plugins.sites import sensors_of
 from twinform.passes.plugins.world_systems import add_systems, has_element, has_system, requirements_of, system_xml

@@ -17,7 +17,7 @@ from twinform.compiler.packaging.ros2.sensor_frames import NameSensorFrames, rep
 from twinform.compiler.packaging.ros2.texts import generated_files
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.passes import Pipeline
-from twinform.passes.control.carried_elements import elements
+from twinform.passes.control.carried_elements import urdf_elements
 from twinform.passes.plugins.bridge import bridges
 
 _NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
@@ -100,6 +100,6 @@ def _check_joint_states(contents: PackageContents, sink: DiagnosticSink) -> None
     told = contents.controlled or any(each.ros_type_name == _JOINT_STATE for each in contents.bridges)
     if contents.moves and not told:
         message = f"nothing tells ROS in Gazebo where the joints of {contents.model.name!r} are"
-        old = any(elements(contents.model, contents.document.format, "transmission"))
+        old = any(urdf_elements(contents.model, contents.document.format, "transmission"))
         advice = _FROM_TRANSMISSIONS if old else _PUBLISHER
         sink.report(rules.NO_JOINT_STATES, message, contents.model.location, help=advice)

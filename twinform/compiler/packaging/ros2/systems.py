@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from twinform.diagnostics import Location
 from twinform.ir import Element, Format, Model
-from twinform.passes.control.carried_elements import elements, place_of
+from twinform.passes.control.carried_elements import location_of, urdf_elements
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +45,9 @@ class System:
 
 def systems_of(model: Model, format_: Format) -> tuple[System, ...]:
     """The systems of a model, in their order."""
-    return tuple(_system(element, place_of(part, model)) for part, element in elements(model, format_, "ros2_control"))
+    return tuple(
+        _system(element, location_of(part, model)) for part, element in urdf_elements(model, format_, "ros2_control")
+    )
 
 
 def _system(element: Element, location: Location) -> System:
