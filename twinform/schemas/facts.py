@@ -30,9 +30,10 @@ Places are:
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
+from itertools import pairwise
 
 from twinform.package_files import package_files
 
@@ -126,7 +127,7 @@ class Table:
     format: str
     versions: tuple[str, ...]
     root: str
-    definitions: dict[str, Fact]
+    definitions: Mapping[str, Fact]
 
     def resolve(self, row: Fact) -> Fact:
         """Return the fact that holds a row's rows: the definition that it refers to, or itself."""
@@ -172,24 +173,53 @@ def table(format: str) -> Table:
     root, versions = _TABLES[format]
     folder = package_files("twinform.schemas").joinpath(format, "facts")
     files = sorted((file for file in folder.iterdir() if file.name.endswith(".facts")), key=lambda file: file.name)
-    definitions: dict[str, Fact] = {}
+    definitions = FactDefinitions()
     for file in files:
-        for definition in parse_facts(file.read_text(encoding="utf-8").splitlines(), file.name):
-            if definition.name in definitions:
-                raise ValueError(f"{file.name}: {definition.name} is defined twice")
-            definitions[definition.name] = definition
-            _note_other_words(definition)
+        definitions.add(file.read_text(encoding="utf-8").splitlines(), file.name)
     return Table(format, versions, root, definitions)
 
 
-def parse_facts(lines: Iterable[str], name: str) -> Iterator[Fact]:
-    """The definitions in the lines of a `.facts` file.
+class FactDefinitions(Mapping[str, Fact]):
+    """Definitions by name, each parsed when somebody first asks for it: a run needs few of them."""
+
+    def __init__(self) -> None:
+        self._lines: dict[str, tuple[list[str], str, int]] = {}
+        self._parsed: dict[str, Fact] = {}
+
+    def add(self, lines: list[str], file: str) -> None:
+        """Add the definitions in the lines of a `.facts` file.
+
+        Raises:
+            ValueError: a definition has the name of another one.
+        """
+        starts = [number for number, line in enumerate(lines) if line[:1] not in {"", " ", "#"}]
+        for start, end in pairwise([*starts, len(lines)]):
+            name = lines[start].split(maxsplit=1)[0]
+            if name in self._lines:
+                raise ValueError(f"{file}: {name} is defined twice")
+            self._lines[name] = lines[start:end], file, start + 1
+
+    def __getitem__(self, name: str) -> Fact:
+        if name not in self._parsed:
+            self._parsed[name] = fact = next(parse_facts(*self._lines[name]))
+            _note_other_words(fact)
+        return self._parsed[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._lines)
+
+    def __len__(self) -> int:
+        return len(self._lines)
+
+
+def parse_facts(lines: Iterable[str], name: str, first: int = 1) -> Iterator[Fact]:
+    """Yield the definitions in lines of a `.facts` file, of which `first` is the number of the first one.
 
     Raises:
         ValueError: a line is not in the notation, or has a field that nothing leads to; the message names it.
     """
     stack: list[Fact] = []
-    for number, line in enumerate(lines, 1):
+    for number, line in enumerate(lines, first):
         if not line.strip() or line.lstrip().startswith("#"):
             continue
         match = _LINE.fullmatch(line.rstrip())
