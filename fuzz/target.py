@@ -7,7 +7,7 @@ import atheris
 
 _SECONDS = 20
 """Of processor time: what is instrumented takes several times as long, and to import it seconds."""
-_NOT_UNDERSTOOD = ["twinform.profiles.reading.lumped_masses"]
+_NOT_UNDERSTOOD = ["twinform.profiles.lumped_masses"]
 """Modules of which atheris 3.0 cannot disassemble the bytecode."""
 
 if __name__ == "__main__":

@@ -34,10 +34,9 @@ from twinform.passes.analyses.moving_bodies import Body, moving_bodies
 from twinform.passes.appearance.drop_bare_scripts import is_bare
 from twinform.passes.inertia.physical_consistency import is_doubtful
 from twinform.passes.limits.order_limits import is_usable
-from twinform.passes.structure.early_static import find_early_static
 from twinform.passes.structure.tag_shapes import wrongly_tagged
-from twinform.passes.structure.tagged_shapes import KINDS, seen_shapes
-from twinform.profiles.reading.forms import number_in
+from twinform.passes.structure.tagged_shapes import KINDS, find_early_static, seen_shapes
+from twinform.profiles.forms import number_in
 from twinform.schemas import XmlElement, path_of
 
 _LATE_SENSORS = frozenset({"air_speed"})

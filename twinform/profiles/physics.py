@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 
-from twinform.diagnostics import Fate, LedgerEntry, Location, PhysicsChange, ValueChange
+from twinform.diagnostics import Fate, LedgerEntry, PhysicsChange, ValueChange
 from twinform.diagnostics.rules import CHANGED_PHYSICS
 from twinform.ir import Document, Joint, Link
 from twinform.ir.changes import changes
@@ -28,7 +28,7 @@ def physics_changes(before: Document, after: Document, step: str) -> Iterator[Le
     for key in {**old, **new}:
         values = tuple(_changed_values(old.get(key), new.get(key)))
         if values:
-            change, place = PhysicsChange(step, *key, values), _first_location(old.get(key), new.get(key))
+            change, place = PhysicsChange(step, *key, values), (old.get(key) or new[key]).location
             written = sum(bool(each.path) and each.was is not None for each in values)
             yield LedgerEntry(
                 Fate.APPROXIMATED, CHANGED_PHYSICS, f"{step}: {describe_change(change)}", place, written, change
@@ -67,10 +67,6 @@ def _describe_value(value: ValueChange) -> str:
     was = "was not written" if value.was is None else f"was {value.was}"
     now = "is not written any more" if value.now is None else f"is {value.now}"
     return f"{value.path} {was}, {now}"
-
-
-def _first_location(*parts: Part | None) -> Location:
-    return next(part.location for part in parts if part is not None)
 
 
 def of_ledger(entries: Iterable[LedgerEntry]) -> tuple[PhysicsChange, ...]:

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from twinform.diagnostics.generated_files import main_of_folder
 from twinform.profiles.profile import PORTABLE, Profile, ProfileRow, load, names
-from twinform.profiles.reading.reads_notation import Demand, PlaceStep, reads
+from twinform.profiles.reads_notation import Demand, PlaceStep, reads
 from twinform.profiles.remedies import REMEDIES
 
 _INTRODUCTION = """\

@@ -56,7 +56,7 @@ class Moved:
 
     def _move(self, parameter: Element, move: Move) -> None:
         text = (parameter.text or "").strip()
-        if _is_harmless(text, move.harmless):
+        if any(_is_same_value(text, each) for each in move.harmless):
             self.lost.append(DroppedParameter(parameter, move.drop or "it is the default", harmless=True))
         elif move.drop is not None:
             self.lost.append(DroppedParameter(parameter, move.drop))
@@ -191,10 +191,6 @@ def _is_same_value(one: str, other: str) -> bool:
         or _TRUTH_OF.get(one, one) == _TRUTH_OF.get(other, other)
         or (bool(numbers) and None not in numbers and numbers == _parse_numbers(other))
     )
-
-
-def _is_harmless(text: str, harmless: Iterable[str]) -> bool:
-    return any(_is_same_value(text, each) for each in harmless)
 
 
 def _lower_rate(old: str, new: str) -> str:

@@ -21,7 +21,7 @@ from twinform.passes.plugins.catalog_types import Release
 from twinform.passes.plugins.ground_clearance import base_link
 from twinform.passes.plugins.sites import PluginSite, sensor_of
 from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
-from twinform.schemas import format_value
+from twinform.schemas import format_value, parse_version
 
 # Fortress, in which the names of Ignition are the ones in use.
 _NATIVE = 6
@@ -170,7 +170,7 @@ class PluginMigration:
             if name not in joints:
                 return self._drop_or_keep(plugin, report, f"there is no joint {name!r}")
         # Of URDF <mimic> can be written for any release; in SDF the element came with 1.11.
-        if self.format is Format.SDF and _version_numbers(self.release.sdf) < (1, 11):
+        if self.format is Format.SDF and parse_version(self.release.sdf) < (1, 11):
             reason = f"SDF {self.release.sdf}, which gz-sim of {self.release.name} reads, has no <mimic>"
             return self._drop_or_keep(plugin, report, reason)
         mimic = _make_mimic(leader, parameters)
@@ -214,10 +214,6 @@ def _part_names(model: Model, kind: str) -> set[str]:
 def _unscoped_name(name: str) -> str:
     """The last part of a scoped name."""
     return name.rpartition("::")[2].strip()
-
-
-def _version_numbers(version: str) -> tuple[int, ...]:
-    return tuple(map(int, version.split(".")))
 
 
 def _is_library(plugin: Plugin) -> bool:

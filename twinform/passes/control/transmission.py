@@ -5,7 +5,7 @@ Names of interfaces and types are from ros_control's `hardware_interface` and `t
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from twinform.ir import Element
 
@@ -90,9 +90,9 @@ def read_transmission(element: Element) -> Transmission:
     joints, actuators = ends["joint"], ends["actuator"]
     whole = _text(element, _REDUCTION)
     if whole and len(actuators) == 1 and actuators[0].reduction is None:
-        actuators = (_set_reduction(actuators[0], whole),)
+        actuators = (replace(actuators[0], reduction=whole),)
     if type_ in COMMANDED_BY_TYPE:
-        joints = tuple(_set_interface(joint, COMMANDED_BY_TYPE[type_]) for joint in joints)
+        joints = tuple(replace(joint, interfaces=joint.interfaces or (COMMANDED_BY_TYPE[type_],)) for joint in joints)
     return Transmission(
         name=element.get("name") or "_".join(joint.name for joint in joints),
         type=OLDER_TYPES.get(type_, type_),
@@ -121,8 +121,8 @@ def write_ros2_transmission(transmission: Transmission) -> Element:
     """
     joints, actuators = transmission.joints, transmission.actuators
     if transmission.type == SIMPLE and len(joints) == len(actuators) == 1 and actuators[0].reduction:
-        joints = (_set_reduction(joints[0], actuators[0].reduction),)
-        actuators = (_set_reduction(actuators[0], None),)
+        joints = (replace(joints[0], reduction=actuators[0].reduction),)
+        actuators = (replace(actuators[0], reduction=None),)
     children = [Element(name="plugin", text=transmission.type)]
     children += [_write_ros2_end("actuator", actuator, number) for number, actuator in enumerate(actuators, 1)]
     children += [_write_ros2_end("joint", joint, number) for number, joint in enumerate(joints, 1)]
@@ -136,22 +136,14 @@ def write_ros1_transmission(transmission: Transmission) -> Element:
     """Write a transmission as a `<transmission>` of ROS 1."""
     joints, actuators = transmission.joints, transmission.actuators
     if transmission.type == SIMPLE and len(joints) == len(actuators) == 1 and joints[0].reduction:
-        actuators = (_set_reduction(actuators[0], joints[0].reduction),)
-        joints = (_set_reduction(joints[0], None),)
+        actuators = (replace(actuators[0], reduction=joints[0].reduction),)
+        joints = (replace(joints[0], reduction=None),)
     children = [Element(name="type", text=transmission.type)]
     children += [_text_element(name, value) for name, value in _shared_parameters(transmission)]
     alone = len(joints) == len(actuators) == 1
     children += [_write_ros1_end("joint", joint, transmission, role=not alone) for joint in joints]
     children += [_write_ros1_end("actuator", actuator, transmission, role=not alone) for actuator in actuators]
     return Element(name="transmission", attributes=(("name", transmission.name),), children=tuple(children))
-
-
-def _set_reduction(end: End, reduction: str | None) -> End:
-    return End(end.name, end.role, reduction, end.offset, end.interfaces, end.parameters)
-
-
-def _set_interface(end: End, interface: str) -> End:
-    return End(end.name, end.role, end.reduction, end.offset, end.interfaces or (interface,), end.parameters)
 
 
 def _text(element: Element, name: str) -> str | None:

@@ -129,7 +129,11 @@ class SplitMassless(Pass):
                 _report_fixed(taker, joints, sink)
             else:
                 self._weigh(taker, masses, sink)
-        document = rewrite(document, Joint, lambda joint: _fix_joint(joint) if id(joint) in fixed else joint)
+
+        def fix(joint: Joint) -> Joint:
+            return joint.copy(type="fixed", axis=None, axis2=None) if id(joint) in fixed else joint
+
+        document = rewrite(document, Joint, fix)
         return rewrite(document, Link, masses.apply)
 
     def _is_meant(self, body: Body) -> bool:
@@ -216,10 +220,6 @@ def _scale_inertial(inertial: Inertial, matrix: Symmetric, factor: float) -> Ine
     xx, yy, zz, xy, xz, yz = (factor * each for each in matrix)
     inertia = with_tensor(inertial.inertia, (xx, yy, zz, xy, xz, yz))
     return inertial.copy(mass=(inertial.mass or 0.0) * factor, inertia=inertia)
-
-
-def _fix_joint(joint: Joint) -> Joint:
-    return joint.copy(type="fixed", axis=None, axis2=None)
 
 
 def _report_fixed(link: Link, joints: list[Joint], sink: DiagnosticSink) -> None:

@@ -15,8 +15,7 @@ from importlib import import_module
 from typing import BinaryIO
 
 from twinform.confinement import confine
-from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
-from twinform.passes.mesh_jobs.job_limits import limit_reading, reading_seconds
+from twinform.passes.mesh_jobs.job import MeshJob, MeshResult, limit_reading, reading_seconds
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError
 
 _JOBS = {

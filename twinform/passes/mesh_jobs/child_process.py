@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 from typing import BinaryIO, cast
 
 from twinform.child_python import python_command
-from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult
-from twinform.passes.mesh_jobs.job_limits import MEMORY
+from twinform.passes.mesh_jobs.job import MEMORY, BadMessageError, MeshJob, MeshResult
 
 # Seconds of the wall clock, on a busy machine, after which a job is given up; its limit of
 # processor time is shorter.

@@ -6,8 +6,7 @@ from typing import Any, cast
 
 from twinform.passes.mesh_jobs import convex, primitives
 from twinform.passes.mesh_jobs.decimation import WORTH, decimate_parts
-from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
-from twinform.passes.mesh_jobs.job_limits import allow_work
+from twinform.passes.mesh_jobs.job import MeshJob, MeshResult, allow_work
 from twinform.passes.mesh_jobs.libraries import np, trimesh
 from twinform.passes.mesh_jobs.mesh_writing import appearance_of, write_mesh
 from twinform.passes.mesh_jobs.surface import TriangleSurface, join_parts, parts_of, scale_surface

@@ -71,12 +71,11 @@ class ResultsCache:
     def _path(self, job: MeshJob) -> Path | None:
         if self.folder is not None:
             with suppress(OSError):  # which versions are installed cannot be read
-                return self.folder / f"{job.digest(_versions())}.result"
+                return (
+                    self.folder
+                    / f"{job.digest({'format': FORMAT, **{name: _version(name) for name in _LIBRARIES}})}.result"
+                )
         return None
-
-
-def _versions() -> dict[str, str]:
-    return {"format": FORMAT, **{name: _version(name) for name in _LIBRARIES}}
 
 
 def _version(name: str) -> str:

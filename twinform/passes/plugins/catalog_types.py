@@ -101,7 +101,7 @@ class Alternative:
 
     parameters: Parameters
     pattern: str
-    message: str | None
+    message: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -300,7 +300,7 @@ def _read_channel(words: list[str], above: frozenset[str], releases: Sequence[st
         parameter=None if parameter == "-" else parameter,
         message=message,
         pattern=pattern,
-        alternatives=tuple(_read_alternative(*each) for each in alternatives),
+        alternatives=tuple(Alternative(tuple(each[0].split("+")), *each[1:]) for each in alternatives),
         unless=_split_conditions(options.get("unless")),
         when=_split_conditions(options.get("when")),
         each=tuple(options.get("each", "").split("/")) if "each" in options else (),
@@ -312,10 +312,6 @@ def _read_channel(words: list[str], above: frozenset[str], releases: Sequence[st
 
 def _split_conditions(text: str | None) -> tuple[tuple[str, ...], ...]:
     return tuple(tuple(each.split("+")) for each in text.split("|")) if text else ()
-
-
-def _read_alternative(parameters: str, pattern: str, message: str | None = None) -> Alternative:
-    return Alternative(tuple(parameters.split("+")), pattern, message)
 
 
 def _read_options(words: Sequence[str]) -> dict[str, str]:

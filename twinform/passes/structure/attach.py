@@ -8,7 +8,6 @@ from pydantic import Field
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import (
     Document,
-    Element,
     Format,
     Include,
     Joint,
@@ -214,14 +213,11 @@ def _report_clashes(
 def _remove_place(guest: Model) -> Model:
     """The robot without properties of a whole file: its pose, and what it was converted from."""
     extensions = (
-        each if each.reference else each.copy(content=_without_pose(each.content)) for each in guest.extensions
+        each if each.reference else each.copy(content=tuple(part for part in each.content if part.name != "pose"))
+        for each in guest.extensions
     )
     kept = tuple(each for each in extensions if each.reference or each.content or each.opaque)
     return without_annotation(guest.copy(extensions=kept), FROM, OFFSET, POSE)
-
-
-def _without_pose(content: tuple[Element, ...]) -> tuple[Element, ...]:
-    return tuple(each for each in content if each.name != "pose")
 
 
 def _remove_world(model: Model) -> Model:

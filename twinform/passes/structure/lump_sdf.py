@@ -194,14 +194,9 @@ def _moved_parts(guest: Link, parts: tuple[Posed, ...], there: tuple[Posed, ...]
         if name in taken:
             name = unique_name(f"{guest.name}_{name}", taken | {each.name for each in parts})
         taken.add(name)
-        placed_part = _pose_in_frame(part, guest.name)
+        placed_part = part.copy(pose=_relative_to(part.pose, guest.name))
         made.append(placed_part if name == part.name else placed_part.copy(name=name))
     return made
-
-
-def _pose_in_frame(node: Posed, frame: str) -> Posed:
-    """The node posed in the frame that its link has become, unless it names another frame."""
-    return node.copy(pose=_relative_to(node.pose, frame))
 
 
 def _follow_collisions(sensor: Sensor, guest: Link, collisions: list[Collision]) -> Sensor:

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from twinform.profiles.reading.forms import FORMS, fits_bytes
-from twinform.profiles.reading.nodes import Fact, FactTable, RawNode
+from twinform.profiles.forms import FORMS, fits_bytes
+from twinform.profiles.nodes import Fact, FactTable, RawNode
 
 _EQUAL_COLORS = 1e-10
 

@@ -12,7 +12,7 @@ from xml.parsers import expat
 
 from lxml import etree
 
-from twinform.profiles.reading.nodes import RawNode, UnparsedError
+from twinform.profiles.nodes import RawNode, UnparsedError
 from twinform.schemas import XmlElement
 
 _NAME = r"[A-Za-z_:\x80-\U0010ffff][\w.:\x80-\U0010ffff-]*"

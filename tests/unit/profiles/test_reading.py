@@ -2,13 +2,13 @@
 
 import pytest
 
-import twinform.profiles.reading.xml_parsers as tiny
+import twinform.profiles.xml_parsers as tiny
 from twinform.diagnostics import rules
 from twinform.ir import Format
 from twinform.profiles import ConsumerVerdict, ProfiledFile, assess, load
+from twinform.profiles.nodes import UnparsedError
 from twinform.profiles.reading import read_as
-from twinform.profiles.reading.nodes import UnparsedError
-from twinform.profiles.reading.reads_notation import reads
+from twinform.profiles.reads_notation import reads
 
 INERTIAL = (
     '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'  # one line

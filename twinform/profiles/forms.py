@@ -97,10 +97,6 @@ def _split_at_blanks(text: str) -> list[str]:
     return [piece for piece in text.split(" ") if piece]
 
 
-def _are_streams(text: str) -> list[bool]:
-    return [_is_stream(piece) for piece in _split_at_blanks(text)]
-
-
 def _are_from_0_to_1(text: str) -> bool:
     """Whether every number is from 0 to 1, as urdfdom requires in colors."""
     return all(_is_stream(piece) and 0 <= float(piece) <= 1 for piece in _split_at_blanks(text))
@@ -142,7 +138,10 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "text": ("any text", lambda _: True),
     "words": ("a text that is not empty", bool),
     "stream": ("a number such as 0.5 or 1e-3", _is_stream),
-    "stream3": ("three numbers with blanks between them", lambda text: _are_streams(text) == [True] * 3),
+    "stream3": (
+        "three numbers with blanks between them",
+        lambda text: [*map(_is_stream, _split_at_blanks(text))] == [True] * 3,
+    ),
     "unit": ("numbers from 0 to 1 with blanks between them", _are_from_0_to_1),
     "blank4": ("four numbers with blanks between them", lambda text: len(_split_at_blanks(text)) == 4),
     "blank3": ("three numbers with blanks between them", lambda text: len(_split_at_blanks(text)) >= 3),

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from twinform.ir.principal_moments import principal_moments
-from twinform.profiles.reading.forms import number_in
-from twinform.profiles.reading.nodes import Fact, FactTable, RawNode, add_fixed, fixed_children
+from twinform.profiles.forms import number_in
+from twinform.profiles.nodes import Fact, FactTable, RawNode, add_fixed, fixed_children
 
 # mjMINVAL, at or below which MuJoCo counts a mass (kg) or a moment (kg m2) as none.
 _LIGHTEST = 1e-15

@@ -3,8 +3,8 @@
 import re
 from collections.abc import Iterator
 
-from twinform.profiles.reading.forms import number_in
-from twinform.profiles.reading.nodes import Fact, FactTable, RawNode
+from twinform.profiles.forms import number_in
+from twinform.profiles.nodes import Fact, FactTable, RawNode
 
 _TRUE = frozenset({"true", "yes", "1"})
 _LUMPING = frozenset({"disableFixedJointLumping", "preserveFixedJoint"})

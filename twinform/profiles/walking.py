@@ -4,10 +4,10 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
-from twinform.profiles.reading import tree_facts
-from twinform.profiles.reading.forms import FORMS
-from twinform.profiles.reading.nodes import Paths, RawNode
-from twinform.profiles.reading.reads_notation import Demand, PlaceStep, Reads
+from twinform.profiles import tree_facts
+from twinform.profiles.forms import FORMS
+from twinform.profiles.nodes import Paths, RawNode
+from twinform.profiles.reads_notation import Demand, PlaceStep, Reads
 
 IsThere = Callable[[str], bool]
 """Says whether a URI leads to a file."""

@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from twinform.profiles.reading.forms import number_in
-from twinform.profiles.reading.nodes import Fact, FactTable, RawNode
+from twinform.profiles.forms import number_in
+from twinform.profiles.nodes import Fact, FactTable, RawNode
 
 _PLACES: Mapping[str, frozenset[str]] = {
     **dict.fromkeys(("box", "cylinder", "mesh", "sphere"), frozenset({"geometry"})),

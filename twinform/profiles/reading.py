@@ -8,10 +8,10 @@ in `reads_notation.py`).
 import re
 from collections.abc import Iterator
 
-from twinform.profiles.reading.nodes import RawNode, UnparsedError
-from twinform.profiles.reading.reads_notation import reads
-from twinform.profiles.reading.walking import IsThere, Shortfall, shortfalls
-from twinform.profiles.reading.xml_parsers import (
+from twinform.profiles.nodes import RawNode, UnparsedError
+from twinform.profiles.reads_notation import reads
+from twinform.profiles.walking import IsThere, Shortfall, shortfalls
+from twinform.profiles.xml_parsers import (
     TINYXML,
     TINYXML_2,
     parse_with_expat,

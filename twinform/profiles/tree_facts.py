@@ -4,10 +4,10 @@ from collections import Counter
 from collections.abc import Callable, Iterable
 
 from twinform.ir.groups import Groups
-from twinform.profiles.reading import colors, dynamics_facts, lumped_masses, sdformat_facts, stage
-from twinform.profiles.reading.dynamics_facts import ONE_AXIS
-from twinform.profiles.reading.forms import FORMS
-from twinform.profiles.reading.nodes import Fact, FactTable, RawNode, add_fixed, fixed_children, joint_ends
+from twinform.profiles import colors, dynamics_facts, lumped_masses, sdformat_facts, stage
+from twinform.profiles.dynamics_facts import ONE_AXIS
+from twinform.profiles.forms import FORMS
+from twinform.profiles.nodes import Fact, FactTable, RawNode, add_fixed, fixed_children, joint_ends
 
 _SIZES = {
     **dict.fromkeys(("xyz", "rpy", "size"), FORMS["python3"][1]),

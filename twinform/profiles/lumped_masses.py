@@ -10,9 +10,9 @@ from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import ORIGIN, Solid, combined, placed
 from twinform.ir.transform import Transform
 from twinform.passes.inertia.physical_consistency import clearances, doubt, is_doubtful
-from twinform.profiles.reading.forms import FORMS
-from twinform.profiles.reading.nodes import Fact, FactTable, RawNode
-from twinform.profiles.reading.sdformat_facts import foreign_ends, is_static, preserved_joints
+from twinform.profiles.forms import FORMS
+from twinform.profiles.nodes import Fact, FactTable, RawNode
+from twinform.profiles.sdformat_facts import foreign_ends, is_static, preserved_joints
 
 _NUMBER = re.compile(
     r"[-+]?(?:0[xX][0-9a-fA-F]+|(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?|inf)", re.IGNORECASE | re.ASCII
