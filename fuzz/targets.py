@@ -16,10 +16,10 @@ import twinform
 from testbed.editor.playing import play
 from testbed.fixed_files import fixed_file
 from twinform.cli.check import command as check_command
-from twinform.cli.failure import UNUSABLE
-from twinform.cli.files.exclusion import PatternError
-from twinform.cli.files.patterns import PathPatterns
+from twinform.cli.command import UNUSABLE
 from twinform.cli.format import command as format_command
+from twinform.cli.model_discovery import PatternError
+from twinform.cli.path_patterns import PathPatterns
 from twinform.compiler import check
 from twinform.compiler.batch.archives import LEAST_BYTES, MOST_TIMES, unpacked
 from twinform.compiler.batch.entries import FolderError

@@ -18,8 +18,7 @@ end_on_signals()  # before the command line is imported, which takes longer than
 def program() -> "NoReturn":
     """Run the command line and leave the process, as the installed script does; `main` is for other programs."""
     from twinform.cli import main  # noqa: PLC0415 - see above
-    from twinform.cli.current_folder import distrust_current_folder  # noqa: PLC0415 - see above
-    from twinform.cli.leaving import run  # noqa: PLC0415 - see above
+    from twinform.cli.process import distrust_current_folder, run  # noqa: PLC0415 - see above
 
     distrust_current_folder()
     sys.excepthook = _print_uncaught

@@ -4,13 +4,13 @@ import signal
 import threading
 from collections.abc import Generator, Mapping
 from contextlib import contextmanager
+from importlib import import_module
 from typing import Any
 
 import click
 
 from twinform import __version__
-from twinform.cli.lazy_group import LazyGroup
-from twinform.cli.streams import end_unwritable, hold_standard_streams, quiet_when_unread
+from twinform.cli.process import end_unwritable, hold_standard_streams, quiet_when_unread
 from twinform.signals import raise_exit
 
 COMMANDS: Mapping[str, str] = {
@@ -39,13 +39,9 @@ The command is the name `command` in the module of the same name.
 """
 
 
-_INTERRUPTED = 130
-"""The exit code of a program that is ended by Ctrl-C, as shells give it."""
-
-
 @contextmanager
 def _printed_errors() -> Generator[None]:
-    """Print errors of the command line, which click would print as they are, and end with their exit code."""
+    """Print the errors of the command line safely, which click would print as they are, and end with their code."""
     with quiet_when_unread():  # click would end with another exit code
         try:
             yield
@@ -56,11 +52,24 @@ def _printed_errors() -> Generator[None]:
             raise click.exceptions.Exit(error.exit_code) from error
 
 
-class _Commands(LazyGroup):
-    """Imports a command only when it is called: the compiler takes ten times as long to import as all that is here."""
+class _Commands(click.Group):
+    """Imports a command when it is called: the compiler takes ten times as long to import as this module."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names in the order of the help."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Import a command."""
+        return getattr(import_module(f"{__name__}.{cmd_name}"), "command", None) if cmd_name in COMMANDS else None
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Print the summaries, without importing any command."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
 
     def main(self, *args: Any, **extra: Any) -> Any:
-        """Run; a process that is asked to end cleans up first, as one that is interrupted does."""
+        """Run the command line; SIGTERM ends it as Ctrl-C does, after cleaning up."""
         if threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGTERM) is signal.SIG_DFL:
             signal.signal(signal.SIGTERM, raise_exit)
         hold_standard_streams()
@@ -71,7 +80,7 @@ class _Commands(LazyGroup):
             end_unwritable(error)
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Parse the options before the command; what is wrong with them is printed as everything is."""
+        """Parse the options before the command, and print errors in them safely."""
         with _printed_errors():
             return super().make_context(*args, **extra)
 
@@ -81,7 +90,9 @@ class _Commands(LazyGroup):
             with _printed_errors():
                 return super().invoke(ctx)
         except KeyboardInterrupt:
-            raise SystemExit(_INTERRUPTED) from None
+            from twinform.cli.command import INTERRUPTED  # noqa: PLC0415 - it seldom happens
+
+            raise SystemExit(INTERRUPTED) from None
         except (click.ClickException, click.exceptions.Exit, click.Abort, OSError):
             raise
         except Exception as error:
@@ -91,9 +102,7 @@ class _Commands(LazyGroup):
             raise
 
 
-@click.command(
-    cls=_Commands, package=__name__, summaries=COMMANDS, context_settings={"help_option_names": ["-h", "--help"]}
-)
+@click.command(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="twinform")
 def main() -> None:
     """Compile robot models between URDF and SDF: strict, lossless, both ways."""

@@ -2,12 +2,9 @@
 
 import click
 
-from twinform.cli.command import Command
-from twinform.cli.completion import files
-from twinform.cli.failure import FINDINGS, UNUSABLE
+from twinform.cli.command import FINDINGS, UNUSABLE, Command, files
 from twinform.cli.inputs import file_options, inputs, load_options_of
-from twinform.cli.print_findings import show
-from twinform.cli.printing import print_report
+from twinform.cli.printing import print_report, show
 from twinform.compiler import CompileError
 from twinform.compiler.advice import REPORTERS, advise
 from twinform.compiler.input.load_options import FileOptions
@@ -22,8 +19,8 @@ EXAMPLES = {
 }
 
 
-def _profiles(_ctx: click.Context, _option: click.Parameter, value: str | None) -> tuple[Profile, ...]:
-    """Return the profiles that an option names; without it those of all consumers, tested or not."""
+def _parse_consumers(_ctx: click.Context, _option: click.Parameter, value: str | None) -> tuple[Profile, ...]:
+    """Return the profiles of the consumers that are named, or else of all."""
     if value is None:
         return tuple(profile for name in names() if name != PORTABLE for profile in load(name))
     try:
@@ -34,7 +31,7 @@ def _profiles(_ctx: click.Context, _option: click.Parameter, value: str | None) 
 
 @click.command("advise", cls=Command, examples=EXAMPLES)
 @click.argument("words", metavar="IN [NAME:=VALUE...]", nargs=-1, required=True, shell_complete=files)
-@click.option("--for", "profiles", metavar="NAME,...", callback=_profiles, help="Ask these consumers; else all.")
+@click.option("--for", "profiles", metavar="NAME,...", callback=_parse_consumers, help="Ask these consumers; else all.")
 @click.option("--model", metavar="NAME", help="The model to convert, where a file has several.")
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print the advice.")
 @file_options

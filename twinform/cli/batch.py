@@ -7,15 +7,12 @@ import click
 
 from twinform.cli.batch_models import ModelOptions, model_options, models, pair_options
 from twinform.cli.batch_run import RunOptions, run_and_end, run_options
-from twinform.cli.command import Command
-from twinform.cli.comparison_options import comparison_options
-from twinform.cli.completion import pipelines
-from twinform.cli.config.per_file import RuleSettings
-from twinform.cli.consumer_option import consumers_option, keep_physics_option
-from twinform.cli.failure import Unusable
+from twinform.cli.command import Command, Unusable, pipelines
+from twinform.cli.config.config_defaults import RuleSettings
+from twinform.cli.diff import comparison_options
 from twinform.cli.inputs import file_options, load_options_of, reading_options
-from twinform.cli.policy import policy_of, policy_options
-from twinform.cli.printing import print_line
+from twinform.cli.printing import plural, print_line
+from twinform.cli.project_options import consumers_option, keep_physics_option, policy_of, policy_options
 from twinform.cli.request import pipeline_option, request_options, whole_request
 from twinform.compiler import ConversionRequest, LoadOptions
 from twinform.compiler.batch import (
@@ -222,7 +219,7 @@ def merge_results(dest: Path, others: tuple[Path, ...]) -> None:
         raise click.UsageError(str(error)) from error
     except OSError as error:
         raise Unusable(f"cannot merge {error.filename or dest}: {error.strerror or error}") from error
-    print_line(f"{number} model{'' if number == 1 else 's'} in {dest}", err=True)
+    print_line(f"{plural(number, 'model')} in {dest}", err=True)
 
 
 def _run_on_models(

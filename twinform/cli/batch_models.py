@@ -1,21 +1,19 @@
 """The models of a batch: the argument SRC, and the options that choose among them."""
 
 import sys
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, TypedDict, TypeVar
+from typing import TypedDict
 
 import click
 
-from twinform.cli.failure import Unusable
+from twinform.cli.command import Unusable, combine_options
 from twinform.cli.flags import group
 from twinform.compiler.batch import PATTERNS, FolderError, ModelEntry, Shard, of_folder, of_names, with_arguments
 from twinform.compiler.batch.archives import is_archive, unpacked
 from twinform.file_access import Readable
-
-Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 class ModelOptions(TypedDict):
@@ -81,9 +79,8 @@ model_options = group("chosen", ModelOptions, *_OPTIONS)
 """Adds the options that choose models to a command."""
 
 
-def pair_options(command: Command) -> Command:
-    """Add the options that choose models to a command that compares the models of two folders."""
-    return _PATTERN(_SHARD(command))
+pair_options = combine_options(_PATTERN, _SHARD)
+"""Adds the options that choose models to a command that compares the models of two folders."""
 
 
 @contextmanager

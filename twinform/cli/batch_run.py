@@ -12,7 +12,7 @@ from typing import NoReturn, TypedDict
 
 import click
 
-from twinform.cli.failure import UNUSABLE
+from twinform.cli.command import INTERRUPTED, UNUSABLE
 from twinform.cli.flags import group
 from twinform.cli.printing import print_document, print_line
 from twinform.compiler.batch import (
@@ -28,8 +28,6 @@ from twinform.compiler.workers import Runner, process_runner
 from twinform.signals import raised_signals
 from twinform.storage.writing import refuse_way_out
 
-_INTERRUPTED = 130
-"""The exit code of a program that is ended by Ctrl-C, as shells give it."""
 _EVERY = 30.0
 """Seconds between lines of progress where there is no terminal: a short run prints none."""
 
@@ -81,7 +79,7 @@ def run_and_end(ctx: click.Context, asked: Batch, options: RunOptions) -> NoRetu
             _run(asked, options, summary)
         code = summary.exit_code
     except KeyboardInterrupt:
-        problem, code = "interrupted; run it again, and it goes on from here", _INTERRUPTED
+        problem, code = "interrupted; run it again, and it goes on from here", INTERRUPTED
     except (FolderError, BusyError) as error:
         raise click.UsageError(str(error)) from error
     except BrokenPipeError:

@@ -5,21 +5,13 @@ from typing import TYPE_CHECKING
 
 import click
 
-from twinform.cli.baseline import baseline_of, baseline_options
-from twinform.cli.check_report import CheckReport
-from twinform.cli.command import Command
-from twinform.cli.completion import files, pipelines
-from twinform.cli.config.per_file import RuleSettings
-from twinform.cli.consumer_option import consumers_option
-from twinform.cli.exclude import exclude_options, exclusion_of
-from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
-from twinform.cli.inputs import model_inputs, reading_options
-from twinform.cli.own_options import OptionsByFile
-from twinform.cli.pipeline_option import pipeline_option
-from twinform.cli.policy import policy_options
-from twinform.cli.print_findings import all_option, notes_option
-from twinform.cli.source import InputSource
-from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, inspect, read
+from twinform.cli.check_report import CheckReport, baseline_of, baseline_options
+from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable, files, pipelines
+from twinform.cli.config.config_defaults import RuleSettings
+from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, read_model, reading_options
+from twinform.cli.printing import all_option, notes_option
+from twinform.cli.project_options import OptionsByFile, consumers_option, pipeline_option, policy_options
+from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, inspect
 from twinform.compiler.input.load_options import ReadingOptions
 from twinform.diagnostics.reporters import REPORTERS
 from twinform.passes import PassError
@@ -94,14 +86,14 @@ def command(
     exclusion = exclusion_of(ctx, exclude, force=force_exclude)
     sources, arguments = model_inputs(words, exclusion)
     options = OptionsByFile(ctx, arguments, reading, rules, check_passes, "check_passes", profiles)
-    fixes, expand_includes = fix or diff or fix_only, reading.get("expand_includes") or False
+    fixes = fix or diff or fix_only
 
     def new_report() -> CheckReport:
         return CheckReport(style, notes=notes, every=every, baseline=baseline_of(ctx, baseline, update=update_baseline))
 
     def look(content: str | bytes, name: str) -> LoadResult:
         load_options, _, passes = options.of(name)
-        return _checked(InputSource(content, name), load_options, passes, expand_includes=expand_includes)
+        return _check(InputSource(content, name), load_options, passes, reading)
 
     def check(source: InputSource, report: CheckReport) -> None:
         report.add(look(*source), options.of(source.name).policy)
@@ -134,7 +126,7 @@ def _fix(
     diff: bool,
     silent: bool,
 ) -> int:
-    """Fix files, or print what would change; gives the exit code. What is left is reported, unless `silent`."""
+    """Fix files, or print what would change; report what is left unless `silent`, and return the exit code."""
     from twinform.cli.fixing import run_fixes  # noqa: PLC0415 - most runs only look
 
     report.on_stderr = not diff and any(isinstance(each.content, bytes) for each in sources)
@@ -148,16 +140,11 @@ def _fix(
     return report.end()
 
 
-def _checked(
-    source: InputSource, load_options: LoadOptions, passes: "Pipeline | None", *, expand_includes: bool
+def _check(
+    source: InputSource, load_options: LoadOptions, passes: "Pipeline | None", reading: ReadingOptions
 ) -> LoadResult:
-    loaded = read(source.content, load_options, name=source.name)
-    if expand_includes:
-        from twinform.compiler import expand  # noqa: PLC0415 - few runs read other files
-
-        loaded = expand(loaded, load_options)
     try:
-        return inspect(loaded, load_options, passes)
+        return inspect(read_model(source, load_options, reading), load_options, passes)
     except ReadOnlyPassError as error:
         raise click.UsageError(str(error)) from error
     except PassError as error:

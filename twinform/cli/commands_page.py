@@ -1,4 +1,4 @@
-"""The page of the commands: `python -m twinform.cli.commands_page FILE [--check]` writes or checks it."""
+"""The reference page of the commands: `python -m twinform.cli.commands_page FILE [--check]` writes or checks it."""
 
 import sys
 from collections.abc import Iterator
@@ -16,11 +16,11 @@ Every command with its options and examples, as `twinform COMMAND --help` prints
 This file is made by `python -m twinform.cli.commands_page docs/reference/commands.md`; do not edit it.
 """
 _WIDTH = 10_000
-"""Of the help of an option: lines are not broken."""
+"""The width of help texts, whose lines must not be broken."""
 
 
 def commands_page() -> str:
-    """All commands in Markdown."""
+    """Write all commands as Markdown."""
     return "\n".join([_INTRODUCTION, *(_chapter(name, command) for name, command in _commands(program, ()))])
 
 
@@ -46,7 +46,7 @@ def _chapter(name: str, command: click.Command) -> str:
 
 
 def _plain(text: str) -> str:
-    """A paragraph in one line, in which nothing is Markdown or HTML."""
+    """Write a paragraph in one line, and escape Markdown and HTML."""
     words = " ".join(text.replace("\b", "").split())
     return words.replace("<", "&lt;").replace("*", "\\*").replace("_", "\\_")
 

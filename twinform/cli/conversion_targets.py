@@ -8,7 +8,7 @@ from typing import Literal, NamedTuple, get_args
 
 import click
 
-from twinform.cli.source import InputSource, format_of_suffix
+from twinform.cli.inputs import InputSource, format_of_suffix
 from twinform.compiler.output.same_files import folded
 
 Target = Literal["sdf", "urdf", "json"]
@@ -19,7 +19,7 @@ _ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".json", ".xacro"})
 
 
 class ConversionJob(NamedTuple):
-    """One conversion; `path` is None for standard output. `in_place` keeps what the conversion leaves as it was."""
+    """One conversion, to standard output if `path` is None; with `in_place` only the changes are written."""
 
     source: InputSource
     target: Target
@@ -28,10 +28,10 @@ class ConversionJob(NamedTuple):
 
 
 def jobs(sources: Sequence[InputSource], out: str | None, target: Target | None) -> list[ConversionJob]:
-    """The conversions that a command line asks for.
+    """List the conversions that a command line asks for.
 
     Raises:
-        click.UsageError: it contradicts itself, or leaves a target open.
+        click.UsageError: it contradicts itself, or does not say the target.
     """
     if out is None or out == "-":
         if len(sources) > 1:
@@ -40,20 +40,23 @@ def jobs(sources: Sequence[InputSource], out: str | None, target: Target | None)
     folder = Path(out)
     if not _is_folder(out, len(sources)):
         return [
-            ConversionJob(source, target or _of_suffix(folder) or _other_format(source), folder) for source in sources
+            ConversionJob(
+                source, target or known_target(format_of_suffix(folder.name)) or _other_format(source), folder
+            )
+            for source in sources
         ]
     if folder.exists() and not folder.is_dir():
         raise click.UsageError(f"several inputs need a directory, and {out} is a file")
-    found = [_into(folder, source, target or _other_format(source)) for source in sources]
+    found = [_job_in_folder(folder, source, target or _other_format(source)) for source in sources]
     _require_distinct(found)
     return found
 
 
 def jobs_in_place(sources: Sequence[InputSource], out: str | None, target: Target | None) -> list[ConversionJob]:
-    """The conversions of `--in-place`: each input becomes what it is, after the passes.
+    """List the conversions of `--in-place`, which keep the format of each input.
 
     Raises:
-        click.UsageError: there is no such place, or something else is to stand there.
+        click.UsageError: an input is no file that can be changed in place, or another output is named.
     """
     if out is not None:
         raise click.UsageError("--in-place and -o contradict each other")
@@ -61,7 +64,7 @@ def jobs_in_place(sources: Sequence[InputSource], out: str | None, target: Targe
 
 
 def _job_in_place(source: InputSource, target: Target | None) -> ConversionJob:
-    """Return the job of changing a file in its place, if it is one that can be."""
+    """Return the job of changing a file in place."""
     if isinstance(source.content, bytes):
         raise click.UsageError(f"{source.name} is no file that could be written in place")
     if source.name.lower().endswith(".xacro"):
@@ -76,23 +79,19 @@ def _is_folder(out: str, count: int) -> bool:
     return count > 1 or Path(out).is_dir() or out.endswith(("/", os.sep))
 
 
-def _of_suffix(path: Path) -> Target | None:
-    return known_target(format_of_suffix(path.name))
-
-
 def known_target(word: str | None) -> Target | None:
-    """The target of this name, if there is one."""
+    """Return the target of a name, if there is one."""
     return next((target for target in TARGETS if target == word), None)
 
 
 def _other_format(source: InputSource) -> Target:
-    """The format that the source is not in; where nothing tells its format, the compiler reports why."""
+    """Return the format to convert a source to; if its own format is unknown, the compiler reports why."""
     if source.format == "json":
         raise click.UsageError(f"{source.name} is a JSON document, which can become either format: give --to")
     return _OTHER.get(source.format or "urdf", "sdf")
 
 
-def _into(folder: Path, source: InputSource, target: Target) -> ConversionJob:
+def _job_in_folder(folder: Path, source: InputSource, target: Target) -> ConversionJob:
     name = Path("stdin" if isinstance(source.content, bytes) else source.name)
     ending: str = target
     while name.suffix.lower() in _ENDINGS:

@@ -8,23 +8,18 @@ from typing import TYPE_CHECKING
 import click
 from click.core import ParameterSource
 
-from twinform.cli.command import Command
-from twinform.cli.completion import files
+from twinform.cli.command import Command, files
 from twinform.cli.config import settings_of
-from twinform.cli.config.per_file import RuleSettings
-from twinform.cli.consumer_option import consumers_option, keep_physics_option
+from twinform.cli.config.config_defaults import RuleSettings
 from twinform.cli.conversion_targets import TARGETS, ConversionJob, Target, jobs, jobs_in_place
 from twinform.cli.gazebo_files import GazeboFiles, companion_options, version_for
-from twinform.cli.inputs import inputs, reading_options
+from twinform.cli.inputs import InputSource, inputs, reading_options
 from twinform.cli.instrumentation import InstrumentationOptions, watching_options
 from twinform.cli.outputs import Outputs
-from twinform.cli.own_options import OptionsByFile
-from twinform.cli.policy import policy_options
-from twinform.cli.print_findings import all_option, notes_option
-from twinform.cli.printing import print_line
+from twinform.cli.printing import all_option, notes_option, print_line
+from twinform.cli.project_options import OptionsByFile, consumers_option, keep_physics_option, policy_options
 from twinform.cli.request import passes_of, request_options, whole_request
-from twinform.cli.run_conversion import Options, print_plan, run_job
-from twinform.cli.source import InputSource
+from twinform.cli.run_conversion import Options, print_plan, run_into, run_job, run_split
 from twinform.compiler import ConversionRequest
 from twinform.compiler.input.load_options import ReadingOptions
 from twinform.compiler.request_options import RequestOptions
@@ -144,7 +139,7 @@ def command(
     run.require_one_input(split=split)
     _require_consumers(profiles, alone=not (split or into), keep_physics=keep_physics)
     if split:
-        folder = _folder(out, target, model, in_place=in_place)
+        folder = _split_folder(out, target, model, in_place=in_place)
         ctx.exit(run.split_world(target or "urdf", folder, check=check))
     if into or base:
         if out or in_place or target or request.get("passes"):
@@ -157,7 +152,7 @@ def command(
 
 @dataclass(frozen=True, slots=True)
 class _ConvertRun:
-    """The inputs of one run, and the options for them: each mode gives the exit code."""
+    """The inputs of one run and their options; each mode returns the exit code."""
 
     ctx: click.Context
     sources: Sequence[InputSource]
@@ -165,7 +160,7 @@ class _ConvertRun:
     options: Options
 
     def require_one_input(self, *, split: bool) -> None:
-        """Raise where something is asked for that there can be only one of."""
+        """Refuse several inputs for options that take one."""
         several = len(self.sources) > 1
         if self.options.ledger is not None and several:
             raise click.UsageError("--ledger takes one input")
@@ -175,18 +170,14 @@ class _ConvertRun:
             raise click.UsageError(f"a pass writes {self.options.beside[0]} beside the result; that takes one input")
 
     def split_world(self, target: Target, folder: Path, *, check: bool) -> int:
-        """Write the models of a world into a folder, and an SDF that includes them."""
-        from twinform.cli.splitting import run_split  # noqa: PLC0415 - few worlds are split
-
+        """Write the models of a world and an SDF that includes them into a folder."""
         outputs = self._outputs(check=check)
-        return self._end(outputs, [run_split(_only(self.sources), target, self.options, folder, outputs)])
+        return self._end(outputs, [run_split(_single(self.sources), target, self.options, folder, outputs)])
 
     def update(self, into: Path | None, base: Path | None, *, check: bool) -> int:
-        """Change a file of the other format where the input has changed."""
-        from twinform.cli.into import run_into  # noqa: PLC0415 - most results are new files
-
+        """Update a file of the other format with the edits of the input."""
         outputs = self._outputs([into] if into else (), check=check)
-        return self._end(outputs, [run_into(_only(self.sources, "--into"), into, base, self.options, outputs)])
+        return self._end(outputs, [run_into(_single(self.sources, "--into"), into, base, self.options, outputs)])
 
     def print_pipelines(self, todo: Sequence[ConversionJob]) -> int:
         """Print the passes that would run."""
@@ -208,7 +199,7 @@ class _ConvertRun:
         return Outputs(read, rewritten, check)
 
     def _end(self, outputs: Outputs, codes: Sequence[int]) -> int:
-        """Write everything if nothing is wrong."""
+        """Write everything, or nothing if an input has an error."""
         if not max(codes):
             return outputs.write(self.options.load_options.search.seen)
         if len(codes) > 1:
@@ -218,7 +209,7 @@ class _ConvertRun:
 
 
 def _require_consumers(profiles: "tuple[Profile, ...]", *, alone: bool, keep_physics: bool) -> None:
-    """Raise where options contradict --for, or need it."""
+    """Refuse options that contradict `--for`, or need it."""
     if keep_physics and not profiles:
         raise click.UsageError("--keep-physics is for --for")
     if not alone and any(each.named for each in profiles):
@@ -226,25 +217,25 @@ def _require_consumers(profiles: "tuple[Profile, ...]", *, alone: bool, keep_phy
 
 
 def _require_sdf(ctx: click.Context, todo: Sequence[ConversionJob]) -> None:
-    """Raise where a version of SDF is typed, and nothing becomes SDF."""
+    """Refuse a version of SDF if nothing becomes SDF."""
     versioned = ctx.get_parameter_source("sdf_version") is ParameterSource.COMMANDLINE
     if versioned and all(job.target != "sdf" for job in todo):
         raise click.UsageError("--sdf-version is for --to sdf")
 
 
 def _label(job: ConversionJob, todo: Sequence[ConversionJob]) -> str:
-    """What is printed before the news of a job, where there are several."""
+    """Return the prefix of messages about a job, if there are several."""
     return job.source.name if len(todo) > 1 else ""
 
 
-def _only(sources: Sequence[InputSource], option: str = "--split") -> InputSource:
+def _single(sources: Sequence[InputSource], option: str = "--split") -> InputSource:
     if len(sources) > 1:
         raise click.UsageError(f"{option} takes one input")
     return sources[0]
 
 
-def _folder(out: str | None, target: Target | None, model: str | None, *, in_place: bool) -> Path:
-    """The directory that a world is split into."""
+def _split_folder(out: str | None, target: Target | None, model: str | None, *, in_place: bool) -> Path:
+    """Return the directory for the files of a world that is split."""
     if in_place or out is None or out == "-" or (Path(out).exists() and not Path(out).is_dir()):
         raise click.UsageError("--split needs -o DIRECTORY")
     if target == "json" or model is not None:

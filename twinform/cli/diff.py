@@ -2,18 +2,40 @@
 
 import click
 
-from twinform.cli.command import Command
-from twinform.cli.comparison_options import comparison_options
-from twinform.cli.completion import files
-from twinform.cli.failure import FINDINGS, UNUSABLE
+from twinform.cli.command import FINDINGS, UNUSABLE, Command, files
+from twinform.cli.flags import group
 from twinform.cli.inputs import file_options, inputs, load_options_of
-from twinform.cli.print_findings import show
-from twinform.cli.printing import Color, print_report, print_text, styled
+from twinform.cli.printing import Color, print_report, print_text, show, styled
 from twinform.compiler import CompileError
-from twinform.compiler.compare import ComparisonOptions, DifferenceSeverity, compare_files
+from twinform.compiler.compare import TOLERANCE, ComparisonOptions, DifferenceSeverity, compare_files
 from twinform.compiler.compare.comparison_reporters import REPORTERS, summary, text
 from twinform.compiler.input.load_options import FileOptions
 from twinform.diagnostics.reporters import FileFindings
+
+
+def _options(tolerance: float, *, read_carriers: bool) -> ComparisonOptions:
+    return ComparisonOptions(tolerance, read_carriers)
+
+
+comparison_options = group(
+    "comparison",
+    _options,
+    click.option(
+        "--tolerance",
+        type=click.FloatRange(min=0),
+        default=TOLERANCE,
+        show_default=True,
+        help="The relative difference that counts as rounding; absolute for positions (m) and angles (rad).",
+    ),
+    click.option(
+        "--carriers/--no-carriers",
+        "read_carriers",
+        default=False,
+        help="Whether what only carriers say counts as written, or is a difference of its own kind.",
+    ),
+)
+"""Gives a command the options of how robots are compared."""
+
 
 _COLORS: dict[DifferenceSeverity, Color] = {
     DifferenceSeverity.DIFFERENCE: "red",

@@ -4,9 +4,7 @@ from collections.abc import Iterable, Mapping
 
 import click
 
-from twinform.cli.command import Command
-from twinform.cli.completion import rule_names
-from twinform.cli.failure import Unusable
+from twinform.cli.command import Command, Unusable, rule_names
 from twinform.cli.printing import print_text, styled
 from twinform.diagnostics import Rule
 from twinform.diagnostics.rule_registry import OWN, RegisteredRule, RuleRegistryError, find_rule, rules
@@ -27,18 +25,18 @@ def command(name: str | None) -> None:
             return
         found = find_rule(name)
         if found is None:
-            raise Unusable(_unknown(name, rules()))
+            raise Unusable(_describe_unknown(name, rules()))
     except RuleRegistryError as error:
         raise Unusable(str(error)) from error
-    print_text(_page(found.rule, _from(found)))
+    print_text(_page(found.rule, _origin(found)))
 
 
 def _list(known: Mapping[str, RegisteredRule]) -> None:
     width = max(map(len, known))
-    print_text("\n".join(f"{key:{width}}  {severity_words(each.rule)}{_from(each)}" for key, each in known.items()))
+    print_text("\n".join(f"{key:{width}}  {severity_words(each.rule)}{_origin(each)}" for key, each in known.items()))
 
 
-def _unknown(name: str, known: Iterable[str]) -> str:
+def _describe_unknown(name: str, known: Iterable[str]) -> str:
     from difflib import get_close_matches  # noqa: PLC0415 - most names are those of rules
 
     near = get_close_matches(name, list(known), n=3, cutoff=0.5)
@@ -46,15 +44,12 @@ def _unknown(name: str, known: Iterable[str]) -> str:
     return f"no rule is called {name!r}; {hint}"
 
 
-def _from(registered: RegisteredRule) -> str:
-    """Who brings a rule, if it is not one of ours."""
+def _origin(registered: RegisteredRule) -> str:
+    """Name the package of a rule that is not our own."""
     return "" if registered.owner == OWN else f" (from {registered.owner})"
 
 
 def _page(rule: Rule, origin: str) -> str:
     title = f"{styled(rule.name)} ({severity_words(rule)}){origin}"
-    return "\n\n".join([title, *(f"{styled(head)}\n{_wrapped(body)}" for head, body in sections(rule))])
-
-
-def _wrapped(body: str) -> str:
-    return click.wrap_text(body, 100, "  ", "  ", preserve_paragraphs=True)
+    texts = ((head, click.wrap_text(body, 100, "  ", "  ", preserve_paragraphs=True)) for head, body in sections(rule))
+    return "\n\n".join([title, *(f"{styled(head)}\n{text}" for head, text in texts)])

@@ -4,21 +4,15 @@ from collections.abc import Callable
 
 import click
 
-from twinform.cli.command import Command
-from twinform.cli.completion import files, pipelines
-from twinform.cli.config.per_file import RuleSettings
-from twinform.cli.exclude import exclude_options, exclusion_of
-from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
-from twinform.cli.files.model_files import is_plain
-from twinform.cli.fixing import Fixing, fixed_source
-from twinform.cli.inputs import file_options, load_options_of, model_inputs
+from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable, files, pipelines
+from twinform.cli.config.config_defaults import RuleSettings
+from twinform.cli.fixing import Fixing, fix_source
+from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, file_options, load_options_of, model_inputs
 from twinform.cli.mesh_progress import mesh_progress
-from twinform.cli.pipeline_option import pipeline_option
-from twinform.cli.policy import policy_of, policy_options
-from twinform.cli.print_findings import notes_option, show
-from twinform.cli.printing import print_line
+from twinform.cli.model_discovery import is_plain
+from twinform.cli.printing import notes_option, plural, print_line, show
+from twinform.cli.project_options import pipeline_option, policy_of, policy_options
 from twinform.cli.rewriting import Rewrite, show_differences, write_back
-from twinform.cli.source import InputSource
 from twinform.compiler import CompileError, ConversionRequest, Language, LoadResult, inspect, read
 from twinform.compiler.in_place import convert_in_place
 from twinform.compiler.input.load_options import FileOptions
@@ -98,7 +92,7 @@ def command(
 
 
 def _require_model(source: InputSource, passes: Pipeline | None) -> None:
-    """Raise for what has no text of its own that could be changed.
+    """Require a model whose own text can be changed.
 
     Raises:
         click.UsageError: it is JSON or xacro, or a pass makes other files.
@@ -111,8 +105,8 @@ def _require_model(source: InputSource, passes: Pipeline | None) -> None:
 
 
 def _run(source: InputSource, passes: Pipeline | None, fixing: Fixing, report: Report) -> Rewrite | int:
-    """A file as it is to be, or the exit code where it cannot be changed."""
-    fixed = fixed_source(source, fixing)
+    """Fix a file and run passes on it; return the new text, or the exit code if it cannot be changed."""
+    fixed = fix_source(source, fixing)
     rewrite, news = fixed.rewrite, fixed.news
     if rewrite is None or fixed.loaded.unreadable:
         report(source.name, fixed.loaded.diagnostics)
@@ -129,13 +123,12 @@ def _run(source: InputSource, passes: Pipeline | None, fixing: Fixing, report: R
             raise Unusable(str(error)) from error
         report(source.name, updated.conversion.diagnostics)
         rewrite = Rewrite(source, rewrite.before, updated.data, updated.conversion.side_files)
-        count = len(updated.changes)
-        news = [*news, f"{source.name}: {count} change{'' if count == 1 else 's'} by passes"]
+        news = [*news, f"{source.name}: {plural(len(updated.changes), 'change')} by passes"]
     for line in news:
         print_line(line, err=True)
     return rewrite
 
 
 def _format_of(rewrite: Rewrite) -> Language:
-    """The format of a file, which stays."""
+    """Return the format of a file."""
     return "urdf" if InputSource(rewrite.after, rewrite.source.name).format == "urdf" else "sdf"

@@ -1,31 +1,28 @@
-"""The flags of a command: made of options that the compiler declares, and handed to the command in groups."""
+"""Flags of commands, made of the options that the compiler declares, and gathered into one parameter."""
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import wraps
-from typing import Any, Literal, TypeVar, get_args, get_origin
+from typing import Any, Literal, get_args, get_origin
 
 import click
 from click.shell_completion import CompletionItem
 
+from twinform.cli.command import Decorated, Decorator, combine_options
 from twinform.cli.config import hold_limit
 from twinform.compiler.option import Option, declared_options
 
-Command = TypeVar("Command", bound=Callable[..., Any])
-Decorator = Callable[[Any], Any]
 
+def group(parameter: str, make: Callable[..., object], *options: Decorator) -> Callable[[Decorated], Decorated]:
+    """Give a command options, whose values `make` turns into one `parameter`."""
 
-def group(parameter: str, make: Callable[..., object], *options: Decorator) -> Callable[[Command], Command]:
-    """Gives a command options, whose values it gets in one `parameter`: what `make` makes of them as keywords."""
-
-    def give(command: Command) -> Command:
+    def give(command: Decorated) -> Decorated:
         @wraps(command)
         def gathered(*arguments: Any, **typed: Any) -> object:
             typed[parameter] = make(**{name: typed.pop(name) for name in names})
             return command(*arguments, **typed)
 
         before = len(getattr(command, "__click_params__", ()))
-        for option in reversed(options):
-            option(gathered)
+        combine_options(*options)(gathered)
         parameters: list[click.Parameter] = getattr(gathered, "__click_params__", [])
         names = [each.name for each in parameters[before:] if each.expose_value]
         return gathered  # pyright: ignore[reportReturnType] - it takes what the command takes
@@ -34,9 +31,9 @@ def group(parameter: str, make: Callable[..., object], *options: Decorator) -> C
 
 
 def flags_of(options: type, *, without: Iterable[str] = (), **more: Mapping[str, Any]) -> tuple[Decorator, ...]:
-    """The flags of a typed dictionary of options, in their order; the value of one that is not typed is `None`.
+    """Make the flags of a typed dictionary of options; a flag that is not given has the value None.
 
-    `more` has for some of them what only the command line knows: types, callbacks, and what a shell completes.
+    `more` has additional settings for some of them that only the command line knows: types, callbacks, completion.
     """
     declared = declared_options(options).items()
     return tuple(
@@ -45,7 +42,7 @@ def flags_of(options: type, *, without: Iterable[str] = (), **more: Mapping[str,
 
 
 def flag(name: str, kind: Any, option: Option, **more: Any) -> Decorator:
-    """The flag of one option of a type."""
+    """Make the flag of one option of a type."""
     word = option.flag or f"--{name.replace('_', '-')}"
     kind = get_args(kind)[0] if type(None) in get_args(kind) else kind
     settings: dict[str, Any] = {"help": option.help, "metavar": option.metavar, "default": None}

@@ -6,17 +6,13 @@ from typing import Literal
 
 import click
 
-from twinform.cli.command import Command
-from twinform.cli.completion import files as files_of
+from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
+from twinform.cli.command import files as files_of
 from twinform.cli.config import config_options
-from twinform.cli.exclude import exclude_options, exclusion_of
-from twinform.cli.failure import FINDINGS, UNUSABLE, Unusable
-from twinform.cli.files.model_files import is_text
-from twinform.cli.inputs import model_inputs, size_option
-from twinform.cli.print_findings import show
-from twinform.cli.printing import print_document, print_line, print_text
+from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, size_option
+from twinform.cli.model_discovery import is_text
+from twinform.cli.printing import plural, print_document, print_line, print_text, show
 from twinform.cli.rewriting import Rewrite, write_back
-from twinform.cli.source import InputSource
 from twinform.compiler import CompileError
 from twinform.compiler.formatting import formatted
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
@@ -32,12 +28,12 @@ _WIDEST = 16
 
 
 class _Indent(click.ParamType[str]):
-    """A number of blanks, or `tab`."""
+    """The indentation of a level: a number of blanks, or `tab`."""
 
     name = "indent"
 
     def convert(self, value: object, param: click.Parameter | None, ctx: click.Context | None) -> str:
-        """What a level is indented by."""
+        """Convert to the text that indents a level."""
         if str(value) == "tab":
             return "\t"
         if not (str(value).isdecimal() and int(str(value)) <= _WIDEST):
@@ -105,28 +101,28 @@ Outcome = Literal["changed", "same", "unusable"]
 
 
 class _FormatRun:
-    """One call: what is done with each file."""
+    """One call of the command."""
 
     def __init__(self, options: FormatOptions, limits: Limits, *, check: bool, diff: bool) -> None:
         self.options, self.limits, self.check, self.diff = options, limits, check, diff
 
     def file(self, source: InputSource) -> Outcome:
-        """Format a file, or tell what would change in it."""
+        """Format a file, or print what would change in it."""
         try:
-            before = _data(source, self.limits)
+            before = _read(source, self.limits)
             after = formatted(before, source.name, self.options, self.limits)
         except CompileError as error:
             show(FileFindings(source.name, error.diagnostics), notes=False, on_stderr=True)
             return "unusable"
         if self.check or self.diff:
-            self._tell(source, before, after)
+            self._print_changes(source, before, after)
         elif isinstance(source.content, bytes):
             print_document(after)
         elif not _write(Rewrite(source, before, after)):
             return "unusable"
         return "same" if before == after else "changed"
 
-    def _tell(self, source: InputSource, before: bytes, after: bytes) -> None:
+    def _print_changes(self, source: InputSource, before: bytes, after: bytes) -> None:
         if self.diff:
             for line in line_diff(source.name, SourceText.of(before).text, SourceText.of(after).text):
                 print_text(line, nl=False)
@@ -134,18 +130,14 @@ class _FormatRun:
             print_line(source.name)
 
     def summary(self, found: Counter[Outcome]) -> str:
-        """What became of the files."""
+        """Say how many files were changed."""
         word = "would change" if self.check or self.diff else "formatted"
-        parts = [f"{_count(found['changed'])} {word}", f"{found['same']} unchanged"]
+        parts = [f"{plural(found['changed'], 'file')} {word}", f"{found['same']} unchanged"]
         return ", ".join(parts) + (f", {found['unusable']} could not be formatted" if found["unusable"] else "")
 
 
-def _count(number: int) -> str:
-    return f"{number} file{'' if number == 1 else 's'}"
-
-
-def _data(source: InputSource, limits: Limits) -> bytes:
-    """The bytes of a file.
+def _read(source: InputSource, limits: Limits) -> bytes:
+    """Read a file.
 
     Raises:
         CompileError: it cannot be read.
@@ -160,7 +152,7 @@ def _data(source: InputSource, limits: Limits) -> bytes:
 
 
 def _write(rewrite: Rewrite) -> bool:
-    """Put a file in its place; whether that could be done."""
+    """Write a file; return whether that worked."""
     try:
         write_back([rewrite])
     except Unusable as error:

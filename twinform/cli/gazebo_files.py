@@ -1,15 +1,15 @@
-"""What `twinform convert` writes beside the model: a world around it, and the configuration of ros_gz_bridge."""
+"""Files for Gazebo beside the model: a world around it, and the configuration of ros_gz_bridge."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar, get_args
+from typing import get_args
 
 import click
 
 from twinform.cli.flags import group
 from twinform.cli.outputs import Output, Outputs
-from twinform.cli.print_findings import show
+from twinform.cli.printing import show
 from twinform.compiler import Conversion
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.reporters import FileFindings
@@ -19,18 +19,16 @@ from twinform.schemas import parse_version
 _WORLD = "default"
 """The name of the world that is written."""
 
-Command = TypeVar("Command", bound=Callable[..., Any])
-
-
-def release_option(command: Command) -> Command:
-    """The option for the release of Gazebo."""
-    names = click.Choice(get_args(ReleaseName))
-    text = "The release of Gazebo that all is for: SDF is written in the newest version that it reads."
-    return click.option("--gazebo", type=names, default="harmonic", help=text)(command)
+release_option = click.option(
+    "--gazebo",
+    type=click.Choice(get_args(ReleaseName)),
+    default="harmonic",
+    help="The release of Gazebo that all is for: SDF is written in the newest version that it reads.",
+)
 
 
 def version_for(gazebo: str, asked: str | None) -> str:
-    """The version of SDF for a release of Gazebo: the newest that it reads, or the one that is asked for."""
+    """Return the version of SDF for a release of Gazebo: the one that is asked for, or the newest that it reads."""
     from twinform.passes.plugins.catalog import release  # noqa: PLC0415 - few conversions need it
 
     newest = release(gazebo).sdf
@@ -51,21 +49,21 @@ class GazeboFiles:
         return self.bridge is not None or self.world is not None
 
     def places(self) -> Iterator[Output]:
-        """Where they are to be written."""
+        """Yield the files to write."""
         for by, path in (("--world", self.world), ("--bridge", self.bridge)):
             if path is not None:
                 yield Output(by, path)
 
     def make(self, conversion: Conversion, name: str, outputs: Outputs, *, notes: bool) -> bool:
-        """Add what was asked for to what is written; whether it could be made."""
+        """Add the files that are asked for to the outputs; return whether they could be made."""
         if not self:
             return True
         from twinform.compiler.gazebo_files import bridge_text, world_text  # noqa: PLC0415 - few conversions need it
 
         document, found = conversion.document, DiagnosticSink(file=name)
         if self.world is not None:
-            # The model stands in the world file itself: libsdformat looks for the file of an
-            # include only in its own path, and did not find one that lay beside the world.
+            # The model stands in the world file itself: libsdformat looks up includes only in its
+            # own path, and did not find a file beside the world.
             outputs.add("--world", self.world, world_text(document, self.gazebo, found, _WORLD))
         if self.bridge is not None:
             world = _WORLD if self.world else None

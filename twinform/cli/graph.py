@@ -4,13 +4,10 @@ from pathlib import Path
 
 import click
 
-from twinform.cli.command import Command
-from twinform.cli.completion import files
-from twinform.cli.failure import FINDINGS, UNUSABLE
-from twinform.cli.inputs import inputs, load_options_of, reading_options
-from twinform.cli.outputs import Outputs
-from twinform.cli.print_findings import show
-from twinform.compiler import expand, read
+from twinform.cli.command import FINDINGS, UNUSABLE, Command, files
+from twinform.cli.inputs import inputs, load_options_of, read_model, reading_options
+from twinform.cli.outputs import Outputs, output_option
+from twinform.cli.printing import show
 from twinform.compiler.graph import WRITERS, build_graph
 from twinform.compiler.graph.mermaid import MOST_CHARACTERS, MOST_EDGES, fits
 from twinform.compiler.input.load_options import ReadingOptions
@@ -26,9 +23,7 @@ EXAMPLES = {
 
 @click.command("graph", cls=Command, examples=EXAMPLES)
 @click.argument("words", metavar="IN [NAME:=VALUE...]", nargs=-1, required=True, shell_complete=files)
-@click.option(
-    "-o", "--output", "output", metavar="FILE", type=click.Path(path_type=Path), help="Where to write; else it prints."
-)
+@output_option
 @click.option(
     "--format",
     "style",
@@ -60,8 +55,7 @@ def command(
     if len(sources) != 1:
         raise click.UsageError("graph draws one input")
     load_options = load_options_of(arguments, reading)
-    loaded = read(sources[0].content, load_options, name=sources[0].name)
-    loaded = expand(loaded, load_options) if reading.get("expand_includes") else loaded
+    loaded = read_model(sources[0], load_options, reading)
     if not loaded.accepted:
         show(FileFindings(loaded.path, loaded.diagnostics), notes=False, on_stderr=True)
     if loaded.document is None:
@@ -70,10 +64,7 @@ def command(
     graph = build_graph(loaded.document, frames=frames, mimics=mimics)
     text = WRITERS[style](graph)
     outputs = Outputs(inputs=[sources[0].path])
-    if output is None or str(output) == "-":
-        outputs.stdout = text
-    else:
-        outputs.add("-o", output, text)
+    outputs.set_result(output, text)
     if style == "mermaid" and not fits(graph, text):
         outputs.news.append(
             f"note: where Mermaid has its usual settings, as on GitHub, it draws at most {MOST_EDGES} edges and "

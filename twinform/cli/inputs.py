@@ -1,44 +1,158 @@
 """How the files of a command are read: options that several commands share, and the arguments of xacro."""
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+import stat
+import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
+from twinform.cli.command import combine_options
 from twinform.cli.config import config_options, settings_of
-from twinform.cli.files import Exclusion, NothingFoundError, PatternError, discover
-from twinform.cli.files.model_files import FileKind, is_model
 from twinform.cli.flags import flag, flags_of, group
-from twinform.cli.source import InputSource, open_source
-from twinform.compiler import LoadOptions
+from twinform.cli.model_discovery import (
+    DEFAULT_EXCLUDE,
+    Exclusion,
+    FileKind,
+    NothingFoundError,
+    PatternError,
+    discover,
+    is_model,
+)
+from twinform.compiler import LoadOptions, LoadResult, read
 from twinform.compiler.input.load_options import FileOptions, ReadingOptions
 from twinform.compiler.input.size_limits import LARGEST
 from twinform.compiler.option import declared_options
 from twinform.diagnostics import Policy
+from twinform.file_access import STREAMS, Readable, read_up_to
 
 if TYPE_CHECKING:
     from twinform.profiles import Profile
 
-Command = TypeVar("Command", bound=Callable[..., Any])
+
+# Bytes that contain the root element of every file, except those that begin with a very long
+# comment.
+_ENOUGH = 2**16
+
+_FORMATS = {b"robot": "urdf", b"sdf": "sdf"}
+_SUFFIXES = {".urdf": "urdf", ".sdf": "sdf", ".world": "sdf", ".json": "json"}
+_SKIPPED = ((b"<!--", b"-->"), (b"<?", b"?>"), (b"<!", b">"))
+"""What may stand before the root element: beginnings and ends."""
+
+_STDIN = "<stdin>"
+
+_NAME_END = b" \t\r\n/>"
+
+
+class InputSource(NamedTuple):
+    """The path of a file or the bytes of a stream, and the name that messages use."""
+
+    content: str | bytes
+    name: str
+
+    @property
+    def path(self) -> Path:
+        """The file; standard input may be one too, which the shell has opened."""
+        return Path("/dev/stdin" if self.name == _STDIN else self.name)
+
+    @property
+    def format(self) -> str | None:
+        """`urdf`, `sdf` or `json`, by the beginning of the content or else by the suffix; None if neither tells."""
+        head = self.content[:_ENOUGH] if isinstance(self.content, bytes) else _head(Path(self.content))
+        if head.lstrip()[:1] == b"{":
+            return "json"
+        return _FORMATS.get(_root_name(head)) or format_of_suffix(self.name)
+
+
+def open_source(argument: str, size: int = LARGEST) -> InputSource:
+    """Open the source that an argument names; a stream is read, up to a few bytes more than `size`."""
+    if argument == "-":
+        return InputSource(read_up_to(sys.stdin.buffer, size), _STDIN)
+    if _is_stream(argument):
+        with Path(argument).open("rb") as pipe:
+            return InputSource(read_up_to(pipe, size), argument)
+    return InputSource(argument, argument)
+
+
+def _is_stream(argument: str) -> bool:
+    """Whether an argument is a pipe or device named as such, like `/dev/stdin` or `<(xacro robot.urdf.xacro)`."""
+    # A pipe of another name may be a trap in somebody's folder, into which nobody ever writes.
+    if not argument.startswith(STREAMS):
+        return False
+    try:
+        mode = Path(argument).stat().st_mode
+    except (OSError, ValueError):
+        return False  # the compiler reports it
+    return stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
+
+
+def format_of_suffix(name: str) -> str | None:
+    """Return the format of a file by its name; `robot.urdf.xacro` is URDF."""
+    path = Path(name)
+    suffix = path.suffix.lower()
+    return _SUFFIXES.get(Path(path.stem).suffix.lower() if suffix == ".xacro" else suffix)
+
+
+def _head(path: Path) -> bytes:
+    try:
+        return Readable.of(path).read(path, _ENOUGH)[:_ENOUGH]
+    except (OSError, ValueError):
+        return b""  # the compiler reports it
+
+
+def _root_name(text: bytes) -> bytes:
+    """Return the name of the root element, behind comments, declarations and instructions."""
+    at = text.find(b"<")
+    while at >= 0:
+        end = next((end for start, end in _SKIPPED if text.startswith(start, at)), None)
+        if end is None:
+            return _name_at(text, at + 1)
+        past = text.find(end, at)
+        at = text.find(b"<", past) if past >= 0 else -1
+    return b""
+
+
+def _name_at(text: bytes, start: int) -> bytes:
+    end = start
+    while end < len(text) and text[end] not in _NAME_END:
+        end += 1
+    return text[start:end]
 
 
 _ARGUMENT = re.compile(r"(?P<name>[A-Za-z_][\w.-]*):=(?P<value>.*)", re.DOTALL)
 _FOLDER = {"type": click.Path(exists=True, file_okay=False, path_type=Path)}
-_file_flags = group("reading", dict, *flags_of(FileOptions, paths=_FOLDER))
-_reading_flags = group("reading", dict, *flags_of(ReadingOptions, paths=_FOLDER))
+file_options = combine_options(config_options, group("reading", dict, *flags_of(FileOptions, paths=_FOLDER)))
+"""Gives a command the options of how a file is read, as `reading`, and those of the configuration."""
+reading_options = combine_options(config_options, group("reading", dict, *flags_of(ReadingOptions, paths=_FOLDER)))
+"""Gives a command `file_options`, and the options of how included files are read."""
 size_option = flag("max_size", *declared_options(FileOptions)["max_size"])
+exclude_options = combine_options(
+    click.option(
+        "--exclude",
+        metavar="PATTERN",
+        multiple=True,
+        help="Leave out what fits in folders, in the notation of .gitignore; repeatable, and added to what the "
+        "configuration has.",
+    ),
+    click.option(
+        "--force-exclude",
+        is_flag=True,
+        help="Leave excluded files, and those that only have macros, out even where they are named, as hooks do.",
+    ),
+)
+"""Gives a command `--exclude PATTERN` and `--force-exclude`."""
 
 
-def file_options(command: Command) -> Command:
-    """Give a command the options that say how a file is read, as `reading`, and the settings of the project."""
-    return config_options(_file_flags(command))
+def read_model(source: InputSource, load_options: LoadOptions, options: ReadingOptions) -> LoadResult:
+    """Read a source, and expand its includes if the options ask for that."""
+    loaded = read(source.content, load_options, name=source.name)
+    if not options.get("expand_includes"):
+        return loaded
+    from twinform.compiler import expand  # noqa: PLC0415 - few runs read other files
 
-
-def reading_options(command: Command) -> Command:
-    """Add the flags of reading to a command, and those about the files that are included."""
-    return config_options(_reading_flags(command))
+    return expand(loaded, load_options)
 
 
 def load_options_of(
@@ -47,9 +161,9 @@ def load_options_of(
     policy: Policy | None = None,
     profiles: "tuple[Profile, ...]" = (),
 ) -> LoadOptions:
-    """The options as the compiler takes them; the folders of the project come after those of the command line.
+    """Make the compiler's options of those of a command; folders of the project come after those that are typed.
 
-    Where there is a policy, what it allows is left out, errors too. `profiles` are those of the consumers.
+    With a policy, the findings that it allows are left out, errors too. `profiles` are those of the consumers.
     """
     project = settings_of(click.get_current_context())
     given: FileOptions = {
@@ -63,13 +177,13 @@ def load_options_of(
 
 
 def inputs(words: Sequence[str]) -> tuple[list[InputSource], dict[str, str]]:
-    """The files among the arguments of a command line, and the `name:=value` arguments for those that are xacro.
+    """Open the files among the arguments of a command line, and parse the `name:=value` arguments of xacro.
 
     Raises:
-        click.UsageError: there are no files, or arguments that nothing takes.
+        click.UsageError: there are no files, or arguments of xacro without a xacro file.
     """
-    files, arguments = _split(words)
-    return _opened(files, arguments), arguments
+    files, arguments = _split_words(words)
+    return _open_files(files, arguments), arguments
 
 
 def model_inputs(
@@ -78,16 +192,16 @@ def model_inputs(
     """Open the model files that a command line names, also by folders and globs, without what is excluded.
 
     Raises:
-        click.UsageError: as above, or there is no model.
+        click.UsageError: as `inputs`, or there is no model.
     """
-    files, arguments = _split(words)
+    files, arguments = _split_words(words)
     try:
-        return _opened(discover(files, exclusion, kind), arguments), arguments
+        return _open_files(discover(files, exclusion, kind), arguments), arguments
     except (NothingFoundError, PatternError) as error:
         raise click.UsageError(str(error)) from error
 
 
-def _split(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
+def _split_words(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
     matches = [_ARGUMENT.fullmatch(word) for word in words]
     arguments = {match["name"]: match["value"] for match in matches if match}
     files = [word for word, match in zip(words, matches, strict=True) if not match]
@@ -96,10 +210,18 @@ def _split(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
     return files, arguments
 
 
-def _opened(files: Sequence[str], arguments: Mapping[str, str]) -> list[InputSource]:
+def _open_files(files: Sequence[str], arguments: Mapping[str, str]) -> list[InputSource]:
     ctx = click.get_current_context(silent=True)
     xacro = bool(ctx and ctx.params.get("xacro"))
     if arguments and not (xacro or any(file.lower().endswith(".xacro") for file in files)):
         raise click.UsageError(f"{next(iter(arguments))}:=... is an argument of xacro, and no input is a .xacro file")
     size = (ctx and ctx.params.get("max_size")) or LARGEST
     return [open_source(file, size) for file in files]
+
+
+def exclusion_of(ctx: click.Context, patterns: Sequence[str], *, force: bool) -> Exclusion:
+    """Combine the exclusion of the project, or the default one, with the patterns of the command line."""
+    project = settings_of(ctx)
+    configured = DEFAULT_EXCLUDE if project.exclude is None else project.exclude
+    folder = project.path.parent if project.path else Path()
+    return Exclusion((*configured, *project.extend_exclude, *patterns), folder, force)

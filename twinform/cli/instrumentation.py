@@ -1,11 +1,11 @@
-"""Options that observe passes (dump the IR, changes, times), and what they and a failed pass print on stderr."""
+"""Instrumentation of passes: options that print the IR, changes and times, and the report of a failed pass."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import click
 
-from twinform.cli.failure import UNUSABLE
+from twinform.cli.command import UNUSABLE
 from twinform.cli.flags import group
 from twinform.cli.printing import print_line, print_text
 from twinform.passes import CombinedInstrumentation, PassError, PassInstrumentation
@@ -31,7 +31,7 @@ _OPTIONS = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class InstrumentationOptions:
-    """What these options give a command."""
+    """The values of the options that observe passes."""
 
     dumps: tuple[str, ...] = ()
     changes: bool = False
@@ -40,17 +40,17 @@ class InstrumentationOptions:
     reproducers: Path | None = None
 
     def begin(self, name: str) -> "InputInstrumentation":
-        """Observe the passes of one input, which messages call `name`."""
+        """Begin to observe the passes of one input, which messages call `name`."""
         return InputInstrumentation(self, name)
 
 
 watching_options = group("watching", InstrumentationOptions, *_OPTIONS)
-"""Gives a command the options that watch passes."""
+"""Gives a command the options that observe passes."""
 
 
 @dataclass(slots=True)
 class InputInstrumentation:
-    """The watches over the passes of one input."""
+    """The instrumentation of the passes of one input."""
 
     options: InstrumentationOptions
     name: str
@@ -63,7 +63,7 @@ class InputInstrumentation:
 
     @property
     def instrumentation(self) -> PassInstrumentation:
-        """All that looks at the passes; the clock last, for it has to be nearest to them."""
+        """Everything that observes the passes; the clock comes last, to be nearest to them."""
         watching: list[PassInstrumentation] = [self._dumps]
         if self.options.changes:
             from twinform.passes.framework.hooks import PrintChanges  # noqa: PLC0415 - few ask for changes
@@ -72,10 +72,10 @@ class InputInstrumentation:
         return CombinedInstrumentation([*watching, *([self._statistics] if self._statistics else [])])
 
     def end(self) -> None:
-        """Print what is known only now.
+        """Print the statistics after all passes.
 
         Raises:
-            click.UsageError: a pass that was named did not run.
+            click.UsageError: a pass that an option names did not run.
         """
         self.report()
         for each in self.options.dumps:
@@ -84,12 +84,12 @@ class InputInstrumentation:
                 raise click.UsageError(f"--dump-ir-after {each}: no such pass ran; there were {ran}")
 
     def report(self) -> None:
-        """Print the table, if it is asked for."""
+        """Print the statistics, if they are asked for."""
         if self._statistics:
             self._print(f"passes\n{table(self._statistics, times=self.options.times)}")
 
     def fault(self, error: PassError) -> None:
-        """Print what a pass did wrong, and the file that makes it come again."""
+        """Print how a pass failed, and write a reproducer."""
         self.report()
         show_fault(error, self.name, self.options.reproducers)
 
@@ -101,7 +101,7 @@ class InputInstrumentation:
 
 
 def show_fault(error: PassError, name: str, folder: Path | None = None) -> None:
-    """Print what a pass did wrong to the input that messages call `name`, and write what makes it come again."""
+    """Print how a pass failed on the input that messages call `name`, and write a reproducer into a folder."""
     from twinform.compiler.reproducers.reproducer_files import write_reproducer  # noqa: PLC0415 - passes seldom fail
 
     print_line(f"{name}: {error}", err=True)
@@ -115,7 +115,7 @@ def show_fault(error: PassError, name: str, folder: Path | None = None) -> None:
 
 
 def end_with(error: Exception, ctx: click.Context) -> None:
-    """End the command where a pass failed that nobody asked for; return for any other exception."""
+    """End the command if the exception is that of a pass that failed; return for any other exception."""
     if isinstance(error, PassError):
         show_fault(error, f"twinform {ctx.invoked_subcommand}")
         ctx.exit(UNUSABLE)

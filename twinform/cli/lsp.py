@@ -2,8 +2,7 @@
 
 import click
 
-from twinform.cli.command import Command
-from twinform.cli.failure import Unusable
+from twinform.cli.command import Command, Unusable
 
 EXAMPLES = {"What an editor starts; editors/ has the settings of each": "twinform lsp"}
 
@@ -24,6 +23,6 @@ def command(*, stdio: bool) -> None:
         raise Unusable(
             f"the language server needs {error.name or 'pygls'}; run: pip install 'twinform[lsp]'"
         ) from error
-    from twinform.cli.config.server import settings_of  # noqa: PLC0415 - see above
+    from twinform.cli.config.editor_settings import settings_of  # noqa: PLC0415 - see above
 
     click.get_current_context().exit(serve(settings_of))

@@ -1,4 +1,4 @@
-"""Says on a terminal which mesh a pass is working on, because a large one takes minutes."""
+"""Progress of passes on meshes: a terminal shows which mesh is worked on, since a large one takes minutes."""
 
 import sys
 from collections.abc import Generator, Iterable
@@ -11,7 +11,7 @@ from twinform.passes import FilesPass, Pass
 
 @contextmanager
 def mesh_progress(passes: Iterable[Pass]) -> Generator[None]:
-    """Show on stderr which mesh these passes work on, if that is a terminal and rich is installed."""
+    """Show which mesh the passes work on, if stderr is a terminal and rich is installed."""
     if not (sys.stderr.isatty() and any(isinstance(step, FilesPass) for step in passes) and find_spec("rich")):
         yield
         return

@@ -1,4 +1,4 @@
-"""Output files of a command: never over an input or another output, and all of them or none."""
+"""Output files of a command: never written over an input or another output, and all of them or none."""
 
 from collections.abc import Hashable, Iterable, Sequence
 from contextlib import suppress
@@ -8,27 +8,31 @@ from typing import NamedTuple
 
 import click
 
-from twinform.cli.failure import Unusable
+from twinform.cli.command import FINDINGS, Unusable
 from twinform.cli.printing import print_document, print_line
 from twinform.compiler import write_all_atomically
 from twinform.compiler.output.same_files import folded, identities, is_below, is_nothing
 from twinform.diagnostics import HEAD, SideFile
-from twinform.file_access import read_regular
+from twinform.file_access import Readable, read_regular
 from twinform.storage.writing import is_stream
+
+output_option = click.option(
+    "-o", "--output", "output", metavar="FILE", type=click.Path(path_type=Path), help="Where to write; else it prints."
+)
 
 
 class Output(NamedTuple):
-    """A file that is to be written, and the option, or the pass, that names it."""
+    """A file to write, and the option or pass that names it."""
 
     by: str
     path: Path
 
 
 def beside(result: Path | None, side_files: Iterable[str]) -> list[Output]:
-    """The files that passes make, at their paths below the folder of the result.
+    """Return the files that passes make, at their paths below the folder of the result.
 
     Raises:
-        click.UsageError: the result goes to no file, or such a path leads elsewhere, through a symbolic link.
+        click.UsageError: the result goes to no file, or a path leads out of the folder through a symbolic link.
     """
     found: list[Output] = []
     for name in side_files:
@@ -43,11 +47,10 @@ def beside(result: Path | None, side_files: Iterable[str]) -> list[Output]:
 
 @dataclass(slots=True)
 class Outputs:
-    """The files of a call while they are made, the text for standard output, and what is printed once all is there.
+    """The files that a command makes, its text for standard output, and the messages to print once all is written.
 
-    `inputs` are the files that the call reads, of which those `spared` may be written over; `as_read` are the bytes
-    that have to stand there still. Where it is to `check`, nothing is written, and the files that are there are
-    compared with what would be.
+    `inputs` are the files that it reads, of which only those `spared` may be written over; `as_read` are the bytes that
+    these must still have then. With `check` nothing is written, and existing files are compared with the new ones.
     """
 
     inputs: Sequence[Path] = ()
@@ -64,14 +67,13 @@ class Outputs:
         return "--in-place" if self.spared else "-o"
 
     def require_apart(self, outputs: Sequence[Output], read: Iterable[Path] = ()) -> None:
-        """Raise where one file would be written over another, or over an input; `read` are more of these.
+        """Require that no output is written over another one, over an input, or over a file in `read`.
 
         Raises:
-            click.UsageError: two of them are one file.
+            click.UsageError: two of them are the same file.
         """
-        # `-o` named twice is mostly a slip, so an output is never an input; --in-place is for that.
-        # A file that is read on the way, a mesh or an included model, is no place for an output
-        # either.
+        # An output that is an input is mostly a mistake; --in-place is for that. The same goes for
+        # files that are read on the way, such as meshes and included models.
         known = {each: path for path in (*read, *self.inputs) for each in identities(path)}
         for each in (each for path in self.spared for each in identities(path)):
             known.pop(each, None)
@@ -87,15 +89,22 @@ class Outputs:
                 if other is not output:
                     raise click.UsageError(f"{other.by} and {output.by} name the same file: {output.path}")
 
+    def set_result(self, path: Path | None, text: str) -> None:
+        """Write a text to the file of `-o`, or to standard output if there is none or it is `-`."""
+        if path is None or str(path) == "-":
+            self.stdout = text
+        else:
+            self.add("-o", path, text)
+
     def add(self, by: str, path: Path, text: str | bytes) -> None:
-        """A file that an option names."""
+        """Add a file that an option names."""
         self.texts.append((Output(by, path), text))
 
     def add_beside(self, result: Path | None, side_files: Sequence[SideFile]) -> None:
-        """The files that passes have made.
+        """Add the files that passes have made.
 
         Raises:
-            click.UsageError: they have no place, or it is that of a file which was not written by twinform.
+            click.UsageError: they have no place, or a file that twinform has not written is there.
         """
         places = beside(result, [each.path for each in side_files])
         for place, side_file in zip(places, side_files, strict=True):
@@ -104,23 +113,20 @@ class Outputs:
                 self.texts.append((place, side_file.content))
 
     def write(self, read: Iterable[Path] = ()) -> int:
-        """Write all, or compare, and print the news; `read` are files that were read on the way. Gives the exit code.
+        """Write or compare all files, print the messages, and return the exit code; `read` was read on the way.
 
         Raises:
-            click.UsageError: one would be written over another, or over one that was read.
-            Unusable: one cannot be written, or has changed since it was read; then none is.
+            click.UsageError: a file would be written over another output, or over a file that was read.
+            Unusable: a file cannot be written, or has changed since it was read; then nothing is written.
         """
         self.require_apart([output for output, _ in self.texts], read)
         if self.check:
-            from twinform.cli.outdated import report_outdated  # noqa: PLC0415 - most runs write
-
-            return report_outdated(
+            return _report_outdated(
                 [(output.path, text) for output, text in self.texts], to_stdout=self.stdout is not None
             )
         try:
-            # What one call writes is one thing, the opposite of `batch`, where one bad model never
-            # stops the rest. All texts are written beside their places first, then standard output,
-            # then all are moved.
+            # One call writes everything or nothing, unlike `batch`. All texts are written beside their
+            # places first, then to standard output, and then all are moved.
             write_all_atomically({output.path: text for output, text in self.texts}, self._print)
         except OSError as error:
             if not error.filename:
@@ -138,7 +144,7 @@ class Outputs:
 
 
 def require_as_read(path: Path, before: bytes) -> None:
-    """Raise where a file that is to be changed is not as it was when it was read.
+    """Require that a file has not changed since it was read.
 
     Raises:
         Unusable: somebody else has changed it.
@@ -152,11 +158,56 @@ def require_as_read(path: Path, before: bytes) -> None:
 
 
 def _require_ours(path: Path, side_file: SideFile) -> None:
-    """Raise where somebody else's file is in the place of a side file."""
-    with suppress(OSError):  # writing it will say what is wrong
-        # A pipeline may come with a model that was downloaded, so it overwrites only what begins as
-        # twinform's own files do.
+    """Raise a `UsageError` if a file that twinform has not written is at the place of a side file."""
+    with suppress(OSError):  # writing the file will report it
+        # A pipeline may come with a downloaded model, so it overwrites only files of twinform, by their first bytes.
         data = read_regular(path)
         if not side_file.is_earlier(data[:HEAD]) and data != side_file.data:
             message = f"{path} is there, and twinform has not written it: remove it, or have another name"
             raise click.UsageError(message)
+
+
+_MOST_LINES = 400
+"""The most lines of a difference that are printed."""
+
+
+def _report_outdated(texts: Sequence[tuple[Path, str | bytes]], *, to_stdout: bool) -> int:
+    """Print how files differ from these texts, and return the exit code.
+
+    Raises:
+        click.UsageError: a text goes to standard output, where there is nothing to compare.
+        Unusable: a file cannot be read.
+    """
+    if to_stdout:
+        raise click.UsageError("--check compares files: name one with -o")
+    outdated = [path for path, text in texts if _differs(path, text)]
+    for path in outdated:
+        why = "is not what it is made to be" if path.exists() else "is not there"
+        print_line(f"{path} {why}; run the command without --check", err=True)
+    if not outdated:
+        print_line(f"{_count(len(texts), 'file')} up to date", err=True)
+    return FINDINGS if outdated else 0
+
+
+def _differs(path: Path, text: str | bytes) -> bool:
+    new = text.encode() if isinstance(text, str) else text
+    try:
+        old = Readable.of(path).read(path)
+    except FileNotFoundError:
+        return True
+    except OSError as error:
+        raise Unusable(f"cannot read {path}: {error.strerror}") from error
+    if old == new:
+        return False
+    from twinform.text.source_text import line_diff  # noqa: PLC0415 - most files are up to date
+
+    lines = list(line_diff(str(path), old.decode(errors="replace"), new.decode(errors="replace")))
+    for line in lines[:_MOST_LINES]:
+        print_line(line.rstrip())
+    if len(lines) > _MOST_LINES:
+        print_line(f"... and {len(lines) - _MOST_LINES} lines more")
+    return True
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}{' is' if number == 1 else 's are'}"

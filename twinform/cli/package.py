@@ -1,26 +1,57 @@
 """`twinform package`."""
 
+import json
+from dataclasses import dataclass
 from pathlib import Path
 
 import click
 
-from twinform.cli.command import Command
-from twinform.cli.completion import files
-from twinform.cli.config.per_file import RuleSettings
-from twinform.cli.details import detail_options, details_of
+from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable, files
+from twinform.cli.config.config_defaults import RuleSettings
+from twinform.cli.flags import group
 from twinform.cli.gazebo_files import release_option, version_for
-from twinform.cli.inputs import inputs, reading_options
-from twinform.cli.own_options import OptionsByFile
-from twinform.cli.packaging import Packaging, run_packaging
-from twinform.cli.policy import policy_options
-from twinform.cli.print_findings import all_option, notes_option
+from twinform.cli.inputs import InputSource, inputs, reading_options
+from twinform.cli.instrumentation import show_fault
+from twinform.cli.outputs import Output, Outputs
+from twinform.cli.printing import all_option, notes_option, print_line, print_text
+from twinform.cli.project_options import OptionsByFile, policy_options
 from twinform.cli.request import passes_of, request_options_of_versions, whole_request
-from twinform.compiler import ConversionRequest
+from twinform.cli.run_conversion import show_findings, summary
+from twinform.compiler import CompileError, ConversionRequest
 from twinform.compiler.input.load_options import ReadingOptions
 from twinform.compiler.packaging.kind_names import KIND_NAMES, kinds_of
-from twinform.compiler.packaging.order import Order, PackageDetails
+from twinform.compiler.packaging.kinds import build
+from twinform.compiler.packaging.order import Built, Order, PackageDetails
+from twinform.compiler.packaging.package import Package
+from twinform.compiler.packaging.source_details import details_around
+from twinform.compiler.packaging.writing import OccupiedError, write_package
 from twinform.compiler.request_options import RequestOptions
+from twinform.diagnostics import Diagnostic, Policy
+from twinform.passes import PassError
 from twinform.passes.plugins.release_names import ReleaseName
+
+_OPTIONS = (
+    click.option("--package-version", metavar="X.Y.Z", default="", help="The version of the package; else 0.1.0."),
+    click.option("--description", metavar="TEXT", default="", help="What the package is, in a sentence."),
+    click.option("--author", metavar="NAME", default="", help="Who made the model; else the maintainer."),
+    click.option("--maintainer", metavar="NAME", default="", help="Who looks after the package."),
+    click.option("--email", metavar="ADDRESS", default="", help="The address of the maintainer."),
+    click.option("--license", metavar="LICENSE", default="", help="The license, such as Apache-2.0."),
+)
+
+
+def _details(package_version: str, **words: str) -> PackageDetails:
+    return PackageDetails(version=package_version.strip(), **{name: word.strip() for name, word in words.items()})
+
+
+detail_options = group("details", _details, *_OPTIONS)
+"""Gives the command the options for what the package says about itself."""
+
+
+def _complete_details(given: PackageDetails, source: str | bytes) -> PackageDetails:
+    """Complete the details with those of the package or model around the source."""
+    return given if isinstance(source, bytes) else given.or_else(details_around(Path(source)))
+
 
 EXAMPLES = {
     "Make a model folder for Gazebo": "twinform package robot.urdf -o robot --kind gazebo-model",
@@ -117,7 +148,7 @@ def command(
         load_options=own.load_options,
         sdf_versions=tuple(dict.fromkeys(version_for(gazebo, each) for each in sdf_versions or (None,))),
         release=gazebo,
-        details=details_of(details, sources[0].content),
+        details=_complete_details(details, sources[0].content),
         allow_missing=allow_missing,
         thumbnail=thumbnail,
     )
@@ -126,3 +157,73 @@ def command(
         every=every,
     )  # fmt: skip
     ctx.exit(run_packaging(packaging))
+
+
+@dataclass(frozen=True, slots=True)
+class Packaging:
+    """The order of a package, where it is written, and what is printed."""
+
+    source: InputSource
+    order: Order
+    kinds: tuple[str, ...]
+    folder: Path
+    policy: Policy
+    force: bool
+    dry_run: bool
+    ledger: Path | None
+    notes: bool
+    every: bool
+
+    def show(self, diagnostics: tuple[Diagnostic, ...]) -> bool:
+        """Print the findings by the policy; return whether none of them is an error."""
+        return show_findings(self.source, self.policy.apply(diagnostics), notes=self.notes, every=self.every)
+
+
+def run_packaging(packaging: Packaging) -> int:
+    """Make a package, write it, and return the exit code."""
+    try:
+        built = build(packaging.order, packaging.kinds)
+    except CompileError as error:
+        packaging.show(error.diagnostics)
+        return UNUSABLE if error.unreadable else FINDINGS
+    except PassError as error:
+        show_fault(error, packaging.source.name)
+        return FINDINGS
+    if not packaging.show(built.diagnostics):
+        return FINDINGS
+    if packaging.dry_run:
+        for path in built.package.files:
+            print_line(path)
+        return 0
+    _write(built, packaging)
+    return 0
+
+
+def _write(built: Built, packaging: Packaging) -> None:
+    """Write the package, and the ledger beside it.
+
+    Raises:
+        click.UsageError: a file that was read, or that twinform has not written, would be written over.
+        Unusable: a file cannot be written.
+    """
+    outputs = Outputs([packaging.source.path])
+    places = [Output("-o", packaging.folder / path) for path in built.package.files]
+    ledger = [Output("--ledger", packaging.ledger)] if packaging.ledger else []
+    outputs.require_apart([*places, *ledger], packaging.order.load_options.search.seen)
+    ledgers = {name: json.loads(each.to_json()) for name, each in built.ledgers.items()}
+    beside = {each.path: json.dumps(ledgers, indent=2) + "\n" for each in ledger}
+    try:
+        write_package(built.package, packaging.folder, force=packaging.force, beside=beside)
+    except OccupiedError as error:
+        raise click.UsageError(f"{error.strerror}; --force does that") from error
+    except OSError as error:
+        raise Unusable(f"cannot write {error.filename or packaging.folder}: {error.strerror}") from error
+    for name, each in built.ledgers.items():
+        print_text(f"{name}: {summary(each)}", err=True)
+    print_text(f"{packaging.folder}: {_size(built.package)}", err=True)
+
+
+def _size(package: Package) -> str:
+    """Say how many files are in a package, and how large they are."""
+    sizes = [len(each) if isinstance(each, bytes) else each.stat().st_size for each in package.files.values()]
+    return f"{len(sizes)} files, {sum(sizes) / 1e6:.1f} MB"

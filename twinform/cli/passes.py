@@ -6,11 +6,9 @@ from typing import Literal
 
 import click
 
-from twinform.cli.command import Command
-from twinform.cli.completion import pass_names, pipelines
+from twinform.cli.command import Command, Unusable, pass_names, pipelines
 from twinform.cli.config import config_options, settings_of
 from twinform.cli.config.config_defaults import Project
-from twinform.cli.failure import Unusable
 from twinform.cli.printing import print_document, print_text, styled
 from twinform.passes import Pass, PipelineError, Registered, RegistryError, parse_pipeline, registered_passes
 from twinform.passes.framework.pass_options import nearest
@@ -49,11 +47,11 @@ def command(ctx: click.Context, name: str | None, style: Literal["text", "json"]
         if table is not None:
             print_document(print_tables(parse_pipeline(table, names=project.names), _TABLE_NAME))
             return
-        found = _chosen(name)
+        found = _find_passes(name)
         if style == "json":
             print_document(f"{_json(found, project)}\n")
         elif name is None:
-            print_text("\n".join([*_list(found), *_pipelines(project)]))
+            print_text("\n".join([*_list_passes(found), *_list_pipelines(project)]))
         else:
             print_text("\n\n".join(_page(found[0].load(), found[0].owner)))
     except PipelineError as error:
@@ -62,7 +60,7 @@ def command(ctx: click.Context, name: str | None, style: Literal["text", "json"]
         raise Unusable(str(error)) from error
 
 
-def _chosen(name: str | None) -> list[Registered]:
+def _find_passes(name: str | None) -> list[Registered]:
     found = registered_passes()
     if name is None:
         return list(found.values())
@@ -71,29 +69,25 @@ def _chosen(name: str | None) -> list[Registered]:
     return [found[name]]
 
 
-def _list(found: Collection[Registered]) -> Iterator[str]:
+def _list_passes(found: Collection[Registered]) -> Iterator[str]:
     for each in found:
         kind = each.load()
-        yield f"{styled(each.name)}{_from(each.owner)}"
+        yield f"{styled(each.name)}{'' if each.owner == OWN else f' (from {each.owner})'}"
         yield f"    {summary(kind)}"
-        words = ", ".join(map(_option, options(kind)))
+        words = ", ".join(map(_describe_option, options(kind)))
         if words:
             yield click.wrap_text(f"options: {words}", 110, "    ", "      ")
         yield f"    example: {kind.example}"
 
 
-def _option(option: OptionPage) -> str:
-    """An option with its default, if it has one."""
+def _describe_option(option: OptionPage) -> str:
+    """Write an option with its default, if it has one."""
     if not option.given:
         return f"{option.name} (needed)"
     return option.name if option.value is None else f"{option.name}={option.default}"
 
 
-def _from(owner: str) -> str:
-    return "" if owner == OWN else f" (from {owner})"
-
-
-def _pipelines(project: Project) -> Iterator[str]:
+def _list_pipelines(project: Project) -> Iterator[str]:
     names = project.pipelines
     if names:
         yield f"\npipelines of {project.path}"

@@ -1,22 +1,27 @@
-"""The one place where commands print: texts for people, which cannot drive the terminal, and documents as they are.
+"""The one place where commands print: texts and findings for people, with nothing in them that a terminal obeys.
 
-Names of files, and whatever stands in models and configurations, may hold characters that move the cursor, set the
-title of a window, or turn text around.
+Names of files and texts in models and configurations may contain characters that move the cursor, set the title of a
+window, or reverse text. Documents for programs are printed as they are.
 """
 
 import io
 import os
 import sys
 from types import TracebackType
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import click
 
-from twinform.diagnostics.reporters import printable
+from twinform.diagnostics import Severity
+from twinform.diagnostics.reporters import FileFindings, concise, printable, text
+
+if TYPE_CHECKING:
+    from twinform.compiler.input.source_files import SourceFiles
+
 
 Color = Literal["cyan", "red", "yellow"]
 _LAYOUT = frozenset("\n\t")
-# where a style begins and ends, until the text has been escaped: surrogates that no name of a file and no XML can have
+# Marks of styles until the text is escaped: surrogates, which no file name and no XML can contain.
 _END = "\ud800"
 _BOLD = "\ud801"
 _COLORS: dict[Color, str] = {"cyan": "\ud802", "red": "\ud803", "yellow": "\ud804"}
@@ -30,54 +35,58 @@ _SEQUENCES = {
 
 
 def styled(words: str, color: Color | None = None) -> str:
-    """Return words for `print_text` that are bold, and have a color if one is given."""
+    """Mark words as bold, and with a color if one is given, for `print_text`."""
     return f"{_COLORS[color] if color else _BOLD}{words}{_END}"
 
 
 def print_text(text: str, *, err: bool = False, nl: bool = True) -> None:
-    """Print a text for people, with an escape for each character that a terminal would obey or cannot show.
+    """Print a text for people, and escape each character that a terminal would obey or cannot show.
 
-    Styles are left out where the output is no terminal, and where the variable NO_COLOR is set.
+    Styles are left out if the output is no terminal, or if the variable NO_COLOR is set.
     """
     encoding = getattr(sys.stderr if err else sys.stdout, "encoding", None) or "utf-8"
-    # A file name can hold the sequence that sets the title of a terminal. Escaping at each place
-    # that prints a name gets forgotten somewhere, so commands print through this module alone, and
-    # a test holds them to it. A diff of such a file cannot be applied as printed; -o and --in-place
-    # are for that.
+    # Escaping where a name is printed gets forgotten somewhere, so a test makes sure that commands
+    # print through this module alone. The diff of a file with such characters cannot be applied as
+    # printed; -o and --in-place are for that.
     safe = text if text.isprintable() else "".join(map(_escape, text))
     click.echo(safe.encode(encoding, "backslashreplace").decode(encoding), err=err, nl=nl)
 
 
 def print_line(line: str, *, err: bool = False) -> None:
-    """Print a text for people in one line, whatever names are in it."""
+    """Print a text for people as one line, whatever names are in it."""
     print_text(printable(line), err=err)
 
 
 def print_document(document: str | bytes) -> None:
-    """Print a document for programs on standard output: UTF-8, whatever the terminal's encoding is."""
+    """Print a document for programs on standard output, in UTF-8 whatever the encoding of the terminal."""
     click.echo(document.encode(errors="backslashreplace") if isinstance(document, str) else document, nl=False)
 
 
 def print_report(report: str, style: str) -> None:
-    """Print a report whose style is `text`, for people, or the name of a format for programs."""
+    """Print a report, which is for people if its style is `text`, else for programs."""
     if style == "text":
         print_text(report, nl=False)
     else:
         print_document(report)
 
 
+def plural(number: int, word: str) -> str:
+    """Write a number of things, such as `1 file` or `2 files`."""
+    return f"{number} {word}{'' if number == 1 else 's'}"
+
+
 def print_error(error: click.ClickException) -> None:
-    """Print what ends a command, with the usage where it is about that."""
+    """Print the error that ends a command, with the usage if it is about that."""
     with io.StringIO() as text:
         error.show(text)
         shown, message = text.getvalue(), error.format_message()
-    if not isinstance(error, click.BadParameter):  # one about a pipeline points at a character, in lines
+    if not isinstance(error, click.BadParameter):  # errors in pipelines have lines that point at a character
         shown = shown.replace(message, printable(message))
     print_text(shown, err=True, nl=False)
 
 
 def print_traceback(kind: type[BaseException], error: BaseException, where: TracebackType | None) -> None:
-    """Print an exception that nothing has caught, as `sys.excepthook` does."""
+    """Print an uncaught exception, as `sys.excepthook` does."""
     import traceback  # noqa: PLC0415 - it should never be needed
 
     print_text("".join(traceback.format_exception(kind, error, where)), err=True, nl=False)
@@ -87,3 +96,52 @@ def _escape(character: str) -> str:
     if character in _SEQUENCES:
         return "" if os.environ.get("NO_COLOR") else _SEQUENCES[character]
     return character if character in _LAYOUT else printable(character)
+
+
+_SEVERITY_COLORS: dict[Severity, Color] = {Severity.ERROR: "red", Severity.WARNING: "yellow", Severity.INFO: "cyan"}
+
+
+def paint(word: str, severity: Severity) -> str:
+    """Color a word by severity."""
+    return styled(word, _SEVERITY_COLORS[severity])
+
+
+notes_option = click.option(
+    "--notes", is_flag=True, help="Print notes too, which say what is legal and yet worth knowing."
+)
+
+
+all_option = click.option("--all", "every", is_flag=True, help="Print each finding, also where several have one cause.")
+
+
+def show(
+    findings: FileFindings,
+    *,
+    notes: bool,
+    on_stderr: bool,
+    every: bool = False,
+    short: bool = False,
+    files: "SourceFiles | None" = None,
+) -> None:
+    """Print the findings of one file for people, with excerpts of the files.
+
+    `notes` prints notes too, `every` each finding of one cause, and `short` one line for each without excerpts.
+    """
+    if not notes:
+        worse = tuple(each for each in findings.diagnostics if each.severity > Severity.INFO)
+        findings = findings._replace(diagnostics=worse)
+    if findings.diagnostics:
+        found = [locate(findings, files)]
+        report = concise(found, paint) if short else text(found, paint, every=every)
+        print_text(report, nl=False, err=on_stderr)
+
+
+def locate(findings: FileFindings, files: "SourceFiles | None" = None) -> FileFindings:
+    """Add columns and the texts of the files to findings; without findings nothing is read."""
+    if not findings.diagnostics:
+        return findings
+    from twinform.compiler.input.finding_spans import with_columns  # noqa: PLC0415 - only findings have places
+    from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - as above
+
+    files = files or SourceFiles()
+    return FileFindings(findings.path, with_columns(findings.diagnostics, files), files)

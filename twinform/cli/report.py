@@ -4,13 +4,11 @@ from pathlib import Path
 
 import click
 
-from twinform.cli.command import Command
-from twinform.cli.comparison_options import comparison_options
-from twinform.cli.completion import files
-from twinform.cli.failure import FINDINGS, UNUSABLE
+from twinform.cli.command import FINDINGS, UNUSABLE, Command, files
+from twinform.cli.diff import comparison_options
 from twinform.cli.inputs import file_options, inputs, load_options_of
-from twinform.cli.outputs import Outputs
-from twinform.cli.print_findings import show
+from twinform.cli.outputs import Outputs, output_option
+from twinform.cli.printing import show
 from twinform.compiler import CompileError
 from twinform.compiler.compare import ComparisonOptions
 from twinform.compiler.input.load_options import FileOptions
@@ -29,9 +27,7 @@ EXAMPLES = {
 
 @click.command("report", cls=Command, examples=EXAMPLES)
 @click.argument("words", metavar="A [B] [NAME:=VALUE...]", nargs=-1, required=True, shell_complete=files)
-@click.option(
-    "-o", "--output", "output", metavar="FILE", type=click.Path(path_type=Path), help="Where to write; else it prints."
-)
+@output_option
 @click.option(
     "--format",
     "style",
@@ -88,10 +84,7 @@ def command(
                 show(FileFindings(subject.loaded.path, subject.loaded.diagnostics), notes=False, on_stderr=True)
         ctx.exit(UNUSABLE)
     outputs, text = Outputs(inputs=[source.path for source in sources]), WRITERS[style](found)
-    if output is None or str(output) == "-":
-        outputs.stdout = text
-    else:
-        outputs.add("-o", output, text)
+    outputs.set_result(output, text)
     if view and style == "html" and not found.view and found.accepted:
         outputs.news.append(f"note: the report has no 3D view: {found.without_view}")
     outputs.write()

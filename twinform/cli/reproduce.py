@@ -6,11 +6,9 @@ from pathlib import Path
 import click
 
 from twinform import __version__
-from twinform.cli.command import Command
+from twinform.cli.command import FINDINGS, Command, Unusable
 from twinform.cli.config.trust import Outside
-from twinform.cli.failure import FINDINGS, Unusable
-from twinform.cli.print_findings import paint
-from twinform.cli.printing import print_line, print_text
+from twinform.cli.printing import paint, print_line, print_text
 from twinform.compiler import LoadOptions
 from twinform.compiler.includes.other_documents import OtherDocuments
 from twinform.compiler.output.same_files import is_below
@@ -70,7 +68,7 @@ def _read(file: Path) -> Reproducer:
 
 
 def _run(found: Reproducer, file: Path, search: SearchPath, sink: DiagnosticSink) -> PassError | None:
-    # a reproducer may be anybody's, so the place that it gives for its source opens no folder but its own
+    # a reproducer may be anybody's, so the source that it names opens no folder but its own
     source = Path(found.source)
     if not is_below(source, file.parent):
         source = file.with_name(source.name or file.name)

@@ -1,14 +1,14 @@
-"""Files that a command changes where they are: their differences, and writing them back."""
+"""Files that a command changes in place: printing the differences, and writing the files."""
 
 import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from twinform.cli.failure import Unusable
+from twinform.cli.command import Unusable
+from twinform.cli.inputs import InputSource
 from twinform.cli.outputs import Outputs, require_as_read
 from twinform.cli.printing import print_document, print_line, print_text
-from twinform.cli.source import InputSource
 from twinform.compiler import write_all_atomically
 from twinform.diagnostics import SideFile
 from twinform.text import SourceText, UndecodableError
@@ -17,7 +17,7 @@ from twinform.text.source_text import line_diff
 
 @dataclass(frozen=True, slots=True)
 class Rewrite:
-    """A file, or standard input, as it was read and as it is to be."""
+    """A file or standard input: what was read, and what is to be written."""
 
     source: InputSource
     before: bytes
@@ -31,25 +31,21 @@ class Rewrite:
 
     @property
     def is_stream(self) -> bool:
-        """Whether it has no place to be written to but standard output."""
+        """Whether it came from standard input, and goes to standard output."""
         return isinstance(self.source.content, bytes)
 
 
 def show_differences(rewrites: Iterable[Rewrite]) -> bool:
-    """Print what would change as a unified diff; gives whether there is anything."""
+    """Print what would change as a unified diff; return whether anything would."""
     changed = [each for each in rewrites if each.is_change]
     for each in changed:
-        print_text(_difference(each), nl=False)
+        print_text("".join(line_diff(each.source.name, _decode(each.before), _decode(each.after))), nl=False)
         for file in each.side_files:
             print_line(f"{Path(each.source.name).parent / file.path} would be written")
     return bool(changed)
 
 
-def _difference(rewrite: Rewrite) -> str:
-    return "".join(line_diff(rewrite.source.name, _text(rewrite.before), _text(rewrite.after)))
-
-
-def _text(data: bytes) -> str:
+def _decode(data: bytes) -> str:
     try:
         return SourceText.of(data).text
     except UndecodableError:
@@ -57,7 +53,7 @@ def _text(data: bytes) -> str:
 
 
 def write_back(rewrites: Sequence[Rewrite]) -> None:
-    """Write what has changed, all of it or nothing; what came from standard input goes to standard output.
+    """Write all changed files or none; what came from standard input goes to standard output.
 
     Raises:
         Unusable: one of the files cannot be written, is read-only, or has changed since it was read.
@@ -68,8 +64,8 @@ def write_back(rewrites: Sequence[Rewrite]) -> None:
     def require_unchanged() -> None:
         for path, each in files.items():
             require_as_read(path, each.before)
-            # A read-only file could be replaced by a rename, which asks for the permissions of its
-            # folder only. Whoever made it read-only did not mean that.
+            # A rename could replace a read-only file, since it needs permissions for the folder
+            # only. Whoever made the file read-only did not mean that.
             if not _is_writable(path):
                 raise Unusable(f"{path} is read-only; nothing is written")
 
@@ -83,7 +79,7 @@ def write_back(rewrites: Sequence[Rewrite]) -> None:
 
 
 def _files_beside(rewrites: Sequence[Rewrite]) -> dict[Path, str | bytes]:
-    """The files that passes have made, by their places."""
+    """Return the files that passes have made, by their places."""
     outputs = Outputs([Path(each.source.name) for each in rewrites if not each.is_stream])
     for each in rewrites:
         outputs.add_beside(None if each.is_stream else Path(each.source.name), each.side_files)
@@ -92,5 +88,5 @@ def _files_beside(rewrites: Sequence[Rewrite]) -> dict[Path, str | bytes]:
 
 
 def _is_writable(path: Path) -> bool:
-    """Whether a file may be written: its permissions count for the administrator too."""
+    """Whether a file may be written; its permissions count for the administrator too."""
     return bool(path.stat().st_mode & 0o222) and os.access(path, os.W_OK)

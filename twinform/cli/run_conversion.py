@@ -1,4 +1,4 @@
-"""One conversion, as the command line asks for it."""
+"""One conversion of `twinform convert`: to a new file, in place, into an edited file, or split by models."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -7,31 +7,28 @@ from typing import TYPE_CHECKING
 
 import click
 
-from twinform.cli.conversion_targets import ConversionJob
-from twinform.cli.failure import FINDINGS, UNUSABLE
+from twinform.cli.command import FINDINGS, UNUSABLE
+from twinform.cli.conversion_targets import ConversionJob, Target, known_target
 from twinform.cli.gazebo_files import GazeboFiles
+from twinform.cli.inputs import InputSource
 from twinform.cli.instrumentation import InstrumentationOptions
 from twinform.cli.mesh_progress import mesh_progress
 from twinform.cli.outputs import Output, Outputs, beside
-from twinform.cli.own_options import ResolvedOptions
-from twinform.cli.print_findings import show
-from twinform.cli.printing import print_line
-from twinform.cli.source import InputSource
+from twinform.cli.printing import plural, print_line, show
+from twinform.cli.project_options import ResolvedOptions
 from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadOptions, read, run_conversion
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
-from twinform.diagnostics.reporters import FileFindings
+from twinform.diagnostics.reporters import FileFindings, printable
 from twinform.passes import FilesPass, PassError, PassInstrumentation, Pipeline, SideFilePass
 
 if TYPE_CHECKING:
-    from twinform.compiler.input.source_files import SourceFiles
-
-if TYPE_CHECKING:
-    from twinform.compiler.in_place import Updated
+    from twinform.compiler import SplitWorld
+    from twinform.compiler.in_place import TextChange, Updated
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Options:
-    """What is the same for every input; the order is for SDF unless an input's target is another one."""
+    """The options for all inputs; the request is for SDF unless an input has another target."""
 
     request: ConversionRequest
     load_options: LoadOptions
@@ -44,23 +41,23 @@ class Options:
     audit: bool = False
 
     def request_for(self, job: ConversionJob) -> ConversionRequest:
-        """What one input is to become."""
+        """Return the request for one input."""
         return replace(
             self.request, to=job.target, sdf_version=self.request.sdf_version if job.target == "sdf" else None
         )
 
     def for_file(self, own: ResolvedOptions) -> "Options":
-        """Return the options with a file's own settings in place of the shared ones."""
+        """Return the options with those of one file."""
         request = replace(self.request, passes=own.passes or Pipeline())
         return replace(self, load_options=own.load_options, policy=own.policy, request=request)
 
     @property
     def beside(self) -> list[str]:
-        """The files that the user's passes make, by their paths below the folder of the result."""
+        """The paths of the files that the user's passes make, below the folder of the result."""
         return [step.file for step in self.request.passes if isinstance(step, SideFilePass)]
 
     def places(self, job: ConversionJob, outputs: Outputs) -> Iterator[Output]:
-        """All that one conversion writes.
+        """Yield all files that one conversion writes.
 
         Raises:
             click.UsageError: a pass makes a file, and there is no folder for it.
@@ -74,25 +71,26 @@ class Options:
         yield from beside(job.path, self.beside)
 
     def show(self, source: InputSource, diagnostics: tuple[Diagnostic, ...]) -> bool:
-        """Print the findings as the project wants to see them; whether none of them is an error."""
-        seen = self.policy.apply(diagnostics)
-        files = _files(source) if seen else None
-        show(FileFindings(source.name, seen), notes=self.notes, on_stderr=True, every=self.every, files=files)
-        return not any(each.is_error for each in seen)
+        """Print the findings by the policy; return whether none of them is an error."""
+        return show_findings(source, self.policy.apply(diagnostics), notes=self.notes, every=self.every)
 
 
-def _files(source: InputSource) -> "SourceFiles":
-    from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - only findings have places
+def show_findings(source: InputSource, found: tuple[Diagnostic, ...], *, notes: bool, every: bool) -> bool:
+    """Print the findings in a source on stderr; return whether none of them is an error."""
+    if found:
+        from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - only findings have places
 
-    return SourceFiles({source.name: source.content}) if isinstance(source.content, bytes) else SourceFiles()
+        files = SourceFiles({source.name: source.content} if isinstance(source.content, bytes) else {})
+        show(FileFindings(source.name, found), notes=notes, on_stderr=True, every=every, files=files)
+    return not any(each.is_error for each in found)
 
 
 def run_job(job: ConversionJob, options: Options, label: str, outputs: Outputs) -> int:
-    """Run one conversion, and add what it makes to what is written; gives its exit code."""
+    """Run one conversion, add its files to the outputs, and return its exit code."""
     instrumented = options.watching.begin(job.source.name)
     try:
         with mesh_progress(options.request.passes):
-            conversion, updated = _converted(job, options, instrumented.instrumentation)
+            conversion, updated = _convert(job, options, instrumented.instrumentation)
     except CompileError as error:
         instrumented.report()
         options.show(job.source, error.diagnostics)
@@ -111,7 +109,7 @@ def run_job(job: ConversionJob, options: Options, label: str, outputs: Outputs) 
 
 
 def _audit(conversion: Conversion, name: str, outputs: Outputs) -> int:
-    """Count what became of every part, by an instrument that knows nothing of the conversion; 1 if any is missing."""
+    """Account for every part of the source, independently of the conversion; return 1 if a part is missing."""
     if conversion.source is None or not conversion.text.startswith("<"):
         raise click.UsageError("--audit counts elements of XML, and this is JSON")
     from twinform.compiler.audit import audit  # noqa: PLC0415 - few conversions are counted
@@ -128,13 +126,13 @@ def _audit(conversion: Conversion, name: str, outputs: Outputs) -> int:
     return FINDINGS
 
 
-def _converted(
+def _convert(
     job: ConversionJob, options: Options, instrumentation: PassInstrumentation | None
 ) -> tuple[Conversion, "Updated | None"]:
-    """The conversion and, where it is one in place, the file with what it changes.
+    """Convert, and return the updated file too if it is changed in place.
 
     Raises:
-        CompileError: it failed.
+        CompileError: the conversion failed.
         PassError: a pass is at fault.
     """
     request, name, load_options = options.request_for(job), job.source.name, options.load_options
@@ -162,18 +160,18 @@ def _add(
 
 
 def summary(ledger: Ledger) -> str:
-    """How much was expressed, and how much met each other fate."""
+    """Say how many parts were expressed, and how many met each other fate."""
     return ", ".join([f"expressed {ledger.expressed}", *(f"{fate} {ledger.count(fate)}" for fate in Fate)])
 
 
 def print_plan(job: ConversionJob, options: Options, label: str) -> int:
-    """Print the passes of one conversion; gives its exit code."""
+    """Print the passes of one conversion, and return its exit code."""
     loaded = read(job.source.content, options.load_options, name=job.source.name)
     if loaded.document is None or not loaded.accepted:
         options.show(job.source, loaded.diagnostics)
         return UNUSABLE if loaded.unreadable else FINDINGS
     try:
-        request = _fitted(options.request_for(job), job.source, options.load_options)
+        request = _fit(options.request_for(job), job.source, options.load_options)
     except CompileError as error:
         options.show(job.source, error.diagnostics)
         return FINDINGS
@@ -181,14 +179,107 @@ def print_plan(job: ConversionJob, options: Options, label: str) -> int:
     return 0
 
 
-def _fitted(request: ConversionRequest, source: InputSource, load_options: LoadOptions) -> ConversionRequest:
-    """The request with the passes for the consumers, if there are any.
+def _fit(request: ConversionRequest, source: InputSource, load_options: LoadOptions) -> ConversionRequest:
+    """Add the passes for the consumers to a request, if there are any.
 
     Raises:
-        CompileError: the source cannot be made what they take.
+        CompileError: no passes make the source fit the consumers.
     """
     if not load_options.profiles:
         return request
     from twinform.compiler.fitting import fitted  # noqa: PLC0415 - most results are for everybody
 
     return fitted(request, source.content, load_options, name=source.name)
+
+
+_LONGEST = 60
+"""The longest change that is printed in full, in characters."""
+
+
+def run_into(source: InputSource, into: Path | None, base: Path | None, options: Options, outputs: Outputs) -> int:
+    """Update a file of the other format with the edits of a source, and return the exit code.
+
+    Raises:
+        click.UsageError: one of the files is missing or of the wrong format.
+    """
+    from twinform.compiler.into import convert_into  # noqa: PLC0415 - most results are new files
+
+    if into is None:
+        raise click.UsageError("--base is for --into")
+    for path in (into, *([base] if base else ())):
+        if not path.is_file():
+            raise click.UsageError(f"{path} is no file")
+    if isinstance(source.content, bytes):
+        raise click.UsageError(f"{source.name} is no file that could have been made of {into}")
+    target = known_target(InputSource(str(into), str(into)).format)
+    if target is None or target in {"json", source.format} or into.suffix.lower() == ".xacro":
+        raise click.UsageError(f"--into takes a file of the other format, URDF or SDF, which {into} is not")
+    request = options.request_for(ConversionJob(source, target, into))
+    try:
+        updated = convert_into(request, Path(source.name), into, options.load_options, base=base)
+    except CompileError as error:
+        options.show(source, error.diagnostics)
+        return UNUSABLE if error.unreadable else FINDINGS
+    if not options.show(source, updated.conversion.diagnostics):
+        return FINDINGS
+    outputs.add("--into", into, updated.data)
+    outputs.as_read[into] = updated.source
+    outputs.news.extend(_describe_change(into, change) for change in updated.changes)
+    changes = len(updated.changes)
+    outputs.news.append(f"{into}: {plural(changes, 'change')}" if changes else f"{into} stays as it is")
+    return 0
+
+
+def _describe_change(path: Path, change: "TextChange") -> str:
+    """Say where a file was changed, and what: no edit of a person goes away unmentioned."""
+    line, column = change.place
+    old, new = _shorten(change.old), _shorten(change.new)
+    what = f"{old} becomes {new}" if old and new else f"{old} is deleted" if old else f"{new} is inserted"
+    return f"{path}:{line}:{column}: {what}"
+
+
+def _shorten(piece: str) -> str:
+    """Write a piece of a file in one line, cut if it is long."""
+    words = printable(" ".join(piece.split()))
+    return words if len(words) <= _LONGEST else f"{words[: _LONGEST - 3]}..."
+
+
+def run_split(source: InputSource, to: Target, options: Options, folder: Path, outputs: Outputs) -> int:
+    """Split a world into files of a folder, and return the exit code; an error in one of them stops all.
+
+    To URDF, a model becomes URDF if Gazebo reads that as the same robot, and else stays SDF.
+    """
+    from twinform.compiler import split  # noqa: PLC0415 - few worlds are split
+
+    instrumented = options.watching.begin(source.name)
+    try:
+        request = replace(options.request, to=to)
+        result = split(
+            request,
+            source.content,
+            options.load_options,
+            name=source.name,
+            instrumentation=instrumented.instrumentation,
+            folder=folder,
+        )
+    except CompileError as error:
+        instrumented.report()
+        options.show(source, error.diagnostics)
+        return UNUSABLE if error.unreadable else FINDINGS
+    except PassError as error:
+        instrumented.fault(error)
+        return FINDINGS
+    instrumented.end()
+    if not options.show(source, result.diagnostics):
+        return FINDINGS
+    _add_files(result, folder, options.ledger, outputs)
+    outputs.news.append(f"{len(result.files)} files: {summary(result.ledger)}")
+    return 0
+
+
+def _add_files(result: "SplitWorld", folder: Path, ledger: Path | None, outputs: Outputs) -> None:
+    for name, text in result.files.items():
+        outputs.add("--split", folder / name, text)
+    if ledger is not None:
+        outputs.add("--ledger", ledger, result.ledger.to_json())
+    outputs.add_beside(folder / next(iter(result.files)), result.side_files)

@@ -6,8 +6,7 @@ from typing import Literal
 import click
 from click.core import ParameterSource
 
-from twinform.cli.command import Command
-from twinform.cli.failure import Unusable
+from twinform.cli.command import Command, Unusable
 from twinform.cli.outputs import Outputs
 from twinform.cli.printing import print_document
 from twinform.schemas import Version, parse_version, schema_text, table
@@ -84,7 +83,7 @@ def command(
 
 
 def _for_xacro(language: str, version: Version, output: Path) -> dict[Path, str]:
-    """The schema, and beside it those that it imports."""
+    """Make the schema for xacro files, and those that it imports."""
     if output == _STDOUT:
         raise click.UsageError("--xacro makes several files: name the first with -o, such as -o robot.xsd")
     others = {output.with_name(name): text for name, text in imported_schemas().items()}

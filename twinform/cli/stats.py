@@ -2,13 +2,9 @@
 
 import click
 
-from twinform.cli.command import Command
-from twinform.cli.completion import files
-from twinform.cli.failure import FINDINGS, UNUSABLE
-from twinform.cli.inputs import inputs, load_options_of, reading_options
-from twinform.cli.print_findings import show
-from twinform.cli.printing import print_report
-from twinform.compiler import expand, read
+from twinform.cli.command import FINDINGS, UNUSABLE, Command, files
+from twinform.cli.inputs import inputs, load_options_of, read_model, reading_options
+from twinform.cli.printing import print_report, show
 from twinform.compiler.input.load_options import ReadingOptions
 from twinform.compiler.statistics import REPORTERS, FileStatistics, measure
 from twinform.diagnostics.reporters import FileFindings
@@ -44,8 +40,7 @@ def command(
     load_options, code = load_options_of(arguments, reading), 0
     found: list[FileStatistics] = []
     for source in sources:
-        loaded = read(source.content, load_options, name=source.name)
-        loaded = expand(loaded, load_options) if reading.get("expand_includes") else loaded
+        loaded = read_model(source, load_options, reading)
         if loaded.document is None or not loaded.accepted:
             show(FileFindings(loaded.path, loaded.diagnostics), notes=False, on_stderr=True)
             code = max(code, UNUSABLE if loaded.unreadable else FINDINGS)

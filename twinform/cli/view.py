@@ -9,13 +9,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from twinform.cli.command import Command
-from twinform.cli.completion import files
-from twinform.cli.failure import UNUSABLE, Unusable
-from twinform.cli.inputs import file_options, inputs, load_options_of
-from twinform.cli.print_findings import show
-from twinform.cli.printing import print_line
-from twinform.cli.source import InputSource
+from twinform.cli.command import UNUSABLE, Command, Unusable, files
+from twinform.cli.inputs import InputSource, file_options, inputs, load_options_of
+from twinform.cli.printing import print_line, show
 from twinform.compiler import CompileError, LoadOptions
 from twinform.compiler.input.load_options import FileOptions
 from twinform.diagnostics import Diagnostic
@@ -78,14 +74,14 @@ def _line(found: Diagnostic) -> str:
 
 @contextlib.contextmanager
 def _until_stopped() -> Generator[None]:
-    """Run the block until Ctrl-C, or until something asks the program to end."""
+    """Run the block until Ctrl-C, or until a signal asks the program to end."""
     with signals_exit_with(0), contextlib.suppress(KeyboardInterrupt):
         yield
 
 
 @dataclass(slots=True)
 class _Session:
-    """The server, and what it shows."""
+    """The server of the view, and the files that it shows."""
 
     sources: Sequence[InputSource]
     load_options: LoadOptions
@@ -103,7 +99,7 @@ class _Session:
         return 0
 
     def watch(self, words: Sequence[str]) -> int:
-        """Show the files whenever one of them changes; one that cannot be read leaves the last that could."""
+        """Show the files whenever one of them changes; if one cannot be read, its last state stays."""
         from twinform.cli.watching import watch_models  # noqa: PLC0415 - it seldom happens
 
         round_ = _Round(self)
@@ -112,12 +108,12 @@ class _Session:
         return 0
 
     def show(self) -> bool:
-        """Read the files and show them; False where one could not be read."""
+        """Read the files and show them; return whether all could be read."""
         return self.show_subjects([self.read(source) for source in self.sources])
 
     def read(self, source: InputSource) -> "ViewSubject | None":
-        """What is to be shown of a file; its findings are printed where there is nothing."""
-        from twinform.view import read_subject  # noqa: PLC0415 - see above
+        """Read a file for the view; print its findings if there is nothing to show."""
+        from twinform.view import read_subject  # noqa: PLC0415 - the help needs no view
 
         subject, loaded = read_subject(source.content, self.load_options, name=source.name)
         if subject is None:
@@ -125,7 +121,7 @@ class _Session:
         return subject
 
     def show_subjects(self, subjects: "Sequence[ViewSubject | None]") -> bool:
-        """Show what could be read; False where something could not."""
+        """Show the files that could be read; return whether all could."""
         found = [subject for subject in subjects if subject is not None]
         if len(found) < len(subjects) or not found:
             self._warn("; what could be read last is shown")
@@ -143,7 +139,7 @@ class _Session:
         return True
 
     def _warn(self, but: str = "") -> None:
-        """Say in the page what went wrong since it was said last."""
+        """Show new errors in the page."""
         for title, lines in self.complaints:
             if self.viewer is not None:
                 self.viewer.warn(f"{title}{but}", lines)
@@ -175,14 +171,14 @@ class _Session:
             return None
 
     def _complain(self, title: str, name: str, diagnostics: tuple[Diagnostic, ...]) -> None:
-        """Say what is wrong, on the terminal and in the page if there is one."""
+        """Print what is wrong, and keep it for the page."""
         show(FileFindings(name, diagnostics), notes=False, on_stderr=True)
         self.complaints.append((title, [_line(each) for each in diagnostics if each.is_error]))
 
 
 @dataclass(slots=True)
 class _Round:
-    """The files as they were last read, of which one or both have changed."""
+    """The files as they were last read, after one or both have changed."""
 
     session: _Session
     subjects: "dict[str, ViewSubject | None]" = field(default_factory=dict[str, "ViewSubject | None"])
@@ -192,6 +188,6 @@ class _Round:
         self.subjects[source.name] = self.session.read(source)
 
     def end(self) -> None:
-        """Show what was read."""
+        """Show the files."""
         names = [source.name for source in self.session.sources]
         self.session.show_subjects([self.subjects.get(name) for name in names])

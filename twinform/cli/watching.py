@@ -1,4 +1,4 @@
-"""`--watch`: works on files again when they change, or a file that they are made from: includes, macros, packages."""
+"""`--watch`: work on files again when they, or files that they are made from such as includes and macros, change."""
 
 import os
 import stat
@@ -9,25 +9,22 @@ from typing import NamedTuple, Protocol, TypeVar
 
 import click
 
-from twinform.cli.failure import Unusable
-from twinform.cli.printing import print_line
-from twinform.cli.source import InputSource, format_of_suffix
+from twinform.cli.command import INTERRUPTED, Unusable
+from twinform.cli.inputs import InputSource, format_of_suffix
+from twinform.cli.printing import plural, print_line
 from twinform.compiler.observing import Observation, observed
 
-_INTERRUPTED = 130
-"""The exit code of a program that is ended by Ctrl-C, as shells give it."""
-# How long to wait for the system to report a change before looking: not every file system reports
-# them.
+# How long to wait for the system to report a change before looking, since not every file system reports changes.
 _MILLISECONDS = 1000
 _MOST_WAITS = 5
-"""So many times, before new models are looked for in all folders."""
+"""The number of waits before new models are looked for in all folders."""
 
 
 class Round(Protocol):
-    """What collects the work of one round."""
+    """Collects the results of one round."""
 
     def end(self) -> object:
-        """Say what came of it."""
+        """Report the results."""
         ...
 
 
@@ -35,7 +32,7 @@ AnyRound = TypeVar("AnyRound", bound=Round)
 
 
 class _Status(NamedTuple):
-    """What changes when a file does."""
+    """The status of a file, which changes with its content."""
 
     time: int
     size: int
@@ -48,7 +45,7 @@ class _Status(NamedTuple):
 
 @dataclass(slots=True)
 class _Watched:
-    """The files that were read or looked for when each input was worked on, and what they were then."""
+    """The files that were read or looked for while working on each input, and their status then."""
 
     files: dict[str, Mapping[str, _Status | None]] = field(default_factory=dict[str, Mapping[str, "_Status | None"]])
 
@@ -59,12 +56,12 @@ class _Watched:
         self.files[name] = {path: _Status.of(status) for path, status in files.items()}
 
     def is_stale(self, name: str) -> bool:
-        """Whether an input is new, or something that it was made from has changed."""
+        """Whether an input is new, or a file that it was made from has changed."""
         known = self.files.get(name)
-        return known is None or any(_now(path) != status for path, status in known.items())
+        return known is None or any(_status_of(path) != status for path, status in known.items())
 
     def folders(self, names: Iterable[str]) -> set[str]:
-        """The folders of all that the inputs of these names are made from, and the current one."""
+        """Return the folders of all files that inputs are made from, and the current one."""
         files = (path for name in names for path in self.files.get(name, ()))
         return {os.getcwd(), *map(os.path.dirname, files)}  # noqa: PTH109 - many strings
 
@@ -74,7 +71,7 @@ def watch_models(
     new_round: Callable[[], AnyRound],
     work: Callable[[InputSource, AnyRound], None],
 ) -> int:
-    """Work on the models that are found, then on those that change, until Ctrl-C; gives the exit code.
+    """Work on all models, and again on those that change, until Ctrl-C; return the exit code.
 
     Raises:
         Unusable: watchfiles is not installed.
@@ -87,10 +84,10 @@ def watch_models(
             stale = [source for source in sources if watched.is_stale(source.name)]
             if stale:
                 _work_on(stale, new_round(), work, watched)
-                print_line(f"watching {len(sources)} file{'' if len(sources) == 1 else 's'}; Ctrl-C ends", err=True)
+                print_line(f"watching {plural(len(sources), 'file')}; Ctrl-C ends", err=True)
             _wait([source.name for source in sources], watched)
     except KeyboardInterrupt:
-        return _INTERRUPTED
+        return INTERRUPTED
 
 
 def _find_models(find: Callable[[], Sequence[InputSource]]) -> Sequence[InputSource]:
@@ -118,15 +115,15 @@ def _require_watchfiles() -> None:
 
 
 def _wait(names: Sequence[str], watched: _Watched) -> None:
-    """Return when a file of an input has changed, when there may be new models, or to look for these."""
+    """Wait until a file of an input has changed, or until it is time to look for new models."""
     import watchfiles  # noqa: PLC0415 - an extra
 
     folders = sorted(folder for folder in watched.folders(names) if os.path.isdir(folder))  # noqa: PTH112 - many strings
     waits = 0
     try:
         for changes in watchfiles.watch(
-            # Not recursive: a workspace of ROS holds a hundred thousand files, and inotify needs a
-            # watch for each folder.
+            # Not recursive: a workspace of ROS has a hundred thousand files, and inotify needs a watch
+            # for each folder.
             *folders,
             watch_filter=None,
             recursive=False,
@@ -138,10 +135,10 @@ def _wait(names: Sequence[str], watched: _Watched) -> None:
             if is_new or waits == _MOST_WAITS or any(watched.is_stale(name) for name in names):
                 return
     except FileNotFoundError:
-        time.sleep(_MILLISECONDS / 1000)  # a folder has gone while it was asked for
+        time.sleep(_MILLISECONDS / 1000)  # a folder was deleted meanwhile
 
 
-def _now(path: str) -> _Status | None:
+def _status_of(path: str) -> _Status | None:
     try:
         return _Status.of(os.stat(path))  # noqa: PTH116 - many strings
     except OSError:

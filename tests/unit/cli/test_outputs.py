@@ -78,7 +78,7 @@ def test_no_output_is_written_over_another(run: Run, here: Path, command: str) -
 
 
 def test_standard_input_is_an_input(run: Run, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("twinform.cli.source.InputSource.path", Path("good.urdf"))  # where /dev/stdin leads
+    monkeypatch.setattr("twinform.cli.inputs.InputSource.path", Path("good.urdf"))  # where /dev/stdin leads
     done = run("convert", "-", "-o", "good.urdf", text=GOOD)
     assert (done.exit_code, Path("good.urdf").read_text()) == (2, GOOD)
 

@@ -1,31 +1,31 @@
-"""`--config`: the settings of a project become the defaults of options."""
+"""Settings of a project as defaults of options, and settings of single files in it."""
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import click
 
-from twinform.cli.config.config_error import ConfigError
-from twinform.cli.config.config_file import Table, find, section
+from twinform.cli.command import combine_options
+from twinform.cli.config.config_file import ConfigError, Table, find, section
 
 if TYPE_CHECKING:
-    from twinform.cli.config.per_file import PerFile
     from twinform.cli.config.settings import ProjectSettings
     from twinform.passes import Names, Pipeline
 
-Command = TypeVar("Command", bound=Callable[..., Any])
+
 _KEY = f"{__name__}.project"
 _TRUSTED = f"{__name__}.trusted"
 
 
 @dataclass(frozen=True, slots=True)
 class Project:
-    """The settings that are in force, the file that they come from, and the pipelines that it names.
+    """The settings of a project, and the file that they come from.
 
-    What is not `trusted` must not lead out of the folder of the file. Nothing here needs passes or Pydantic where there
-    is no such file.
+    Settings that are not `trusted` must not lead out of the folder of the file. Without a file, neither passes nor
+    Pydantic are imported.
     """
 
     path: Path | None = None
@@ -43,10 +43,10 @@ class Project:
 
     @property
     def folders(self) -> Sequence[str]:
-        """The folders to look in.
+        """The folders in which models and packages are looked up.
 
         Raises:
-            ConfigError: one leads out of that of the file.
+            ConfigError: a folder is outside of the folder of the file.
         """
         if self.path is None or self.trusted or not self.paths:
             return self.paths
@@ -58,11 +58,9 @@ class Project:
 
     @property
     def variables(self) -> Sequence[str]:
-        """The environment variables that xacro files may read.
-
-        Only a trusted file names any: it may have come with the xacro files, and name a secret for them.
-        """
-        # Ownership proves nothing here: whoever unpacks an archive owns all that is in it.
+        """The environment variables that xacro files may read; only a trusted configuration names any."""
+        # A configuration may have come with the xacro files, and name a secret for them. Ownership
+        # proves nothing here: whoever unpacks an archive owns all that is in it.
         return self.env if self.trusted else ()
 
     @property
@@ -70,7 +68,7 @@ class Project:
         """The file of the baseline, if there is one.
 
         Raises:
-            ConfigError: it leads out of the folder of the file.
+            ConfigError: it is outside of the folder of the configuration.
         """
         if self.path is None or self.baseline is None:
             return None
@@ -83,25 +81,25 @@ class Project:
 
     @property
     def names(self) -> "Names":
-        """Knows the pipelines, whoever may run them."""
+        """Returns a pipeline by its name, without asking whether it may be run."""
         from twinform.passes.framework.pipeline_text import no_names  # noqa: PLC0415 - few commands have pipelines
 
         return self.known or no_names
 
     def named(self, name: str) -> "Pipeline":
-        """The pipeline of a name, to be run.
+        """Return the pipeline of a name to run it.
 
         Raises:
-            UnknownPipelineError: there is none.
-            ConfigError: the text in the file is no pipeline, or none that may come from it.
+            UnknownPipelineError: there is no such pipeline.
+            ConfigError: it is wrong, or must not come from this file.
         """
         return self.confined(self.names(name), f"pipelines.{name}")
 
     def confined(self, pipeline: "Pipeline", key: str) -> "Pipeline":
-        """A pipeline that the file has under a key, to be run.
+        """Keep a pipeline that the file has under a key from reading other files, unless the file is trusted.
 
         Raises:
-            ConfigError: it must not come from this file.
+            ConfigError: the pipeline must not come from this file.
         """
         if self.path is None or self.trusted:
             return pipeline
@@ -110,46 +108,23 @@ class Project:
         return confined(self.path, pipeline, key)
 
 
-def config_options(command: Command) -> Command:
-    """Give a command `--config FILE`, `--no-config` and `--trust-config`."""
-    command = click.option(
-        "--trust-config",
-        is_flag=True,
-        is_eager=True,
-        expose_value=False,
-        callback=_trust,
-        help="Let the configuration name other folders, variables, and passes that write files, and raise limits.",
-    )(command)
-    command = click.option(
-        "--no-config", is_flag=True, is_eager=True, expose_value=False, callback=_none, help="Use no configuration."
-    )(command)
-    return click.option(
-        "--config",
-        type=click.Path(exists=True, dir_okay=False, path_type=Path),
-        is_eager=True,
-        expose_value=False,
-        callback=_load,
-        help="The configuration; else the nearest twinform.toml, or pyproject.toml with [tool.twinform].",
-    )(command)
-
-
 def settings_of(ctx: click.Context) -> Project:
-    """The project of a command that has these options."""
+    """Return the project of a command."""
     found = ctx.meta.get(_KEY)
     project = found if isinstance(found, Project) else Project()
     return replace(project, trusted=bool(ctx.meta.get(_TRUSTED)))
 
 
 def hold_limit(ctx: click.Context, option: click.Parameter, value: int, usual: int) -> int:
-    """The value of an option that is a limit, which a configuration may lower.
+    """Return the value of a limit, which a configuration may only lower.
 
     Raises:
-        ConfigError: it comes from a configuration that raises it.
+        ConfigError: a configuration that is not trusted raises it.
     """
     project = settings_of(ctx)
     configured = ctx.get_parameter_source(option.name or "") is click.core.ParameterSource.DEFAULT_MAP
-    # A file that is too large and a configuration that allows it come in one download. This is an
-    # error and no warning: what would follow is an error about the model that does not say why.
+    # A file that is too large may come with a configuration that allows it. This is an error, not a
+    # warning: otherwise an error about the model would follow that does not say why.
     if configured and project.path is not None and not project.trusted:
         from twinform.cli.config.trust import require_lower  # noqa: PLC0415 - few projects have limits
 
@@ -174,12 +149,11 @@ def _nearest() -> tuple[Path, Table] | None:
 def _per_file(path: Path, settings: "ProjectSettings") -> "PerFile | None":
     if not settings.files:
         return None
-    from twinform.cli.config.per_file import PerFile  # noqa: PLC0415 - few projects have such tables
 
     return PerFile(path, settings.files)
 
 
-def _none(ctx: click.Context, _option: click.Parameter, value: bool) -> None:
+def _use_none(ctx: click.Context, _option: click.Parameter, value: bool) -> None:
     if value:
         ctx.meta[_KEY] = Project()
         ctx.default_map = {}
@@ -197,8 +171,7 @@ def _load(ctx: click.Context, _option: click.Parameter, value: Path | None) -> N
     found = (value, _section(value)) if value is not None else _nearest()
     if found is None:
         return
-    from twinform.cli.config.pipelines import NamedPipelines  # noqa: PLC0415 - many projects have no settings
-    from twinform.cli.config.settings import parse_settings  # noqa: PLC0415 - see above
+    from twinform.cli.config.settings import NamedPipelines, parse_settings  # noqa: PLC0415 - many have no settings
 
     path, table = found
     settings = parse_settings(path, table)
@@ -220,3 +193,104 @@ def _load(ctx: click.Context, _option: click.Parameter, value: Path | None) -> N
     # wins. The Python API reads no configuration: a library whose results depend on the current
     # folder is a trap.
     ctx.default_map = dict(settings.defaults)
+
+
+config_options = combine_options(
+    click.option(
+        "--config",
+        type=click.Path(exists=True, dir_okay=False, path_type=Path),
+        is_eager=True,
+        expose_value=False,
+        callback=_load,
+        help="The configuration; else the nearest twinform.toml, or pyproject.toml with [tool.twinform].",
+    ),
+    click.option(
+        "--no-config", is_flag=True, is_eager=True, expose_value=False, callback=_use_none, help="Use no configuration."
+    ),
+    click.option(
+        "--trust-config",
+        is_flag=True,
+        is_eager=True,
+        expose_value=False,
+        callback=_trust,
+        help="Let the configuration name other folders, variables, and passes that write files, and raise limits.",
+    ),
+)
+"""Gives a command `--config FILE`, `--no-config` and `--trust-config`."""
+
+
+Value = TypeVar("Value")
+
+if TYPE_CHECKING:
+    from twinform.cli.config.settings import FileSettings
+
+
+class RuleSettings(NamedTuple):
+    """The rules that a table of the configuration allows and denies, and the key of the table."""
+
+    allow: Sequence[str]
+    deny: Sequence[str]
+    key: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class OwnSettings:
+    """The settings of one file beyond those of the project; None if a setting is not given.
+
+    Pipelines have the key that they come from, and rules are listed table by table.
+    """
+
+    arguments: Mapping[str, str] = field(default_factory=dict[str, str])
+    strict: bool | None = None
+    passes: tuple[str, str] | None = None
+    check_passes: tuple[str, str] | None = None
+    rules: Sequence[RuleSettings] = ()
+
+
+NO_OWN_SETTINGS = OwnSettings()
+
+
+class PerFile:
+    """The tables `[[files]]` of a configuration; of several that fit a file, the last one wins."""
+
+    def __init__(self, path: Path, tables: Sequence["FileSettings"]) -> None:
+        """Take the tables of the configuration at a path.
+
+        Raises:
+            ConfigError: a pattern is invalid.
+        """
+        from twinform.cli.path_patterns import PathPatterns, PatternError  # noqa: PLC0415 - few projects have tables
+
+        self.tables: list[tuple[str, PathPatterns, FileSettings]] = []
+        for number, table in enumerate(tables):
+            key = f"files[{number}]"
+            try:
+                self.tables.append((key, PathPatterns.of(path.parent, table.match), table))
+            except PatternError as error:
+                raise ConfigError(path, str(error), key=f"{key}.match") from error
+
+    def of(self, name: str) -> OwnSettings:
+        """Return the settings of a file."""
+        path = os.path.abspath(name)  # noqa: PTH100 - links stay links
+        fitting = [(key, table) for key, patterns, table in self.tables if patterns.match(path)]
+        if not fitting:
+            return NO_OWN_SETTINGS
+        return OwnSettings(
+            arguments={name: _xacro_text(value) for _, table in fitting for name, value in table.arguments.items()},
+            strict=_last_given(table.strict for _, table in fitting),
+            passes=_last_given((table.passes, f"{key}.passes") for key, table in fitting if table.passes is not None),
+            check_passes=_last_given(
+                (table.check_passes, f"{key}.check-passes") for key, table in fitting if table.check_passes is not None
+            ),
+            rules=[RuleSettings(table.allow, table.deny, key) for key, table in fitting],
+        )
+
+
+def _last_given(values: Iterable[Value | None]) -> Value | None:
+    """Return the last value that is set; None if none is."""
+    return next((each for each in reversed([*values]) if each is not None), None)
+
+
+def _xacro_text(value: str | float | bool) -> str:
+    """Write a value as xacro does."""
+    return str(value).lower() if isinstance(value, bool) else str(value)

@@ -1,4 +1,4 @@
-"""Finding a configuration, and reading its file."""
+"""Finds a configuration and reads its file; the error of a wrong one."""
 
 import os
 import re
@@ -7,42 +7,41 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import cast
 
-from twinform.cli.config.config_error import ConfigError
+from twinform.cli.command import Unusable
 from twinform.file_access import REPOSITORY, Readable, folders_above, has_any
 
 OWN = "twinform.toml"
 _SHARED = "pyproject.toml"
 _LARGEST = 2**20
 _DEEPEST = 64
-# A dotted key with too many parts.
-# `tomllib` walks through all parts of a dotted key for each of them: 200,000 parts in a file of 400
-# kB took longer than a minute. No setting has more than three.
+# A dotted key with too many parts: `tomllib` is quadratic in them, and 200,000 parts in a file of 400 kB took longer
+# than a minute. No setting has more than three.
 _DEEP_KEY = re.compile(rb"""(?:\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*){%d}""" % _DEEPEST)
 _LINE = re.compile(r" \(at line (\d+), column \d+\)")
-# `int` raises a plain ValueError for so many digits, without a line.
+# A number with so many digits that `int` raises a plain ValueError, without a line.
 _LONG_NUMBER = re.compile(rb"[0-9_]{%d}" % sys.get_int_max_str_digits())
 Table = Mapping[str, object]
 
 
 def find(start: Path) -> tuple[Path, Table] | None:
-    """The nearest configuration in a folder and those above it; `twinform.toml` goes before `pyproject.toml`.
+    """Find the nearest configuration in a folder and those above it; `twinform.toml` wins over `pyproject.toml`.
 
-    What lies above the top of the repository, or above the home folder of the user, is not looked at.
+    The search ends at the top of the repository or at the home folder of the user.
 
     Raises:
-        ConfigError: there is one, and it cannot be read.
+        ConfigError: a configuration cannot be read.
     """
-    for folder in _project(start):
+    for folder in _project_folders(start):
         for name in (OWN, _SHARED):
             path = folder / name
-            found = _look(path) if path.is_file() else None
+            found = _read_settings(path) if path.is_file() else None
             if found is not None:
                 return path, found
     return None
 
 
-def _project(start: Path) -> Iterator[Path]:
-    """The folders of the project that a folder belongs to, and the home folder where they lie in it."""
+def _project_folders(start: Path) -> Iterator[Path]:
+    """Yield the folders of the project that a folder belongs to, and the home folder if the project is in it."""
     last = start
     for folder in (start, *folders_above(start)):
         yield (last := folder)
@@ -53,20 +52,20 @@ def _project(start: Path) -> Iterator[Path]:
         yield home
 
 
-def _look(path: Path) -> Table | None:
-    """The settings of a file on the way up, if it has any for twinform; other tools' faults do not count."""
+def _read_settings(path: Path) -> Table | None:
+    """Return the settings of a file, if it has any; mistakes in the settings of other tools do not count."""
     if path.name == _SHARED and b"twinform" not in _bytes(path):
         return None
     return section(path)
 
 
 def section(path: Path) -> Table | None:
-    """Our part of a file; None where a `pyproject.toml` has none.
+    """Read the settings of a file; None if it is a `pyproject.toml` without any.
 
     Raises:
         ConfigError: the file cannot be read.
     """
-    found = _parsed(path)
+    found = _parse(path)
     if path.name == _SHARED:
         tool = _table(found.get("tool", {}), path, "tool")
         if "twinform" not in tool:
@@ -78,7 +77,7 @@ def section(path: Path) -> Table | None:
 
 
 def _texts(value: object) -> Iterator[str]:
-    """All texts in a value, keys of tables among them."""
+    """Yield all texts in a value, keys of tables too."""
     if isinstance(value, str):
         yield value
     elif isinstance(value, dict):
@@ -96,7 +95,7 @@ def _table(value: object, path: Path, key: str) -> Table:
     return cast("Table", value)
 
 
-def _parsed(path: Path) -> Table:
+def _parse(path: Path) -> Table:
     import tomllib  # noqa: PLC0415 - most folders have no configuration
 
     data = _bytes(path)
@@ -113,7 +112,7 @@ def _parsed(path: Path) -> Table:
         raise ConfigError(path, _LINE.sub("", str(error)), line=int(at[1]) if at else None) from error
     except RecursionError as error:
         raise ConfigError(path, "it is nested too deeply") from error
-    except ValueError as error:  # of `int`, which does not say where
+    except ValueError as error:  # raised by `int`, without a place
         line = next((at for at, text in enumerate(data.split(b"\n"), 1) if _LONG_NUMBER.search(text)), None)
         raise ConfigError(path, f"a number has more than {sys.get_int_max_str_digits():,} digits", line=line) from error
 
@@ -126,3 +125,16 @@ def _bytes(path: Path) -> bytes:
     if len(data) > _LARGEST:
         raise ConfigError(path, f"is larger than {_LARGEST} bytes")
     return data
+
+
+_SECTION = "tool.twinform"
+
+
+class ConfigError(Unusable):
+    """A configuration is wrong; the message names the file, the line if it is known, and the key."""
+
+    def __init__(self, file: Path, problem: str, *, key: str = "", line: int | None = None) -> None:
+        key = f"{_SECTION}{'.' if key else ''}{key}" if file.name == "pyproject.toml" and line is None else key
+        where = f"{file}:{line}" if line is not None else str(file)
+        super().__init__(": ".join(part for part in (where, key, problem) if part))
+        self.file, self.problem, self.key, self.line = file, problem, key, line

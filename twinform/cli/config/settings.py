@@ -1,4 +1,4 @@
-"""The settings that a configuration file can have."""
+"""The settings that a configuration file can have, and the pipelines that it names."""
 
 import os
 from collections.abc import Mapping
@@ -7,22 +7,24 @@ from typing import Annotated, Any, ForwardRef, Literal, get_args
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, create_model, field_validator
 
-from twinform.cli.config.config_error import ConfigError
-from twinform.cli.config.config_file import Table
+from twinform.cli.config.config_file import ConfigError, Table
 from twinform.compiler.input.load_options import FileOptions
 from twinform.compiler.option import Option, declared_options
 from twinform.compiler.request_options import RequestOptions
+from twinform.passes import Pipeline, PipelineError, UnknownPipelineError, parse_pipeline
 from twinform.passes.framework.pass_options import nearest
+from twinform.passes.framework.pipeline_text import TableError, parse_tables
+from twinform.passes.framework.syntax import KEY
 
 _MOST = 1000
-"""Folders, patterns, names of rules and tables of files that a configuration may list."""
+"""The most entries of a list in a configuration."""
 Texts = Annotated[list[str], Field(max_length=_MOST)]
 
 _CONFIG = ConfigDict(frozen=True, extra="forbid", strict=True, alias_generator=lambda name: name.replace("_", "-"))
 
 
 class FormatSettings(BaseModel):
-    """The settings of `twinform format`; `None` where nothing is set."""
+    """The settings of `twinform format`; None if a setting is not given."""
 
     model_config = _CONFIG
 
@@ -32,7 +34,7 @@ class FormatSettings(BaseModel):
 
 
 class FileSettings(BaseModel):
-    """The settings of some files: those that a pattern of `match` fits, in the notation of `.gitignore`."""
+    """The settings of files that fit a pattern of `match`, in the notation of `.gitignore`."""
 
     model_config = _CONFIG
 
@@ -46,7 +48,7 @@ class FileSettings(BaseModel):
 
 
 def _type_of(kind: Any, option: Option) -> Any:
-    """The type of an option in a configuration, where a text may stand for what is parsed of one, and for passes."""
+    """Return the type of an option in a configuration, in which values that are parsed may be texts."""
     parse, (kind, *_) = option.parse, get_args(kind) if type(None) in get_args(kind) else (kind,)
     if kind is int:
         kind = int | str if parse else Annotated[int, Field(gt=0)]
@@ -63,7 +65,7 @@ _OptionSettings: type[BaseModel] = create_model("_OptionSettings", __config__=_C
 
 
 class ProjectSettings(_OptionSettings):
-    """The settings of a project; `None` where nothing is set. Paths are relative to the folder of the file."""
+    """The settings of a project; None if a setting is not given. Paths are relative to the folder of the file."""
 
     model_config = _CONFIG
 
@@ -95,7 +97,7 @@ class ProjectSettings(_OptionSettings):
 
     @property
     def defaults(self) -> Mapping[str, object]:
-        """What options are where the command line has none, by the names that they have there."""
+        """The defaults of options, by their names on the command line."""
         names = (*_fields, "read_carriers", "check_passes")
         given = {name: getattr(self, name) for name in names} | dict(self.format)
         given["profiles"] = ",".join(self.profiles) or None
@@ -103,15 +105,15 @@ class ProjectSettings(_OptionSettings):
 
 
 def parse_settings(path: Path, found: Table) -> ProjectSettings:
-    """The settings in a file.
+    """Parse the settings of a file.
 
     Raises:
-        ConfigError: a key is unknown, or has a value that it does not take.
+        ConfigError: a key is unknown or has a wrong value.
     """
     try:
         settings = ProjectSettings.model_validate(found)
     except ValidationError as error:
-        raise _readable(path, error) from error
+        raise _config_error(path, error) from error
     folders = [str(path.parent / each) for each in settings.paths]
     for folder, each in zip(folders, settings.paths, strict=True):
         if not os.path.isdir(folder):  # noqa: PTH112 - Path.is_dir raises where a name is too long
@@ -119,8 +121,8 @@ def parse_settings(path: Path, found: Table) -> ProjectSettings:
     return settings.model_copy(update={"paths": folders})
 
 
-def _readable(path: Path, error: ValidationError) -> ConfigError:
-    """Pydantic's first complaint."""
+def _config_error(path: Path, error: ValidationError) -> ConfigError:
+    """Convert Pydantic's first error."""
     problem = error.errors(include_url=False)[0]
     key = "".join(f"[{each}]" if isinstance(each, int) else f".{each}" for each in problem["loc"]).removeprefix(".")
     if problem["type"] == "extra_forbidden":
@@ -132,3 +134,60 @@ def _readable(path: Path, error: ValidationError) -> ConfigError:
         problem["msg"].removeprefix("Value error, ").removeprefix("Input ").replace("dictionary", "table"),
         key=key,
     )
+
+
+_DEEPEST = 32
+"""The deepest nesting of pipelines in one another."""
+# A pipeline that names another one twice has twice as many passes: 26 such pipelines have 33 million.
+_MOST_PASSES = 1000
+
+
+class NamedPipelines:
+    """Returns the pipeline of a name when it is called; each is parsed when it is needed."""
+
+    def __init__(self, path: Path, raw: Mapping[str, object]) -> None:
+        """Take the texts or tables of the pipelines in the file at `path`.
+
+        Raises:
+            ConfigError: a name cannot be written as `@NAME`.
+        """
+        self.path, self.raw = path, raw
+        self._open: list[str] = []
+        self._known: dict[str, Pipeline] = {}
+        for name in raw:
+            if not KEY.fullmatch(name):
+                problem = "the name of a pipeline takes letters, digits, _ and -"
+                raise ConfigError(path, problem, key=f'pipelines."{name}"')
+
+    def __call__(self, name: str) -> Pipeline:
+        """Return the pipeline of this name, which may name others but not itself.
+
+        Raises:
+            UnknownPipelineError: there is no such pipeline, or it names itself.
+            ConfigError: the pipeline is wrong.
+        """
+        if name not in self.raw:
+            raise UnknownPipelineError(f"no pipeline is called {name} in {self.path}{nearest(name, list(self.raw))}")
+        if name in self._open:
+            raise UnknownPipelineError(f"a pipeline stands for itself: {' -> '.join((*self._open, name))}")
+        if len(self._open) >= _DEEPEST:
+            raise UnknownPipelineError(f"more than {_DEEPEST} pipelines stand for each other: {name} is one too many")
+        if name not in self._known:
+            self._open.append(name)
+            try:
+                self._known[name] = self._parse(name)
+            finally:
+                self._open.pop()
+        return self._known[name]
+
+    def _parse(self, name: str) -> Pipeline:
+        raw, key = self.raw[name], f"pipelines.{name}"
+        try:
+            found = parse_pipeline(raw, names=self) if isinstance(raw, str) else parse_tables(raw, names=self)
+        except PipelineError as error:
+            raise ConfigError(self.path, str(error), key=key) from error
+        except TableError as error:
+            raise ConfigError(self.path, error.problem, key=key + error.key) from error
+        if len(found.passes) > _MOST_PASSES:
+            raise ConfigError(self.path, f"it stands for more than {_MOST_PASSES:,} passes", key=key)
+        return found

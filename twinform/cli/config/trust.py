@@ -1,9 +1,8 @@
 """How far a configuration is trusted: what it may read and write without `--trust-config`.
 
-Whoever calls the command may not have written the configuration that is found: it may have come with a download, or lie
-in a folder that others write into. So it names no folder or file outside of its own folder, raises no limit, and a pass
-that makes a file, or that another package brings, may come from it only if the configuration is the caller's own.
-`HELD` says it setting by setting.
+A configuration may have come with a download, or lie in a folder that others write into. So it must not name folders or
+files outside of its own folder, nor raise a limit. Passes that make files, or that another package brings, may come
+from it only if it is the caller's own. `HELD` says it setting by setting.
 """
 
 import os
@@ -13,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from twinform.cli.config.config_error import ConfigError
+from twinform.cli.config.config_file import ConfigError
 from twinform.compiler.output.same_files import is_below
 from twinform.passes import FilesPass, Pass, Pipeline
 from twinform.passes.framework.built_in import BUILT_IN
@@ -49,23 +48,23 @@ HELD: Mapping[str, Hold] = {
     "strict": "nothing to hold",
     "urdf-version": "nothing to hold",
 }
-"""What each setting is held to without `--trust-config`. There is none for what is written, started or connected to."""
+"""What each setting is held to without `--trust-config`; no setting names outputs, programs or addresses."""
 _ADMINISTRATOR = 0
 _ADVICE = "give --trust-config if this is meant"
 
 
 def require_inside(config: Path, path: Path, key: str) -> None:
-    """Raise where a path that a configuration names leads out of its folder.
+    """Require that a path in a configuration is in the folder of the configuration.
 
     Raises:
-        ConfigError: it does.
+        ConfigError: it is not.
     """
     if not is_below(path, config.parent):
         raise ConfigError(config, f"{str(path)!r} leads out of the folder of the configuration; {_ADVICE}", key=key)
 
 
 def require_lower(config: Path, key: str, value: int, usual: int) -> None:
-    """Raise where a configuration raises a limit.
+    """Require that a configuration does not raise a limit.
 
     Raises:
         ConfigError: it does.
@@ -78,10 +77,10 @@ def require_lower(config: Path, key: str, value: int, usual: int) -> None:
 
 
 def confined(config: Path, pipeline: Pipeline, key: str) -> Pipeline:
-    """The passes of a configuration, kept from files that are not its business.
+    """Keep the passes of a configuration from reading files outside of its folder.
 
     Raises:
-        ConfigError: one of them makes a file or is of another package, and the configuration is somebody else's.
+        ConfigError: a pass makes a file or is of another package, and the configuration is somebody else's.
     """
     for step in pipeline:
         why = _risk(step)
@@ -93,37 +92,36 @@ def confined(config: Path, pipeline: Pipeline, key: str) -> Pipeline:
 
 
 def _risk(step: Pass) -> str | None:
-    """What a pass could do at the wish of whoever wrote the configuration, beyond changing the model."""
+    """Say what a pass of a configuration could do beyond changing the model; None if nothing."""
     if isinstance(step, FilesPass):
         return "writes a file"
-    # what it does with its options, nobody here knows
+    # we do not know what a pass of another package does with its options
     return None if step.name in BUILT_IN else "comes from another package"
 
 
 @dataclass(frozen=True, slots=True)
 class Outside:
-    """Refuses paths that lead out of a folder. URIs lead into folders of models and packages only, as everywhere."""
+    """Refuses paths that lead out of a folder; URIs are resolved in folders of models and packages only."""
 
     folder: Path
     whose: str
 
     def __call__(self, path: str) -> str | None:
-        """Why a pass must not read the file of a path; None where it may."""
+        """Say why a pass must not read a file; None if it may."""
         if "://" in path or is_below(Path(path), self.folder):
             return None
         return f"{path!r} leads out of the folder of {self.whose}"
 
 
 def is_own(path: Path) -> bool:
-    """Whether a file is the caller's, and nobody else can have put it there.
+    """Whether a file belongs to the caller, and nobody else can have put it there.
 
-    It and the folder that it really lies in belong to the caller, or to the administrator, and not everybody may write
-    to them. Where the system has no such owners, nobody knows, and it is not.
+    The file and its real folder belong to the caller or the administrator, and are not writable for everybody. On a
+    system without such owners no file is the caller's.
     """
     real = Path(os.path.realpath(path))
-    # The same test as git's `safe.directory`. Groups are not asked: on many systems the files of a
-    # user are writable for a group of the user's own. Windows has no such owners, so there
-    # --trust-config is needed.
+    # The same test as git's `safe.directory`. Groups do not count: on many systems the files of a
+    # user are writable for a group of the user's own.
     return hasattr(os, "geteuid") and _belongs_to_caller(real) and _belongs_to_caller(real.parent)
 
 

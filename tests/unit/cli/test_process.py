@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-PROGRAM = "from twinform.cli.leaving import run\n"
+PROGRAM = "from twinform.cli.process import run\n"
 BUFFERED = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
 
 

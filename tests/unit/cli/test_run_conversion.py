@@ -171,7 +171,7 @@ def test_a_file_that_somebody_changes_meanwhile_is_not_written(
         _edit("r.urdf", "turns", "turns on")
         return made
 
-    monkeypatch.setattr("twinform.cli.into.convert_into", slow)
+    monkeypatch.setattr("twinform.compiler.into.convert_into", slow)
     _edit("r.sdf", "<mass>1.5</mass>", "<mass>2.5</mass>")
     done = run("convert", "r.sdf", "--into", "r.urdf")
     assert (done.exit_code, Path("r.urdf").read_text()) == (2, HAND_WRITTEN.replace("turns", "turns on"))

@@ -3,7 +3,8 @@ from pathlib import Path
 
 import pytest
 
-from twinform.cli.files import Exclusion, NothingFoundError, discover
+import twinform
+from twinform.cli.model_discovery import Exclusion, NothingFoundError, discover, is_model
 
 NO_EXCLUSION = Exclusion(())
 
@@ -124,3 +125,51 @@ def test_a_folder_that_cannot_be_listed_is_left_to_who_reads_it(here: Path, monk
 def test_names_of_any_letters(here: Path) -> None:
     _write("größe/ロボット 1.urdf", "a\nb.urdf")
     assert discover(["."], Exclusion()) == ["a\nb.urdf", "größe/ロボット 1.urdf"]
+
+
+_XACRO = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"{}>{}</robot>'
+_MACRO = '<xacro:macro name="m" params="x"><link name="${x}"/></xacro:macro>'
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "expected"),
+    [
+        ("a.urdf", "", True),
+        ("A.URDF", "", True),
+        ("a.sdf", "", True),
+        ("model.sdf", "", True),
+        ("a.world", "", True),
+        ("a.xml", "", False),
+        ("a.urdf.bak", "", False),
+        ("a.xacro", _XACRO.format(' name="r"', "<link name='a'/>"), True),
+        ("a.xacro", _XACRO.format(' name="r"', _MACRO + "<xacro:m x='1'/>"), True),
+        ("a.xacro", _XACRO.format(' name="r"', "<xacro:include filename='b.xacro'/>"), True),
+        ("a.urdf.xacro", _XACRO.format(' name="r"', _MACRO), False),
+        ("a.urdf.xacro", _XACRO.format("", "<link name='a'/>"), False),
+        ("a.xacro", _XACRO.format(' name="r"', "<xacro:include filename='b.xacro'/>" + _MACRO), False),
+        ("a.xacro", _XACRO.format(' name="r"', "<xacro:property name='p' value='1'/><material name='red'/>"), False),
+        ("a.xacro", "<sdf version='1.9'/>", True),
+        ("a.xacro", "<launch/>", False),
+        ("a.xacro", "", False),
+        ("a.xacro", "<robot name='r'><link", True),
+        ("a.json", "{}", False),
+        ("a.json", '{"robot": 1}', False),
+    ],
+)
+def test_which_files_are_models(tmp_path: Path, name: str, text: str, expected: bool) -> None:
+    path = tmp_path / name
+    path.write_text(text)
+    assert is_model(path) is expected
+
+
+def test_our_json_is_one(tmp_path: Path) -> None:
+    path = tmp_path / "a.json"
+    path.write_text(twinform.dumps(twinform.loads('<robot name="r"><link name="a"/></robot>'), to="json"))
+    assert is_model(path)
+
+
+def test_a_pattern_may_name_other_endings(tmp_path: Path) -> None:
+    (tmp_path / "a.xml").write_text("<robot/>")
+    (tmp_path / "m.xacro").write_text(_XACRO.format("", _MACRO))
+    assert is_model(tmp_path / "a.xml", named=True)
+    assert not is_model(tmp_path / "m.xacro", named=True)

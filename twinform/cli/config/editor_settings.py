@@ -1,13 +1,13 @@
-"""The settings of a project for the language server, which asks for each file that it checks."""
+"""The settings of a project for the language server."""
 
 from dataclasses import replace
 from pathlib import Path
 
-from twinform.cli.config.config_error import ConfigError
-from twinform.cli.config.config_file import find
-from twinform.cli.config.per_file import NO_OWN_SETTINGS, OwnSettings, PerFile, RuleSettings
+from twinform.cli.config.config_defaults import NO_OWN_SETTINGS, OwnSettings, PerFile, RuleSettings
+from twinform.cli.config.config_file import ConfigError, find
 from twinform.cli.config.settings import ProjectSettings, parse_settings
 from twinform.cli.config.trust import require_inside
+from twinform.cli.project_options import override_policy
 from twinform.compiler.input.load_options import profiles_of
 from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.diagnostics import Policy
@@ -16,10 +16,7 @@ from twinform.server.checking import EditorSettings
 
 
 def settings_of(path: Path) -> EditorSettings:
-    """The settings for a file: of the nearest configuration, where there is one that can be read.
-
-    Folders that it names outside of its own are refused, since nobody was asked whether it is to be trusted.
-    """
+    """Return the settings for a file from the nearest configuration, which is never trusted: nobody was asked."""
     try:
         found = find(path.absolute().parent)
         if found is None:
@@ -31,13 +28,13 @@ def settings_of(path: Path) -> EditorSettings:
         own = PerFile(config, project.files).of(str(path)) if project.files else NO_OWN_SETTINGS
     except ConfigError as error:
         return EditorSettings(problem=str(error))
-    return _settings(project, own)
+    return _convert_settings(project, own)
 
 
-def _settings(project: ProjectSettings, own: OwnSettings) -> EditorSettings:
+def _convert_settings(project: ProjectSettings, own: OwnSettings) -> EditorSettings:
     usual, policy = EditorSettings(), Policy()
-    for allow, deny, _ in (RuleSettings(project.allow, project.deny), *own.rules):
-        policy = Policy((policy.allow - {*deny}) | {*allow}, (policy.deny - {*allow}) | {*deny})
+    for rules in (RuleSettings(project.allow, project.deny), *own.rules):
+        policy = override_policy(policy, rules)
     load_options = replace(
         usual.load_options,
         strict=bool(project.defaults.get("strict") if own.strict is None else own.strict),
@@ -59,6 +56,6 @@ def _settings(project: ProjectSettings, own: OwnSettings) -> EditorSettings:
 
 
 def _profiles(project: ProjectSettings) -> tuple[Profile, ...]:
-    """Return the profiles of a project's consumers; a consumer that does not read a format is left out for it."""
+    """Return the profiles of a project's consumers, which count only for formats that they read."""
     found = profiles_of(",".join(project.profiles)) if project.profiles else ()
     return tuple(replace(each, named=False) for each in found)

@@ -1,0 +1,234 @@
+"""Options that a configuration has as well: rules, pipelines and consumers, for the project and for single files."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+import click
+from click.core import ParameterSource
+from click.shell_completion import CompletionItem
+
+from twinform.cli.command import Unusable, rule_names
+from twinform.cli.config import ConfigError, Project, settings_of
+from twinform.cli.config.config_defaults import NO_OWN_SETTINGS, OwnSettings, RuleSettings
+from twinform.cli.flags import group
+from twinform.cli.inputs import load_options_of
+from twinform.compiler import LoadOptions
+from twinform.compiler.input.load_options import FileOptions
+from twinform.diagnostics import Policy
+from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule
+from twinform.diagnostics.rule_registry import rules as known_rules
+
+if TYPE_CHECKING:
+    from twinform.passes import Pipeline
+    from twinform.profiles import Profile
+
+
+_TYPED = (ParameterSource.COMMANDLINE, ParameterSource.ENVIRONMENT)
+
+
+class ResolvedOptions(NamedTuple):
+    """The options for one file: how it is read, the policy on its findings, and the passes to run."""
+
+    load_options: LoadOptions
+    policy: Policy
+    passes: "Pipeline | None"
+
+
+@dataclass(slots=True)
+class OptionsByFile:
+    """Resolves the options for each file; all share the search path, with what it knows of folders.
+
+    `option` is the name of the option for the passes. `profiles` are those of the consumers of the files. `usual` are
+    the options of a file without settings of its own.
+    """
+
+    ctx: click.Context
+    arguments: Mapping[str, str]
+    reading: FileOptions
+    rules: RuleSettings
+    passes: "Pipeline | None"
+    option: str = "passes"
+    profiles: "tuple[Profile, ...]" = ()
+    usual: ResolvedOptions = field(init=False)
+
+    def __post_init__(self) -> None:
+        policy = policy_of(self.ctx, self.rules)
+        self.usual = ResolvedOptions(
+            load_options_of(self.arguments, self.reading, policy, self.profiles), policy, self.passes
+        )
+
+    def of(self, name: str) -> ResolvedOptions:
+        """Return the options for a file.
+
+        Raises:
+            ConfigError: its settings are wrong.
+        """
+        per_file = settings_of(self.ctx).per_file
+        own = per_file.of(name) if per_file else NO_OWN_SETTINGS
+        return self.usual if own is NO_OWN_SETTINGS else self._apply(own)
+
+    def _apply(self, own: OwnSettings) -> ResolvedOptions:
+        policy = policy_of(self.ctx, self.rules, own)
+        load_options = replace(
+            self.usual.load_options, arguments={**own.arguments, **self.arguments}, allow=policy.allow
+        )
+        if own.strict is not None and not self._is_typed("strict"):
+            load_options = replace(load_options, strict=own.strict)
+        configured = own.check_passes if self.option == "check_passes" else own.passes
+        if configured is None or self._is_typed(self.option):
+            return ResolvedOptions(load_options, policy, self.usual.passes)
+        text, key = configured
+        passes = configured_pipeline(settings_of(self.ctx), text, key) if text else None
+        return ResolvedOptions(load_options, policy, passes)
+
+    def _is_typed(self, option: str) -> bool:
+        return self.ctx.get_parameter_source(option) in _TYPED
+
+
+def policy_of(ctx: click.Context, typed: RuleSettings, own: OwnSettings = NO_OWN_SETTINGS) -> Policy:
+    """Return the policy for a file: typed rules win over its `own` settings, and these over those of the project.
+
+    Raises:
+        ConfigError: the configuration names an unknown rule, or allows a fatal one.
+    """
+    project = settings_of(ctx)
+    policy = Policy()
+    for rules in (RuleSettings(project.allow, project.deny), *own.rules):
+        _require_known(project, rules)
+        policy = _override_consistently(policy, rules)
+    return _override_consistently(policy, typed)
+
+
+def _override_consistently(before: Policy, rules: RuleSettings) -> Policy:
+    """Add rules to a policy, or raise a `UsageError` if one of them is both allowed and denied."""
+    both = sorted({*rules.allow} & {*rules.deny})
+    if both:
+        raise click.UsageError(f"{both[0]} is allowed and denied")
+    return override_policy(before, rules)
+
+
+def _require_known(project: Project, rules: RuleSettings) -> None:
+    for option, names in (("allow", rules.allow), ("deny", rules.deny)):
+        for name in names:
+            if project.path and (problem := _rule_problem(name, option)):
+                raise ConfigError(project.path, problem, key=f"{rules.key}.{option}".removeprefix("."))
+
+
+def override_policy(before: Policy, rules: RuleSettings) -> Policy:
+    """Add rules to a policy, in which they win over the rules that it has."""
+    allow, deny = frozenset(rules.allow), frozenset(rules.deny)
+    return Policy((before.allow - deny) | allow, (before.deny - allow) | deny)
+
+
+def _check_rules(_ctx: click.Context, option: click.Parameter, names: tuple[str, ...]) -> tuple[str, ...]:
+    for name in names:
+        if problem := _rule_problem(name, option.name or ""):
+            raise click.BadParameter(problem)
+    return names
+
+
+def _rule_problem(name: str, option: str) -> str:
+    """Say what is wrong with a rule in `allow` or `deny`; empty if nothing is."""
+    from twinform.passes.framework.pass_options import nearest  # noqa: PLC0415 - most names are those of rules
+
+    try:
+        found = find_rule(name)
+        if found is None:
+            return f"no rule is called {name}{nearest(name, list(known_rules()))}"
+    except RuleRegistryError as error:
+        raise Unusable(str(error)) from error
+    return f"{name} is fatal, and cannot be allowed" if option == "allow" and found.rule.fatal else ""
+
+
+policy_options = group(
+    "rules",
+    RuleSettings,
+    *(
+        click.option(
+            f"--{name}",
+            metavar="RULE",
+            multiple=True,
+            help=f"{text}; repeatable.",
+            callback=_check_rules,
+            shell_complete=rule_names,
+        )
+        for name, text in (("allow", "Leave out findings of a rule"), ("deny", "Make findings of a rule errors"))
+    ),
+)
+"""Gives a command `--allow` and `--deny`, which add to the rules of the configuration."""
+
+
+def pipeline_option(key: str) -> "Callable[[click.Context, click.Parameter, str | None], Pipeline | None]":
+    """Make the callback of an option that takes a pipeline, whose key in a configuration is `key`."""
+
+    def parse(ctx: click.Context, option: click.Parameter, value: str | None) -> "Pipeline | None":
+        return _parse_pipeline(ctx, option, value, key) if value else None  # without one, no pass is imported
+
+    return parse
+
+
+def configured_pipeline(project: Project, value: str, key: str) -> "Pipeline":
+    """Parse the pipeline that a configuration has under a key.
+
+    Raises:
+        ConfigError: it is no pipeline, or must not come from this configuration.
+    """
+    from twinform.passes import PipelineError, RegistryError, parse_pipeline  # noqa: PLC0415 - few files have their own
+
+    try:
+        return project.confined(parse_pipeline(value, names=project.named), key)
+    except PipelineError as error:
+        raise ConfigError(project.path or Path(), str(error), key=key) from error
+    except RegistryError as error:
+        raise Unusable(str(error)) from error
+
+
+def _parse_pipeline(ctx: click.Context, option: click.Parameter, value: str, key: str) -> "Pipeline":
+    from twinform.passes import PipelineError, RegistryError, parse_pipeline  # noqa: PLC0415 - see above
+
+    project = settings_of(ctx)
+    if ctx.get_parameter_source(option.name or "") is ParameterSource.DEFAULT_MAP:
+        return configured_pipeline(project, value, key)
+    try:
+        return parse_pipeline(value, names=project.named)
+    except PipelineError as error:
+        raise click.BadParameter(str(error)) from error
+    except RegistryError as error:
+        raise Unusable(str(error)) from error
+
+
+def _parse_consumers(ctx: click.Context, option: click.Parameter, value: str | None) -> "tuple[Profile, ...]":
+    """Return the profiles of consumers."""
+    if not value:
+        return ()
+    from twinform.profiles import UnknownProfileError, parse  # noqa: PLC0415 - most files are for nobody by name
+
+    try:
+        # a consumer of the configuration that does not read a format is left out for it
+        configured = ctx.get_parameter_source(option.name or "") is ParameterSource.DEFAULT_MAP
+        return tuple(replace(each, named=each.named and not configured) for each in parse(value))
+    except UnknownProfileError as error:
+        raise click.BadParameter(str(error)) from error
+
+
+def _complete_consumers(_ctx: click.Context, _option: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Complete the last name in a list of consumers."""
+    from twinform.profiles import names  # noqa: PLC0415 - only a shell that completes needs them
+
+    before, comma, begun = incomplete.rpartition(",")
+    return [CompletionItem(f"{before}{comma}{name}") for name in names() if name.startswith(begun)]
+
+
+consumers_option = click.option(
+    "--for",
+    "profiles",
+    metavar="NAME,...",
+    callback=_parse_consumers,
+    shell_complete=_complete_consumers,
+    help="Who reads the files, such as drake,mujoco, gazebo@harmonic, or portable for all.",
+)
+keep_physics_option = click.option(
+    "--keep-physics", is_flag=True, help="With --for: refuse passes that change masses, inertias, joints or limits."
+)
