@@ -140,12 +140,12 @@ def report_clashes(model: Model, scope: RenamedScope, format_: Format, sink: Dia
 
 def rename_model(model: Model, scope: RenamedScope, format_: Format, sink: DiagnosticSink) -> Model:
     """The model with the new names of a scope, in its parts and in references to them."""
-    return _Renamer(scope, format_, sink).model(model)
+    return _Renamer(scope, format_, sink).rename_model(model)
 
 
 def follow_references(holder: Holder, scope: RenamedScope, format_: Format, sink: DiagnosticSink) -> Holder:
     """The model or world with the new names of a scope in references, but not in its own parts."""
-    return _Renamer(scope, format_, sink).followed(holder)
+    return _Renamer(scope, format_, sink).follow_in(holder)
 
 
 def rename_in_world(before: World, after: World, scope: Callable[[Model], RenamedScope], only: str | None) -> World:
@@ -166,23 +166,23 @@ class _Renamer:
     format: Format
     sink: DiagnosticSink
 
-    def followed(self, holder: Holder) -> Holder:
-        return self.untyped(map_references(holder, self.scope.follow, self.format))
+    def follow_in(self, holder: Holder) -> Holder:
+        return self.follow_in_untyped(map_references(holder, self.scope.follow, self.format))
 
-    def model(self, model: Model) -> Model:
+    def rename_model(self, model: Model) -> Model:
         for extension in model.extensions:
             self.report_shared(extension)
-        followed = self.followed(model)
+        followed = self.follow_in(model)
         update: dict[str, object] = {
-            field: tuple(self.named(part, node) for node in getattr(followed, field)) for part, field in PARTS
+            field: tuple(self.rename_part(part, node) for node in getattr(followed, field)) for part, field in PARTS
         }
         return _copy_if_changed(followed, update)
 
-    def named(self, part: Part, node: AnyNode) -> AnyNode:
+    def rename_part(self, part: Part, node: AnyNode) -> AnyNode:
         """A part of the model with its new name; a nested model has a scope of its own."""
         old: Any = getattr(node, "name", None)
         if isinstance(node, Model):
-            node = _Renamer(self.scope.inner[old], self.format, self.sink).model(node)
+            node = _Renamer(self.scope.inner[old], self.format, self.sink).rename_model(node)
         return _copy_if_changed(node, {"name": self.scope.own[part].get(old, old)})
 
     def report_shared(self, extension: GazeboExtension) -> None:
@@ -192,42 +192,44 @@ class _Renamer:
             message = f"<gazebo> for {name!r}, a link and a joint, follows the link to {own['link'][name]!r}"
             self.sink.report(rules.UNFOLLOWED_NAME, message, extension.location.at("@reference"), found=name)
 
-    def untyped(self, node: AnyNode) -> AnyNode:
+    def follow_in_untyped(self, node: AnyNode) -> AnyNode:
         """The node with new names in opaque parts and plugins, its own and those below, except in nested models."""
         update: dict[str, object] = {}
         if node.opaque:
-            update["opaque"] = map_elements(node.opaque, lambda each: self.element(each, "", node.location))
+            update["opaque"] = map_elements(node.opaque, lambda each: self.follow_in_element(each, "", node.location))
         if isinstance(node, Plugin | GazeboExtension):
             holder = "plugin" if isinstance(node, Plugin) else ""
-            update["content"] = tuple(self.element(each, holder, node.location) for each in node.content)
+            update["content"] = tuple(self.follow_in_element(each, holder, node.location) for each in node.content)
         changed = _copy_if_changed(node, update)
-        return map_children(changed, lambda each: each if isinstance(each, Model) else self.untyped(each))
+        return map_children(changed, lambda each: each if isinstance(each, Model) else self.follow_in_untyped(each))
 
-    def element(self, element: Element, holder: str, where: Location) -> Element:
+    def follow_in_element(self, element: Element, holder: str, where: Location) -> Element:
         """The element with new names; `holder` is the name of the element around it."""
         where = element.location if element.source else where
         inner = self.scope.inner.get(element.get("name") or "") if element.name in _MODELS else None
         if inner is not None:
-            return self.state_of_model(element, inner, where)
-        attributes = tuple((key, self.attribute(element, key, value, where)) for key, value in element.attributes)
+            return self.follow_in_state(element, inner, where)
+        attributes = tuple(
+            (key, self.follow_attribute(element, key, value, where)) for key, value in element.attributes
+        )
         update: dict[str, object] = {
             "attributes": attributes,
-            "text": self.text(element, holder, where),
-            "children": tuple(self.element(child, element.name, where) for child in element.children),
+            "text": self.follow_text(element, holder, where),
+            "children": tuple(self.follow_in_element(child, element.name, where) for child in element.children),
         }
         return _copy_if_changed(element, update)
 
-    def state_of_model(self, element: Element, scope: RenamedScope, where: Location) -> Element:
+    def follow_in_state(self, element: Element, scope: RenamedScope, where: Location) -> Element:
         """The state of a model in a world, in which the names of the model are looked up."""
         new = self.scope.own["model"]
         attributes = tuple(
             (key, new.get(value, value) if key == "name" else value) for key, value in element.attributes
         )
         inside = _Renamer(scope, self.format, self.sink)
-        children = tuple(inside.element(child, element.name, where) for child in element.children)
+        children = tuple(inside.follow_in_element(child, element.name, where) for child in element.children)
         return _copy_if_changed(element, {"attributes": attributes, "children": children})
 
-    def attribute(self, element: Element, key: str, value: str, where: Location) -> str:
+    def follow_attribute(self, element: Element, key: str, value: str, where: Location) -> str:
         kind = kind_of_attribute(element, key)
         if kind is None or (key == "name" and element.name not in _DEFINES and kind == "frame"):
             if key != "name":  # which is a thing's own
@@ -235,12 +237,12 @@ class _Renamer:
             return value
         return self.scope.follow(kind, value)
 
-    def text(self, element: Element, holder: str, where: Location) -> str | None:
+    def follow_text(self, element: Element, holder: str, where: Location) -> str | None:
         text = element.text
         if not text:
             return text
         if element.name == "collision":
-            return self.collision(text)
+            return self.follow_collision(text)
         kind = kind_of_text(element, holder)
         if kind is None:
             self.report_unfollowed(text, f"the text of <{element.name}>", where)
@@ -250,7 +252,7 @@ class _Renamer:
             return whole
         return "".join(self.scope.follow(kind, each) for each in _SEPARATORS.split(text))
 
-    def collision(self, text: str) -> str:
+    def follow_collision(self, text: str) -> str:
         """The name of a collision, which may begin with the name of its link."""
         scoped, separator, last = text.rpartition("::")
         if separator:

@@ -61,7 +61,7 @@ class Reroot(ModelEdit):
         """The model with another root."""
         if all(link.name != self.link for link in model.links):
             return model
-        way = _joints_to_root(model, self.link)
+        way = [joint for joint, _ in joints_to_root(model, self.link)]
         if not way or self._report_irreversible(model, way, place):
             return model
         if place.format is Format.URDF:
@@ -84,25 +84,24 @@ class Reroot(ModelEdit):
         return found
 
 
-def _joints_to_root(model: Model, link: str) -> list[Joint]:
-    """The joints from a link up to its root; of several joints with one child, the first counts."""
+def joints_to_root(model: Model, link: str) -> list[tuple[Joint, str]]:
+    """The joints from a link up to its root, each with its parent body; of several joints with one child, the first."""
     graph = FrameGraph(model)
-    links = {each.name for each in model.links}
+    links = {WORLD, *(each.name for each in model.links)}
     above: dict[str, tuple[Joint, str]] = {}
     for joint in model.joints:
         if joint.type != "gearbox" and joint.parent and joint.child:
             child = joint.child if joint.child in links else graph.body(joint.child)
             parent = joint.parent if joint.parent in links else graph.body(joint.parent)
             above.setdefault(child, (joint, parent))
-    way: list[Joint] = []
+    way: list[tuple[Joint, str]] = []
     seen = {link}
     while link in above:
-        joint, parent = above[link]
-        way.append(joint)
-        if parent in seen:
+        way.append(above[link])
+        link = above[link][1]
+        if link in seen:
             break
-        seen.add(parent)
-        link = parent
+        seen.add(link)
     return way
 
 

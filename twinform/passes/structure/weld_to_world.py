@@ -10,6 +10,7 @@ from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
+from twinform.passes.structure.reroot import joints_to_root
 
 
 class WeldToWorld(ModelEdit):
@@ -72,15 +73,7 @@ class WeldToWorld(ModelEdit):
 
 def _free_base(model: Model) -> str | None:
     """The link that all others hang from; None where that is the world."""
-    graph = FrameGraph(model)
-    above: dict[str, str] = {}
-    for joint in model.joints:
-        if joint.type != "gearbox" and joint.parent and joint.child:
-            above.setdefault(
-                graph.body(joint.child), joint.parent if joint.parent == WORLD else graph.body(joint.parent)
-            )
-    base, seen = graph.body(MODEL, kind="model"), set[str]()
-    while base in above and base not in seen:
-        seen.add(base)
-        base = above[base]
+    body = FrameGraph(model).body(MODEL, kind="model")
+    way = joints_to_root(model, body)
+    base = way[-1][1] if way else body
     return None if base == WORLD else base
