@@ -12,7 +12,8 @@ import scipy.spatial  # pyright: ignore[reportMissingTypeStubs] - it has none
 from PIL import Image, ImageDraw
 
 from tests.browser.camera import Camera
-from twinform.compiler.scene import Positions, Scene
+from twinform.compiler.kinematics import Positions
+from twinform.compiler.scene import Scene
 from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
 from twinform.ir.defaults import sizes
 from twinform.ir.geometry import ShapeNode

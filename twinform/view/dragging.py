@@ -5,7 +5,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from twinform.compiler.scene import Degree, Positions, SceneJoint
+from twinform.compiler.kinematics import Degree, Positions
+from twinform.compiler.scene import SceneJoint
 from twinform.ir import Vector3
 from twinform.ir.transform import Transform, across, cross, dot, minus
 from twinform.view.figure import Figure

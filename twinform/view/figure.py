@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from twinform.compiler.graph.graph import shortened
-from twinform.compiler.scene import Kinematics, Positions, Scene, SceneJoint, SceneShape
+from twinform.compiler.kinematics import Kinematics, Positions
+from twinform.compiler.scene import Scene, SceneJoint, SceneShape
 from twinform.ir import Plane, Vector3
 from twinform.ir.transform import Transform
 from twinform.view.triangles import MeshDrawings, Triangles, triangles_of

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any, cast
 
 from twinform.compiler.graph.graph import shortened
-from twinform.compiler.scene import Degree, Positions, SceneJoint
+from twinform.compiler.kinematics import Degree, Positions
+from twinform.compiler.scene import SceneJoint
 from twinform.view import words
 from twinform.view.figure import Figure
 

@@ -7,7 +7,8 @@ from itertools import pairwise
 from typing import Any
 
 from twinform.compiler.graph.graph import shortened
-from twinform.compiler.scene import Degree, Frustum, SceneJoint
+from twinform.compiler.kinematics import Degree
+from twinform.compiler.scene import Frustum, SceneJoint
 from twinform.ir import Vector3
 from twinform.ir.motion import plane_across, slide, turn
 from twinform.ir.principal_moments import principal_axes

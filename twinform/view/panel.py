@@ -8,7 +8,8 @@ from typing import Any
 
 from twinform.compiler.compare.comparison import Comparison
 from twinform.compiler.graph.graph import shortened
-from twinform.compiler.scene import Degree, Positions, SceneJoint
+from twinform.compiler.kinematics import Degree, Positions
+from twinform.compiler.scene import SceneJoint
 from twinform.diagnostics import Diagnostic
 from twinform.view import words
 from twinform.view.dragging import MODIFIER, Dragging

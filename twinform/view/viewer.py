@@ -13,7 +13,7 @@ from typing import Any
 
 from twinform.compiler.compare.comparison import Comparison
 from twinform.compiler.graph.graph import shortened
-from twinform.compiler.scene import Positions
+from twinform.compiler.kinematics import Positions
 from twinform.ir import Vector3
 from twinform.view import words
 from twinform.view.access import Access

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 import twinform
 from tests.browser.camera import Camera
-from twinform.compiler.scene import Degree, build_scene
+from twinform.compiler.kinematics import Degree
+from twinform.compiler.scene import build_scene
 from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Heightmap, Mesh, Plane, Sphere
 from twinform.ir.geometry import ShapeNode
 from twinform.ir.solids import Solid

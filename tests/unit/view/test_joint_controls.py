@@ -10,7 +10,7 @@ pytest.importorskip("viser", reason="viser is not installed")
 from hypothesis import given
 from hypothesis import strategies as st
 
-from twinform.compiler.scene import Degree
+from twinform.compiler.kinematics import Degree
 from twinform.view.joint_controls import positions_of, slider_range
 
 

@@ -2,9 +2,10 @@
 
 import json
 from collections.abc import Iterable
-from dataclasses import asdict, astuple, dataclass, field, replace
+from dataclasses import asdict, dataclass, field, fields, is_dataclass, replace
 from importlib.metadata import version
 from pathlib import Path, PurePosixPath
+from typing import cast
 
 from twinform.compiler.batch.entries import stem
 from twinform.compiler.batch.model_folders import FolderTooLargeError, folder_files
@@ -42,16 +43,6 @@ class Convert:
     ledgers: bool = False
     model_folders: bool = False
 
-    @property
-    def request(self) -> list[object]:
-        """The options that the outcome depends on."""
-        to = self.to
-        asked: list[object] = [to.to, to.sdf_version, to.urdf_version, to.carriers, str(to.passes), to.expand_includes]
-        asked += [to.comments, to.keep_physics, self.split, self.ledgers]
-        asked += [sorted(self.policy.allow), sorted(self.policy.deny)]
-        asked += ["model folders"] if self.model_folders else []
-        return ["convert", *asked, sorted(_find_packages(to))]
-
     def work(self, task: Task, content: bytes) -> Done:
         """Convert the model."""
         name = str(task.path)
@@ -80,7 +71,7 @@ class Convert:
             outcome=Outcome.CONVERTED,
             texts=texts,
             diagnostics=_report_findings(seen, name),
-            ledger=_count_fates(ledger),
+            ledger={"expressed": ledger.expressed, **{str(fate): ledger.count(fate) for fate in Fate}},
         )
 
     def _split(self, task: Task) -> tuple[dict[str, str | bytes], tuple[Diagnostic, ...], Ledger]:
@@ -116,16 +107,6 @@ def _is_world(task: Task) -> bool:
     return loaded.accepted and loaded.document is not None and bool(loaded.document.worlds)
 
 
-def _find_packages(to: ConversionRequest) -> set[str]:
-    """Return the packages that the passes come from, with their versions."""
-    owners = {registered_passes()[step.name].owner for step in to.passes if step.name in registered_passes()}
-    return {f"{owner} {version(owner)}" for owner in owners if owner}
-
-
-def _count_fates(ledger: Ledger) -> dict[str, int]:
-    return {"expressed": ledger.expressed, **{str(fate): ledger.count(fate) for fate in Fate}}
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Check:
     """Find everything that is wrong with a model, as `twinform check` does."""
@@ -133,12 +114,6 @@ class Check:
     policy: Policy = field(default_factory=Policy)
     passes: Pipeline = field(default_factory=Pipeline)
     expand_includes: bool = False
-
-    @property
-    def request(self) -> list[object]:
-        """The options that the outcome depends on."""
-        policy = [sorted(self.policy.allow), sorted(self.policy.deny)]
-        return ["check", str(self.passes), self.expand_includes, *policy]
 
     def work(self, task: Task, content: bytes) -> Done:
         """Check the model."""
@@ -157,11 +132,6 @@ class Diff:
 
     other: Path
     options: ComparisonOptions = USUAL
-
-    @property
-    def request(self) -> list[object]:
-        """The options that the outcome depends on."""
-        return ["diff", str(self.other), *astuple(self.options)]
 
     def work(self, task: Task, content: bytes) -> Done:
         """Compare the model with the one of its name."""
@@ -182,11 +152,6 @@ class Stats:
 
     meshes: bool = True
     expand_includes: bool = False
-
-    @property
-    def request(self) -> list[object]:
-        """The options that the outcome depends on."""
-        return ["stats", self.meshes, self.expand_includes]
 
     def work(self, task: Task, content: bytes) -> Done:
         """Measure the model."""
@@ -213,3 +178,16 @@ def _refuse(error: CompileError, policy: Policy, name: str) -> Done:
     outcome = Outcome.UNREADABLE if error.unreadable else Outcome.REFUSED
     found = _report_findings(policy.apply(error.diagnostics), name)
     return Done(outcome=outcome, message=str(error), diagnostics=found)
+
+
+def describe_options(value: object) -> object:
+    """Return a job or one of its options as JSON, so that results are redone when any of them changes."""
+    if isinstance(value, Pipeline):
+        owners = {registered_passes()[step.name].owner for step in value if step.name in registered_passes()}
+        return [str(value), sorted(f"{owner} {version(owner)}" for owner in owners if owner)]
+    if isinstance(value, frozenset):
+        return sorted(map(str, cast("frozenset[object]", value)))
+    if is_dataclass(value):
+        options = (describe_options(getattr(value, each.name)) for each in fields(value) if each.compare)
+        return [type(value).__name__, *options]
+    return value if value is None or isinstance(value, bool | int | float) else str(value)

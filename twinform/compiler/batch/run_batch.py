@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from twinform.compiler.batch.entries import FolderError, ModelEntry, Shard
-from twinform.compiler.batch.jobs import Convert, Diff
+from twinform.compiler.batch.jobs import Convert, Diff, describe_options
 from twinform.compiler.batch.manifest import Manifest
 from twinform.compiler.batch.places import ResultPlaces, outputs, require_apart
 from twinform.compiler.batch.planning import BatchPlan
@@ -79,7 +79,7 @@ class Batch:
         asked += [[each.label, each.name] for each in load_options.profiles]
         asked += [sorted(load_options.arguments.items()), load_options.variables]
         # A development version that is edited in place keeps its version number; --fresh is for that.
-        asked += [[f"{name} {version_of(name)}".rstrip() for name in READERS], self.job.request]
+        asked += [[f"{name} {version_of(name)}".rstrip() for name in READERS], describe_options(self.job)]
         return digest(json.dumps(asked).encode())
 
 

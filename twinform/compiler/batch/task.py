@@ -91,15 +91,10 @@ class Done:
 
 @runtime_checkable
 class BatchJob(Protocol):
-    """What a batch does with each model."""
-
-    @property
-    def request(self) -> list[object]:
-        """The options that the outcome depends on, as JSON."""
-        ...
+    """What a batch does with each model: a dataclass, whose fields are the options that the outcome depends on."""
 
     def work(self, task: Task, content: bytes) -> Done:
-        """Do it.
+        """Do the job with a model.
 
         Raises:
             PassError: a pass is at fault.

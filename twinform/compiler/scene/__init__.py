@@ -1,6 +1,5 @@
 """Scenes: what there is to see of a model or world, and where it is at any joint positions."""
 
-from twinform.compiler.kinematics import Degree, Kinematics, Leader, Positions
 from twinform.compiler.scene.build_scene import build_scene, forward_kinematics
 from twinform.compiler.scene.scene import (
     Frustum,
@@ -15,11 +14,7 @@ from twinform.compiler.scene.scene import (
 )
 
 __all__ = [
-    "Degree",
     "Frustum",
-    "Kinematics",
-    "Leader",
-    "Positions",
     "Ray",
     "Role",
     "Scene",

@@ -19,10 +19,6 @@ _TEXT = '<robot name="r"><link name="a"/></robot>'
 class _Sleep:
     """Never comes to an end."""
 
-    @property
-    def request(self) -> list[object]:
-        return []
-
     def work(self, task: Task, content: bytes) -> Done:
         while True:
             time.sleep(0.01)

@@ -1,4 +1,4 @@
-"""Robots at sampled joint positions; `kinematics/test_moving.py` has how each type of joint moves."""
+"""Robots at sampled joint positions; `test_kinematics.py` in the folder above has how each type of joint moves."""
 
 import pytest
 

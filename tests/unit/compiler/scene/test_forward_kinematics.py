@@ -1,4 +1,4 @@
-"""Forward kinematics by the names of joints; `kinematics/test_moving.py` holds the numbers to Pinocchio."""
+"""Forward kinematics by the names of joints; `test_kinematics.py` holds the numbers to Pinocchio."""
 
 import math
 

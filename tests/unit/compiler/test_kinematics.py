@@ -11,7 +11,8 @@ import pytest
 from hypothesis import given
 
 import twinform
-from twinform.compiler.scene import Leader, Positions, Scene, build_scene
+from twinform.compiler.kinematics import Leader, Positions
+from twinform.compiler.scene import Scene, build_scene
 from twinform.ir import Document
 from twinform.ir.transform import Transform
 from twinform.testing import oracles
