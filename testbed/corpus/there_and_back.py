@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import twinform
 from testbed.corpus.files import CorpusFile
 from twinform.ir import Document, Format, Include, Model
-from twinform.passes.analyses.candidates import candidates
+from twinform.passes.shared.candidates import candidates
 from twinform.testing.properties import Mismatch, RoundTrip
 
 SDF_VERSION = "1.9"

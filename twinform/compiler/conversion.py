@@ -27,8 +27,8 @@ from twinform.ir import Document, Format, Include
 from twinform.ir.verify import verify
 from twinform.notebooks import draw
 from twinform.passes import PassError, PassInstrumentation, Pipeline
-from twinform.passes.analyses.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.passes.sdf_versions import has_early_frames
+from twinform.passes.shared.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.schemas import XmlElement
 
 

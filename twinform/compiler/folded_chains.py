@@ -6,8 +6,6 @@ from typing import Self
 
 from twinform.ir.defaults import UNLIMITED
 from twinform.ir.frames import MODEL
-from twinform.passes.analyses.automatic_inertias import COMPUTED_MASS
-from twinform.passes.analyses.gearboxes import GEARED
 from twinform.passes.carriers.annotations import SYNTHESIZED
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.joint_chains import CHAIN, PART
@@ -15,6 +13,8 @@ from twinform.passes.carriers.joint_words import MIMIC
 from twinform.passes.carriers.token_mass import TOKEN_MASS
 from twinform.passes.legalise.changed_names import NAME, SCOPED_NAME
 from twinform.passes.legalise.to_sdf.root_masses import UNSAID
+from twinform.passes.shared.gearboxes import GEARED
+from twinform.passes.shared.link_shapes import COMPUTED_MASS
 from twinform.schemas import XmlElement
 from twinform.schemas.value_types import format_number
 

@@ -29,11 +29,11 @@ from twinform.ir.defaults import MOMENT
 from twinform.ir.solids import written_solid
 from twinform.ir.verify.verify_bodies import inertia_matrix
 from twinform.passes import NO_ASSETS, AssetError, Assets
-from twinform.passes.analyses.link_shapes import is_flat
-from twinform.passes.analyses.moving_bodies import Body, moving_bodies
 from twinform.passes.appearance.drop_bare_scripts import is_bare
 from twinform.passes.inertia.physical_consistency import is_doubtful
 from twinform.passes.limits.order_limits import is_usable
+from twinform.passes.shared.link_shapes import is_flat
+from twinform.passes.shared.moving_bodies import Body, moving_bodies
 from twinform.passes.structure.tag_shapes import wrongly_tagged
 from twinform.passes.structure.tagged_shapes import KINDS, find_early_static, seen_shapes
 from twinform.profiles.forms import number_in

@@ -20,9 +20,9 @@ from twinform.diagnostics.reporters import REPORTERS, FileFindings
 from twinform.ir import Document, Format
 from twinform.ir.verify import verify
 from twinform.passes import Pass
-from twinform.passes.analyses.candidates import name_once_expanded, wanted_includes
 from twinform.passes.includes import has_includes
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
+from twinform.passes.shared.candidates import name_once_expanded, wanted_includes
 from twinform.schemas import versions_of
 
 Model = Document | Path | str | bytes

@@ -17,7 +17,7 @@ from twinform.diagnostics import Diagnostic, Location
 from twinform.diagnostics.ledger import LedgerEntry
 from twinform.ir import Document, Format, Model
 from twinform.passes import PassError
-from twinform.passes.analyses.candidates import candidates
+from twinform.passes.shared.candidates import candidates
 
 About = Diagnostic | LedgerEntry
 """A finding about a place in the file, or the fate of the part there in a conversion."""

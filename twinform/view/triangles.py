@@ -13,9 +13,9 @@ from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Mesh, Plane, Sp
 from twinform.ir.defaults import sizes
 from twinform.ir.geometry import ShapeNode
 from twinform.passes import NO_ASSETS
-from twinform.passes.analyses.mesh_solids import MeshError
 from twinform.passes.meshes.mesh_pass import Workbench
 from twinform.passes.meshes.mesh_source import MeshSources
+from twinform.passes.shared.mesh_solids import MeshError
 
 np: Any = importlib.import_module("numpy")
 trimesh: Any = importlib.import_module("trimesh")

@@ -7,8 +7,8 @@ from typing import NamedTuple
 from twinform.compiler.advice.forms import Form, Loss
 from twinform.diagnostics.rules import MODEL_NOT_CHOSEN
 from twinform.ir import Document, Format, Joint, walk
-from twinform.passes.analyses.candidates import candidates
 from twinform.passes.control.carried_elements import urdf_elements
+from twinform.passes.shared.candidates import candidates
 
 
 @dataclass(frozen=True, slots=True)

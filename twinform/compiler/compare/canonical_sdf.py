@@ -18,7 +18,6 @@ from twinform.diagnostics import DiagnosticSink, LineOrigins
 from twinform.ir import Document, Format, Model
 from twinform.ir.frames import FrameError
 from twinform.passes import Assets, Pass, Pipeline
-from twinform.passes.analyses.candidates import name_once_expanded, wanted_includes
 from twinform.passes.carriers.misplaced import without_misplaced
 from twinform.passes.carriers.token_mass import without_tokens
 from twinform.passes.legalise.changed_names import RestoreNames
@@ -27,6 +26,7 @@ from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_urdf.floating_links import without_loose_floating
 from twinform.passes.legalise.to_urdf.select_model import Selector
 from twinform.passes.sdf_versions import raise_words
+from twinform.passes.shared.candidates import name_once_expanded, wanted_includes
 from twinform.schemas import versions_of
 
 

@@ -10,8 +10,8 @@ from twinform.ir import Pose
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import NAMESPACE, from_xml
 from twinform.passes.sdf_versions.name_the_nameless import plugin_stem
-from twinform.passes.transforms.element_poses import read_pose
-from twinform.passes.transforms.gazebo_tags import SCRIPT_URI
+from twinform.passes.shared.gazebo_tags import SCRIPT_URI
+from twinform.passes.shared.pose_frames import read_pose
 from twinform.schemas import Fact, XmlElement, in_usual_namespaces, is_followed, table
 from twinform.text import same_element
 

@@ -24,7 +24,7 @@ from twinform.ir.transform import Transform
 from twinform.ir.verify.verify_joints import useless_leader
 from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.carriers import is_carrier, unpack
-from twinform.passes.transforms.flattening import flatten
+from twinform.passes.shared.flattening import flatten
 from twinform.schemas import element_xml
 
 View = TypeVar("View", ComparedBody, JointView)

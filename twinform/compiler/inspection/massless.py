@@ -3,9 +3,9 @@
 from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules import MISSING_INERTIAL
 from twinform.ir import Document, Format
-from twinform.passes.analyses.moving_bodies import moving_bodies, neighbors
 from twinform.passes.carriers.annotations import find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import PART
+from twinform.passes.shared.moving_bodies import moving_bodies, neighbors
 
 _HELP = "write one, or compute it from the shapes: --passes fill-inertia{density=...}"
 

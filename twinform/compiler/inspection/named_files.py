@@ -10,7 +10,7 @@ from twinform.compiler.inspection.near_files import is_elsewhere, near_file
 from twinform.compiler.search.resolve_uris import SearchPath, UriError, exists
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document
-from twinform.passes.transforms.document_uris import Kind, map_uris
+from twinform.passes.shared.document_uris import Kind, map_uris
 from twinform.schemas import XmlElement
 
 # Different URIs that are looked for; a hostile file may have a million.

@@ -5,7 +5,7 @@ from functools import cache
 
 from twinform.compiler.compare.compared_values import Text, Value
 from twinform.compiler.normal_form.value_meanings import parsed_value
-from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
+from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS
 from twinform.schemas import Fact, XmlElement, parse_value, rows_by_name, table
 
 _TAGS = MODEL_TAGS | JOINT_TAGS | LINK_TAGS

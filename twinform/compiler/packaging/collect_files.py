@@ -15,7 +15,7 @@ from twinform.diagnostics.rules import UNPACKAGED_FILE, UNPACKAGED_INCLUDE
 from twinform.ir import Document, Format
 from twinform.passes.framework.assets import AssetError
 from twinform.passes.framework.pass_base import AssetPass
-from twinform.passes.transforms.document_uris import Kind, map_uris
+from twinform.passes.shared.document_uris import Kind, map_uris
 
 _STANDARD = "file://media/"
 """What Gazebo Classic brings itself begins so."""

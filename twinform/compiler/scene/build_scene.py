@@ -30,7 +30,7 @@ from twinform.ir.solids import Solid, placed, written_solid
 from twinform.ir.transform import Transform
 from twinform.passes import Pass, Pipeline
 from twinform.passes.appearance.classic_materials import classic_materials
-from twinform.passes.transforms.flattening import flatten
+from twinform.passes.shared.flattening import flatten
 
 Part = TypeVar("Part", Link, Joint, Frame)
 

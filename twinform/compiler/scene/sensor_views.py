@@ -7,7 +7,7 @@ from twinform.compiler.scene.scene import Frustum, Ray
 from twinform.ir import Element, Pose, Sensor
 from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.ir.transform import Transform
-from twinform.passes.analyses.sensor_costs import image_size, samples
+from twinform.passes.shared.sensor_costs import image_size, samples
 
 _HORIZONTAL_FOV, _NEAR, _FAR = 1.047, 0.1, 100.0
 """SDF's defaults of a camera, in rad and m."""

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Literal, Self
 from urllib.parse import quote, unquote, urlsplit
 
-from twinform.passes.transforms.uri_schemes import FUEL_SERVERS
+from twinform.passes.shared.document_uris import FUEL_SERVERS
 
 SERVER = FUEL_SERVERS[0]
 """The server that addresses are written for."""

@@ -14,7 +14,7 @@ from twinform.diagnostics import Location
 from twinform.ir import Capsule, Element, Model
 from twinform.ir.frames import WORLD
 from twinform.ir.scopes import SCOPE
-from twinform.passes.transforms.lumped_links import lumped_links
+from twinform.passes.shared.gazebo_tags import lumped_links
 
 # libsdformat 12 saw another world in 41 of 76 files of a sample of the corpus, and refused five
 # more, when every model became URDF. What would be another robot stays SDF: to refuse the world

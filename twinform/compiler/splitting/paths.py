@@ -13,7 +13,7 @@ from twinform.diagnostics.rules import MISSING_FILE
 from twinform.file_access import Readable
 from twinform.ir import Document
 from twinform.passes.framework.assets import AssetError
-from twinform.passes.transforms.document_uris import map_uris
+from twinform.passes.shared.document_uris import map_uris
 
 _ABSOLUTE = re.compile(r"[A-Za-z][\w+.-]*:|/|__")
 """A scheme, a path from the root, or a keyword such as `__default__`."""

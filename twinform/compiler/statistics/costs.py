@@ -11,9 +11,9 @@ from typing import NamedTuple, cast
 
 from twinform.compiler.search.resolve_uris import SearchPath, UriError
 from twinform.ir import Collision, Material, Mesh, Model, Plugin, Visual, walk
-from twinform.passes.analyses.sensor_costs import sensor_cost, sensors_in
 from twinform.passes.mesh_jobs.job import MeshJob
 from twinform.passes.mesh_jobs.mesh_files import EXTRA, READ, RefusedMeshError, content_of, kind_of
+from twinform.passes.shared.sensor_costs import sensor_cost, sensors_in
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

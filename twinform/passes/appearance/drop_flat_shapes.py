@@ -5,8 +5,8 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import DROPPED_FLAT_SHAPE
 from twinform.ir import Collision, Document, Link, Visual, replace_fields, rewrite
-from twinform.passes.analyses.link_shapes import is_flat
 from twinform.passes.framework.pass_base import Pass
+from twinform.passes.shared.link_shapes import is_flat
 
 Part = TypeVar("Part", Visual, Collision)
 

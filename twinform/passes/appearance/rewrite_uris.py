@@ -16,8 +16,7 @@ from twinform.diagnostics.rules import UNMAPPED_URI
 from twinform.ir import Document
 from twinform.passes.framework.assets import AssetError, Assets
 from twinform.passes.framework.pass_base import AssetPass
-from twinform.passes.transforms.document_uris import Kind, map_uris
-from twinform.passes.transforms.uri_schemes import FUEL_SERVERS
+from twinform.passes.shared.document_uris import FUEL_SERVERS, Kind, map_uris
 
 Scheme = Literal["package", "model", "file", "relative", "fuel"]
 KnownScheme = Literal["package", "model", "file", "relative", "http", "fuel"]

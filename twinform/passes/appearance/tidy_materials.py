@@ -9,7 +9,7 @@ from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import TIDIED_MATERIAL
 from twinform.ir import Document, Format, Material, Model, Visual, replace_fields, rewrite
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.transforms.nodes import unique_name
+from twinform.passes.shared.nodes import unique_name
 
 _PLAIN = "material"
 """The name, before a number, for materials without a name."""

@@ -12,7 +12,7 @@ from twinform.ir.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere
 from twinform.ir.transform import Transform
 from twinform.ir.visual import Collision, Visual
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.transforms.nodes import unique_name
+from twinform.passes.shared.nodes import unique_name
 
 Part = TypeVar("Part", Visual, Collision)
 _KNOWN = (Box, Cylinder, Sphere, Mesh)

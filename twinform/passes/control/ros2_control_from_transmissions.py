@@ -24,7 +24,7 @@ from twinform.passes.control.transmission import (
     write_ros2_transmission,
 )
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.transforms.nodes import unique_name
+from twinform.passes.shared.nodes import unique_name
 
 _UNMOVABLE = frozenset({"fixed", "floating", "planar"})
 

@@ -7,7 +7,7 @@ from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import TIDIED_TRANSMISSION
 from twinform.ir import Document, Element, Format, Model, Opaque, replace_fields, rewrite
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.transforms.nodes import unique_name
+from twinform.passes.shared.nodes import unique_name
 
 _TYPE = "transmission_interface/SimpleTransmission"
 _INTERFACE = "hardware_interface/EffortJointInterface"

@@ -20,7 +20,7 @@ from twinform.passes.includes.merge import (
     place_model,
     report_leftovers,
 )
-from twinform.passes.transforms.document_uris import map_uris
+from twinform.passes.shared.document_uris import map_uris
 from twinform.schemas import parse_version, versions_of
 
 Holder = TypeVar("Holder", Document, World)

@@ -27,8 +27,8 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.provenance import came_from
-from twinform.passes.transforms.element_poses import map_frames
-from twinform.passes.transforms.pose_notation import OFFSET, read_offset
+from twinform.passes.shared.pose_frames import map_frames
+from twinform.passes.shared.pose_notation import OFFSET, read_offset
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 Posed = TypeVar("Posed", Link, Model, Include)

@@ -16,7 +16,10 @@ from twinform.ir.frames import FrameError
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import ORIGIN, Solid, combined, placed
 from twinform.ir.verify.verify_bodies import inertia_matrix, report_moments
-from twinform.passes.analyses.link_shapes import (
+from twinform.passes.framework.assets import NO_ASSETS
+from twinform.passes.framework.pass_base import AssetPass
+from twinform.passes.inertia.physical_consistency import DIGITS, ROUNDING, has_mass
+from twinform.passes.shared.link_shapes import (
     NoSolidError,
     PlacedShape,
     ShapePlaces,
@@ -24,11 +27,8 @@ from twinform.passes.analyses.link_shapes import (
     solid_of,
     united_bounds,
 )
-from twinform.passes.analyses.mesh_solids import Meshes
-from twinform.passes.analyses.moving_bodies import Body, ConnectedBodies, movable_models, moving_bodies, neighbors
-from twinform.passes.framework.assets import NO_ASSETS
-from twinform.passes.framework.pass_base import AssetPass
-from twinform.passes.inertia.physical_consistency import DIGITS, ROUNDING, has_mass
+from twinform.passes.shared.mesh_solids import Meshes
+from twinform.passes.shared.moving_bodies import Body, ConnectedBodies, movable_models, moving_bodies, neighbors
 
 # How far a mass may reach out of its shapes, relative to their size: shapes are drawn by eye.
 _SLACK = 0.01

@@ -12,11 +12,11 @@ from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.frames import FrameError
 from twinform.ir.solids import Solid, combined, with_mass
 from twinform.ir.transform import common_exponent, times_power
-from twinform.passes.analyses.link_shapes import Kind, NoSolidError, PlacedShape, ShapePlaces, inertial_of, solid_of
-from twinform.passes.analyses.mesh_solids import Meshes
-from twinform.passes.analyses.moving_bodies import movable_models, moving_bodies
 from twinform.passes.framework.pass_base import EVERY, AssetPass, matches, with_such_a_name
 from twinform.passes.inertia.physical_consistency import has_mass, is_possible
+from twinform.passes.shared.link_shapes import Kind, NoSolidError, PlacedShape, ShapePlaces, inertial_of, solid_of
+from twinform.passes.shared.mesh_solids import Meshes
+from twinform.passes.shared.moving_bodies import movable_models, moving_bodies
 
 _AMOUNTS = ("density", "mass", "total_mass")
 

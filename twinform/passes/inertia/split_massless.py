@@ -14,10 +14,10 @@ from twinform.ir.principal_moments import Symmetric
 from twinform.ir.scopes import outer_models, scoped_links
 from twinform.ir.solids import NOTHING, ORIGIN, Solid, placed, solid, with_mass, with_tensor
 from twinform.ir.verify.verify_bodies import inertia_matrix
-from twinform.passes.analyses.link_shapes import inertial_of
-from twinform.passes.analyses.moving_bodies import Body, ConnectedBodies, moving_bodies, neighbors
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 from twinform.passes.inertia.physical_consistency import has_mass, is_possible
+from twinform.passes.shared.link_shapes import inertial_of
+from twinform.passes.shared.moving_bodies import Body, ConnectedBodies, moving_bodies, neighbors
 
 
 class _LinkAddress(NamedTuple):

@@ -16,8 +16,8 @@ from twinform.ir import Element, Format, Frame, Joint, Link, Model
 from twinform.passes.carriers.annotations import AnyNode, find_annotation, with_annotation, without_annotation
 from twinform.passes.carriers.provenance import came_from, wrote_scopes
 from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.shared.pose_notation import NESTED
 from twinform.passes.structure.rename_parts import Part, rename_model, scope_of
-from twinform.passes.transforms.pose_notation import NESTED
 
 NAME = "name"
 """The annotation on a link, joint, frame or shape of SDF with the name that it has in URDF."""

@@ -25,8 +25,8 @@ from twinform.passes.inertia.physical_consistency import (
     is_clearly_possible,
     nearest_possible,
 )
+from twinform.passes.shared.gazebo_tags import lumped_links
 from twinform.passes.structure.combined_bodies import body_of
-from twinform.passes.transforms.lumped_links import lumped_links
 
 _MARGIN = 1e-6
 """The least second moment of mass along an axis, as a part of the trace: digits are cut off again."""

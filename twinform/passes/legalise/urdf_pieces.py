@@ -6,7 +6,7 @@ from functools import cached_property
 
 from twinform.ir import Element, Joint, Link, Mimic, Model, Node, Opaque
 from twinform.ir.verify.verify_joints import useless_leader
-from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_FIELDS, LINK_TAGS, MODEL_TAGS
+from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_FIELDS, LINK_TAGS, MODEL_TAGS
 
 _ABOUT_JOINTS = frozenset({"transmission", "ros2_control"})
 OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})

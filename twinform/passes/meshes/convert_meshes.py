@@ -11,11 +11,11 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import CHANGED_MESH, KEPT_MESH
 from twinform.ir import Collision, Document, Geometry, Link, Mesh, Visual, rewrite
 from twinform.package_files import package_files
-from twinform.passes.analyses.mesh_solids import MeshError
 from twinform.passes.framework.pass_base import EVERY, matches, with_such_a_name
 from twinform.passes.mesh_jobs.mesh_files import MeshFormat, kind_of
 from twinform.passes.meshes.mesh_pass import MeshPass, Workbench, report_kept_mesh, without_submesh
 from twinform.passes.meshes.mesh_source import MeshSource
+from twinform.passes.shared.mesh_solids import MeshError
 
 ConsumerName = Literal["gazebo", "gazebo-fortress", "rviz", "mujoco", "pybullet", "drake", "pinocchio", "web"]
 Shapes = Literal["visual", "collision", "all"]

@@ -8,7 +8,6 @@ from pydantic import Field, model_validator
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import CHANGED_MESH, KEPT_MESH, NOTHING_MATCHED
 from twinform.ir import Document, Geometry, Link, Mesh, Visual, rewrite
-from twinform.passes.analyses.mesh_solids import MeshError
 from twinform.passes.framework.pass_base import EVERY, matches, with_such_a_name
 from twinform.passes.mesh_jobs.job import Options
 from twinform.passes.meshes.mesh_pass import (
@@ -20,6 +19,7 @@ from twinform.passes.meshes.mesh_pass import (
     report_kept_mesh,
     without_submesh,
 )
+from twinform.passes.shared.mesh_solids import MeshError
 
 _MADE = re.compile(r"_lod\d+$")
 _MOST_LEVELS = 8

@@ -9,7 +9,8 @@ from pydantic import Field
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import LIMITED_SENSOR, SENSOR_OVER_BUDGET
 from twinform.ir import Document, Element, GazeboExtension, Node, Opaque, Sensor, bits_of, rewrite
-from twinform.passes.analyses.sensor_costs import (
+from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
+from twinform.passes.shared.sensor_costs import (
     SensorCost,
     image_size,
     images,
@@ -18,7 +19,6 @@ from twinform.passes.analyses.sensor_costs import (
     sensor_of,
     sensors_in,
 )
-from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 
 _KINDS = ("pixels", "rays")
 _FINE = 1000

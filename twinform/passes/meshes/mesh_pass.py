@@ -12,7 +12,6 @@ from pydantic import Field, field_validator
 
 from twinform.diagnostics import DiagnosticSink, Location, SideFile, rules
 from twinform.ir import Mesh
-from twinform.passes.analyses.mesh_solids import MeshError, submesh_of
 from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.framework.side_files import CompanionPath, FilesPass
 from twinform.passes.mesh_jobs.child_process import do
@@ -20,6 +19,7 @@ from twinform.passes.mesh_jobs.job import MeshJob, MeshResult, Options
 from twinform.passes.mesh_jobs.mesh_files import EXTRA, MARK
 from twinform.passes.meshes.mesh_source import MeshSource, MeshSources
 from twinform.passes.meshes.results_cache import ResultsCache
+from twinform.passes.shared.mesh_solids import MeshError, submesh_of
 
 _UNUSUAL_IN_NAMES = re.compile(r"[^\w.-]+")
 _WITHOUT_MARK = (".png", ".jpg", ".jpeg", ".bin")

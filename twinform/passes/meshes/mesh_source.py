@@ -12,10 +12,10 @@ from urllib.parse import unquote
 
 from twinform.diagnostics import HEAD, DiagnosticSink, rules
 from twinform.file_access import Readable
-from twinform.passes.analyses.mesh_solids import MeshError
 from twinform.passes.framework.assets import AssetError, Assets
 from twinform.passes.mesh_jobs.mesh_files import MARK, READ, RefusedMeshError, content_of, kind_of
 from twinform.passes.mesh_references import FORMATS
+from twinform.passes.shared.mesh_solids import MeshError
 
 KINDS = frozenset({*READ, "gltf"})
 _IMAGES = frozenset({".png", ".jpg", ".jpeg", ".tga", ".bmp", ".tif", ".tiff", ".webp"})

@@ -11,7 +11,6 @@ from twinform.diagnostics.rules import CHANGED_MESH, KEPT_MESH, NOTHING_MATCHED
 from twinform.ir import Collision, Document, Format, Geometry, Link, Mesh, Shape, rewrite
 from twinform.ir.geometry import Box, Capsule, Cylinder, Sphere
 from twinform.ir.transform import Transform
-from twinform.passes.analyses.mesh_solids import MeshError
 from twinform.passes.framework.pass_base import EVERY, matches, with_such_a_name
 from twinform.passes.mesh_jobs.job import Options
 from twinform.passes.meshes.mesh_pass import (
@@ -22,6 +21,7 @@ from twinform.passes.meshes.mesh_pass import (
     format_length,
     report_kept_mesh,
 )
+from twinform.passes.shared.mesh_solids import MeshError
 
 Way = Literal["primitive", "hull", "parts"]
 Kind = Literal["box", "sphere", "cylinder", "capsule"]

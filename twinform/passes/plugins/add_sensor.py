@@ -27,7 +27,7 @@ from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sensor_settings import addable, setting_fields, settings_element, settings_of
 from twinform.passes.plugins.sites import sensors_of
 from twinform.passes.plugins.world_systems import add_systems, has_element, has_system, requirements_of, system_xml
-from twinform.passes.transforms.nodes import unique_name
+from twinform.passes.shared.nodes import unique_name
 
 _Number = Annotated[float, Field(allow_inf_nan=False)]
 Finite = tuple[_Number, _Number, _Number]

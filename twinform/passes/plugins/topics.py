@@ -20,8 +20,7 @@ from twinform.passes.plugins.topic_patterns import (
     without_parentheses,
 )
 from twinform.passes.plugins.world_systems import custom_type, kind_of_sensor
-from twinform.passes.transforms.gazebo_tags import TRUE
-from twinform.passes.transforms.lumped_links import lumped_joints, lumped_links
+from twinform.passes.shared.gazebo_tags import TRUE, lumped_joints, lumped_links
 
 _CLOUD = re.compile(r"points|cloud", re.IGNORECASE)
 """Occurs in names of topics with point clouds: `velodyne_points`, `lidar/points`, `cloud_in`."""

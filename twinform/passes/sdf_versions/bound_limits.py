@@ -9,7 +9,7 @@ from twinform.ir import Axis, Document, Joint, Opaque, rewrite
 from twinform.ir.defaults import UNLIMITED, UNLIMITED_STRENGTH
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass
-from twinform.passes.transforms.nodes import text_piece
+from twinform.passes.shared.nodes import text_piece
 from twinform.schemas import format_value
 
 _SINCE = (1, 10)

@@ -8,7 +8,7 @@ from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Frame, Joint, Link, Model, ReferenceKind, World, map_references, rewrite
 from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass
-from twinform.passes.transforms.nodes import unique_name
+from twinform.passes.shared.nodes import unique_name
 
 Named = TypeVar("Named", Link, Joint, Frame)
 _RESERVED = "world"

@@ -9,8 +9,8 @@ from twinform.ir import Document, Joint, Model, Opaque, World, count_parts, rewr
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass
-from twinform.passes.transforms.joint_ends import named_ends, report_self_joint, resolve_ends
-from twinform.passes.transforms.nodes import pose_piece
+from twinform.passes.shared.joint_ends import named_ends, report_self_joint, resolve_ends
+from twinform.passes.shared.nodes import pose_piece
 
 _SINCE = (1, 8)
 _FRAMES = (1, 7)

@@ -9,7 +9,7 @@ from twinform.ir.defaults import AXIS
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass
-from twinform.passes.transforms.nodes import text_piece
+from twinform.passes.shared.nodes import text_piece
 from twinform.schemas import Version, format_value, print_version
 
 _NEWER: dict[str, Version] = {"gearbox": (1, 4), "fixed": (1, 5), "screw": (1, 5), "continuous": (1, 6)}

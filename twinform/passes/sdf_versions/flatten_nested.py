@@ -8,8 +8,8 @@ from twinform.ir import Document, Model, World, count_parts, rewrite
 from twinform.passes.carriers.annotations import without_synthesized
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass
-from twinform.passes.transforms.flattening import flatten
-from twinform.passes.transforms.nodes import piece
+from twinform.passes.shared.flattening import flatten
+from twinform.passes.shared.nodes import piece
 from twinform.schemas import parse_version
 
 

@@ -7,7 +7,7 @@ from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Light, Plugin, rewrite
 from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass
-from twinform.passes.transforms.nodes import unique_name
+from twinform.passes.shared.nodes import unique_name
 
 _LIGHTS = (1, 6)
 """Since this version a light has a name."""

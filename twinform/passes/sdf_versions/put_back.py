@@ -27,7 +27,7 @@ from twinform.passes.carriers.removal import without_parts
 from twinform.passes.carriers.sdf_versions import DIALECT, VersionKeeper, carried, condition_of, is_version_carrier
 from twinform.passes.sdf_versions.steps import backward
 from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign, replace_child
-from twinform.passes.transforms.nodes import map_elements
+from twinform.passes.shared.nodes import map_elements
 from twinform.schemas import Version, parse_version
 
 AnyNode = TypeVar("AnyNode", bound=Node)

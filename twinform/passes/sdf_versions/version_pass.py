@@ -10,7 +10,7 @@ from twinform.ir import PLAIN, Document, Element, Format, Frame, Node, bits_of, 
 from twinform.ir.frames import FrameError
 from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.transforms.nodes import map_elements
+from twinform.passes.shared.nodes import map_elements
 from twinform.schemas import Version, parse_version, versions_of
 
 AnyNode = TypeVar("AnyNode", bound=Node)

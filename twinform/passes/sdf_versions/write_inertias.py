@@ -6,11 +6,11 @@ from typing import ClassVar
 from twinform.diagnostics import rules
 from twinform.ir import Document, Inertial, Link, Model, rewrite
 from twinform.ir.frames import FrameGraph
-from twinform.passes.analyses.automatic_inertias import NoInertiaError, automatic, map_automatic, written_out
-from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.sdf_versions.version_pass import VersionPass
+from twinform.passes.shared.link_shapes import NoSolidError, automatic, map_automatic, written_out
+from twinform.passes.shared.mesh_solids import Meshes
 
 _SINCE = (1, 11)
 
@@ -35,7 +35,7 @@ class WriteInertias(VersionPass, AssetPass):
 def _write_inertia(keeper: VersionKeeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
     try:
         found = automatic(link, inertial, link.collisions, graph, meshes)
-    except NoInertiaError:
+    except NoSolidError:
         return link
     written, pieces, made = written_out(inertial, found)
     message = f"the inertia of link {link.name!r} is left to be computed from its collisions"

@@ -8,7 +8,7 @@ from twinform.diagnostics import rules
 from twinform.ir import Document, Joint, rewrite
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass
-from twinform.passes.transforms.nodes import text_piece
+from twinform.passes.shared.nodes import text_piece
 from twinform.schemas import format_value
 
 _SINCE = (1, 10)

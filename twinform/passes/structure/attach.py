@@ -27,9 +27,9 @@ from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.provenance import FROM
 from twinform.passes.framework.pass_base import DocumentPass, DocumentReader
 from twinform.passes.includes.merge import merge_into_model
+from twinform.passes.shared.pose_notation import OFFSET, POSE
 from twinform.passes.structure.model_edit import edit_in_modern_sdf
 from twinform.passes.structure.rename_parts import prefixed_scope, rename_model
-from twinform.passes.transforms.pose_notation import OFFSET, POSE
 
 
 class Attach(DocumentPass):

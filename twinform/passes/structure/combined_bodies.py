@@ -9,9 +9,9 @@ from twinform.ir import Format, Inertial, Link, Pose
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, combined, placed, turned, with_tensor, written_solid
 from twinform.ir.transform import Transform
-from twinform.passes.analyses.automatic_inertias import automatic
-from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.framework.assets import NO_ASSETS
+from twinform.passes.shared.link_shapes import automatic
+from twinform.passes.shared.mesh_solids import Meshes
 
 _NO_MESHES = Meshes(NO_ASSETS)
 """By default no inertia is computed from a mesh; `fill-inertia` does that."""

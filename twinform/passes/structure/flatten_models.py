@@ -11,6 +11,8 @@ from twinform.ir import Document, Format, Frame, Model, World
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.ir.scopes import SCOPE, nested_models, nested_names, scoped_models
 from twinform.passes.carriers.annotations import without_synthesized
+from twinform.passes.shared.flattening import differing_rests, flatten, settle_links, with_static_models_fixed
+from twinform.passes.shared.joint_ends import report_self_joint, resolve_ends
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
 from twinform.passes.structure.rename_parts import (
     Part,
@@ -22,10 +24,6 @@ from twinform.passes.structure.rename_parts import (
     report_clashes,
     scope_of,
 )
-from twinform.passes.transforms.flattening import flatten
-from twinform.passes.transforms.joint_ends import report_self_joint, resolve_ends
-from twinform.passes.transforms.nested_settings import differing_rests, settle_links
-from twinform.passes.transforms.static_models import with_static_models_fixed
 
 _LAST_WITH_COLONS = "1.7"
 """The last version of SDF in which names may contain `::`."""

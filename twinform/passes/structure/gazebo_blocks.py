@@ -6,10 +6,9 @@ from twinform.ir import Element, GazeboExtension
 from twinform.ir.defaults import BODY
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.transforms.element_poses import link_elements, read_pose
-from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, TRUE, value_text
-from twinform.passes.transforms.lumped_links import LUMPS_WITHOUT, PRESERVES
-from twinform.passes.transforms.nodes import unique_name
+from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_TAGS, LUMPS_WITHOUT, PRESERVES, TRUE, value_text
+from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.pose_frames import link_elements, read_pose
 
 Blocks = Mapping[str, list[GazeboExtension]]
 

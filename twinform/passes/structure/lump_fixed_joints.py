@@ -6,8 +6,8 @@ from pydantic import Field
 
 from twinform.diagnostics import rules
 from twinform.ir import Format, Model
-from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.framework.pass_base import AssetPass, with_such_a_name
+from twinform.passes.shared.mesh_solids import Meshes
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
 
 

@@ -22,15 +22,15 @@ from twinform.ir import (
 from twinform.ir.defaults import BODY
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.solids import placed
-from twinform.passes.analyses.automatic_inertias import NoInertiaError
-from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.carriers.carriers import is_ours
+from twinform.passes.shared.link_shapes import NoInertiaError
+from twinform.passes.shared.mesh_solids import Meshes
+from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.pose_frames import link_elements
 from twinform.passes.structure.combined_bodies import add_guests, body_of
 from twinform.passes.structure.lumping_plan import LumpingPlan, plan_lumping
 from twinform.passes.structure.model_edit import EditContext
 from twinform.passes.structure.reference_words import Mentions, find_mentions
-from twinform.passes.transforms.element_poses import link_elements
-from twinform.passes.transforms.nodes import unique_name
 
 Posed = TypeVar("Posed", Visual, Collision, Sensor, Light)
 _SETTINGS = {name: BODY.get(name) for name in ("gravity", "enable_wind", "self_collide", "kinematic")}

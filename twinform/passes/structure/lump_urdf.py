@@ -8,6 +8,9 @@ from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid, placed
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import is_ours
+from twinform.passes.shared.gazebo_tags import is_preserved
+from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.pose_notation import in_radians
 from twinform.passes.structure.combined_bodies import add_guests, body_of
 from twinform.passes.structure.gazebo_blocks import (
     Blocks,
@@ -23,9 +26,6 @@ from twinform.passes.structure.lumping_plan import LumpingPlan, plan_lumping
 from twinform.passes.structure.model_edit import EditContext
 from twinform.passes.structure.reference_words import Mentions, find_mentions
 from twinform.passes.structure.tagged_shapes import KINDS
-from twinform.passes.transforms.lumped_links import is_preserved
-from twinform.passes.transforms.nodes import unique_name
-from twinform.passes.transforms.pose_notation import in_radians
 
 Shape = TypeVar("Shape", Visual, Collision)
 

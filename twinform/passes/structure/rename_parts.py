@@ -22,8 +22,8 @@ from twinform.ir import (
 from twinform.ir.frames import MODEL, WORLD
 from twinform.ir.scopes import nested_models, outer_models
 from twinform.ir.sourced import Sourced
+from twinform.passes.shared.nodes import map_elements
 from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text
-from twinform.passes.transforms.nodes import map_elements
 
 Part = str
 """`link`, `joint`, `frame` or `model`."""

@@ -11,6 +11,7 @@ from twinform.ir.defaults import direction
 from twinform.ir.frames import WORLD, FrameGraph
 from twinform.ir.scopes import outer_models
 from twinform.ir.transform import Transform
+from twinform.passes.shared.pose_notation import in_radians
 from twinform.passes.structure.gazebo_blocks import block_content, blocks_by_reference
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
 from twinform.passes.structure.reversal import (
@@ -23,7 +24,6 @@ from twinform.passes.structure.reversal import (
     swap_block,
     turn_axis,
 )
-from twinform.passes.transforms.pose_notation import in_radians
 
 # How far, in meters, the origin of a link may be from an axis through it: the rounding of zero.
 _ON_AXIS = 1e-12

@@ -8,6 +8,8 @@ from twinform.diagnostics.rules import GAZEBO_SHAPE_NAME
 from twinform.ir import Collision, Document, Element, Format, GazeboExtension, Link, Model, Visual, replace_fields
 from twinform.passes.carriers.lumped_names import LUMP, mentions_collisions
 from twinform.passes.framework.pass_base import Pass
+from twinform.passes.shared.gazebo_tags import lumped_links
+from twinform.passes.shared.nodes import unique_name
 from twinform.passes.structure.tagged_shapes import (
     KINDS,
     SeenShape,
@@ -16,8 +18,6 @@ from twinform.passes.structure.tagged_shapes import (
     tagged_links,
     tagging_links,
 )
-from twinform.passes.transforms.lumped_links import lumped_links
-from twinform.passes.transforms.nodes import unique_name
 
 AnyShape = Visual | Collision
 Rename = Callable[[AnyShape, str, str], AnyShape]

@@ -13,9 +13,8 @@ from typing import NamedTuple
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Collision, Element, GazeboExtension, Model, Visual
 from twinform.passes.carriers.lumped_names import LUMP
+from twinform.passes.shared.gazebo_tags import LINK_TAGS, TRUE, Tag, lumped_joints, lumped_links, value_text
 from twinform.passes.structure.gazebo_blocks import shape_elements
-from twinform.passes.transforms.gazebo_tags import LINK_TAGS, TRUE, Tag, value_text
-from twinform.passes.transforms.lumped_links import lumped_joints, lumped_links
 
 KINDS: Mapping[str, str] = {"visuals": "visual", "collisions": "collision"}
 """The fields of a link with shapes, and the word that libsdformat adds to their names."""

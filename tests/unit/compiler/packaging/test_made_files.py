@@ -12,7 +12,7 @@ from twinform.compiler.packaging.order import Order
 from twinform.diagnostics import DiagnosticSink, SideFile
 from twinform.ir import Document
 from twinform.passes import Pass, Pipeline
-from twinform.passes.transforms.document_uris import map_uris
+from twinform.passes.shared.document_uris import map_uris
 
 _MADE = {"meshes/hull.obj": OBJ, "meshes/arm.mtl": MTL, "textures/skin.png": PNG, "config/bridge.yaml": b"[]"}
 

@@ -16,8 +16,8 @@ from twinform.ir.defaults import sizes
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.scopes import scoped_links
 from twinform.ir.transform import Transform
-from twinform.passes.analyses.mesh_solids import MeshError, Meshes, MeshTriangles
 from twinform.passes.framework.assets import AssetError
+from twinform.passes.shared.mesh_solids import MeshError, Meshes, MeshTriangles
 from twinform.storage.staging import staging_folder, temporary_folder
 
 _GREY = (0.72, 0.72, 0.75)

@@ -33,7 +33,7 @@ from twinform.passes.legalise.to_sdf.gazebo_sorting import (
     place_of,
     places_of,
 )
-from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_FIELDS, LINK_TAGS, MODEL_TAGS
+from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_FIELDS, LINK_TAGS, MODEL_TAGS
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

@@ -7,9 +7,9 @@ from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Joint, Mimic, Model
 from twinform.ir.defaults import multiplier
 from twinform.ir.frames import FrameError, FrameGraph
-from twinform.passes.analyses.gearboxes import GEARED, UngearedError, relation
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.shared.gearboxes import GEARED, UngearedError, relation
 
 _CLOSE = 1e-9
 """How far multipliers may be apart that were made from one ratio."""

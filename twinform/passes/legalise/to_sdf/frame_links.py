@@ -18,8 +18,8 @@ from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
 from twinform.passes.legalise.to_sdf.reversals import without_reversals
-from twinform.passes.transforms.gazebo_tags import FLAGS, flag_tags
-from twinform.passes.transforms.pose_notation import FRAME, LINK
+from twinform.passes.shared.gazebo_tags import FLAGS, flag_tags
+from twinform.passes.shared.pose_notation import FRAME, LINK
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
 

@@ -8,7 +8,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import annotate_synthesized, find_annotation, is_synthesized
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.legalise.changed_names import scoped_name
-from twinform.passes.transforms.pose_notation import NESTED
+from twinform.passes.shared.pose_notation import NESTED
 
 _CLOSE = 1e-9
 """How far numbers may be apart that were written from one."""

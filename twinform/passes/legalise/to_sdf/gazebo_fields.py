@@ -20,7 +20,7 @@ from twinform.ir import (
 )
 from twinform.passes.carriers.carriers import from_xml
 from twinform.passes.legalise.to_sdf.gazebo_merging import merge
-from twinform.passes.transforms.gazebo_tags import SCRIPT_URI, Tag
+from twinform.passes.shared.gazebo_tags import SCRIPT_URI, Tag
 from twinform.schemas import format_value
 
 Values = Iterable[tuple[Tag, Any]]

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity, Source, rules
 from twinform.ir import Element, GazeboExtension, Link
-from twinform.passes.transforms.gazebo_tags import FALSE, LINK_TAGS, TRUE, TRUTHS, Tag, value_text
+from twinform.passes.shared.gazebo_tags import FALSE, LINK_TAGS, TRUE, TRUTHS, Tag, value_text
 from twinform.schemas import format_value
 
 _TOUCHED = frozenset({"surface", "collision"})

@@ -9,13 +9,13 @@ from twinform.ir import Format, Inertial, Link, Model, Opaque
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.solids import Solid, placed, written_solid
 from twinform.ir.transform import Transform
-from twinform.passes.analyses.automatic_inertias import COMPUTED_MASS, NoInertiaError, automatic
-from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.pass_base import AssetPass, ModelPass
+from twinform.passes.shared.link_shapes import COMPUTED_MASS, NoSolidError, automatic
+from twinform.passes.shared.mesh_solids import Meshes
 from twinform.schemas import parse_version, versions_of
 
 _SINCE = (1, 11)
@@ -63,7 +63,7 @@ def _leave(link: Link, graph: FrameGraph, meshes: Meshes, sink: DiagnosticSink) 
     try:
         left = _unpacked(left)
         found = automatic(link, left, link.collisions, graph, meshes)
-    except (CarrierError, NoInertiaError, FrameError) as error:
+    except (CarrierError, NoSolidError, FrameError) as error:
         return _stale(link, inertial, str(error), sink)
     # Numbers and shapes can both be edited in URDF. The inertia is automatic again only where the
     # shapes still give the numbers; otherwise the numbers count.

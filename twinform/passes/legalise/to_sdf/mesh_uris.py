@@ -8,7 +8,7 @@ from twinform.ir import Collision, Format, Link, Mesh, Model, Visual, replace_fi
 from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
 from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.transforms.uri_schemes import GAZEBO, MESH_SCHEME, ROS, TEXTURE_SCHEME, model_uri, scheme_of
+from twinform.passes.shared.document_uris import GAZEBO, MESH_SCHEME, ROS, TEXTURE_SCHEME, model_uri, scheme_of
 
 Shape = TypeVar("Shape", Visual, Collision)
 

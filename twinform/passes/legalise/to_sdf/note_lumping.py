@@ -10,6 +10,7 @@ from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
 from twinform.passes.legalise.to_sdf.gazebo_sorting import place_of
+from twinform.passes.shared.gazebo_tags import FALSE, lumped_links
 from twinform.passes.structure.gazebo_blocks import (
     BODY_FLAGS,
     block_content,
@@ -18,8 +19,6 @@ from twinform.passes.structure.gazebo_blocks import (
     shape_elements,
 )
 from twinform.passes.structure.tagged_shapes import KINDS, find_early_static, seen_shapes, tagging_links, unread_tags
-from twinform.passes.transforms.gazebo_tags import FALSE
-from twinform.passes.transforms.lumped_links import lumped_links
 
 _USUAL = FALSE | {"0.0"}
 """What says no more than a flag that is not there."""

@@ -23,11 +23,10 @@ from twinform.passes.carriers.provenance import came_from
 from twinform.passes.carriers.token_mass import has_token_mass
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.sdf_versions.version_pass import is_foreign
-from twinform.passes.transforms.element_poses import POSE_ANNOTATION, ElementPoses
-from twinform.passes.transforms.joint_ends import ENDS
-from twinform.passes.transforms.nodes import map_elements
-from twinform.passes.transforms.pose_notation import NESTED, OFFSET, POSE, as_annotated, pose_attributes, read_offset
-from twinform.passes.transforms.rebasing import AnyPosed, Base, Posed, Rebasing
+from twinform.passes.shared.joint_ends import ENDS
+from twinform.passes.shared.nodes import map_elements
+from twinform.passes.shared.pose_frames import POSE_ANNOTATION, AnyPosed, Base, ElementPoses, Posed, Rebasing
+from twinform.passes.shared.pose_notation import NESTED, OFFSET, POSE, as_annotated, pose_attributes, read_offset
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

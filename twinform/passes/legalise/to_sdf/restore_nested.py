@@ -16,8 +16,8 @@ from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import renamed
 from twinform.passes.sdf_versions.nest_models import nest
-from twinform.passes.transforms.nested_settings import unsettle_links
-from twinform.passes.transforms.pose_notation import NESTED
+from twinform.passes.shared.flattening import unsettle_links
+from twinform.passes.shared.pose_notation import NESTED
 from twinform.schemas import parse_version, versions_of
 
 AnyNode = TypeVar("AnyNode", bound=Node)

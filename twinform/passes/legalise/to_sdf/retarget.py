@@ -14,7 +14,7 @@ from twinform.passes.carriers.provenance import (
     without_provenance,
 )
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.transforms.pose_notation import BODY
+from twinform.passes.shared.pose_notation import BODY
 from twinform.schemas import versions_of
 
 

@@ -11,7 +11,7 @@ from twinform.passes.carriers.annotations import annotation
 from twinform.passes.carriers.carriers import pack, to_element
 from twinform.passes.carriers.material_annotations import MATERIAL, SHARED_MATERIAL, material_name
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.transforms.urdf_color import seen_by_gazebo
+from twinform.passes.shared.urdf_color import seen_by_gazebo
 
 
 class SharedMaterials(ModelPass):

@@ -31,7 +31,7 @@ from twinform.passes.carriers.definitions import has_first, inside, is_repeated
 from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.transforms.urdf_color import urdf_color
+from twinform.passes.shared.urdf_color import urdf_color
 from twinform.schemas import parse_version, versions_of
 
 AnyNode = TypeVar("AnyNode", bound=Node)

@@ -15,10 +15,10 @@ from twinform.passes.carriers.annotations import (
 from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
 from twinform.passes.legalise.to_urdf.joint_tree import JointTree
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.shared.joint_ends import joint_pose_attributes
+from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.pose_notation import POSE
 from twinform.passes.structure.reversal import reroot_sdf
-from twinform.passes.transforms.joint_ends import joint_pose_attributes
-from twinform.passes.transforms.nodes import unique_name
-from twinform.passes.transforms.pose_notation import POSE
 
 
 class BuildTree(ToUrdfPass):

@@ -14,7 +14,7 @@ from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.to_urdf.map_surfaces import OF_ALL_COLLISIONS
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, take_remainder, urdf_fields
 from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper, UrdfVersion
-from twinform.passes.transforms.pose_notation import BODY
+from twinform.passes.shared.pose_notation import BODY
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

@@ -6,16 +6,10 @@ from typing import ClassVar
 from twinform.diagnostics import rules
 from twinform.ir import Inertial, Link, Model
 from twinform.ir.frames import FrameGraph
-from twinform.passes.analyses.automatic_inertias import (
-    COMPUTED_MASS,
-    NoInertiaError,
-    automatic,
-    map_automatic,
-    written_out,
-)
-from twinform.passes.analyses.mesh_solids import Meshes
 from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.shared.link_shapes import COMPUTED_MASS, NoSolidError, automatic, map_automatic, written_out
+from twinform.passes.shared.mesh_solids import Meshes
 
 
 class ComputeInertias(ToUrdfPass, AssetPass):
@@ -38,7 +32,7 @@ class ComputeInertias(ToUrdfPass, AssetPass):
 def _compute(keeper: UrdfKeeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
     try:
         found = automatic(link, inertial, link.collisions, graph, meshes)
-    except NoInertiaError as error:
+    except NoSolidError as error:
         keeper.sink.report(rules.AUTOMATIC_INERTIA, str(error), error.location, help=error.help)
         return link
     written, pieces, computed = written_out(inertial, found)

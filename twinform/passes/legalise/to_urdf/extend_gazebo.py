@@ -10,7 +10,7 @@ from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.carriers import SECOND, to_element
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.transforms.gazebo_tags import FLAGS, JOINT_TAGS, LINK_TAGS, MODEL_TAGS, flag_tags
+from twinform.passes.shared.gazebo_tags import FLAGS, JOINT_TAGS, LINK_TAGS, MODEL_TAGS, flag_tags
 from twinform.schemas import format_value, table
 
 _LINK_FIELDS = ("enable_wind", "kinematic", "sensors", "lights")

@@ -10,11 +10,9 @@ from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, to_element
 from twinform.passes.legalise.changed_names import Names, renamed, with_old_names
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.transforms.flattening import flatten
-from twinform.passes.transforms.nested_settings import differing_rests, settle_links
-from twinform.passes.transforms.nodes import unique_name
-from twinform.passes.transforms.pose_notation import NESTED, POSE, pose_attributes
-from twinform.passes.transforms.static_models import with_static_models_fixed
+from twinform.passes.shared.flattening import differing_rests, flatten, settle_links, with_static_models_fixed
+from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.pose_notation import NESTED, POSE, pose_attributes
 
 
 class FlattenForUrdf(ToUrdfPass):

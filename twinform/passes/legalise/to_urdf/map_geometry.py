@@ -18,8 +18,8 @@ from twinform.ir.defaults import SIZES, filled
 from twinform.passes.legalise.to_urdf.remainder import urdf_fields
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper, UrdfVersion
 from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
-from twinform.passes.transforms.nodes import piece
-from twinform.passes.transforms.uri_schemes import MESH_SCHEME
+from twinform.passes.shared.document_uris import MESH_SCHEME
+from twinform.passes.shared.nodes import piece
 
 Sayable = frozenset[str]
 """The kinds of shapes that a version of URDF has, which requires their sizes."""

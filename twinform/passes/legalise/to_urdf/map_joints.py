@@ -11,7 +11,7 @@ from twinform.passes.carriers.joint_words import CONTINUOUS, MIMIC
 from twinform.passes.legalise.to_urdf.remainder import urdf_row
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper, UrdfVersion
 from twinform.passes.legalise.urdf_pieces import BALLS
-from twinform.passes.transforms.nodes import text_piece
+from twinform.passes.shared.nodes import text_piece
 from twinform.schemas import format_value
 
 AnyNode = TypeVar("AnyNode", bound=Node)

@@ -7,10 +7,10 @@ from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual
 from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS, material_name
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
-from twinform.passes.transforms.gazebo_tags import SCRIPT_URI
-from twinform.passes.transforms.nodes import unique_name
-from twinform.passes.transforms.urdf_color import seen_by_gazebo, urdf_color, with_alpha
-from twinform.passes.transforms.uri_schemes import TEXTURE_SCHEME
+from twinform.passes.shared.document_uris import TEXTURE_SCHEME
+from twinform.passes.shared.gazebo_tags import SCRIPT_URI
+from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.urdf_color import seen_by_gazebo, urdf_color, with_alpha
 from twinform.schemas import format_value
 
 

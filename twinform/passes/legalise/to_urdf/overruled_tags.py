@@ -1,7 +1,7 @@
 """Restoring `<gazebo>` tags that a later tag of the same field overrides."""
 
 from twinform.ir import Element, GazeboExtension, Model, Opaque
-from twinform.passes.transforms.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS, Tag
+from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS, Tag
 
 _TAGS = MODEL_TAGS | JOINT_TAGS | LINK_TAGS
 _ELEMENTS = {"surface": "collision", "collision": "collision", "physics": "physics", "dynamics": "axis"}

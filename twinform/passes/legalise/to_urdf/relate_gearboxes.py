@@ -5,10 +5,10 @@ from typing import ClassVar
 from twinform.diagnostics import Fate, Severity, rules
 from twinform.ir import Axis, Joint, Mimic, Model, count_parts
 from twinform.ir.frames import FrameGraph
-from twinform.passes.analyses.gearboxes import GEARED, Relation, UngearedError, relation
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.shared.gearboxes import GEARED, Relation, UngearedError, relation
 
 
 class RelateGearboxes(ToUrdfPass):

@@ -6,7 +6,7 @@ from twinform.diagnostics import rules
 from twinform.ir import Joint, Model
 from twinform.ir.frames import WORLD, FrameGraph
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.transforms.joint_ends import ENDS, named_ends, report_self_joint, resolve_ends
+from twinform.passes.shared.joint_ends import ENDS, named_ends, report_self_joint, resolve_ends
 
 
 class ResolveJointEnds(ToUrdfPass):

@@ -9,7 +9,7 @@ from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.legalise.to_urdf.floating_links import with_floating_joints
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.transforms.pose_notation import LINK
+from twinform.passes.shared.pose_notation import LINK
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
 

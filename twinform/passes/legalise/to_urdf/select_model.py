@@ -8,8 +8,8 @@ from typing import ClassVar
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Document, Format, Include, Model, Node, Opaque, World, count_parts
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
-from twinform.passes.analyses.candidates import ModelCandidate, candidates
 from twinform.passes.framework.pass_base import Pass
+from twinform.passes.shared.candidates import ModelCandidate, candidates
 
 
 class SelectModel(Pass):

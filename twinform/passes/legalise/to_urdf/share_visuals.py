@@ -11,7 +11,7 @@ from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.material_annotations import LOOK, look_of
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, fits, take_remainder, urdf_fields
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper, UrdfVersion
-from twinform.passes.transforms.gazebo_tags import LINK_TAGS
+from twinform.passes.shared.gazebo_tags import LINK_TAGS
 
 _COLORS = ("ambient", "diffuse")
 _OF_MATERIALS = frozenset({"material"})

@@ -13,7 +13,7 @@ from twinform.passes.carriers.token_mass import CHAIN_MASS, CHAIN_TOKEN
 from twinform.passes.legalise.to_urdf.joint_steps import ChainStep, ball, screw, two_axes
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.urdf_pieces import BALLS
-from twinform.passes.transforms.nodes import text_piece, unique_name
+from twinform.passes.shared.nodes import text_piece, unique_name
 from twinform.schemas import format_value
 
 _STEPS = {"universal": two_axes, "revolute2": two_axes, "ball": ball, "screw": screw}

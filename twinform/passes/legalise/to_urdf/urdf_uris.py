@@ -6,7 +6,7 @@ from twinform.diagnostics import rules
 from twinform.ir import Collision, Visual
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper
-from twinform.passes.transforms.uri_schemes import GAZEBO, package_uri, scheme_of
+from twinform.passes.shared.document_uris import GAZEBO, package_uri, scheme_of
 
 Shape = TypeVar("Shape", Visual, Collision)
 

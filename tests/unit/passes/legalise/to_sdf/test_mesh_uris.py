@@ -6,7 +6,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Box, Collision, Geometry, Link, Material, Mesh, Model, Node, Visual, map_children
 from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
 from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris
-from twinform.passes.transforms.uri_schemes import MESH_SCHEME, TEXTURE_SCHEME
+from twinform.passes.shared.document_uris import MESH_SCHEME, TEXTURE_SCHEME
 
 OTHERS = ["file:///p/a.dae", "model://p/a.dae", "meshes/a.dae", "https://example.org/a.dae", "PACKAGE://p/a.dae", ""]
 

@@ -9,7 +9,7 @@ from twinform.schemas import format_value
 
 
 def in_radians(transform: Transform, relative_to: str | None = None) -> Pose:
-    """The pose as URDF and SDF before 1.9 write it: numbers that were read stay, angles are in radians."""
+    """The pose in the notation of URDF and SDF before 1.9: numbers as they were read, but angles in radians."""
     written = transform.notation
     if written is None:
         return transform.to_pose(relative_to)
@@ -22,11 +22,11 @@ def in_radians(transform: Transform, relative_to: str | None = None) -> Pose:
 
 
 POSE = "pose"
-"""The annotation on what has a pose: the frame and the notation in which SDF wrote it."""
+"""The annotation with the frame and notation in which SDF wrote the pose of a part."""
 
 
 def pose_attributes(written: Pose | None) -> dict[str, str | None]:
-    """The annotation's attributes for a pose as SDF wrote it; none where that is the usual frame and notation."""
+    """The attributes of the annotation on a pose; none for the default frame and notation."""
     if written is None:
         return {}
     degrees = None if written.degrees is None else str(written.degrees).lower()
@@ -35,7 +35,7 @@ def pose_attributes(written: Pose | None) -> dict[str, str | None]:
 
 
 def as_annotated(transform: Transform, annotation: Element | None, relative_to: str | None) -> Pose | None:
-    """The pose in the notation of its annotation; None for the identity, which need not be written."""
+    """The pose in the notation of an annotation; None for the identity, which need not be written."""
     if annotation is None or not (annotation.get("degrees") or annotation.get("rotation_format")):
         pose = transform.to_pose(relative_to)
         return None if pose == Pose() else pose
@@ -53,15 +53,15 @@ def as_annotated(transform: Transform, annotation: Element | None, relative_to: 
 
 
 BODY = "body"
-"""The annotation on a link of URDF called `world` that is a link in SDF too, and not its world."""
+"""The annotation on a link of URDF called `world` that is a link in SDF too, and not the world."""
 FRAME = "frame"
-"""The annotation on a link that is a frame in SDF; what that is attached to, if not the parent of its joint."""
+"""The annotation on a link that is a frame in SDF, with what it is attached to, if not the joint's parent."""
 NESTED = "nested"
 """The annotation on a link that is the frame of a nested model in SDF, with what else that model has."""
 LINK = "link"
-"""The annotation on a frame of SDF that is a link in URDF; the frame that it is attached to is its joint."""
+"""The annotation on a frame of SDF that is a link in URDF, attached to the frame that is its joint."""
 OFFSET = "offset"
-"""The annotation on a link, fixed joint or model whose frame in SDF is elsewhere: the one of SDF in that of URDF."""
+"""The annotation on a link, fixed joint or model with the pose of its frame in SDF relative to that in URDF."""
 
 
 def offset_attributes(offset: Transform) -> dict[str, str | None]:
@@ -83,8 +83,7 @@ def _vector(text: str | None) -> Vector3:
     if text is None:
         return (0.0, 0.0, 0.0)
     x, y, z = map(float, text.split())
-    # The annotation stands in a file that somebody may have edited, or written to do harm: `nan`
-    # would spread to every pose of the link.
+    # The file may have been edited, perhaps maliciously: `nan` would spread to every pose of the link.
     if not all(map(math.isfinite, (x, y, z))):
         raise ValueError(f"{text!r} is not three numbers")
     return (x, y, z)

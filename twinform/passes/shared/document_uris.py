@@ -1,4 +1,9 @@
-"""URIs and file paths of a document, wherever they are written."""
+"""URIs and file paths of a document, wherever they are written, and the schemes of ROS and Gazebo.
+
+An annotation on a visual or collision records the scheme of a URI where the reverse conversion would write the other:
+
+    <tf:mesh scheme="package"/>   <tf:texture scheme="package"/>
+"""
 
 from collections.abc import Callable
 from functools import partial
@@ -21,12 +26,12 @@ from twinform.ir import (
     rewrite,
 )
 from twinform.ir.rewrite import union_of
-from twinform.passes.transforms.nodes import map_elements
+from twinform.passes.shared.nodes import map_elements
 
 Kind = Literal["mesh", "texture", "include"]
-"""What a file is for; terrains, scripts and all else that is seen or heard count as textures."""
+"""The use of a file; terrains, scripts and other media count as textures."""
 Change = Callable[[str, Kind, Location], str]
-"""From a URI, what it is for and where it stands, to the URI as it is to be."""
+"""A function of a URI, its use and its location that returns the new URI."""
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -50,15 +55,15 @@ _INNER_ELEMENTS = frozenset(
      ("texture", "normal")}
 )  # fmt: skip
 _HOLDERS: dict[str, Kind] = {"mesh": "mesh", "skin": "mesh", "animation": "mesh", "include": "include"}
-"""What a file is for, by the element that its URI stands in."""
+"""The use of a file by the element that holds its URI."""
 
 
 def map_uris(node: AnyNode, change: Change) -> AnyNode:
-    """The node with every URI of a file in it changed; parameters of plugins are theirs alone."""
-    return rewrite(node, Node, partial(_with_uris, change), having=_HAVING)
+    """The node with every URI of a file in it changed, but for parameters of plugins."""
+    return rewrite(node, Node, partial(_map_node_uris, change), having=_HAVING)
 
 
-def _with_uris(change: Change, node: Node) -> Node:
+def _map_node_uris(change: Change, node: Node) -> Node:
     # A parameter of a plugin may be called <uri> and mean a server or a topic.
     if isinstance(node, Plugin):
         return node
@@ -73,13 +78,13 @@ def _with_uris(change: Change, node: Node) -> Node:
         uris = tuple(change(uri, "texture", node.location) for uri in node.uris)
         update |= {"uris": uris} if uris != node.uris else {}
     if isinstance(node, GazeboExtension) or node.opaque:
-        update |= _in_elements(node, change)
+        update |= _map_untyped_uris(node, change)
     return node.copy(**update) if update else node
 
 
-def _in_elements(node: Node, change: Change) -> dict[str, object]:
-    """What changes in the parts of a node that have no typed form."""
-    in_element = partial(_element, change=change, where=node.location)
+def _map_untyped_uris(node: Node, change: Change) -> dict[str, object]:
+    """The updated untyped parts of a node, as fields to copy."""
+    in_element = partial(_map_element_uris, change=change, where=node.location)
     update: dict[str, object] = {}
     if isinstance(node, GazeboExtension):
         content = tuple(map(in_element, node.content))
@@ -88,7 +93,7 @@ def _in_elements(node: Node, change: Change) -> dict[str, object]:
     return {**update, "opaque": opaque} if opaque != node.opaque else update
 
 
-def _element(element: Element, change: Change, where: Location, inside: str = "") -> Element:
+def _map_element_uris(element: Element, change: Change, where: Location, inside: str = "") -> Element:
     if element.name == "plugin":
         return element
     where = element.location if element.source else where
@@ -96,7 +101,37 @@ def _element(element: Element, change: Change, where: Location, inside: str = ""
     is_uri = element.name in _ELEMENTS or (inside, element.name) in _INNER_ELEMENTS
     if is_uri and text and text.strip():
         text = change(text, _HOLDERS.get(inside, "texture"), where)
-    children = tuple(_element(child, change, where, element.name) for child in element.children)
+    children = tuple(_map_element_uris(child, change, where, element.name) for child in element.children)
     if text == element.text and children == element.children:
         return element
     return element.copy(text=text, children=children)
+
+
+ROS, GAZEBO = "package", "model"
+FUEL_SERVERS = ("fuel.gazebosim.org", "fuel.ignitionrobotics.org")
+"""The server of Gazebo's models, under its present name and the older one."""
+MESH_SCHEME, TEXTURE_SCHEME = "mesh", "texture"
+"""The names of the annotations on a visual or collision."""
+
+
+def package_uri(uri: str) -> tuple[str, bool]:
+    """A URI of SDF for URDF, and whether converting it back would give another URI."""
+    return with_scheme(uri, ROS, GAZEBO), scheme_of(uri) == ROS
+
+
+def model_uri(uri: str) -> tuple[str, bool]:
+    """A URI of URDF for SDF, and whether converting it back would give another URI."""
+    return with_scheme(uri, GAZEBO, ROS), scheme_of(uri) == GAZEBO
+
+
+def with_scheme(uri: str, scheme: str, instead_of: str) -> str:
+    """The URI with one scheme replaced by another."""
+    # Gazebo looks `model://` up in its resource path and ROS `package://` in its own; both name a
+    # folder and a path in it, so the text behind the scheme stays.
+    old = f"{instead_of}://"
+    return f"{scheme}://{uri[len(old) :]}" if uri.startswith(old) else uri
+
+
+def scheme_of(uri: str | None) -> str:
+    """The scheme of a URI; empty without one."""
+    return (uri or "").partition("://")[0] if "://" in (uri or "") else ""

@@ -1,4 +1,4 @@
-"""The models of a file that may become the robot."""
+"""The models of a file, of which one becomes the robot of a URDF."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -9,24 +9,24 @@ from twinform.ir.scopes import nested_includes
 
 @dataclass(frozen=True, slots=True)
 class ModelCandidate:
-    """A model of the root or of a world, or an include that stands for one."""
+    """A model at the root or in a world, or an include of one."""
 
     model: Model | Include
     world: World | None = None
 
     @property
     def full_name(self) -> str:
-        """Its name with its world's; an include without a name is called by its URI."""
+        """The name, with that of the world before it; an include without a name goes by its URI."""
         name = self.model.name or self.model.uri if isinstance(self.model, Include) else self.model.name
         return f"{self.world.name}::{name}" if self.world else name or ""
 
     def answers_to(self, name: str | None) -> bool:
-        """Whether it may be meant by a name; no name may mean any."""
+        """Whether a name means this model; None means any."""
         return name is None or name in (self.model.name, self.full_name)
 
 
 def candidates(document: Document) -> Iterator[ModelCandidate]:
-    """All of them, those of the root first."""
+    """All candidates of a document, those at the root first."""
     for one in (*document.models, *document.includes):
         yield ModelCandidate(one)
     for world in document.worlds:
@@ -35,21 +35,21 @@ def candidates(document: Document) -> Iterator[ModelCandidate]:
 
 
 def name_once_expanded(before: Document | None, after: Document | None, name: str | None) -> str | None:
-    """The name of a model that was chosen by the URI of its include, now that the include is expanded."""
+    """The name, in the expanded document, of a model that was chosen by the URI of its include."""
     among = candidates(before) if before and after and name else ()
     nameless = [one.model for one in among if isinstance(one.model, Include) and one.answers_to(name)]
     if not after or len(nameless) != 1:
         return name
     place = nameless[0].source
-    # What an include becomes keeps the include's place in the file, which no other model has.
+    # An expanded include keeps its place in the file, which no other model has.
     return next((one.full_name for one in candidates(after) if place and one.model.source is place), name)
 
 
 def wanted_includes(document: Document | None, name: str | None) -> Callable[[Include], bool]:
-    """Which includes have to be read to make URDF of the model of this name.
+    """Whether an include has to be read to convert the model of a name to URDF.
 
-    Those in the model, or the one that stands for it; where nothing answers to the name, all that have no name before
-    they are read. Without a name there must be one candidate only.
+    It has to if it is in that model, or is that model; where no candidate has the name, all includes without a name
+    are read. Without a name, nothing is read unless there is only one candidate.
     """
     among = list(candidates(document)) if document else []
     found = [one for one in among if one.answers_to(name)]

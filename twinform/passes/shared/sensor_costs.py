@@ -1,4 +1,4 @@
-"""What sensors cost a simulator: pixels and rays in a second, from the parameters that SDF has for them."""
+"""The costs of sensors in a simulator: pixels and rays per second."""
 
 import math
 from collections.abc import Iterator
@@ -8,14 +8,14 @@ from twinform.diagnostics import Source
 from twinform.ir import Element, GazeboExtension, Node, Opaque, Sensor, walk
 
 ALWAYS = 1000.0
-"""Hz of a sensor without an update rate: it runs with every step of the physics, by default of a millisecond."""
+"""The rate in Hz of a sensor without one: it runs with every step of the physics, by default 1 ms."""
 _IMAGE = (320, 240)
 _PARTS = frozenset({"camera", "ray", "lidar"})
 _SAMPLES = {"horizontal": 640, "vertical": 1}
 
 
 class SensorCost(NamedTuple):
-    """How often a sensor works, in Hz, and how many pixels and rays it makes each time; `assumed` is the rate if so."""
+    """The update rate of a sensor in Hz, which may be `assumed`, and the pixels and rays of each update."""
 
     rate: float
     pixels: int
@@ -24,17 +24,17 @@ class SensorCost(NamedTuple):
 
     @property
     def pixels_per_second(self) -> float:
-        """Of all cameras of the sensor."""
+        """The pixels per second of all cameras of the sensor."""
         return self.rate * self.pixels
 
     @property
     def rays_per_second(self) -> float:
-        """In all layers."""
+        """The rays per second in all layers."""
         return self.rate * self.rays
 
 
 def sensors_in(node: Node) -> Iterator[Sensor]:
-    """All sensors of a document or model, those in `<gazebo>` extensions of URDF too, in its order."""
+    """All sensors of a document or model in order, with those in `<gazebo>` extensions of URDF."""
     for each in walk(node):
         if isinstance(each, Sensor):
             yield each
@@ -44,7 +44,7 @@ def sensors_in(node: Node) -> Iterator[Sensor]:
 
 
 def sensor_of(element: Element, around: Source | None) -> Sensor:
-    """What counts for the cost of a sensor that is kept as an element."""
+    """A sensor that is kept as an element, with the parts that its cost depends on."""
     rate = element.find("update_rate")
     try:
         update_rate = float((rate.text or "").strip()) if rate else None
@@ -60,7 +60,7 @@ def sensor_of(element: Element, around: Source | None) -> Sensor:
 
 
 def sensor_cost(sensor: Sensor) -> SensorCost:
-    """What a sensor costs; nothing where it has neither images nor rays."""
+    """The cost of a sensor."""
     rate = sensor.update_rate
     # `not rate > 0` and not `rate <= 0`: it is true for NaN as well.
     assumed = rate is None or not rate > 0 or not math.isfinite(rate)
@@ -76,7 +76,7 @@ def images(sensor: Sensor) -> Iterator[tuple[int, int]]:
 
 
 def image_size(image: Element | None) -> tuple[int, int]:
-    """Width and height that an `<image>` says, in pixels."""
+    """Width and height of an `<image>`, in pixels."""
     return _count(image, "width", _IMAGE[0]), _count(image, "height", _IMAGE[1])
 
 
@@ -89,7 +89,7 @@ def _rays(sensor: Sensor) -> int:
 
 
 def samples(element: Element) -> dict[str, int]:
-    """Of a lidar, how many rays there are along each direction of its scan."""
+    """The number of rays of a lidar along each direction of its scan."""
     scan = element.find("scan")
     found = {name: scan.find(name) if scan else None for name in _SAMPLES}
     return {

@@ -13,8 +13,8 @@ from twinform.file_access import Readable
 from twinform.ir import Element, Mesh, Opaque
 from twinform.ir.geometry import Box
 from twinform.ir.solids import Solid, solid
-from twinform.passes.analyses.mesh_solids import MeshError, Meshes
 from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
+from twinform.passes.shared.mesh_solids import MeshError, Meshes
 
 trimesh: Any = importlib.import_module("trimesh")
 FORMATS = ("stl", "obj", "dae", "ply", "off", "glb")

@@ -1,17 +1,22 @@
-"""Special `<gazebo>` tags: their fields in SDF, and how libsdformat reads their values.
+"""Special `<gazebo>` tags: their fields in SDF, how libsdformat reads their values, and the joints that it lumps.
 
-Everything else in such an element is SDF as it stands. The meanings are those of libsdformat's URDF reader.
+All other content of `<gazebo>` is SDF as it stands. The meanings are those of `parser_urdf.cc` in libsdformat.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Literal, NamedTuple
 
-from twinform.ir import Element, Link
+from twinform.ir import Element, Joint, Link, Model
+from twinform.ir.frames import WORLD
+from twinform.ir.groups import tops
 from twinform.schemas import parse_value
+
+LUMPS_WITHOUT = "disableFixedJointLumping"
+PRESERVES = "preserveFixedJoint"
 
 
 class Tag(NamedTuple):
-    """Where a tag's value goes: into a field of what `target` names, after `read`."""
+    """The destination of a tag: the field of `target` that takes its value, as `read` parses it."""
 
     target: Literal["surface", "collision", "visual", "link", "model", "dynamics", "physics", "ignored"]
     field: str
@@ -19,7 +24,7 @@ class Tag(NamedTuple):
 
 
 def value_text(element: Element) -> str:
-    """The value of a tag, which may be written as an attribute or as text."""
+    """The value of a tag, from its attribute `value` or its text."""
     # As libsdformat (GetKeyValueAsString): the attribute counts before the text.
     value = element.get("value")
     return (value if value is not None else element.text or "").strip()
@@ -48,9 +53,9 @@ def _truth(text: str) -> bool:
 
 
 def _gravity(text: str) -> bool:
-    """turnGravityOff: only these values leave gravity on."""
-    # The tag is the opposite of the element: `turnGravityOff` true is <gravity> false. libsdformat
-    # compares with the words for false here, so any other text turns gravity off.
+    """The field `gravity` for a value of `turnGravityOff`."""
+    # `turnGravityOff` true is <gravity> false. libsdformat compares with the words for false here,
+    # so any other text turns gravity off.
     return text.lower() in FALSE
 
 
@@ -70,10 +75,8 @@ LINK_TAGS = {
     "dampingFactor": Tag("link", "velocity_decay", _number),
     "canonicalBody": Tag("ignored", "", str),
 }
-
 LINK_FIELDS = {tag.field: name for name, tag in LINK_TAGS.items() if tag.target == "link"}
-"""The fields of a link that a tag sets, with the tag: URDF has no other place for them."""
-
+"""The tag of each link field that URDF can only express as a tag."""
 JOINT_TAGS = {
     "springReference": Tag("dynamics", "spring_reference", _number),
     "springStiffness": Tag("dynamics", "spring_stiffness", _number),
@@ -86,15 +89,12 @@ JOINT_TAGS = {
     "preserveFixedJoint": Tag("ignored", "", str),
     "disableFixedJointLumping": Tag("ignored", "", str),
 }
-"""Fixed joints are never lumped here, so the two tags that prevent it have nothing to do."""
-
+"""The tags of joints. Fixed joints are never lumped here, so the two tags that prevent it are ignored."""
 MODEL_TAGS = {"static": Tag("model", "static", _truth)}
-
 TRUTHS = frozenset({_truth, _gravity})
-"""The readers of values that mean true or false."""
-
+"""The functions that read a value as true or false."""
 FLAGS = {"gravity": ("turnGravityOff", False), "self_collide": ("selfCollide", True)}
-"""Fields of a link with a tag of their own, and the value that the tag calls true."""
+"""The tag of each flag of a link, and the value of the field that the tag calls true."""
 
 
 def flag_tags(link: Link) -> Iterator[Element]:
@@ -107,4 +107,31 @@ def flag_tags(link: Link) -> Iterator[Element]:
 
 # libsdformat writes this URI beside the name, whatever the material is called.
 SCRIPT_URI = "file://media/materials/scripts/gazebo.material"
-"""Where Gazebo Classic keeps the materials that `<material>` names."""
+"""The file of Gazebo Classic with the materials that `<material>` names."""
+
+
+def lumped_joints(model: Model) -> dict[str, Joint]:
+    """The fixed joints that libsdformat lumps, by child link (`parser_urdf.cc`, FixedJointShouldBeReduced).
+
+    They are sorted by name, as urdfdom stores joints.
+    """
+    kept = {block.reference for block in model.extensions if is_preserved(block.content)}
+    links = {link.name for link in model.links}
+    return {
+        joint.child: joint
+        for joint in sorted(model.joints, key=lambda joint: joint.name)
+        if joint.type == "fixed" and joint.child in links and joint.parent in links
+        if joint.parent != WORLD and joint.name not in kept
+    }
+
+
+def lumped_links(model: Model) -> dict[str, str]:
+    """The link that each link is lumped into; a link that stays maps to itself."""
+    above = {name: joint.parent or "" for name, joint in lumped_joints(model).items()}
+    return tops((link.name for link in model.links), above)
+
+
+def is_preserved(elements: Iterable[Element]) -> bool:
+    """Whether a tag in `<gazebo>` asks libsdformat to keep the fixed joint."""
+    names = {LUMPS_WITHOUT, PRESERVES}
+    return any(element.name in names and value_text(element).lower() in TRUE for element in elements)

@@ -1,34 +1,35 @@
-"""Shapes of a link: their poses, masses and volumes."""
+"""Shapes of a link: poses, bounds, masses, and the automatic inertias that SDF readers compute from collisions."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Literal, NamedTuple
 
 from twinform.diagnostics import Location
-from twinform.ir import Collision, Inertial, Link, Mesh, Model, Node, Pose, Shape, Visual
+from twinform.ir import Collision, Inertial, Link, Mesh, Model, Node, Opaque, Pose, Shape, Visual
 from twinform.ir.bounds import Bounds, bounds, placed_bounds, united
 from twinform.ir.defaults import DENSITY, sizes
 from twinform.ir.frames import FrameGraph
 from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere
-from twinform.ir.solids import ORIGIN, Solid, placed, solid, with_tensor
+from twinform.ir.solids import ORIGIN, Solid, combined, placed, solid, with_mass, with_tensor
 from twinform.ir.transform import Transform
-from twinform.passes.analyses.mesh_solids import MeshError, Meshes
+from twinform.passes.carriers.carriers import to_element
+from twinform.passes.shared.mesh_solids import MeshError, Meshes
 
 Kind = Literal["collision", "visual", "either"]
-
-
 _EXTENDED = (Box, Capsule, Cone, Cylinder, Ellipsoid, Sphere)
 """Shapes whose sizes are all above zero."""
+COMPUTED_MASS = "computed-mass"
+"""The annotation on an inertial whose mass was computed with its inertia: `<tf:computed-mass/>`."""
 
 
 def is_flat(holder: Visual | Collision) -> bool:
-    """Whether a shape has a size that is zero, negative or no number; sizes that are not written are SDF's."""
+    """Whether a shape has a size that is zero, negative or not a number; an absent size is SDF's default."""
     shape = holder.geometry.shape if holder.geometry else None
     return isinstance(shape, _EXTENDED) and not all(size > 0 and math.isfinite(size) for size in sizes(shape))
 
 
 class NoSolidError(Exception):
-    """Why a shape has no mass of its own, and where it is."""
+    """A shape or link has no mass or inertia that can be computed; `location` is the cause."""
 
     def __init__(self, message: str, location: Location, help: str | None = None) -> None:
         super().__init__(message)
@@ -37,7 +38,7 @@ class NoSolidError(Exception):
 
 
 class PlacedShape(NamedTuple):
-    """A shape of a link: the visual or collision that holds it, and where that is in the link frame."""
+    """A shape of a link, the visual or collision that holds it, and its place in the link frame."""
 
     holder: Visual | Collision
     shape: Shape | None
@@ -45,13 +46,13 @@ class PlacedShape(NamedTuple):
 
     @property
     def name(self) -> str:
-        """How to call it in a message."""
+        """The visual or collision as a message names it."""
         kind = "collision" if isinstance(self.holder, Collision) else "visual"
         return f"{kind} {self.holder.name!r}" if self.holder.name else f"a {kind}"
 
 
 class ShapePlaces:
-    """Where the shapes of a model's links are; its frames are only looked at where a pose names one."""
+    """Finds the places of shapes in their links; the frame graph is only built where a pose names a frame."""
 
     def __init__(self, model: Model) -> None:
         self._model = model
@@ -124,19 +125,81 @@ def bounds_of(one: PlacedShape, meshes: Meshes | None) -> Bounds | None:
 
 
 def united_bounds(boxes: list[Bounds | None]) -> Bounds | None:
-    """The box around all; None where one of them is not known."""
+    """The box around all boxes; None where one of them is not known."""
     known = [box for box in boxes if box is not None]
     return united(known) if len(known) == len(boxes) else None
 
 
+def map_automatic(model: Model, write: Callable[[Link, Inertial, FrameGraph], Link]) -> Model:
+    """The model with `write` applied to each link that has an automatic inertia."""
+    if not any(link.inertial and link.inertial.auto for link in model.links):
+        return model
+    graph = FrameGraph(model)
+    links = (
+        write(link, link.inertial, graph) if link.inertial and link.inertial.auto else link for link in model.links
+    )
+    return model.copy(links=tuple(links))
+
+
+def automatic(
+    link: Link, inertial: Inertial, collisions: Iterable[Collision], graph: FrameGraph, meshes: Meshes
+) -> Solid:
+    """The mass, center and inertia of a link in its own frame.
+
+    Every collision is filled evenly. A written mass stays, and the inertia is scaled to it.
+
+    Raises:
+        NoSolidError: there is no collision, or one of a shape without an inside, or of a mesh that is not found.
+        FrameError: a collision is posed in a frame that is not known.
+    """
+    # The order of libsdformat (Link::ResolveAutoInertials): the collision's own <density>, then
+    # that of the inertial, then 1000 kg/m^3.
+    usual = own_density(inertial)
+    parts = [_fill(link, one, usual, graph, meshes) for one in collisions]
+    if not parts:
+        raise NoSolidError(f"link {link.name!r} has no collision to compute its inertia from", inertial.location)
+    whole = combined(parts)
+    return whole if inertial.mass is None else with_mass(whole, inertial.mass)
+
+
+def written_out(inertial: Inertial, found: Solid) -> tuple[Inertial, list[Opaque], tuple[str, ...]]:
+    """The automatic inertial with the computed numbers, carrier pieces, and the names of the computed fields.
+
+    The pieces are the attribute `auto`, and a written pose and inertia, which readers of SDF overlook.
+    """
+    # A pose or inertia that is written beside auto="true" is ignored by readers of SDF. It travels
+    # all the same, so that the file comes back as it was.
+    overlooked = to_element(inertial.copy(mass=None, opaque=()), "inertial", "sdf")
+    pieces = [Opaque.unchecked(attribute=pair) for pair in overlooked.attributes]
+    pieces += [Opaque.unchecked(element=child) for child in overlooked.children]
+    made = ("pose", "inertia") if inertial.mass is not None else ("mass", "pose", "inertia")
+    return inertial_of(found, inertial), pieces, made
+
+
+def _fill(link: Link, collision: Collision, usual: float | None, graph: FrameGraph, meshes: Meshes) -> Solid:
+    """A collision filled evenly, in the link frame; `usual` is the density of the inertial."""
+    shape = collision.geometry.shape if collision.geometry else None
+    own = own_density(collision)
+    density = own if own is not None else DENSITY if usual is None else usual
+    computed = f"the inertia of link {link.name!r} is computed from collision {collision.name!r}"
+    try:
+        filled = meshes.solid(shape, density) if isinstance(shape, Mesh) else solid(shape, density)
+    except MeshError as error:
+        raise NoSolidError(f"{computed}: {error.message}", collision.location, error.help) from error
+    if filled is None:
+        what = f"a {shape.kind}" if shape else "no shape"
+        raise NoSolidError(f"{computed}, which is {what}", collision.location)
+    return placed(filled, graph.resolve(collision.pose, link.name, link.name))
+
+
 def own_density(node: Node) -> float | None:
-    """The `<density>` of a node; the last one, should there be several."""
+    """The last `<density>` of a node."""
     texts = [part.element.text for part in node.opaque if part.element and part.element.name == "density"]
     return float(texts[-1] or "nan") if texts else None
 
 
 def inertial_of(found: Solid, written: Inertial | None) -> Inertial:
-    """An inertial with the numbers of a solid in the link frame; what else is written in the old one stays."""
+    """The inertial with the mass, center and inertia of a solid in the link frame."""
     return (written or Inertial()).copy(
         auto=None,
         mass=found.mass,

@@ -7,7 +7,7 @@ from twinform.passes.carriers.carriers import to_element
 
 
 def unique_name(name: str, taken: Container[str]) -> str:
-    """The name, with the first number behind it that makes it unlike all others."""
+    """The name, or the name with the first number behind it that makes it unique."""
     made, number = name, 1
     while made in taken:
         made, number = f"{name}_{number}", number + 1
@@ -15,22 +15,22 @@ def unique_name(name: str, taken: Container[str]) -> str:
 
 
 def piece(node: Node, tag: str) -> Opaque:
-    """A node as an SDF element that can travel in a carrier."""
+    """A node as a carrier piece: an element of SDF."""
     return Opaque.unchecked(element=to_element(node, tag, "sdf"))
 
 
 def pose_piece(pose: Pose) -> Opaque:
-    """A pose as it was written."""
+    """A pose as a carrier piece."""
     return piece(pose, "pose")
 
 
 def text_piece(name: str, text: str, at: str = "") -> Opaque:
-    """An element with text."""
+    """An element with text as a carrier piece."""
     return Opaque.unchecked(at=at, element=Element.unchecked(name=name, text=text))
 
 
 def map_elements(parts: Iterable[Opaque], change: Callable[[Element], Element]) -> tuple[Opaque, ...]:
-    """Opaque parts with every element changed; it is for `change` to look further down."""
+    """Opaque parts with each element changed; `change` handles the children."""
     return tuple(
         [part if part.element is None else replace_fields(part, element=change(part.element)) for part in parts]
     )

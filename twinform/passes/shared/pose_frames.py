@@ -1,30 +1,45 @@
-"""Poses in untyped elements: projectors, particle emitters, cameras of a sensor."""
+"""Moving poses into another frame: those of a link or joint, and those in untyped elements such as projectors."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, partial
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import OPAQUE, Element, Node, Opaque, Pose, ReferenceChange, Sensor, map_references, rewrite
+from twinform.ir import (
+    OPAQUE,
+    Collision,
+    Element,
+    Inertial,
+    Joint,
+    Light,
+    Link,
+    Node,
+    Opaque,
+    Pose,
+    ReferenceChange,
+    Sensor,
+    Visual,
+    map_references,
+    rewrite,
+)
 from twinform.ir.frames import FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import NAMESPACE, to_element
-from twinform.passes.transforms.nodes import map_elements
-from twinform.passes.transforms.pose_notation import POSE, as_annotated
+from twinform.passes.shared.nodes import map_elements
+from twinform.passes.shared.pose_notation import POSE, as_annotated
 from twinform.schemas import Context, element_xml, reader, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-
+Posed = Inertial | Visual | Collision | Sensor | Light
+AnyPosed = TypeVar("AnyPosed", Inertial, Visual, Collision, Sensor, Light)
+Base = tuple[str, Kind]
 _FRAME_ATTRIBUTES = ("relative_to", "frame")
-"""How a pose names its frame, since SDF 1.7 and before."""
-
+"""The attributes that name the frame of a pose, since SDF 1.7 and before."""
 Keep = Callable[[str, Pose], tuple[Element, ...]]
-"""What is written beside the moved pose for the one that stood there: (a message, that pose)"""
-
-
+"""A function of a message and the old pose that returns what to write beside the moved pose."""
 POSE_ANNOTATION = f"{{{NAMESPACE}}}{POSE}"
-"""The element in an untyped element whose pose the source wrote in another frame or notation."""
+"""The annotation in an untyped element whose pose was in another frame or notation in the source."""
 
 
 def _as_named(name: str) -> tuple[str, Kind]:
@@ -41,12 +56,12 @@ class ElementPoses:
     keep: Keep
     kind: Kind = "link"
     frame: Callable[[str], tuple[str, Kind]] = _as_named
-    """The frame that an annotation names, where annotations say in which frame a pose is to be written."""
+    """The frame graph's name of a frame that an annotation names."""
     stays: frozenset[str] = frozenset()
-    """Frames that poses may go on naming."""
+    """Frames whose poses need not move."""
 
     def parts(self, parts: tuple[Opaque, ...], *, still: bool) -> tuple[Opaque, ...]:
-        """The opaque parts of the link: their poses are in the link's frame, or in the one that they name."""
+        """The opaque parts of the link with moved poses; with `still`, only poses that name a frame move."""
         if not parts:
             return parts
 
@@ -56,7 +71,7 @@ class ElementPoses:
         return map_elements(parts, move)
 
     def sensor(self, sensor: Sensor, written: Pose | None) -> Sensor:
-        """A sensor of the link; a pose in it that names a frame becomes one in the sensor's frame."""
+        """A sensor of the link with the poses inside that name a frame moved into the frame of the sensor."""
         if not any(_names_frame(part.element) or _is_annotated(part.element) for part in sensor.opaque if part.element):
             return sensor
         placed = self._resolve(written)
@@ -67,7 +82,7 @@ class ElementPoses:
         return sensor.copy(opaque=map_elements(sensor.opaque, move))
 
     def _move(self, element: Element, holder: Transform, *, moves: bool) -> Element:
-        """An element whose own pose is in the moved frame, or else relative to `holder` where it names another one."""
+        """The element with its poses moved: into `base` if it `moves`, else those that name a frame into `holder`."""
         children = tuple(
             child if child.name == "pose" or child.name[0] == "{" else self._move(child, holder, moves=False)
             for child in element.children
@@ -104,7 +119,7 @@ class ElementPoses:
         *,
         moves: bool,
     ) -> Element:
-        """An element with its pose in the frame and notation of an annotation in it, which is removed."""
+        """The element with its pose in the frame and notation of its annotation, and without the annotation."""
         read = Pose() if pose is None else read_pose(pose)
         placed = self._resolve(read) if moves or read.relative_to else holder.compose(Transform.from_pose(read))
         name = annotation.get("relative_to")
@@ -124,10 +139,9 @@ class ElementPoses:
 
 @cache
 def link_elements(part: str) -> frozenset[str]:
-    """The elements of a link without a typed form that may have such a part: a `pose`, or a `@name`."""
+    """The untyped elements of a link that may have a part such as `pose` or `@name`."""
     facts = table("sdf")
-    # Read off the facts tables, so that a new element of a link is moved along without anybody
-    # having to think of it.
+    # Taken from the facts tables, so that a new element of a link is moved without a change here.
     rows = [row for row in facts.definitions["link"].children if row.place is None]
     return frozenset(row.name for row in rows if any(inner.name == part for inner in facts.resolve(row).rows))
 
@@ -141,7 +155,7 @@ def _own_frames(element: Element) -> frozenset[str]:
 
 
 def _names_frame(element: Element) -> bool:
-    """Whether a pose in the element names its frame; what is carried in it does not count."""
+    """Whether a pose in the element names its frame, carriers aside."""
     if element.name[0] == "{":
         return False
     own = element.name == "pose" and _frame_of(element) is not None
@@ -161,7 +175,7 @@ def read_pose(element: Element) -> Pose:
 
 
 def map_frames(node: AnyNode, change: ReferenceChange) -> AnyNode:
-    """The node with every reference in it changed, also those of poses in its opaque parts."""
+    """The node with every reference changed, in the poses of its opaque parts too."""
     return rewrite(map_references(node, change), Node, partial(_map_opaque_poses, change), having=OPAQUE)
 
 
@@ -178,3 +192,57 @@ def _map_element(change: ReferenceChange, element: Element) -> Element:
         attributes = tuple((name, change("any", text) if name in follows else text) for name, text in attributes)
     children = tuple(_map_element(change, child) for child in element.children)
     return element.copy(attributes=attributes, children=children)
+
+
+class Write(Protocol):
+    """Writes the pose of a part in the new frame."""
+
+    def __call__(self, holder: AnyPosed, tag: str, transform: Transform, /) -> AnyPosed:
+        """The part, whose element is called `tag`, at a place in the new frame; unchanged if its pose is right."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Rebasing:
+    """Moves the poses in one link or joint into the frame `base`.
+
+    `write` writes the poses of typed parts, `elements` those of untyped ones.
+    """
+
+    graph: FrameGraph
+    name: str
+    kind: Kind
+    base: Base
+    elements: ElementPoses
+    write: Write
+    stays: Callable[[Posed], bool]
+    """Whether a part can be skipped where the frame stays the same."""
+
+    def link(self, link: Link) -> Link:
+        """The link with the poses of its parts moved; its own pose is left to the caller."""
+        # Most link frames are on their joints already, and then the link can be skipped.
+        still = self.graph.pose(link.name, self.base[0], base=self.base[1]).is_identity
+        update: dict[str, object] = {
+            "inertial": link.inertial and self._move(link.inertial, "inertial", still=still),
+            "visuals": tuple(self._move(visual, "visual", still=still) for visual in link.visuals),
+            "collisions": tuple(self._move(collision, "collision", still=still) for collision in link.collisions),
+            "sensors": tuple(self._sensor(one, still=still) for one in link.sensors),
+            "lights": tuple(self._move(light, "light", still=still) for light in link.lights),
+            "opaque": self.elements.parts(link.opaque, still=still),
+        }
+        return link.copy(**update)
+
+    def joint(self, joint: Joint) -> Joint:
+        """The joint with the poses of its sensors moved."""
+        moved = tuple(self._sensor(one, still=True) for one in joint.sensors)
+        return joint.copy(sensors=moved) if moved else joint
+
+    def _sensor(self, sensor: Sensor, *, still: bool) -> Sensor:
+        return self.elements.sensor(self._move(sensor, "sensor", still=still), sensor.pose)
+
+    def _move(self, holder: AnyPosed, tag: str, *, still: bool) -> AnyPosed:
+        if still and self.stays(holder):
+            return holder
+        pose: Pose | None = holder.pose
+        transform = self.graph.resolve(pose, self.name, self.base[0], kind=self.kind, base=self.base[1])
+        return self.write(holder, tag, transform)

@@ -1,4 +1,4 @@
-"""Gearbox joints of SDF: the two joints at one body whose angles they couple."""
+"""Gearbox joints of SDF, and the two joints whose angles a gearbox couples."""
 
 import math
 from collections.abc import Mapping
@@ -11,7 +11,7 @@ from twinform.ir.node import Vector3
 
 _TURNS = frozenset({"revolute", "continuous"})
 _PARALLEL = 1e-9
-"""How far from 1 the cosine between two axes may be that are one."""
+"""How far the cosine between two parallel axes may be from 1."""
 
 
 GEARED = "geared"
@@ -27,11 +27,11 @@ class Relation(NamedTuple):
 
 
 class UngearedError(Exception):
-    """Why no two joints have the angles that a gearbox couples."""
+    """The angles that a gearbox couples are not those of two joints."""
 
 
 def relation(gearbox: Joint, joints: Mapping[str, Joint], graph: FrameGraph) -> Relation:
-    """How a gearbox relates two of the joints, which are given by their names.
+    """The relation of two joints that a gearbox couples; `joints` are all joints by name.
 
     theta_2 = -ratio theta_1: theta_1 is the angle from the reference body to the gearbox's parent about `axis`, theta_2
     the one to its child about `axis2` (the SDF description of <joint>, gearbox_reference_body). So the two bodies must
@@ -59,7 +59,7 @@ def relation(gearbox: Joint, joints: Mapping[str, Joint], graph: FrameGraph) -> 
 def _turn(
     gearbox: Joint, body: str | None, axis: Axis | None, joints: Mapping[str, Joint], graph: FrameGraph
 ) -> tuple[str, float]:
-    """The joint whose angle is that of the body at the reference body about an axis, and the angle's sign."""
+    """The joint that turns a body against the reference body about an axis, and the sign of its angle."""
     reference = gearbox.gearbox_reference_body
     for joint in joints.values():
         if joint.type not in _TURNS or {joint.parent, joint.child} != {reference, body}:
@@ -86,7 +86,7 @@ def _mimic(joint: Joint | None) -> Mimic | None:
 
 
 def _follows(leader: str, follower: str, joints: Mapping[str, Joint]) -> bool:
-    """Whether the leader follows the other one, perhaps by others between."""
+    """Whether the leader mimics the follower, directly or through other joints."""
     seen: set[str] = set()
     name = leader
     while name not in seen:

@@ -16,7 +16,7 @@ from twinform.passes.mesh_jobs.mesh_files import EXTRA, READ, RefusedMeshError, 
 
 
 class MeshError(Exception):
-    """Why nothing can be computed from a mesh, as a diagnostic would say it."""
+    """Nothing can be computed from a mesh; the arguments are those of a diagnostic."""
 
     def __init__(self, rule: Rule, message: str, help: str | None = None) -> None:
         super().__init__(message)
@@ -34,7 +34,7 @@ class MeshTriangles(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Meshes:
-    """The mesh files of a document, each measured once. Where `hull`, an open mesh stands for its convex hull.
+    """The mesh files of a document, each measured once. With `hull`, an open mesh is replaced by its convex hull.
 
     Lengths are in meters: a COLLADA file names its unit, and other formats are taken to be in meters, as in simulators.
     Like Gazebo and RViz this does not turn a mesh whose file has another axis than z pointing up.
@@ -83,7 +83,7 @@ class Meshes:
         return MeshTriangles(files["points"], files["faces"])
 
     def _result(self, name: str, mesh: Mesh, options: Options) -> MeshResult:
-        """What comes of a job on the file of a mesh."""
+        """The result of a job on the file of a mesh, run at most once."""
         uri = mesh.uri or ""
         try:
             path = self.assets.find(uri)
@@ -96,7 +96,7 @@ class Meshes:
         wanted = {**options, "submesh": submesh, "center": center, "scale": scale, "gltf_up": "z"}
         key = (name, path, *map(str, wanted.values()))
         if key not in self._known:
-            self._known[key] = _done(name, path, uri, wanted)
+            self._known[key] = _run_job(name, path, uri, wanted)
         return self._known[key]
 
 
@@ -105,7 +105,7 @@ def _vector(found: object) -> Vector3:
     return x, y, z
 
 
-def _done(name: str, path: Path, uri: str, options: Options) -> MeshResult:
+def _run_job(name: str, path: Path, uri: str, options: Options) -> MeshResult:
     # A FIFO or a device under the name of a mesh would block the reader or never end.
     if not path.is_file():
         raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} is no file")
@@ -129,7 +129,7 @@ def _done(name: str, path: Path, uri: str, options: Options) -> MeshResult:
 
 
 def submesh_of(mesh: Mesh) -> tuple[str | None, bool]:
-    """The part of the file that `<submesh>` names, and whether it is moved to the origin."""
+    """The name in `<submesh>`, and whether the submesh is moved to the origin."""
     found = next((part.element for part in mesh.opaque if part.element and part.element.name == "submesh"), None)
     if found is None:
         return None, False

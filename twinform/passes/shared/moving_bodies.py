@@ -1,4 +1,4 @@
-"""Which models may move, which links are one rigid body, and which of these bodies move."""
+"""Rigid bodies, the links that fixed joints hold together, and which of them and of the models can move."""
 
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
@@ -39,7 +39,7 @@ def moving_bodies(document: Document) -> list[Body]:
 
 
 def neighbors(document: Document) -> Iterator[ConnectedBodies]:
-    """The joints that move a body, in document order; the parent is empty where the world holds it."""
+    """The joints that move a body, in document order, with the bodies; the parent is empty for the world."""
     grouped, ground, groups = _grouped(document)
     bodies: dict[str, Body] = {root: tuple(body) for root, body in grouped.items()}
     for joint, scope in _joints(document):
@@ -51,7 +51,7 @@ def neighbors(document: Document) -> Iterator[ConnectedBodies]:
 
 
 def _grouped(document: Document) -> tuple[dict[str, list[Link]], str, Groups]:
-    """The links of each group by the name that stands for it, and that of the group which cannot move."""
+    """The links of each body by the key of the body, the key of the body fixed to the world, and the groups."""
     groups, links = Groups(), dict[str, Link]()
     for model in document.models:
         _collect(model, "", groups, links, static=False)
@@ -77,7 +77,7 @@ def _joints(document: Document) -> Iterator[tuple[Joint, str]]:
 
 
 def _collect(model: Model, scope: str, groups: Groups, links: dict[str, Link], *, static: bool) -> None:
-    """Enter a model's links by their scoped names, and join what cannot move apart."""
+    """Add the links of a model by their scoped names, and join those that cannot move apart."""
     outside, inside = f"{scope}{model.name}", f"{scope}{model.name}::"
     static = static or bool(model.static)
     for link in model.links:

@@ -1,0 +1,1 @@
+"""What several passes share: questions to a model (bodies, shapes, meshes) and rewrites (poses, URIs, flattening)."""

@@ -1,1 +1,0 @@
-"""Rewrites that several passes share: poses, frames, nested models, URIs."""
