@@ -5,8 +5,8 @@ from functools import cached_property
 
 from lxml import etree
 
+from twinform.passes.carriers.annotations import may_write_scopes
 from twinform.passes.carriers.carriers import NAMESPACE
-from twinform.passes.carriers.provenance import may_write_scopes
 from twinform.schemas import XmlElement
 
 OURS = f"{{{NAMESPACE}}}"

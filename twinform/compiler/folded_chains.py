@@ -6,10 +6,9 @@ from typing import Self
 
 from twinform.ir.defaults import UNLIMITED
 from twinform.ir.frames import MODEL
-from twinform.passes.carriers.annotations import SYNTHESIZED
+from twinform.passes.carriers.annotations import MIMIC, SYNTHESIZED
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.joint_chains import CHAIN, PART
-from twinform.passes.carriers.joint_words import MIMIC
 from twinform.passes.carriers.token_mass import TOKEN_MASS
 from twinform.passes.legalise.changed_names import NAME, SCOPED_NAME
 from twinform.passes.legalise.to_sdf.root_masses import UNSAID

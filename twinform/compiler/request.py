@@ -7,7 +7,7 @@ from twinform.compiler.option import given
 from twinform.compiler.request_options import URDF_VERSIONS, Language, RequestOptions, UrdfVersion, known_sdf_version
 from twinform.ir import Document, Format
 from twinform.passes import NO_ASSETS, Assets, Pass, Pipeline
-from twinform.passes.carriers.provenance import has_mixed_words, source_version
+from twinform.passes.carriers.annotations import has_mixed_words, source_version
 from twinform.passes.legalise import Target, legalisation
 from twinform.schemas import DEFAULT_SDF_VERSION, versions_of
 

@@ -23,7 +23,7 @@ from twinform.passes.carriers.token_mass import without_tokens
 from twinform.passes.legalise.changed_names import RestoreNames
 from twinform.passes.legalise.to_sdf import to_sdf
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
-from twinform.passes.legalise.to_urdf.floating_links import without_loose_floating
+from twinform.passes.legalise.to_urdf.restore_links import without_loose_floating
 from twinform.passes.legalise.to_urdf.select_model import Selector
 from twinform.passes.sdf_versions import raise_words
 from twinform.passes.shared.candidates import name_once_expanded, wanted_includes

@@ -10,7 +10,7 @@ from enum import StrEnum
 
 from twinform.compiler.compare.comparison import Difference, DifferenceSeverity
 from twinform.ir import Document
-from twinform.passes.carriers.removal import without_bodies_for_gazebo, without_ours
+from twinform.passes.carriers.carriers import without_bodies_for_gazebo, without_ours
 
 
 class ComparingReader(StrEnum):

@@ -17,7 +17,7 @@ from twinform.passes.framework.assets import NO_ASSETS, Assets
 from twinform.passes.framework.pass_base import BrokenPassError, DocumentReader, PassError, Refusal
 from twinform.passes.framework.pipeline import Pipeline
 from twinform.passes.framework.pipeline_text import parse_pipeline
-from twinform.passes.legalise.known import legalisation_kinds
+from twinform.passes.legalise import legalisation_kinds
 
 Fault = Literal["exception", "invalid document"]
 

@@ -12,7 +12,7 @@ from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_value, fields_of
 from twinform.passes.carriers.definitions import definition_of, is_repeated
 from twinform.passes.carriers.sdf_versions import VersionCondition
-from twinform.schemas import Context, Version, XmlElement, element_xml, reader
+from twinform.schemas import Context, Version, XmlElement, element_xml, reader, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -20,12 +20,20 @@ _REQUIRED = frozenset({"name", "type", "format", "version", "kind"})
 """Fields that a node cannot be made without; where a piece sets them, its class has them here."""
 
 
+_UNCONDITIONAL = VersionCondition()
+
+
 class CarrierError(Exception):
     """A carrier holds what cannot stand in its place, because somebody edited it."""
 
 
-def absorb(node: AnyNode, pieces: tuple[Opaque, ...], condition: VersionCondition, version: Version) -> AnyNode:
-    """The node with the pieces; what the condition names in `without` goes before they come.
+def absorb(
+    node: AnyNode,
+    pieces: tuple[Opaque, ...],
+    condition: VersionCondition = _UNCONDITIONAL,
+    version: Version | None = None,
+) -> AnyNode:
+    """The node with the pieces of a version of SDF, by default the newest, and without what the condition removes.
 
     Raises:
         CarrierError: a piece is not of SDF.
@@ -35,7 +43,7 @@ def absorb(node: AnyNode, pieces: tuple[Opaque, ...], condition: VersionConditio
     if condition.instead and isinstance(node, Model):
         node = node.copy(**_without_scope(node, condition.instead))
     for piece in pieces:
-        node = _absorb(node, piece, condition, version)
+        node = _absorb(node, piece, condition, version or table("sdf").newest)
     return node
 
 

@@ -16,10 +16,24 @@ none:
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import partial
 from typing import TypeVar
 
-from twinform.ir import Element, Node, Opaque, bits_named, untyped_elements
+from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule
+from twinform.ir import (
+    OPAQUE,
+    Element,
+    GazeboExtension,
+    Model,
+    Node,
+    Opaque,
+    bits_named,
+    replace_fields,
+    rewrite,
+    untyped_elements,
+)
 from twinform.schemas import XmlElement, node_xml
 
 # Elements in a namespace are what none of thirteen readers refuses and none reads otherwise
@@ -43,6 +57,18 @@ SECOND: Attributes = (("index", "1"),)
 """The attribute of a carrier about a piece that stood beside another one of its kind, and is no rest of that."""
 
 AnyNode = TypeVar("AnyNode", bound=Node)
+
+
+@dataclass(frozen=True, slots=True)
+class Keeper:
+    """Enters parts that the target cannot express into the ledger: as carried, or as dropped without `carriers`."""
+
+    sink: DiagnosticSink
+    carriers: bool
+
+    def account(self, rule: Rule, message: str, where: Location, weight: int = 1) -> None:
+        """Enter one part, of so many elements and attributes."""
+        self.sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rule, message, where, weight)
 
 
 def carry(node: AnyNode, pieces: Iterable[Opaque], dialect: str, about: Attributes = ()) -> AnyNode:
@@ -176,3 +202,53 @@ def _with_empty(element: Element) -> Element:
     added = tuple((name, value) for name, value in empty if name and element.get(name) is None)
     children = tuple(_with_empty(child) for child in element.children if child.name != _EMPTY)
     return element.copy(attributes=(*element.attributes, *added), children=children)
+
+
+Unwanted = Callable[[Opaque], bool]
+_BODIES = frozenset({"frame", "joint", "link", "model"})
+"""What `<gazebo>` adds to a robot: readers of URDF other than Gazebo's do not look into it."""
+
+
+def without_ours(node: AnyNode) -> AnyNode:
+    """The node without carriers and annotations: what every other reader sees."""
+    return without_parts(node, is_ours)
+
+
+def without_bodies_for_gazebo(node: AnyNode) -> AnyNode:
+    """The node without the links, joints and frames that only Gazebo adds to a robot of URDF."""
+    return rewrite(node, Model, _without_bodies)
+
+
+def _without_bodies(model: Model) -> Model:
+    extensions = ((each, _without_bodies_in(each)) for each in model.extensions)
+    kept = tuple(left for each, left in extensions if left.content or not each.content)
+    return replace_fields(model, extensions=kept)
+
+
+def _without_bodies_in(extension: GazeboExtension) -> GazeboExtension:
+    if extension.reference is not None:
+        return extension
+    return replace_fields(extension, content=tuple(one for one in extension.content if one.name not in _BODIES))
+
+
+def without_parts(node: AnyNode, unwanted: Unwanted) -> AnyNode:
+    """The node without some untyped parts, also in the untyped parts of all below."""
+    return rewrite(node, Node, partial(_without_parts, unwanted), having=OPAQUE)
+
+
+def _without_parts(unwanted: Unwanted, node: Node) -> Node:
+    bare = partial(_bare_element, unwanted)
+    kept = (part for part in node.opaque if not unwanted(part))
+    opaque = tuple(replace_fields(part, element=bare(part.element)) if part.element else part for part in kept)
+    if isinstance(node, GazeboExtension):
+        return replace_fields(node, opaque=opaque, content=_bare_elements(unwanted, node.content))
+    return replace_fields(node, opaque=opaque)
+
+
+def _bare_element(unwanted: Unwanted, element: Element) -> Element:
+    return replace_fields(element, children=_bare_elements(unwanted, element.children))
+
+
+def _bare_elements(unwanted: Unwanted, elements: tuple[Element, ...]) -> tuple[Element, ...]:
+    kept = (each for each in elements if not unwanted(Opaque.unchecked(element=each)))
+    return tuple(_bare_element(unwanted, each) for each in kept)

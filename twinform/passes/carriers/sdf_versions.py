@@ -12,9 +12,9 @@ Such a carrier names the versions that have its part:
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule
+from twinform.diagnostics import Location, Rule
 from twinform.ir import Element, Node, Opaque
-from twinform.passes.carriers.carriers import NAMESPACE, Attributes, is_carrier, pack, unpack
+from twinform.passes.carriers.carriers import NAMESPACE, Attributes, Keeper, is_carrier, pack, unpack
 from twinform.schemas import Version, parse_version, print_version
 
 DIALECT = "version"
@@ -52,12 +52,10 @@ class VersionCondition:
         return tuple((name, text) for name, text in bounds.items() if text)
 
 
-@dataclass(frozen=True, slots=True)
-class VersionKeeper:
-    """Where parts go that the version asked for does not have; after an error there is nothing left to do."""
+class VersionKeeper(Keeper):
+    """Carries the parts that a version of SDF lacks, and enters them into the ledger."""
 
-    sink: DiagnosticSink
-    carriers: bool
+    __slots__ = ()
 
     def keep(
         self,
@@ -82,10 +80,6 @@ class VersionKeeper:
         self.account(rule, message, where, max(1, piece.weight))
         carriers = version_carriers([piece], condition) if self.carriers else ()
         return tuple(part.element for part in carriers if part.element)
-
-    def account(self, rule: Rule, message: str, where: Location, weight: int) -> None:
-        """The entry alone."""
-        self.sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rule, message, where, weight)
 
 
 def version_carriers(pieces: list[Opaque], condition: VersionCondition) -> tuple[Opaque, ...]:

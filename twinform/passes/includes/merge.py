@@ -24,9 +24,8 @@ from twinform.ir import (
 )
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.annotations import find_annotation
+from twinform.passes.carriers.annotations import came_from, find_annotation
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.carriers.provenance import came_from
 from twinform.passes.shared.pose_frames import map_frames
 from twinform.passes.shared.pose_notation import OFFSET, read_offset
 

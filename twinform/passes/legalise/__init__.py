@@ -1,11 +1,13 @@
 """Legalisation: passes that rewrite what the target format cannot express into what it can."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Literal
 
 from twinform.ir import Format
 from twinform.passes.framework.pass_base import Pass
+from twinform.schemas import versions_of
 
 __all__ = ["Target", "legalisation"]
 
@@ -53,3 +55,18 @@ def legalisation(source: Format, version: str | None, target: Target) -> tuple[P
         mixed=target.mixed,
         mixed_source=target.mixed_source,
     )
+
+
+@cache
+def legalisation_kinds() -> dict[str, type[Pass]]:
+    """Every pass that any target asks for, sorted by name."""
+    return dict(sorted((each.name, type(each)) for way in _ways() for each in way))
+
+
+def _ways() -> Iterator[tuple[Pass, ...]]:
+    versions = versions_of("sdf")
+    for version in versions:
+        yield legalisation(Format.URDF, None, Target(Format.SDF, version))
+        for other in versions:
+            yield legalisation(Format.SDF, version, Target(Format.SDF, other))
+    yield legalisation(Format.SDF, versions[-1], Target(Format.URDF))

@@ -13,8 +13,14 @@ from typing import Any, ClassVar
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Element, Format, Frame, Joint, Link, Model
-from twinform.passes.carriers.annotations import AnyNode, find_annotation, with_annotation, without_annotation
-from twinform.passes.carriers.provenance import came_from, wrote_scopes
+from twinform.passes.carriers.annotations import (
+    AnyNode,
+    came_from,
+    find_annotation,
+    with_annotation,
+    without_annotation,
+    wrote_scopes,
+)
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.shared.pose_notation import NESTED
 from twinform.passes.structure.rename_parts import Part, rename_model, scope_of

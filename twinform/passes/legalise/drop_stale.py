@@ -6,8 +6,8 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Document, Format, Model, Node, Opaque, census_of, map_children
+from twinform.passes.carriers.annotations import came_from, without_provenance
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SOURCE, bits_of_ours, has_ours, is_carrier, is_memory
-from twinform.passes.carriers.provenance import came_from, without_provenance
 from twinform.passes.framework.pass_base import ModelPass
 
 AnyNode = TypeVar("AnyNode", bound=Node)

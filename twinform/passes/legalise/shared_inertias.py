@@ -13,11 +13,13 @@ from collections.abc import Set as AbstractSet
 from contextlib import suppress
 from dataclasses import replace
 
-from twinform.ir import Format, Link, Model
+from twinform.ir import Format, Inertia, Inertial, Link, Model, Pose
 from twinform.ir.frames import FrameError, FrameGraph
+from twinform.ir.node import Vector3
 from twinform.ir.principal_moments import Symmetric
-from twinform.ir.solids import Solid, combined, placed, turned, with_mass
+from twinform.ir.solids import ELEMENTS, ORIGIN, Solid, combined, placed, tensor, turned, with_mass
 from twinform.ir.verify.verify_bodies import inertia_matrix, is_plain
+from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
 from twinform.passes.inertia.physical_consistency import (
     clearances,
     doubt,
@@ -27,6 +29,7 @@ from twinform.passes.inertia.physical_consistency import (
 )
 from twinform.passes.shared.gazebo_tags import lumped_links
 from twinform.passes.structure.combined_bodies import body_of
+from twinform.schemas import format_value, parse_value
 
 _MARGIN = 1e-6
 """The least second moment of mass along an axis, as a part of the trace: digits are cut off again."""
@@ -128,3 +131,30 @@ def _together(solids: Mapping[str, Solid], needy: AbstractSet[str]) -> dict[str,
     if not whole.mass or is_refused(whole.inertia):
         return {}
     return {name: with_mass(whole, one.mass) for name, one in group.items()}
+
+
+SHARED = "shared"
+
+
+def with_share(made: Inertial, written: Inertial) -> Inertial:
+    """The inertial of SDF with the inertia of URDF, and its center of mass if it has moved, in an annotation."""
+    numbers: dict[str, float | Vector3] = dict(zip(ELEMENTS, tensor(written.inertia), strict=True))
+    if made.pose != written.pose:
+        numbers = {"xyz": (written.pose and written.pose.xyz) or ORIGIN, **numbers}
+    return with_annotation(made, SHARED, attributes={name: format_value(value) for name, value in numbers.items()})
+
+
+def without_share(inertial: Inertial) -> Inertial | None:
+    """The inertial as URDF had it; None where it has no annotation, or one that is no inertia."""
+    found = find_annotation(inertial, SHARED)
+    if found is None:
+        return None
+    try:
+        old = {name: parse_value("double", found.get(name) or "") for name in ELEMENTS}
+        place = parse_value("vector3", found.get("xyz") or "0 0 0")
+    except ValueError:
+        return None
+    moved = (inertial.pose or Pose()).copy(xyz=place)
+    pose = moved if found.get("xyz") else inertial.pose
+    inertia = (inertial.inertia or Inertia()).copy(**old)
+    return without_annotation(inertial, SHARED).copy(inertia=inertia, pose=pose)

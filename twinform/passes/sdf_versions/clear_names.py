@@ -8,7 +8,7 @@ from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Frame, Joint, Link, Model, ReferenceKind, World, map_references, rewrite
 from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass
-from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.nodes import reserve_name
 
 Named = TypeVar("Named", Link, Joint, Frame)
 _RESERVED = "world"
@@ -95,8 +95,7 @@ def _clashes(nodes: Iterable[Named], suffix: str, owned: set[str], taken: set[st
     renamed: dict[str, str] = {}
     for node in nodes:
         if node.name in owned or _is_reserved(node.name):
-            renamed[node.name] = unique_name(f"{node.name.strip('_')}_{suffix}", taken)
-            taken.add(renamed[node.name])
+            renamed[node.name] = reserve_name(f"{node.name.strip('_')}_{suffix}", taken)
     return renamed
 
 

@@ -7,7 +7,7 @@ from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Light, Plugin, rewrite
 from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass
-from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.nodes import reserve_name
 
 _LIGHTS = (1, 6)
 """Since this version a light has a name."""
@@ -52,8 +52,7 @@ def plugin_stem(filename: str | None) -> str:
 
 
 def _give_name(kind: str, wish: str, node: Named, taken: set[str], sink: DiagnosticSink) -> Named:
-    name = unique_name(wish, taken)
-    taken.add(name)
+    name = reserve_name(wish, taken)
     message = f"a {kind} without a name is called {name!r}"
     sink.account(Fate.APPROXIMATED, rules.NAME_MADE, message, node.location)
     return node.copy(name=name)

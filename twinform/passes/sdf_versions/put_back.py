@@ -21,9 +21,8 @@ from twinform.ir import (
 from twinform.ir.record import field_values, fields_of
 from twinform.ir.verify.verify_joints import verify_mimics
 from twinform.passes.carriers.absorb import CarrierError, absorb, is_already_there
-from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours
+from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, without_parts
 from twinform.passes.carriers.misplaced import is_misplaced
-from twinform.passes.carriers.removal import without_parts
 from twinform.passes.carriers.sdf_versions import DIALECT, VersionKeeper, carried, condition_of, is_version_carrier
 from twinform.passes.sdf_versions.steps import backward
 from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign, replace_child

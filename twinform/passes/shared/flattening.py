@@ -16,7 +16,7 @@ from twinform.passes.carriers.annotations import (
     with_annotation,
     without_annotation,
 )
-from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.nodes import reserve_name
 from twinform.passes.shared.pose_frames import map_frames
 
 Part = TypeVar("Part", Link, Joint, Frame)
@@ -164,8 +164,7 @@ def with_static_models_fixed(model: Model) -> Model:
     taken = {node.name for node in (*model.links, *model.joints, *model.frames, *model.models)}
     welds: list[Joint] = []
     for root, nested in roots:
-        name = unique_name(f"{root.replace(SCOPE, '__')}_fixed_joint", taken)
-        taken.add(name)
+        name = reserve_name(f"{root.replace(SCOPE, '__')}_fixed_joint", taken)
         weld = Joint(name=name, type="fixed", parent=WORLD, child=root, source=nested.source)
         welds.append(annotate_synthesized(weld))
     # Joints between the links stay, as in a model that is static as a whole: URDF is a tree, and

@@ -14,6 +14,13 @@ def unique_name(name: str, taken: Container[str]) -> str:
     return made
 
 
+def reserve_name(name: str, taken: set[str]) -> str:
+    """A unique name made of this one, which is added to the taken names."""
+    made = unique_name(name, taken)
+    taken.add(made)
+    return made
+
+
 def piece(node: Node, tag: str) -> Opaque:
     """A node as a carrier piece: an element of SDF."""
     return Opaque.unchecked(element=to_element(node, tag, "sdf"))

@@ -23,8 +23,7 @@ from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3
 from twinform.ir.scopes import outer_models
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.annotations import without_annotation
-from twinform.passes.carriers.provenance import FROM
+from twinform.passes.carriers.annotations import FROM, without_annotation
 from twinform.passes.framework.pass_base import DocumentPass, DocumentReader
 from twinform.passes.includes.merge import merge_into_model
 from twinform.passes.shared.pose_notation import OFFSET, POSE

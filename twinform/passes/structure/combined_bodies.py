@@ -23,7 +23,7 @@ def body_of(link: Link, graph: FrameGraph, format_: Format, meshes: Meshes = _NO
     `meshes` has the mesh files that an automatic inertia is computed from.
 
     Raises:
-        NoInertiaError: the inertia is automatic and cannot be computed.
+        NoSolidError: the inertia is automatic and cannot be computed.
         FrameError: a pose is in an unknown frame.
     """
     inertial = link.inertial

@@ -23,7 +23,7 @@ from twinform.ir.defaults import BODY
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.solids import placed
 from twinform.passes.carriers.carriers import is_ours
-from twinform.passes.shared.link_shapes import NoInertiaError
+from twinform.passes.shared.link_shapes import NoSolidError
 from twinform.passes.shared.mesh_solids import Meshes
 from twinform.passes.shared.nodes import unique_name
 from twinform.passes.shared.pose_frames import link_elements
@@ -95,7 +95,7 @@ class _SdfObstacles:
         try:
             for link in links:
                 body_of(link, self.graph, Format.SDF, self.meshes)
-        except (NoInertiaError, FrameError) as error:
+        except (NoSolidError, FrameError) as error:
             return str(error)
         return None
 

@@ -1,7 +1,7 @@
 """Documents without what other readers skip."""
 
 import twinform
-from twinform.passes.carriers.removal import without_bodies_for_gazebo, without_ours
+from twinform.passes.carriers.carriers import without_bodies_for_gazebo, without_ours
 
 _ROBOT = b"""<robot xmlns:tf="urn:twinform:1" name="r">
   <link name="a"><tf:offset xyz="0 0 1"/><visual><geometry><sphere radius="1"/></geometry><tf:sdf/></visual></link>

@@ -11,8 +11,7 @@ import twinform
 from twinform.compiler import plan
 from twinform.ir import Format
 from twinform.passes.framework.pipeline_text import parse_pipeline
-from twinform.passes.legalise import Target, legalisation
-from twinform.passes.legalise.known import legalisation_kinds
+from twinform.passes.legalise import Target, legalisation, legalisation_kinds
 from twinform.passes.legalise.pipeline_page import pipeline_page
 
 PAGE = Path(__file__).parents[4] / "docs/explanation/pipeline.md"

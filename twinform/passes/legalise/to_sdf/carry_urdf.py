@@ -4,7 +4,7 @@ from collections.abc import Container, Iterator
 from functools import cache
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate, rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import (
     OPAQUE,
     Collision,
@@ -21,8 +21,8 @@ from twinform.ir import (
     bits_of,
     rewrite,
 )
-from twinform.passes.carriers.carriers import DANGLING, carry, is_carrier, is_ours, unpack
-from twinform.passes.carriers.provenance import came_from
+from twinform.passes.carriers.annotations import came_from
+from twinform.passes.carriers.carriers import DANGLING, Keeper, carry, is_carrier, is_ours, unpack
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.urdf_pieces import BALLS, OF_AN_AXIS, joints_of
 from twinform.schemas import Fact, table
@@ -88,11 +88,11 @@ class CarryUrdf(ModelPass):
         return self._carry(node.copy(**update), pieces, sink) if not isinstance(node, Pose) else node
 
     def _carry(self, node: AnyNode, pieces: list[Opaque], sink: DiagnosticSink, message: str = "") -> AnyNode:
-        fate = Fate.CARRIED if self.carriers else Fate.DROPPED
+        keeper = Keeper(sink, self.carriers)
         for piece in pieces:
             why = message or f"{piece.name} is not a part of SDF"
             where = piece.location if piece.source else node.location
-            sink.account(fate, rules.URDF_ONLY, why, where, max(1, piece.weight))
+            keeper.account(rules.URDF_ONLY, why, where, max(1, piece.weight))
         if not self.carriers:
             return node
         once = OF_AN_AXIS if isinstance(node, Joint) else ()  # a second one means nothing, and no edit has made it so

@@ -10,20 +10,20 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.carriers import is_carrier, is_ours, unpack
-from twinform.passes.carriers.chain_carriers import Parts, is_of_axis, join_axes
 from twinform.passes.carriers.joint_chains import (
     BALL_AXES,
     CHAIN,
     CHAINS,
     PITCHES,
     TWO_AXES,
+    Parts,
+    is_of_axis,
+    join_axes,
     metres_per_radian,
     part_of,
 )
-from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.carriers.token_mass import is_chain_token, is_token
-from twinform.passes.legalise.to_sdf.mimic_references import with_reference
-from twinform.schemas import parse_version, versions_of
+from twinform.passes.legalise.to_sdf.restore_joints import restore_reference
 
 _KINDS: dict[str, JointType] = {str(kind): kind for kind in CHAINS}
 _TURNS = frozenset({"revolute", "continuous"})
@@ -199,7 +199,7 @@ def _in_sdf(joint: Joint) -> Axis:
 
 
 def _referred(joint: Joint) -> Joint:
-    made = with_reference(joint)
+    made = restore_reference(joint)
     if made is None:
         raise StaleChainError(f"joint {joint.name!r} no longer mimics as it did")
     return made
@@ -239,9 +239,8 @@ def _unpacked(joint: Joint, names: tuple[str, ...]) -> Joint:
             pieces += unpack(part)
         else:
             opaque.append(part)
-    newest = parse_version(versions_of("sdf")[-1])
     try:
-        return absorb(joint.copy(opaque=tuple(opaque)), pieces, VersionCondition(), newest)
+        return absorb(joint.copy(opaque=tuple(opaque)), pieces)
     except CarrierError as error:
         raise StaleChainError(str(error)) from error
 

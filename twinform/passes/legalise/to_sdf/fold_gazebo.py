@@ -8,22 +8,25 @@ from typing import Any, ClassVar, TypeVar
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, Severity, rules
 from twinform.ir import Element, Format, Frame, GazeboExtension, Joint, Link, Model, Node, Opaque
 from twinform.ir.record import field_value
-from twinform.passes.carriers.annotations import EXTENSION, is_synthesized, with_annotation
-from twinform.passes.carriers.carriers import DANGLING, OVERRULED, SECOND, Attributes, pack, to_element
-from twinform.passes.carriers.material_annotations import with_look
-from twinform.passes.carriers.provenance import came_from
+from twinform.passes.carriers.annotations import EXTENSION, came_from, is_synthesized, with_annotation
+from twinform.passes.carriers.carriers import DANGLING, OVERRULED, SECOND, Attributes, Keeper, pack, to_element
 from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.material_annotations import with_look
 from twinform.passes.legalise.to_sdf.free_links import are_at_one_place, placing_frames
-from twinform.passes.legalise.to_sdf.gazebo_content import read_content, with_axis, with_mass
 from twinform.passes.legalise.to_sdf.gazebo_fields import (
+    REPLACING,
+    merge,
     old_values,
+    read_content,
     set_collision,
     set_joint_fields,
     set_link_fields,
     set_model_fields,
     set_visual,
+    with_axis,
+    with_mass,
+    written,
 )
-from twinform.passes.legalise.to_sdf.gazebo_merging import REPLACING, merge, written
 from twinform.passes.legalise.to_sdf.gazebo_sorting import (
     Blob,
     Sorter,
@@ -234,12 +237,12 @@ class _Fold:
         if extension.reference is not None:
             attributes.insert(0, ("reference", extension.reference))
         element = Element.unchecked(name="gazebo", attributes=tuple(attributes), text=text or None, children=content)
-        fate = Fate.CARRIED if self.carriers else Fate.DROPPED
+        keeper = Keeper(self.sink, self.carriers)
         if content == extension.content:
-            self.sink.account(fate, rule, message, extension.location, element.weight)
+            keeper.account(rule, message, extension.location, element.weight)
         else:
             for part in content or (element,):
-                self.sink.account(fate, rule, message, place_of(part, extension), part.weight)
+                keeper.account(rule, message, place_of(part, extension), part.weight)
         self.kept += pack([Opaque.unchecked(element=element)], "urdf", about)
 
     def _with_tags(self, link: Link, tags: list[TagValue], before: list[Blob | TagValue]) -> Link:

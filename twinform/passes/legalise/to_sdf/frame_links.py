@@ -2,22 +2,22 @@
 
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate, rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Collision, Element, Format, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.passes.carriers.annotations import (
     EXTENSION,
+    came_from,
     find_annotation,
     is_synthesized,
     with_annotation,
     without_annotation,
 )
-from twinform.passes.carriers.carriers import carry, is_ours, pack, to_element
-from twinform.passes.carriers.provenance import came_from
+from twinform.passes.carriers.carriers import Keeper, carry, is_ours, pack, to_element
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
-from twinform.passes.legalise.to_sdf.reversals import without_reversals
+from twinform.passes.legalise.to_sdf.restore_joints import without_reversals
 from twinform.passes.shared.gazebo_tags import FLAGS, flag_tags
 from twinform.passes.shared.pose_notation import FRAME, LINK
 
@@ -128,8 +128,7 @@ class FrameLinks(ModelPass):
             reference = (("reference", _name_in_urdf(joint, link)),)
             element = Element.unchecked(name="gazebo", attributes=reference, children=tuple(parts))
             message = f"joint {joint.name!r} becomes a frame, which has no <{parts[0].name}>"
-            fate = Fate.CARRIED if self.carriers else Fate.DROPPED
-            sink.account(fate, rules.FRAME_LINK, message, joint.location, element.weight)
+            Keeper(sink, self.carriers).account(rules.FRAME_LINK, message, joint.location, element.weight)
             kept.append(Opaque.unchecked(element=element))
         return self._in_front(model, kept)
 
@@ -146,8 +145,7 @@ class FrameLinks(ModelPass):
             element = Element.unchecked(name="gazebo", attributes=(("reference", link.name),), children=children)
             names = ", ".join(field for field, value in written.items() if value is not None)
             message = f"{names} of {link.name!r} have no body to act on"
-            fate = Fate.CARRIED if self.carriers else Fate.DROPPED
-            sink.account(fate, rules.FRAME_LINK, message, link.location, len(children))
+            Keeper(sink, self.carriers).account(rules.FRAME_LINK, message, link.location, len(children))
             kept.append(Opaque.unchecked(element=element))
         return self._in_front(model, kept)
 
@@ -164,9 +162,7 @@ class FrameLinks(ModelPass):
 
     def _keep(self, frame: Frame, rest: list[Opaque], message: str, sink: DiagnosticSink) -> Frame:
         for part in rest:
-            sink.account(
-                Fate.CARRIED if self.carriers else Fate.DROPPED, rules.FRAME_LINK, message, frame.location, part.weight
-            )
+            Keeper(sink, self.carriers).account(rules.FRAME_LINK, message, frame.location, part.weight)
         return carry(frame, rest, "urdf") if self.carriers else frame
 
 

@@ -5,8 +5,7 @@ from collections.abc import Iterable, Mapping
 from twinform.ir import Element, Format, Frame, Joint, Model
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.annotations import annotate_synthesized, find_annotation, is_synthesized
-from twinform.passes.carriers.provenance import came_from
+from twinform.passes.carriers.annotations import annotate_synthesized, came_from, find_annotation, is_synthesized
 from twinform.passes.legalise.changed_names import scoped_name
 from twinform.passes.shared.pose_notation import NESTED
 

@@ -2,10 +2,10 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink, Fate, rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import PLAIN, Model, Node, rewrite
 from twinform.ir.scopes import scoped_parts
-from twinform.passes.carriers.carriers import carry
+from twinform.passes.carriers.carriers import Keeper, carry
 from twinform.passes.framework.pass_base import ModelPass
 
 
@@ -30,10 +30,10 @@ class HideScopedElements(ModelPass):
         scoped = scoped_parts(node)
         if not scoped:
             return node
-        fate = Fate.CARRIED if self.carriers else Fate.DROPPED
+        keeper = Keeper(sink, self.carriers)
         for part in scoped:
             message = f"{part.name} has '::' in a name, which readers of SDF refuse since 1.8"
-            sink.account(fate, rules.SCOPED_ELEMENT, message, part.location, part.weight)
+            keeper.account(rules.SCOPED_ELEMENT, message, part.location, part.weight)
         rest = tuple(part for part in node.opaque if part not in scoped)
         node = node.copy(opaque=rest)
         return carry(node, scoped, "sdf") if self.carriers else node

@@ -1,19 +1,20 @@
 """Conversion of URDF joint types, axes and limits to SDF."""
 
 from collections.abc import Mapping
-from typing import ClassVar, TypeVar
+from typing import ClassVar, NamedTuple, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate, Rule, rules
-from twinform.ir import Axis, Element, Format, Joint, Limit, Link, Mimic, Model, Opaque, count_parts
-from twinform.ir.defaults import AXIS, with_range
+from twinform.diagnostics import DiagnosticSink, Rule, rules
+from twinform.ir import Axis, Element, Format, Joint, Limit, Link, Mimic, Model, Opaque, Pose, count_parts
+from twinform.ir.defaults import AXIS, direction, with_range
+from twinform.ir.motion import plane_across
 from twinform.ir.verify.verify_joints import useless_leader
-from twinform.passes.carriers.annotations import annotate_synthesized, is_synthesized
-from twinform.passes.carriers.carriers import NAMESPACE, carry, to_element
-from twinform.passes.carriers.provenance import came_from
+from twinform.passes.carriers.annotations import annotate_synthesized, came_from, is_synthesized
+from twinform.passes.carriers.carriers import NAMESPACE, Keeper, carry, to_element
+from twinform.passes.carriers.token_mass import TOKEN
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.free_links import links_in_static_models, needs_no_joint
-from twinform.passes.legalise.to_sdf.planar import planar_chain, planar_names
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS
+from twinform.passes.shared.nodes import reserve_name
 from twinform.schemas import format_value
 
 FLOATING = "floating"
@@ -108,7 +109,7 @@ class UrdfJoints(ModelPass):
             return freed
         message = f"joint {joint.name!r} leaves link {link.name!r} free, which needs no joint in SDF"
         element = to_element(joint.copy(pose=None), "joint", "urdf")
-        sink.account(self._fate(), rules.NO_JOINT, message, joint.location, count_parts(joint))
+        Keeper(sink, self.carriers).account(rules.NO_JOINT, message, joint.location, count_parts(joint))
         if not self.carriers:
             return freed
         rest = tuple(child for child in element.children if child.name not in {"parent", "child"})
@@ -175,11 +176,8 @@ class UrdfJoints(ModelPass):
         self, joint: Joint, rest: list[Opaque], message: str, sink: DiagnosticSink, rule: Rule = rules.URDF_ONLY
     ) -> Joint:
         for part in rest:
-            sink.account(self._fate(), rule, f"{message}: {part.name}", joint.location, part.weight)
+            Keeper(sink, self.carriers).account(rule, f"{message}: {part.name}", joint.location, part.weight)
         return carry(joint, rest, "urdf") if self.carriers else joint
-
-    def _fate(self) -> Fate:
-        return Fate.CARRIED if self.carriers else Fate.DROPPED
 
 
 _HIGHER = ("acceleration", "deceleration", "jerk")
@@ -203,3 +201,66 @@ def _without(limit: Limit, names: tuple[str, ...]) -> tuple[Limit, list[Opaque]]
     written = [(name, getattr(limit, name)) for name in names if getattr(limit, name) is not None]
     rest = [Opaque.unchecked(at="limit", attribute=(name, format_value(value))) for name, value in written]
     return (limit.copy(**{name: None for name, _ in written}) if written else limit), rest
+
+
+Names = tuple[str, str, str, str]
+"""Those of the sliding joints and their links, in turns."""
+
+
+class PlanarChain(NamedTuple):
+    """Two sliding joints, each with the link that it moves, and the turning one, which keeps name and child."""
+
+    links: tuple[Link, Link]
+    joints: tuple[Joint, Joint, Joint]
+
+
+def planar_names(joint: str, taken: set[str]) -> Names:
+    """The names in the chain of a planar joint, each with a number if it is taken; they are from then on."""
+    return (
+        reserve_name(f"{joint}_x", taken),
+        reserve_name(f"{joint}_x_link", taken),
+        reserve_name(f"{joint}_y", taken),
+        reserve_name(f"{joint}_y_link", taken),
+    )
+
+
+def planar_chain(joint: Joint, names: Names) -> PlanarChain:
+    """The chain of a planar joint of URDF.
+
+    All three axes are in the joint's frame, whose x and y span the plane where its normal is z. The links between have
+    a token of mass, so that engines move them and the robot weighs what it weighed.
+    """
+    normal = direction(joint.axis, Format.URDF)
+    along, across = plane_across(normal)
+    first, first_link, second, second_link = names
+    source = joint.source
+    slide = Joint(
+        name=first,
+        type="prismatic",
+        parent=joint.parent,
+        child=first_link,
+        pose=joint.pose,
+        axis=Axis(xyz=along),
+        source=source,
+    )
+    shift = Joint(
+        name=second,
+        type="prismatic",
+        parent=first_link,
+        child=second_link,
+        pose=Pose(relative_to=first_link),
+        axis=Axis(xyz=across),
+        source=source,
+    )
+    turn = joint.copy(
+        type="revolute",
+        parent=second_link,
+        pose=Pose(relative_to=second_link),
+        axis=Axis(xyz=normal),
+    )
+    links = (
+        # Any mass worth the name would change the mass matrix of the robot.
+        Link(name=first_link, pose=Pose(relative_to=first), inertial=TOKEN, source=source),
+        Link(name=second_link, pose=Pose(relative_to=second), inertial=TOKEN, source=source),
+    )
+    return PlanarChain(links, (slide, shift, turn))

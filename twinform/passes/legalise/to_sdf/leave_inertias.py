@@ -12,11 +12,10 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
-from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.pass_base import AssetPass, ModelPass
 from twinform.passes.shared.link_shapes import COMPUTED_MASS, NoSolidError, automatic
 from twinform.passes.shared.mesh_solids import Meshes
-from twinform.schemas import parse_version, versions_of
+from twinform.schemas import parse_version
 
 _SINCE = (1, 11)
 _FIELDS = ("mass", "pose", "inertia")
@@ -76,8 +75,7 @@ def _unpacked(inertial: Inertial) -> Inertial:
     """The inertial with all that it carries of SDF."""
     pieces = tuple(piece for part in inertial.opaque if is_carrier(part, "sdf") for piece in unpack(part))
     kept = tuple(part for part in inertial.opaque if not is_carrier(part, "sdf"))
-    newest = parse_version(versions_of("sdf")[-1])
-    return absorb(inertial.copy(opaque=kept), pieces, VersionCondition(), newest)
+    return absorb(inertial.copy(opaque=kept), pieces)
 
 
 def _is_the_same(found: Solid, inertial: Inertial) -> bool:

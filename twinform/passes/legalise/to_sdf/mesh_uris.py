@@ -5,8 +5,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Collision, Format, Link, Mesh, Model, Visual, replace_fields
-from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
-from twinform.passes.carriers.provenance import came_from
+from twinform.passes.carriers.annotations import came_from, find_annotation, with_annotation, without_annotation
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.shared.document_uris import GAZEBO, MESH_SCHEME, ROS, TEXTURE_SCHEME, model_uri, scheme_of
 

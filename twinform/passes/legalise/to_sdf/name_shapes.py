@@ -5,9 +5,10 @@ from collections.abc import Iterator, Mapping
 from itertools import count
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate, rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Collision, Link, Model, Visual, replace_fields
 from twinform.passes.carriers.annotations import with_annotation
+from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import NAME
 
@@ -64,7 +65,7 @@ def name_all(shapes: tuple[Shape, ...], base: str, sink: DiagnosticSink, *, carr
             name = _free(name or base, taken, seen, numbers)
             if shape.name:
                 message = f"{shape.name!r} {_why(shape)} is called {name!r} in SDF"
-                sink.account(Fate.CARRIED if carriers else Fate.DROPPED, rules.SHAPE_NAME, message, shape.location)
+                Keeper(sink, carriers).account(rules.SHAPE_NAME, message, shape.location)
                 if carriers:
                     shape = with_annotation(shape, NAME, shape.name, {"instead_of": name})  # noqa: PLW2901 - the same shape
         seen.add(name)

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.ir import Element, Format, Model
-from twinform.passes.carriers.provenance import came_from
+from twinform.passes.carriers.annotations import came_from
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
 from twinform.passes.legalise.to_sdf.gazebo_sorting import place_of

@@ -11,15 +11,15 @@ from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph, Kind
 from twinform.ir.scopes import SCOPE
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.annotations import (
+    OLD_NAME,
     SYNTHESIZED,
+    came_from,
     find_annotation,
     is_synthesized,
     with_annotation,
     without_annotation,
 )
 from twinform.passes.carriers.carriers import bits_of_ours
-from twinform.passes.carriers.joint_words import OLD_NAME
-from twinform.passes.carriers.provenance import came_from
 from twinform.passes.carriers.token_mass import has_token_mass
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.sdf_versions.version_pass import is_foreign

@@ -1,17 +1,23 @@
 """Reverse conversion of joints: restoring how the SDF source wrote them."""
 
+import math
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Axis, Format, Joint, Limit, Model
-from twinform.ir.defaults import UNLIMITED
-from twinform.passes.carriers.annotations import SYNTHESIZED, find_annotation, without_annotation
-from twinform.passes.carriers.joint_words import CONTINUOUS, MIMIC
-from twinform.passes.carriers.provenance import came_from
+from twinform.ir.defaults import UNLIMITED, multiplier
+from twinform.passes.carriers.annotations import (
+    CONTINUOUS,
+    MIMIC,
+    REVERSED,
+    SYNTHESIZED,
+    came_from,
+    find_annotation,
+    without_annotation,
+)
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.to_sdf.mimic_references import with_reference
-from twinform.passes.legalise.to_sdf.reversals import without_reversals
+from twinform.passes.structure.reversal import REVERSIBLE, reroot_sdf
 
 _AXES = ("axis", "axis2")
 _NUMBERS = ("lower", "upper", "effort", "velocity")
@@ -72,10 +78,48 @@ def _continuous(joint: Joint, sink: DiagnosticSink) -> Joint:
 
 
 def _with_reference(joint: Joint, sink: DiagnosticSink) -> Joint:
-    made = with_reference(joint)
+    made = restore_reference(joint)
     if made is not None:
         return made
     found = find_annotation(joint, MIMIC)
     message = f"joint {joint.name!r} does not mimic any more, or its reference is no number"
     sink.report(STALE_CARRIER, message, joint.location, found=(found and found.get("reference")) or "")
     return without_annotation(joint, MIMIC)
+
+
+def without_reversals(model: Model) -> Model:
+    """The model with the joints that an annotation calls reversed the right way round."""
+    turned = [joint for joint in model.joints if find_annotation(joint, REVERSED) and joint.type in REVERSIBLE]
+    if not turned:
+        return model
+    names = {joint.name for joint in turned}
+    made = reroot_sdf(model, turned).joints  # a frame stays on its joint, whatever that moves
+    joints = (without_annotation(joint, REVERSED) if joint.name in names else joint for joint in made)
+    return model.copy(joints=tuple(joints))
+
+
+def restore_reference(joint: Joint) -> Joint | None:
+    """The joint whose mimic has the annotated `reference`; None where there is no mimic, or the text is no number.
+
+    multiplier (leader - reference) + offset is what URDF writes as multiplier leader + offset.
+    """
+    found = find_annotation(joint, MIMIC)
+    if found is None:
+        return joint
+    axis: Axis | None = joint.axis
+    reference = _number(found.get("reference"))
+    if axis is None or axis.mimic is None or reference is None:
+        return None
+    factor = multiplier(axis.mimic)
+    offset = (axis.mimic.offset or 0.0) + factor * reference if reference else axis.mimic.offset
+    mimic = axis.mimic.copy(reference=reference, offset=offset or None)
+    made: Axis = axis.copy(mimic=mimic)
+    return without_annotation(joint, MIMIC).copy(axis=made)
+
+
+def _number(text: str | None) -> float | None:
+    try:
+        number = float(text or "")
+    except ValueError:
+        return None
+    return number if math.isfinite(number) else None

@@ -10,15 +10,12 @@ from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.scopes import SCOPE, nested_names
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.absorb import CarrierError, absorb
-from twinform.passes.carriers.annotations import find_annotation, without_annotation
-from twinform.passes.carriers.provenance import wrote_scopes
-from twinform.passes.carriers.sdf_versions import VersionCondition
+from twinform.passes.carriers.annotations import find_annotation, without_annotation, wrote_scopes
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import renamed
 from twinform.passes.sdf_versions.nest_models import nest
 from twinform.passes.shared.flattening import unsettle_links
 from twinform.passes.shared.pose_notation import NESTED
-from twinform.schemas import parse_version, versions_of
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -136,15 +133,12 @@ def _with_rest(model: Model, path: str, annotated: dict[str, Element], sink: Dia
         *(Opaque.unchecked(element=child) for child in found.children),
     )
     try:
-        whole = absorb(model.copy(canonical_link=None), pieces, VersionCondition(), _NEWEST)
+        whole = absorb(model.copy(canonical_link=None), pieces)
         return _posed_by_placement_frame(_with_known_links(unsettle_links(whole, sink)))
     except CarrierError as error:
         message = f"the carried content of nested model {path!r} does not fit it any more: {error}"
         sink.report(STALE_CARRIER, message, model.location, found=path)
         return model
-
-
-_NEWEST = parse_version(versions_of("sdf")[-1])
 
 
 def _with_known_links(model: Model) -> Model:

@@ -5,9 +5,8 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import LUMPED_NAME
 from twinform.ir import Collision, Format, Link, Model, Visual, replace_fields
-from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.annotations import came_from, find_annotation, without_annotation
 from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions
-from twinform.passes.carriers.provenance import came_from
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.structure.tagged_shapes import seen_shapes

@@ -4,15 +4,15 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Model
-from twinform.passes.carriers.annotations import without_annotation
-from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, has_ours
-from twinform.passes.carriers.provenance import (
+from twinform.passes.carriers.annotations import (
     came_from,
     source_version,
     with_mixed_words,
     with_provenance,
+    without_annotation,
     without_provenance,
 )
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, has_ours
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.shared.pose_notation import BODY
 from twinform.schemas import versions_of

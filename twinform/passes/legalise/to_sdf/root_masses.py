@@ -5,8 +5,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Format, Inertia, Inertial, Link, Model
-from twinform.passes.carriers.annotations import with_annotation
-from twinform.passes.carriers.provenance import came_from
+from twinform.passes.carriers.annotations import came_from, with_annotation
 from twinform.passes.carriers.token_mass import MOMENTS, TOKEN, TOKEN_MASS, TOKEN_MOMENT
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.frame_links import is_massless

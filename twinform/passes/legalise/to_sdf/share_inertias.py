@@ -5,10 +5,9 @@ from typing import ClassVar
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Format, Link, Model, Pose
 from twinform.ir.solids import ELEMENTS, ORIGIN, Solid
-from twinform.passes.carriers.provenance import came_from
-from twinform.passes.carriers.shared_inertia import with_share
+from twinform.passes.carriers.annotations import came_from
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.shared_inertias import shared_inertias
+from twinform.passes.legalise.shared_inertias import shared_inertias, with_share
 from twinform.passes.structure.combined_bodies import write_solid
 
 

@@ -8,10 +8,9 @@ from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.diagnostics.rules import GAZEBO_MATERIAL
 from twinform.ir import Link, Material, Model, Opaque, Visual, count_parts
 from twinform.passes.carriers.annotations import annotation
-from twinform.passes.carriers.carriers import pack, to_element
-from twinform.passes.carriers.material_annotations import MATERIAL, SHARED_MATERIAL, material_name
+from twinform.passes.carriers.carriers import Keeper, pack, to_element
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.shared.urdf_color import seen_by_gazebo
+from twinform.passes.legalise.material_annotations import MATERIAL, SHARED_MATERIAL, material_name, seen_by_gazebo
 
 
 class SharedMaterials(ModelPass):
@@ -82,10 +81,9 @@ class SharedMaterials(ModelPass):
         return visual.copy(**update)
 
     def _account(self, material: Material, weight: int, sink: DiagnosticSink) -> None:
-        fate = Fate.CARRIED if self.carriers else Fate.DROPPED
         named = f"SDF has no name for the material {material.name!r}"
         message = named if material.name else "SDF has no shared materials"
-        sink.account(fate, rules.MATERIAL_NAME, message, material.location, weight)
+        Keeper(sink, self.carriers).account(rules.MATERIAL_NAME, message, material.location, weight)
 
 
 def _note_gazebo(materials: Iterable[Material], sink: DiagnosticSink) -> None:

@@ -3,10 +3,12 @@
 from collections.abc import Collection
 from typing import ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate, rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Format, Joint, Link, Model, map_references
+from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import with_old_name
+from twinform.passes.shared.nodes import reserve_name
 from twinform.passes.structure.rename_parts import follow_references, scope_of
 
 Named = TypeVar("Named", Link, Joint, Model)
@@ -35,10 +37,10 @@ class UniqueNames(ModelPass):
             model = self._rename(model, _NO_NAME, sink)
         names = {link.name for link in model.links}
         taken = names | {joint.name for joint in model.joints}
-        links = {name: free_name(_new(name, "link"), taken) for name in sorted(names) if _reserved(name)}
+        links = {name: reserve_name(_new(name, "link"), taken) for name in sorted(names) if _reserved(name)}
         kept = (joint.name for joint in model.joints if joint.type != "floating")  # SDF has no joint there
         clashes = [name for name in kept if name in names or _reserved(name)]
-        joints = {name: free_name(_new(name, "joint", names), taken) for name in clashes}
+        joints = {name: reserve_name(_new(name, "joint", names), taken) for name in clashes}
         if not links and not joints:
             return model
         new: dict[str, dict[str, str]] = {"link": links, "joint": joints}
@@ -59,7 +61,7 @@ class UniqueNames(ModelPass):
         kind = type(node).__name__.lower()
         message = f"{kind} {node.name!r} is called {name!r} in SDF"
         sink.report(rules.RENAMED, message, node.location, found=node.name)
-        sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rules.RENAMED, message, node.location.at("@name"))
+        Keeper(sink, self.carriers).account(rules.RENAMED, message, node.location.at("@name"))
         if self.carriers:
             node = with_old_name(node, name)
         return node.copy(name=name)
@@ -75,12 +77,3 @@ def _new(name: str, kind: str, links: Collection[str] = ()) -> str:
     # libsdformat drops blanks around names where it reads them, so a link "a " would lose the
     # joints that name it.
     return f"{bare.strip('_')}_{kind}" if bare == name or bare in links or _reserved(bare) else bare
-
-
-def free_name(name: str, taken: set[str]) -> str:
-    """The name, or the first numbered one that is free; it is taken from then on."""
-    candidate, number = name, 1
-    while candidate in taken:
-        candidate, number = f"{name}_{number}", number + 1
-    taken.add(candidate)
-    return candidate

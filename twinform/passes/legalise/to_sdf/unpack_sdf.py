@@ -28,11 +28,9 @@ from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, is_memory, unpack
 from twinform.passes.carriers.definitions import has_first, inside, is_repeated
-from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.shared.urdf_color import urdf_color
-from twinform.schemas import parse_version, versions_of
+from twinform.passes.legalise.material_annotations import COLORS, SCRIPTS, urdf_color
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -207,7 +205,7 @@ def _absorbed(node: AnyNode, carriers: Iterable[Opaque]) -> AnyNode:
     for carrier in carriers:
         index = carrier.element.get("index") if carrier.element else None
         condition = VersionCondition(index=int(index) if index and index.isdecimal() else None)
-        node = absorb(node, unpack(carrier), condition, parse_version(versions_of("sdf")[-1]))
+        node = absorb(node, unpack(carrier), condition)
     return node
 
 

@@ -2,10 +2,10 @@
 
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink, Fate, rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Joint, Link, Model, Opaque, count_parts
 from twinform.passes.carriers.annotations import find_annotation
-from twinform.passes.carriers.carriers import carry, is_carrier, to_element, unpack
+from twinform.passes.carriers.carriers import Keeper, carry, is_carrier, to_element, unpack
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.free_links import links_in_static_models, needs_no_joint
 from twinform.passes.shared.pose_notation import BODY
@@ -39,9 +39,8 @@ class WorldLink(ModelPass):
         model = model.copy(links=links, joints=joints)
         held = links_in_static_models(model)
         if not any(joint.parent == "world" and not needs_no_joint(joint, held) for joint in joints):
-            fate = Fate.CARRIED if self.carriers else Fate.DROPPED
             message = "nothing is fixed to the link 'world', and SDF always has a world"
-            sink.account(fate, rules.URDF_ONLY, message, world.location, count_parts(world))
+            Keeper(sink, self.carriers).account(rules.URDF_ONLY, message, world.location, count_parts(world))
         own = tuple(piece for part in world.opaque for piece in (unpack(part) if is_carrier(part, "urdf") else (part,)))
         body = world.copy(opaque=own)
         return self._keep_body(model, body, sink) if count_parts(body) > 2 else model
@@ -49,8 +48,7 @@ class WorldLink(ModelPass):
     def _keep_body(self, model: Model, world: Link, sink: DiagnosticSink) -> Model:
         message = "the link 'world' has a body, which SDF's world cannot have"
         sink.report(rules.WORLD_LINK, message, world.location)
-        fate = Fate.CARRIED if self.carriers else Fate.DROPPED
-        sink.account(fate, rules.WORLD_LINK, message, world.location, count_parts(world))
+        Keeper(sink, self.carriers).account(rules.WORLD_LINK, message, world.location, count_parts(world))
         if not self.carriers:
             return model
         return carry(model, [Opaque.unchecked(element=to_element(world, "link", "urdf"))], "urdf")

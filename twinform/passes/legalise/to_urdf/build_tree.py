@@ -1,10 +1,14 @@
 """Building one kinematic tree: choosing a root, cutting loops, connecting several roots."""
 
-from typing import ClassVar
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from typing import ClassVar, NamedTuple
 
 from twinform.diagnostics import Fate, rules
-from twinform.ir import Joint, Link, Model, count_parts
+from twinform.ir import GazeboExtension, Joint, Link, Model, Pose, count_parts, rewrite
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import (
     EXTENSION,
     REVERSED,
@@ -12,13 +16,117 @@ from twinform.passes.carriers.annotations import (
     find_annotation,
     without_annotation,
 )
-from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
-from twinform.passes.legalise.to_urdf.joint_tree import JointTree
+from twinform.passes.carriers.carriers import to_element
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.joint_ends import joint_pose_attributes
-from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.nodes import reserve_name
 from twinform.passes.shared.pose_notation import POSE
-from twinform.passes.structure.reversal import reroot_sdf
+from twinform.passes.structure.reversal import REVERSIBLE, measures_in_sensor, reroot_sdf
+
+
+class _Above(NamedTuple):
+    """The joint that a link hangs from, and the link, or `world`, at its other end."""
+
+    joint: Joint
+    parent: str
+
+
+@dataclass(slots=True)
+class _Way:
+    """A way from a link towards its root, as far as it was walked."""
+
+    start: str
+    end: str
+    links: list[str] = field(default_factory=list[str])
+
+
+class JointTree:
+    """The joints that were taken in, so that each link hangs from one at most; `turned` names those to be reversed.
+
+    All joints of a robot are taken in in linear time, but for a logarithm: of two ways that can be reversed the shorter
+    one is, and the links of one that cannot be are remembered.
+    """
+
+    def __init__(self, links: list[str]) -> None:
+        self.turned: set[str] = set()
+        self._above: dict[str, _Above] = {}
+        self._stuck = {WORLD}
+        """What cannot become a root any more: there is the world, or a joint that is not reversible, above it."""
+        self._group = {name: name for name in (*links, WORLD)}
+
+    def add(self, joint: Joint) -> bool:
+        """Take a joint in as it is, unless its child hangs from another one or it closes a circle."""
+        parent, child = joint.parent or WORLD, joint.child or ""
+        if child in self._above or self._find(parent) == self._find(child):
+            return False
+        self._hang(child, _Above(joint, parent))
+        return True
+
+    def join(self, joint: Joint) -> bool:
+        """Take a joint in, and reverse what has to be for that; not one that closes a circle, or cannot be reversed."""
+        if self.add(joint):
+            return True
+        parent, child = joint.parent or WORLD, joint.child or ""
+        if self._find(parent) == self._find(child):
+            return False
+        way = self._shorter_way(child, parent if _is_reversible(joint) else WORLD)
+        if way is None:
+            return False
+        self._reverse(way)
+        if way.start == child:
+            self._hang(child, _Above(joint, parent))
+        else:
+            self.turned ^= {joint.name}
+            self._hang(parent, _Above(joint, child))
+        return True
+
+    def root(self, link: str) -> str:
+        """The link, or `world`, that a link hangs from in the end."""
+        while link in self._above:
+            link = self._above[link].parent
+        return link
+
+    def holds_any(self, link: str) -> bool:
+        """Whether something hangs from a link, or from `world`."""
+        return any(above.parent == link for above in self._above.values())
+
+    def _hang(self, link: str, above: _Above) -> None:
+        self._above[link] = above
+        self._group[self._find(link)] = self._find(above.parent)
+
+    def _shorter_way(self, *links: str) -> _Way | None:
+        """The way up to its root from the link that has fewer joints above it; None where none can be reversed."""
+        # Both ways are walked in turns, so that the work is that of the shorter one.
+        ways = [_Way(link, link) for link in links]
+        while ways:
+            for way in tuple(ways):
+                if way.end in self._stuck:
+                    self._stuck.update(way.links)
+                    ways.remove(way)
+                    continue
+                above = self._above.get(way.end)
+                if above is None:
+                    return way
+                way.links.append(way.end)
+                way.end = above.parent if _is_reversible(above.joint) else WORLD
+        return None
+
+    def _reverse(self, way: _Way) -> None:
+        """Let what the way leads to hang from where it begins."""
+        joints = [self._above.pop(link) for link in way.links]
+        for link, above in zip(way.links, joints, strict=True):
+            self.turned ^= {above.joint.name}
+            self._above[above.parent] = _Above(above.joint, link)
+
+    def _find(self, name: str) -> str:
+        group = self._group
+        while group[name] != name:
+            group[name] = name = group[group[name]]
+        return name
+
+
+def _is_reversible(joint: Joint) -> bool:
+    return joint.type in REVERSIBLE and not measures_in_sensor(joint)
 
 
 class BuildTree(ToUrdfPass):
@@ -107,10 +215,40 @@ def _hang(model: Model, roots: list[Link], first: str, keeper: UrdfKeeper) -> Mo
     joints = list(model.joints)
     kind = "fixed" if model.static else "floating"
     for link in roots:
-        name = unique_name(f"{link.name}_{kind}_joint", taken)
-        taken.add(name)
+        name = reserve_name(f"{link.name}_{kind}_joint", taken)
         made = Joint(name=name, type=kind, parent=first, child=link.name, source=link.source)
         joints.append(annotate_synthesized(made))
         message = f"link {link.name!r} is attached by a {kind} joint to {first!r}"
         keeper.sink.account(Fate.APPROXIMATED, rules.HUNG_ROOT, message, link.location, 0)
     return model.copy(joints=tuple(joints))
+
+
+def cut_joints(
+    model: Model, kept: Sequence[Joint], cut: Sequence[Joint], parent_joint: Mapping[str, Joint], keeper: UrdfKeeper
+) -> Model:
+    """The model with only the joints that are kept, and each of the others in a `<gazebo>` element.
+
+    `parent_joint` has the joint of the tree that holds a link: the pose of what is cut is in the frame that this link
+    has in URDF. Poses relative to a joint that is cut become relative to the model.
+    """
+    graph = FrameGraph(model)
+    extensions = list(model.extensions)
+    for joint in cut:
+        child = joint.child or ""
+        base, kind = keeper.frame_of(child, parent_joint.get(child))
+        placed = graph.pose(joint.name, base, kind="joint", base=kind)
+        # libsdformat copies what stands in <gazebo> of the robot into the model, so Gazebo still
+        # closes the loop.
+        blob = to_element(joint.copy(pose=placed.to_pose()), "joint", "sdf")
+        extensions.append(GazeboExtension(content=(blob,), source=joint.source))
+    model = model.copy(joints=tuple(kept), extensions=tuple(extensions))
+    names = frozenset(joint.name for joint in cut)
+    return rewrite(model, Pose, partial(_without_cut, graph, names))
+
+
+def _without_cut(graph: FrameGraph, names: frozenset[str], pose: Pose) -> Pose:
+    """A pose relative to a joint that was cut, in the frame of the model: either of its links may be posed by it."""
+    joint = pose.relative_to
+    if joint not in names:
+        return pose
+    return graph.pose(joint, MODEL, kind="joint", base="model").compose(Transform.from_pose(pose)).to_pose(MODEL)

@@ -6,7 +6,7 @@ from twinform.diagnostics import rules
 from twinform.ir import Axis, Format, Joint, Model
 from twinform.ir.defaults import AXIS, direction, filled
 from twinform.ir.frames import MODEL, FrameGraph
-from twinform.passes.carriers.joint_words import OLD_NAME
+from twinform.passes.carriers.annotations import OLD_NAME
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 
 _AXES = {

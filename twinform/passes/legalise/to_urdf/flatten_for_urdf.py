@@ -11,7 +11,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, to_element
 from twinform.passes.legalise.changed_names import Names, renamed, with_old_names
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.flattening import differing_rests, flatten, settle_links, with_static_models_fixed
-from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.nodes import reserve_name
 from twinform.passes.shared.pose_notation import NESTED, POSE, pose_attributes
 
 
@@ -75,8 +75,7 @@ def _legal_names(model: Model) -> Names:
             if SCOPE in node.name:
                 # libsdformat refuses `::` in a URDF (it writes SDF of a version where that is a
                 # scope).
-                name = names[part, node.name] = unique_name(node.name.replace(SCOPE, "__"), taken)
-                taken.add(name)
+                names[part, node.name] = reserve_name(node.name.replace(SCOPE, "__"), taken)
     return names
 
 

@@ -7,7 +7,7 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import Fate, rules
 from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node
 from twinform.ir.defaults import UNLIMITED, multiplier
-from twinform.passes.carriers.joint_words import CONTINUOUS, MIMIC
+from twinform.passes.carriers.annotations import CONTINUOUS, MIMIC
 from twinform.passes.legalise.to_urdf.remainder import urdf_row
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper, UrdfVersion
 from twinform.passes.legalise.urdf_pieces import BALLS

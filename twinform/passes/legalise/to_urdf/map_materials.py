@@ -4,13 +4,19 @@ from typing import ClassVar
 
 from twinform.diagnostics import Fate, rules
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual
-from twinform.passes.carriers.material_annotations import COLORS, SCRIPTS, material_name
+from twinform.passes.legalise.material_annotations import (
+    COLORS,
+    SCRIPTS,
+    material_name,
+    seen_by_gazebo,
+    urdf_color,
+    with_alpha,
+)
+from twinform.passes.legalise.to_urdf.map_geometry import urdf_uri
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.legalise.to_urdf.urdf_uris import urdf_uri
 from twinform.passes.shared.document_uris import TEXTURE_SCHEME
 from twinform.passes.shared.gazebo_tags import SCRIPT_URI
-from twinform.passes.shared.nodes import unique_name
-from twinform.passes.shared.urdf_color import seen_by_gazebo, urdf_color, with_alpha
+from twinform.passes.shared.nodes import reserve_name
 from twinform.schemas import format_value
 
 
@@ -57,8 +63,7 @@ def _map_visual(visual: Visual, link: Link, names: set[str], keeper: UrdfKeeper)
     if not update:
         return visual
     _note_gazebo(visual, material, keeper)
-    update["name"] = unique_name(material_name(link, visual), names)
-    names.add(str(update["name"]))
+    update["name"] = reserve_name(material_name(link, visual), names)
     return visual.copy(material=material.copy(**update))
 
 

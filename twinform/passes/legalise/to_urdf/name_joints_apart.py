@@ -5,8 +5,8 @@ from typing import ClassVar
 from twinform.diagnostics import rules
 from twinform.ir import Format, Joint, Model
 from twinform.passes.legalise.changed_names import Names, renamed, with_old_name
-from twinform.passes.legalise.to_sdf.unique_names import free_name
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.shared.nodes import reserve_name
 
 
 class NameJointsApart(ToUrdfPass):
@@ -29,7 +29,7 @@ class NameJointsApart(ToUrdfPass):
         taken = links | {joint.name for joint in model.joints}
         # Model.cc (Load) renames the joint of an SDF file before 1.7 in the same way, so the URDF has the
         # name that Gazebo has for the joint of the source.
-        new = {name: free_name(f"{name}_joint", taken) for name in clashes}
+        new = {name: reserve_name(f"{name}_joint", taken) for name in clashes}
         names: Names = {("joint", old): made for old, made in new.items()}
         joints = tuple(self._rename_joint(joint, new, keeper) if joint.name in new else joint for joint in model.joints)
         return renamed(model.copy(joints=joints), names, Format.URDF)

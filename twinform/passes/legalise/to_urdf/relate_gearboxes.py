@@ -6,7 +6,7 @@ from twinform.diagnostics import Fate, Severity, rules
 from twinform.ir import Axis, Joint, Mimic, Model, count_parts
 from twinform.ir.frames import FrameGraph
 from twinform.passes.carriers.annotations import with_annotation
-from twinform.passes.legalise.to_urdf.cut_joints import cut_joints
+from twinform.passes.legalise.to_urdf.build_tree import cut_joints
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.gearboxes import GEARED, Relation, UngearedError, relation
 

@@ -9,9 +9,8 @@ from twinform.ir import Format, Inertial, Model
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid
 from twinform.passes.carriers.annotations import without_annotation
-from twinform.passes.carriers.shared_inertia import SHARED, without_share
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.shared_inertias import shared_inertias
+from twinform.passes.legalise.shared_inertias import SHARED, shared_inertias, without_share
 from twinform.passes.structure.combined_bodies import body_of
 
 _CLOSE = 1e-9

@@ -9,8 +9,8 @@ from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Color, Element, Link, Material, Model, Opaque, Visual, replace_fields
 from twinform.passes.carriers.annotations import find_annotation, is_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
-from twinform.passes.carriers.material_annotations import MATERIAL, SHARED_MATERIAL
 from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.material_annotations import MATERIAL, SHARED_MATERIAL
 from twinform.schemas import Context, element_xml, reader, table
 
 Look = tuple[Color | None, str | None]

@@ -4,8 +4,7 @@ from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Collision, Format, Inertia, Inertial, Link, Model, Visual, replace_fields
-from twinform.passes.carriers.annotations import find_annotation, without_annotation
-from twinform.passes.carriers.provenance import came_from
+from twinform.passes.carriers.annotations import came_from, find_annotation, without_annotation
 from twinform.passes.carriers.token_mass import MOMENTS, has_token_inertia, has_token_mass, is_token
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import NAME

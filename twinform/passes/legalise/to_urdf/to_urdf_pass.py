@@ -5,12 +5,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Literal, TypeVar
 
-from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule
+from twinform.diagnostics import DiagnosticSink, Location, Rule
 from twinform.ir import Document, Format, Joint, Model, Node, Opaque, replace_fields
 from twinform.ir.frames import FrameError, Kind
-from twinform.passes.carriers.annotations import with_annotation
-from twinform.passes.carriers.carriers import Attributes, carry
-from twinform.passes.carriers.provenance import came_from
+from twinform.passes.carriers.annotations import came_from, with_annotation
+from twinform.passes.carriers.carriers import Attributes, Keeper, carry
 from twinform.passes.framework.pass_base import Pass
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -18,11 +17,12 @@ UrdfVersion = Literal["1.0", "1.1", "1.2"]
 
 
 @dataclass(frozen=True, slots=True)
-class UrdfKeeper:
-    """Where the parts go in one run. A model that came from URDF goes back there: how SDF wrote it need not travel."""
+class UrdfKeeper(Keeper):
+    """Carries or annotates the parts that URDF cannot express, and enters them into the ledger.
 
-    sink: DiagnosticSink
-    carriers: bool
+    `back` is for a model that came from URDF, where nothing needs to remember the notation of SDF.
+    """
+
     back: bool = False
 
     def keep(
@@ -45,10 +45,6 @@ class UrdfKeeper:
         total = sum(piece.weight for piece in listed) if weight is None else weight
         self.account(rule, message, location, total)
         return carry(node, listed, "sdf", about) if self.carriers else node
-
-    def account(self, rule: Rule, message: str, location: Location, weight: int) -> None:
-        """An entry in the ledger for what annotations keep."""
-        self.sink.account(Fate.CARRIED if self.carriers else Fate.DROPPED, rule, message, location, weight)
 
     def annotate(
         self,

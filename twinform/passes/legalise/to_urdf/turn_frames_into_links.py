@@ -7,7 +7,7 @@ from twinform.ir import Frame, Joint, Link, Model, Pose, count_parts
 from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.carriers.annotations import SYNTHESIZED, annotate_synthesized, is_synthesized, without_annotation
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.nodes import reserve_name
 from twinform.passes.shared.pose_notation import FRAME, POSE, pose_attributes
 
 
@@ -27,14 +27,12 @@ class TurnFramesIntoLinks(ToUrdfPass):
             return model
         taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
         if not model.links:
-            model = model.copy(links=(annotate_synthesized(Link(name=unique_name(model.name, taken))),))
-            taken.add(model.links[0].name)
+            model = model.copy(links=(annotate_synthesized(Link(name=reserve_name(model.name, taken))),))
         graph = FrameGraph(model)
         links, joints = list(model.links), list(model.joints)
         floating = {joint.name for joint in model.joints if joint.type == "floating"} if keeper.carriers else set[str]()
         for frame in model.frames:
-            joint = unique_name(f"{frame.name}_joint", taken)
-            taken.add(joint)
+            joint = reserve_name(f"{frame.name}_joint", taken)
             body = graph.body(frame.name, kind="frame")
             links.append(_link(frame, body, keeper))
             # a synthesized one stands for a nested model, and PlaceFreeLinks writes that of a floating joint as a frame

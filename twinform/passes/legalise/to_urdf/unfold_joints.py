@@ -1,20 +1,85 @@
 """Unfolding multi-axis and coupled SDF joints into chains of URDF joints."""
 
+import math
 from functools import partial
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 from twinform.diagnostics import Fate, rules
-from twinform.ir import Axis, Joint, Link, Model, Opaque, Pose, count_parts
+from twinform.ir import Axis, Dynamics, Format, Joint, JointType, Limit, Link, Mimic, Model, Opaque, Pose, count_parts
+from twinform.ir.defaults import AXIS, UNLIMITED
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.carriers import carry, is_carrier, to_element, unpack
-from twinform.passes.carriers.chain_carriers import split_axes
-from twinform.passes.carriers.joint_chains import CHAIN, CHAINS, PART, PITCHES, TWO_AXES, metres_per_radian
+from twinform.passes.carriers.joint_chains import (
+    BALL_AXES,
+    CHAIN,
+    CHAINS,
+    PART,
+    PITCHES,
+    TWO_AXES,
+    metres_per_radian,
+    split_axes,
+)
 from twinform.passes.carriers.token_mass import CHAIN_MASS, CHAIN_TOKEN
-from twinform.passes.legalise.to_urdf.joint_steps import ChainStep, ball, screw, two_axes
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.urdf_pieces import BALLS
-from twinform.passes.shared.nodes import text_piece, unique_name
+from twinform.passes.shared.nodes import reserve_name, text_piece
 from twinform.schemas import format_value
+
+_Z = Axis.unchecked(xyz=AXIS[Format.SDF])
+
+
+class ChainStep(NamedTuple):
+    """One joint of a chain."""
+
+    type: JointType
+    axis: Axis
+
+
+def two_axes(joint: Joint) -> tuple[ChainStep, ...]:
+    """A universal or revolute2 joint: it turns about `axis`, which the parent holds, then about `axis2` of the child.
+
+    A turn about an axis leaves the axis where it is, so `axis2` has one direction in the link between and in the child.
+    """
+    return (ChainStep("revolute", joint.axis or _Z), ChainStep("revolute", joint.axis2 or _Z))
+
+
+def ball(joint: Joint) -> tuple[ChainStep, ...]:
+    """A ball joint as turns about z, y and x: together Rz Ry Rx, the orientation that URDF writes as yaw, pitch, roll.
+
+    Damping acts on the angular velocity of a ball joint, and here on the three rates, which are its parts while the
+    angles are small.
+    """
+    written = joint.axis.dynamics if joint.axis else None
+    damped = None
+    if written is not None and (written.damping is not None or written.friction is not None):
+        damped = Dynamics(damping=written.damping, friction=written.friction)
+    return tuple(ChainStep("revolute", Axis(xyz=xyz, dynamics=damped)) for xyz in BALL_AXES)
+
+
+def screw(joint: Joint) -> tuple[ChainStep, ...]:
+    """A screw joint: it slides along its axis by `metres_per_radian` times the angle that it turns about it."""
+    # SDF does not say whether the limits of a screw joint are angles or lengths. Drake and DART count
+    # the angle, so the turning joint leads and has the limits in rad; the sliding one has them times
+    # the pitch.
+    axis = joint.axis or _Z
+    ratio = metres_per_radian(joint) or 0.0
+    slide = Axis(xyz=axis.xyz, limit=_slide_limit(axis.limit, ratio), mimic=Mimic(joint=joint.name, multiplier=ratio))
+    return (ChainStep("prismatic", slide), ChainStep("revolute", axis))
+
+
+def _slide_limit(limit: Limit | None, ratio: float) -> Limit:
+    """Limits that the turn keeps already: its own, times the ratio."""
+    values = limit or Limit()
+    ends = sorted((_scaled(values.lower, -UNLIMITED, ratio), _scaled(values.upper, UNLIMITED, ratio)))
+    speed = values.velocity if values.velocity is not None and values.velocity >= 0 else UNLIMITED
+    return Limit(lower=ends[0], upper=ends[1], effort=UNLIMITED, velocity=min(UNLIMITED, speed * abs(ratio)))
+
+
+def _scaled(value: float | None, unbounded: float, ratio: float) -> float:
+    if value is None or not abs(value) < UNLIMITED:
+        return math.copysign(UNLIMITED, unbounded * ratio)
+    return value * ratio + 0.0
+
 
 _STEPS = {"universal": two_axes, "revolute2": two_axes, "ball": ball, "screw": screw}
 _WORDS = {
@@ -71,19 +136,13 @@ def _unfold(joint: Joint, taken: set[str], keeper: UrdfKeeper) -> tuple[tuple[Li
     joints: list[Joint] = []
     parent = joint.parent
     for word, step in zip(CHAINS[joint.type], above, strict=True):
-        name = _free_name(f"{joint.name}_{word}", taken)
-        link = _free_name(f"{name}_link", taken)
+        name = reserve_name(f"{joint.name}_{word}", taken)
+        link = reserve_name(f"{name}_link", taken)
         made = Joint(name=name, type=step.type, parent=parent, child=link, axis=step.axis, source=joint.source)
         joints.append(_part(made.copy(opaque=parts_of_first), joint, keeper))
         links.append(_between(link, joint, keeper))
         parent, parts_of_first = link, ()
     return tuple(links), [*joints, _make_last_joint(kept, parent, last, opaque, keeper)]
-
-
-def _free_name(name: str, taken: set[str]) -> str:
-    made = unique_name(name, taken)
-    taken.add(made)
-    return made
 
 
 def _part(made: Joint, joint: Joint, keeper: UrdfKeeper) -> Joint:
@@ -117,14 +176,13 @@ def _account(joint: Joint, keeper: UrdfKeeper) -> Joint:
         f"{joint.type} joint {joint.name!r} becomes {_WORDS[joint.type]} in URDF and links of {CHAIN_MASS:g} kg between"
     )
     keeper.sink.report(rules.UNFOLDED_JOINT, message, joint.location.at("@type"), found=joint.type)
-    fate = Fate.CARRIED if keeper.carriers else Fate.DROPPED
-    account = partial(keeper.sink.account, rule=rules.UNFOLDED_JOINT, location=joint.location)
-    account(fate, message=f"joint {joint.name!r} has the type {joint.type}", weight=1)
+    keeper.account(rules.UNFOLDED_JOINT, f"joint {joint.name!r} has the type {joint.type}", joint.location)
+    note = partial(keeper.sink.account, Fate.APPROXIMATED, rules.UNFOLDED_JOINT, location=joint.location, weight=0)
     links = f"{between} link{'' if between == 1 else 's'} between"
-    account(Fate.APPROXIMATED, message=f"{links} the joints of {joint.name!r}, of {CHAIN_MASS:g} kg", weight=0)
+    note(message=f"{links} the joints of {joint.name!r}, of {CHAIN_MASS:g} kg")
     if joint.type == "ball":
         lock = f"where the second of the three joints of {joint.name!r} is at 90 deg, the others turn about one axis"
-        account(Fate.APPROXIMATED, message=lock, weight=0)
+        note(message=lock)
         return _keep_axis(joint, keeper)
     if joint.type == "screw" and keeper.carriers:  # their number is the multiplier of the mimic; this is its spelling
         written = {name: getattr(joint, name) for name in PITCHES}

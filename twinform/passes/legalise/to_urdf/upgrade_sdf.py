@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
-from twinform.passes.carriers.provenance import with_mixed_words
+from twinform.passes.carriers.annotations import with_mixed_words
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.sdf_versions import raise_words
 
