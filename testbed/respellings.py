@@ -13,7 +13,7 @@ from lxml import etree
 from testbed.value_mutants import Described, Spot, described, is_number, spots, text_of, tree_of
 from twinform.compiler import CompileError
 from twinform.compiler.compare import diff
-from twinform.compiler.input.loading import declared_version
+from twinform.compiler.input.front_ends import declared_version
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Pose
 from twinform.ir.transform import Transform

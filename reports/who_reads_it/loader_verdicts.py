@@ -12,8 +12,8 @@ from lxml import etree
 from testbed.engines.readers import LOADERS, Kept, Loader, Reading, Verdict
 from testbed.engines.readers.recalled import Recalled
 from testbed.output_files import OUT
+from twinform.compiler.advising import assess_file
 from twinform.compiler.input.load_options import LoadOptions
-from twinform.compiler.profiling import assess_file
 from twinform.profiles import Assessment, Effect, Judgment, names, parse
 from twinform.schemas import XmlElement
 

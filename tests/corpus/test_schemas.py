@@ -12,7 +12,8 @@ import twinform
 from testbed.corpus.files import CorpusFile
 from tests.corpus.portions import chunks
 from tests.profile import DEEP
-from twinform.compiler.input.loading import declared_version, read_tree
+from twinform.compiler.input.front_ends import declared_version
+from twinform.compiler.input.loading import read_tree
 from twinform.compiler.input.parsing import UnreadableError
 from twinform.diagnostics import DiagnosticSink, Rule, rules
 from twinform.schemas import Version, XmlElement, table, xmlschema_errors

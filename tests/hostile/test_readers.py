@@ -25,7 +25,7 @@ OTHERS = {
     "compiler/batch/recording.py": "opens a manifest by its own class, and copies results",
     "compiler/batch/task.py": "the modules of the package",
     "compiler/gazebo_files.py": DATA,
-    "compiler/includes/model_config.py": "calls `read_bytes` of `compiler/input/parsing.py`",
+    "compiler/model_config.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/loading.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/xacro/expansion.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/xacro/worker/channel.py": NOWHERE,

@@ -8,8 +8,8 @@ import pytest
 
 from testbed.engines.readers import LOADERS, Loader
 from tests.profile import DEEP
+from twinform.compiler.advising import assess_file
 from twinform.compiler.input.load_options import LoadOptions
-from twinform.compiler.profiling import assess_file
 from twinform.profiles import Assessment, Effect, parse
 
 _INERTIAL = '<inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'

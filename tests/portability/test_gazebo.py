@@ -8,8 +8,8 @@ import pytest
 
 import twinform
 from testbed.engines import gazebo
+from twinform.compiler.advising import assess_file
 from twinform.compiler.input.load_options import LoadOptions
-from twinform.compiler.profiling import assess_file
 from twinform.profiles import Assessment, Effect, parse
 
 _PROFILE = "gazebo@fortress"

@@ -6,7 +6,8 @@ from twinform.cli.command import FINDINGS, UNUSABLE, Command, files
 from twinform.cli.inputs import file_options, inputs, load_options_of
 from twinform.cli.printing import print_report, show
 from twinform.compiler import CompileError
-from twinform.compiler.advice import REPORTERS, advise
+from twinform.compiler.advice_reporters import REPORTERS
+from twinform.compiler.advising import advise
 from twinform.compiler.input.load_options import FileOptions
 from twinform.diagnostics.reporters import FileFindings
 from twinform.profiles import Profile, UnknownProfileError, load, names, parse

@@ -102,7 +102,7 @@ class InputInstrumentation:
 
 def show_fault(error: PassError, name: str, folder: Path | None = None) -> None:
     """Print how a pass failed on the input that messages call `name`, and write a reproducer into a folder."""
-    from twinform.compiler.reproducers.reproducer_files import write_reproducer  # noqa: PLC0415 - passes seldom fail
+    from twinform.compiler.reproducers import write_reproducer  # noqa: PLC0415 - passes seldom fail
 
     print_line(f"{name}: {error}", err=True)
     try:

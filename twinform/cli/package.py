@@ -21,10 +21,8 @@ from twinform.compiler import CompileError, ConversionRequest
 from twinform.compiler.input.load_options import ReadingOptions
 from twinform.compiler.packaging.kind_names import KIND_NAMES, kinds_of
 from twinform.compiler.packaging.kinds import build
-from twinform.compiler.packaging.order import Built, Order, PackageDetails
-from twinform.compiler.packaging.package import Package
-from twinform.compiler.packaging.source_details import details_around
-from twinform.compiler.packaging.writing import OccupiedError, write_package
+from twinform.compiler.packaging.order import Built, Order, PackageDetails, details_around
+from twinform.compiler.packaging.package import OccupiedError, Package, write_package
 from twinform.compiler.request_options import RequestOptions
 from twinform.diagnostics import Diagnostic, Policy
 from twinform.passes import PassError

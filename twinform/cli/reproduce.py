@@ -10,10 +10,9 @@ from twinform.cli.command import FINDINGS, Command, Unusable
 from twinform.cli.config.trust import Outside
 from twinform.cli.printing import paint, print_line, print_text
 from twinform.compiler import LoadOptions
-from twinform.compiler.includes.other_documents import OtherDocuments
+from twinform.compiler.expand_includes import OtherDocuments
 from twinform.compiler.output.same_files import is_below
-from twinform.compiler.reproducers.reproducer import Reproducer
-from twinform.compiler.reproducers.reproducer_files import read_reproducer
+from twinform.compiler.reproducers import Reproducer, read_reproducer
 from twinform.compiler.search.resolve_uris import LocalAssets, SearchPath
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.reporters import FileFindings, concise

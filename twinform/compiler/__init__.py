@@ -10,13 +10,13 @@ if TYPE_CHECKING:
     from twinform.compiler.conversion_error import CompileError, ReadOnlyPassError
     from twinform.compiler.driver import convert, plan, run_conversion
     from twinform.compiler.dumping import dump, dumps
-    from twinform.compiler.includes.expanding import expand
+    from twinform.compiler.expand_includes import expand
     from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, load, loads, read
     from twinform.compiler.inspection import inspect
     from twinform.compiler.request import ConversionRequest
     from twinform.compiler.request_options import URDF_VERSIONS, Language, UrdfVersion
     from twinform.compiler.search.resolve_uris import SearchPath, UriError
-    from twinform.compiler.splitting import SplitWorld, split
+    from twinform.compiler.split_world import SplitWorld, split
     from twinform.schemas import DEFAULT_SDF_VERSION
     from twinform.storage.writing import write_all_atomically, write_atomically
 else:
@@ -28,7 +28,7 @@ else:
             "twinform.compiler.driver": "convert plan run_conversion",
             "twinform.compiler.dumping": "dump dumps",
             "twinform.compiler.conversion_error": "CompileError ReadOnlyPassError",
-            "twinform.compiler.includes.expanding": "expand",
+            "twinform.compiler.expand_includes": "expand",
             "twinform.compiler.input.loading": "Input LoadOptions LoadResult load loads read",
             "twinform.compiler.inspection": "inspect",
             "twinform.schemas": "DEFAULT_SDF_VERSION",
@@ -36,7 +36,7 @@ else:
             "twinform.compiler.request": "ConversionRequest",
             "twinform.compiler.request_options": "URDF_VERSIONS Language UrdfVersion",
             "twinform.compiler.search.resolve_uris": "SearchPath UriError",
-            "twinform.compiler.splitting": "SplitWorld split",
+            "twinform.compiler.split_world": "SplitWorld split",
         },
     )
 

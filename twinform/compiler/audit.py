@@ -1,22 +1,31 @@
 """Conversion audit: counts what became of every element and attribute of a source, without the converter's code.
 
-It reads two trees and the ledger, and nothing of how the one was made of the other. Each part of the source gets one
-fate: that of the entry of the ledger that covers its place, if there is one; *carried* if its content stands in our
-own namespace in the result; *expressed* if it stands elsewhere in the result, or is a number of those that a change of
-frame recomputes (poses, axes and moments of inertia). What none of that holds for is *unaccounted*: a fault of ours.
+It only reads the two trees and the ledger. Each part of the source gets one fate: the fate of the ledger entry for its
+place, if there is one; *expressed* if its content is in the result, or if it is a number that a change of frame
+recomputes (poses, axes and moments of inertia); *carried* if its content is in our own namespace in the result.
+Anything else is *unaccounted*, which is a bug in the converter.
 """
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 from lxml import etree
 
-from twinform.compiler.folded_chains import Folded
 from twinform.diagnostics import Fate, Ledger, Location
+from twinform.ir.defaults import UNLIMITED
+from twinform.ir.frames import MODEL
+from twinform.passes.carriers.annotations import MIMIC, SYNTHESIZED
 from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.joint_chains import CHAIN, PART
+from twinform.passes.carriers.token_mass import TOKEN_MASS
+from twinform.passes.legalise.changed_names import NAME, SCOPED_NAME
+from twinform.passes.legalise.to_sdf.root_masses import UNSAID
+from twinform.passes.shared.gearboxes import GEARED
+from twinform.passes.shared.link_shapes import COMPUTED_MASS
 from twinform.schemas import XmlElement, path_of
+from twinform.schemas.value_types import format_number
 
 _OURS = f"{{{NAMESPACE}}}"
 # Elements and attributes whose numbers depend on the frame that they are expressed in, so that no
@@ -30,11 +39,11 @@ _IMPLIED_BY = {"frame": "fixed"}
 # Booleans that the other format writes as their opposites.
 _OPPOSITES = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
 _SYNONYMS = {"revolute": "continuous", "continuous": "revolute"}
-"""Words that may be another one in the other format: a joint that turns without an end."""
+"""Words for which the other format may have another one: a continuous joint may be a revolute one without limits."""
 _TRUTHS = {"true": "1.0", "yes": "1.0", "false": "0.0", "no": "0.0"}
 _PREDICATE = re.compile(r"\[[^]]*+\]?|\{[^}]*+\}?|(?<=[/@])[\w.-]+:")
 _Place = tuple[int, str]
-"""A line of the source, and the path of an element or attribute that begins there."""
+"""A line of the source, and the path of an element or attribute that begins on it."""
 _PUNCTUATION = str.maketrans(dict.fromkeys("/:,;", " "))
 
 
@@ -47,7 +56,7 @@ class UnaccountedPart(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Audit:
-    """How many elements and attributes met each fate; together they are the whole source."""
+    """The number of elements and attributes of each fate; together they are the whole source."""
 
     expressed: int
     carried: int
@@ -61,8 +70,8 @@ class Audit:
         return self.expressed + self.carried + self.approximated + self.dropped + len(self.unaccounted)
 
 
-class Met(NamedTuple):
-    """An element, or one attribute of it, and what became of it; no fate where it is expressed or unaccounted.
+class PartFate(NamedTuple):
+    """An element or attribute and its fate, which is None where it is expressed or unaccounted.
 
     `missing` are the words that nothing accounts for.
     """
@@ -90,8 +99,8 @@ def audit(source: XmlElement, result: str, ledger: Ledger) -> Audit:
     return Audit(count["expressed"], carried, approximated, dropped, tuple(unaccounted))
 
 
-def fates(source: XmlElement, result: str, ledger: Ledger) -> Iterator[Met]:
-    """What became of each element and attribute of `source`, from the outside in."""
+def fates(source: XmlElement, result: str, ledger: Ledger) -> Iterator[PartFate]:
+    """Yield the fate of each element and attribute of `source`, outer elements first."""
     made = etree.fromstring(result.encode())
     inside, outside = _words_of(made)
     folded = Folded.of(source, made)
@@ -99,30 +108,30 @@ def fates(source: XmlElement, result: str, ledger: Ledger) -> Iterator[Met]:
     listed, noted = _places(ledger, counted=True), _places(ledger, counted=False)
     for part, note in zip(_parts(source, listed), _parts(source, noted), strict=True):
         if part.fate is not None:
-            yield Met(part.element, part.attribute, part.fate)
+            yield PartFate(part.element, part.attribute, part.fate)
         elif (
             part.computed
             or folded.expresses(part.element, part.attribute)
-            or all(word in outside or _implied(word, outside) for word in part.words)
+            or all(word in outside or _is_implied(word, outside) for word in part.words)
         ):
-            yield Met(part.element, part.attribute, None)
+            yield PartFate(part.element, part.attribute, None)
         elif part.words <= inside | outside:
-            yield Met(part.element, part.attribute, Fate.CARRIED)
+            yield PartFate(part.element, part.attribute, Fate.CARRIED)
         elif note.fate is not None:
-            yield Met(part.element, part.attribute, note.fate)
+            yield PartFate(part.element, part.attribute, note.fate)
         else:
-            yield Met(part.element, part.attribute, None, tuple(sorted(part.words - inside - outside)))
+            yield PartFate(part.element, part.attribute, None, tuple(sorted(part.words - inside - outside)))
 
 
 def _places(ledger: Ledger, *, counted: bool) -> dict[_Place, Fate]:
-    """The fates by the places of entries; one that counts no part is about its place only where nothing has that."""
+    """Return the fates of the ledger's entries by place: either of those that count parts, or of the other ones."""
     entries = (entry for entry in reversed(ledger.entries) if bool(entry.weight) is counted)
     return {(entry.location.line, bare_path(entry.location.path)): entry.fate for entry in entries}
 
 
 @dataclass(frozen=True, slots=True)
 class _Piece:
-    """An element or attribute of the source: the words in it, and the fate that the ledger has for its place."""
+    """An element or attribute of the source with its words, and the fate that the ledger has for its place."""
 
     element: XmlElement
     attribute: str | None
@@ -137,9 +146,9 @@ class _Piece:
 
 
 def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
-    """All elements and attributes, from the outside in; what covers an element covers all that is in it.
+    """Yield all elements and attributes, outer elements first; the fate of an element is also that of its content.
 
-    An entry may say the line of the element or of one around it, where the converter knows no better.
+    An entry may have the line of the element or of one around it, where the converter does not know better.
     """
     stack: list[tuple[XmlElement, Fate | None, str, tuple[int, ...]]] = [(root, None, "", ())]
     while stack:
@@ -167,7 +176,7 @@ def _fate_at(path: str, lines: tuple[int, ...], fates: dict[_Place, Fate]) -> Fa
 
 
 def bare_path(path: str) -> str:
-    """A path without what tells one element from its like; the line of the part does that."""
+    """Return a path without predicates and prefixes; the line of a part tells elements of one path apart."""
     return _PREDICATE.sub("", path)
 
 
@@ -176,7 +185,7 @@ def _local(name: str) -> str:
 
 
 def _words_of(result: XmlElement) -> tuple[frozenset[str], frozenset[str]]:
-    """The values of the result in our own namespace, and those outside of it."""
+    """Return the words of the result in our own namespace, and those outside of it."""
     inside: set[str] = set()
     outside: set[str] = set()
     stack = [(result, outside)]
@@ -195,9 +204,9 @@ def _words_of(result: XmlElement) -> tuple[frozenset[str], frozenset[str]]:
 
 
 def _words(text: str) -> Iterable[str]:
-    """The words of a text, numbers in one spelling, paths and scoped names in their pieces.
+    """Split a text into words, with numbers in one spelling, and paths and scoped names in pieces.
 
-    The scheme of a URI does not count: both formats have their own for the same folder.
+    The scheme of a URI does not count: each format has its own for the same folder.
     """
     return map(_spelt, _SCHEME.sub("", text).translate(_PUNCTUATION).split())
 
@@ -211,8 +220,8 @@ def _spelt(word: str) -> str:
         return word
 
 
-def _implied(word: str, words: frozenset[str]) -> bool:
-    """Whether another word stands for it, or it is the name synthesized for a shape of a link, or for its material."""
+def _is_implied(word: str, words: frozenset[str]) -> bool:
+    """Whether a word has a synonym in the result, or is a name that was synthesized for a shape or its material."""
     if _SYNONYMS.get(word) in words:
         return True
     name = _SHAPE_NAME.fullmatch(word)
@@ -220,7 +229,7 @@ def _implied(word: str, words: frozenset[str]) -> bool:
 
 
 def _is_synthesized_material(word: str, words: frozenset[str]) -> bool:
-    """Whether it is LINK_VISUAL_material of a link and a visual that are there."""
+    """Whether a word is LINK_VISUAL_material, for a link and a visual in the result."""
     made = _MATERIAL.fullmatch(word)
     pairs = re.finditer("_", made[1]) if made else ()
     return any({pair.string[: pair.start()], pair.string[pair.end() :]} <= words for pair in pairs)
@@ -232,3 +241,112 @@ def _is_number(word: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+_CHAIN, _PART, _MADE, _GEARED, _URDF = (f"{_OURS}{word}" for word in (CHAIN, PART, SYNTHESIZED, GEARED, "urdf"))
+_OLD_NAMES = tuple(f"{_OURS}{word}" for word in (NAME, SCOPED_NAME))
+_UNSAID = f"{_OURS}{UNSAID}"
+_MIMIC = f"{_OURS}{MIMIC}"
+_COMPUTED_MASS = f"{_OURS}{COMPUTED_MASS}"
+# The mass in SDF of a link that has none in URDF.
+_TOKEN_MASS = format_number(TOKEN_MASS)
+_NAMED = ("link", "joint", "frame", "model", "visual", "collision")
+
+
+@dataclass(frozen=True, slots=True)
+class Folded:
+    """What a reverse conversion writes differently, because annotations tell what a part was made from.
+
+    `there` has the tag, name and type of each part of the result, and `named` its tag and name. `parts` are the names
+    of parts that are gone from it, `followers` its joints with a mimic, and `ends` the joints that chains became.
+    """
+
+    there: frozenset[tuple[str, str, str]] = frozenset()
+    named: frozenset[tuple[str, str]] = frozenset()
+    parts: frozenset[str] = frozenset()
+    followers: frozenset[str] = frozenset()
+    ends: frozenset[str] = frozenset()
+
+    @classmethod
+    def of(cls, source: XmlElement, result: XmlElement) -> Self:
+        """Find the differences that arise because `result` folds chains of joints in `source` back into one joint."""
+        found = [each for tag in _NAMED for each in result.iter(tag)]
+        there = frozenset((str(each.tag), each.get("name", ""), each.get("type", "")) for each in found)
+        named = frozenset((tag, name) for tag, name, _ in there)
+        followers = frozenset(each.get("name", "") for each in found if next(each.iter("mimic"), None) is not None)
+        chains = ((annotation.getparent(), annotation.get("type", "")) for annotation in source.iter(_CHAIN))
+        ends = frozenset(
+            name for end, kind in chains if end is not None and ("joint", name := end.get("name", ""), kind) in there
+        )
+        folded = cls(there, named, frozenset(), followers, ends)
+        annotations = [annotation.getparent() for word in (_PART, _MADE) for annotation in source.iter(word)]
+        gone = {each.get("name", "") for each in annotations if each is not None and folded.is_gone(each)}
+        return cls(there, named, frozenset(gone | set(_synthesized_names(source, result, named))), followers, ends)
+
+    def expresses(self, element: XmlElement, attribute: str | None) -> bool:
+        """Whether the result expresses a part of the source in another way, such as by one joint for several."""
+        if attribute == "type" and element.tag == "joint":
+            return self._is_end(element)
+        if _is_synthesized_number(element, attribute) or any(map(self.is_gone, (element, *element.iterancestors()))):
+            return True
+        holder = element.getparent()
+        return element.tag == "mimic" and holder is not None and self._is_geared(holder)
+
+    def is_gone(self, element: XmlElement) -> bool:
+        """Whether an element was synthesized by a conversion and left out by the reverse one."""
+        if (str(element.tag), element.get("name", "")) in self.named:
+            return False
+        part = element.find(_PART)
+        return element.find(_MADE) is not None if part is None else part.get("joint", "") in self.ends
+
+    def _is_end(self, joint: XmlElement) -> bool:
+        """Whether a joint has the type in the result that its annotation names."""
+        kinds = [annotation.get("type") for annotation in joint.findall(_CHAIN)]
+        kinds += [
+            annotation.get("value") for annotation in joint.findall(_URDF) if annotation.get("attribute") == "type"
+        ]
+        if not kinds:
+            return any(map(self.is_gone, (joint, *joint.iterancestors())))
+        return any(("joint", joint.get("name", ""), kind) in self.there for kind in kinds)
+
+    def _is_geared(self, joint: XmlElement) -> bool:
+        """Whether a joint mimicked because of a gearbox, and the result has the gearbox instead."""
+        has_gearbox = any(kind == "gearbox" for _, _, kind in self.there)
+        return joint.find(_GEARED) is not None and has_gearbox and joint.get("name", "") not in self.followers
+
+
+def _synthesized_names(source: XmlElement, result: XmlElement, named: Collection[tuple[str, str]]) -> Iterator[str]:
+    """Yield the names that a conversion gave to parts that have their old names again."""
+    roots = {(str(result.tag), result.get("name", ""))}
+    for annotation in (each for word in _OLD_NAMES for each in source.iter(word)):
+        holder, old = annotation.getparent(), annotation.get("was") or (annotation.text or "").strip()
+        tag = "" if holder is None else "robot" if holder.tag == "model" else str(holder.tag)
+        if (tag, old) in roots or _is_there(tag, old, named):
+            yield annotation.get("instead_of", "")
+
+
+def _is_there(tag: str, old: str, named: Collection[tuple[str, str]]) -> bool:
+    """Whether an old name is in the result; a link of URDF may have stood for a frame or a model."""
+    inner = old.removesuffix(f"::{MODEL}").rpartition("::")[2]
+    return any((kind, name) in named for kind in (tag, "frame", "model") for name in (old, inner))
+
+
+def _is_synthesized_number(element: XmlElement, attribute: str | None) -> bool:
+    """Whether a number was synthesized: a computed or token mass, the offset of a mimic, or a limit that means none."""
+    holder = element.getparent()
+    if holder is None:
+        return False
+    if element.tag == "mass":
+        is_token = holder.find(_UNSAID) is not None and (element.text or "").strip() == _TOKEN_MASS
+        return is_token or holder.find(_COMPUTED_MASS) is not None
+    if element.tag == "mimic":
+        return attribute == "offset" and holder.find(_MIMIC) is not None
+    return element.tag == "limit" and attribute is not None and _is_no_limit(element.get(attribute, ""))
+
+
+def _is_no_limit(number: str) -> bool:
+    """Whether a limit of URDF is so large that it means none, which SDF need not write."""
+    try:
+        return abs(float(number)) >= UNLIMITED
+    except ValueError:
+        return False

@@ -1,4 +1,4 @@
-"""`check`: read a file, report everything that is wrong with it, and run read-only passes."""
+"""`check`: reads a file, reports everything that is wrong with it, and runs read-only passes."""
 
 from typing import TYPE_CHECKING, Unpack
 
@@ -39,7 +39,7 @@ def check(
         passes = parse_pipeline(passes)
     loaded = read(source, load_options, name=name)
     if options.get("expand_includes"):
-        from twinform.compiler.includes.expanding import expand  # noqa: PLC0415 - most checks read one file
+        from twinform.compiler.expand_includes import expand  # noqa: PLC0415 - most checks read one file
 
         loaded = expand(loaded, load_options)
     return inspect(loaded, load_options, passes)

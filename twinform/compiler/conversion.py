@@ -49,11 +49,11 @@ class Conversion:
 
     @cached_property
     def source(self) -> XmlElement | None:
-        """The XML that it was made from, for those who count: `twinform.compiler.audit`. A file is parsed once more."""
+        """The XML that it was made from, for `twinform.compiler.audit`; a file is parsed once more."""
         return read_tree_again(self.origin) if isinstance(self.origin, bytes) else self.origin
 
     def _repr_html_(self) -> str:
-        """What a notebook shows of it."""
+        """Return what a notebook shows."""
         return draw("Conversion", self)
 
 
@@ -65,7 +65,7 @@ def convert_once(
     name: str = "",
     instrumentation: PassInstrumentation | None = None,
 ) -> Conversion:
-    """A conversion with the passes of the request, whoever the result is for.
+    """Convert a source with the passes of the request, and no others for consumers.
 
     Raises:
         CompileError: the source, a pass or the result has an error.
@@ -81,7 +81,7 @@ def convert_once(
         # without opening any of them. URDF has none, so there those of the chosen model are
         # expanded, and no others.
         if loaded.accepted and (request.expand_includes or request.to == "urdf" or request.model is not None):
-            from twinform.compiler.includes.expanding import expand  # noqa: PLC0415 - most conversions need no includes
+            from twinform.compiler.expand_includes import expand  # noqa: PLC0415 - most conversions need no includes
 
             wanted = None if request.expand_includes else _includes_to_expand(loaded.document, request)
             before = loaded.document
@@ -91,7 +91,7 @@ def convert_once(
         if loaded.document is None or not (loaded.accepted or _may_be_fixed(loaded, request)):
             raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
         try:
-            return _run(loaded, loaded.document, request, load_options, instrumentation=instrumentation)
+            return _convert_document(loaded, loaded.document, request, load_options, instrumentation=instrumentation)
         except (PassError, LookupError, ValueError, RecursionError) as error:
             # An allowed error is left out where the file is read, and conversions go on in spite of
             # it. Where one fails, it is for that error.
@@ -103,7 +103,7 @@ def convert_once(
 
 
 def _includes_to_expand(document: Document | None, request: ConversionRequest) -> Callable[[Include], bool]:
-    """The includes that have to be put in their place; of a model that stays SDF, the one that stands for it."""
+    """Tell which includes have to be expanded: for a model that stays SDF, only the one that stands for it."""
     wanted = wanted_includes(document, request.model)
     if request.to == "urdf" or document is None:
         return wanted
@@ -112,26 +112,26 @@ def _includes_to_expand(document: Document | None, request: ConversionRequest) -
 
 
 def has_mixed_words(loaded: LoadResult) -> bool:
-    """Whether files have elements that their version does not have, or frames where those have no meaning yet."""
+    """Whether files have elements that their versions do not have, or frames where those have no meaning yet."""
     early = loaded.document is not None and has_early_frames(loaded.document)
     return loaded.mixed or bool(mixed_words(loaded)) or early
 
 
 def mixed_words(loaded: LoadResult) -> frozenset[str]:
-    """Elements and attributes in files that the versions of these do not have."""
+    """Return the names of elements and attributes in files that the versions of these files do not have."""
     found = (*loaded.diagnostics, *loaded.allowed)
     return frozenset(each.found for each in found if _is_outside_version(each) and each.found)
 
 
 def _is_outside_version(found: Diagnostic) -> bool:
-    """Whether the version of the file does not have the part; the version of SDF in an extension of URDF is open."""
+    """Whether a finding is about a part that the version does not have; `<gazebo>` in URDF has no version of SDF."""
     path = found.location.path
     return found.rule is OUTSIDE_VERSION and not (
         path.startswith("/robot") and ("/gazebo[" in path or "/gazebo/" in path)
     )
 
 
-def _run(
+def _convert_document(
     loaded: LoadResult,
     document: Document,
     request: ConversionRequest,
@@ -139,7 +139,7 @@ def _run(
     *,
     instrumentation: PassInstrumentation | None,
 ) -> Conversion:
-    """The rest of the way of a document that was read."""
+    """Run the passes on a document that was read, and write it."""
     kept = [each for each in loaded.diagnostics if not each.is_error]
     sink = DiagnosticSink(
         loaded.path,
@@ -150,11 +150,11 @@ def _run(
         allows=loaded.allowances and loaded.allowances.in_conversion,
         allowed=list(loaded.allowed),
     )
-    passes = _with_files(request, load_options, loaded.path)
+    passes = _user_passes(request, load_options, loaded.path)
     # The document is verified between the user's passes. Legalisation leaves it half in one format
     # and half in the other, so there the check comes at the end.
     changed = passes.run(document, sink, instrumentation=instrumentation, verify=verify if loaded.accepted else None)
-    changed = _remedied(changed, request, sink, instrumentation, accepted=loaded.accepted)
+    changed = _run_remedies(changed, request, sink, instrumentation, accepted=loaded.accepted)
     # A file with an error that a pass fixes: only afterwards can it be said whether it is fixed.
     if not loaded.accepted:
         verify(changed, sink)
@@ -173,7 +173,7 @@ def _run(
     return Conversion(text, document, tuple(sink.diagnostics), ledger, origin, tuple(sink.side_files))
 
 
-def _remedied(
+def _run_remedies(
     document: Document,
     request: ConversionRequest,
     sink: DiagnosticSink,
@@ -181,7 +181,7 @@ def _remedied(
     *,
     accepted: bool,
 ) -> Document:
-    """The document after the passes that consumers need; what these change in its physics is in the ledger."""
+    """Run the passes that consumers need, and put their changes of the physics into the ledger."""
     if not request.remedies:
         return document
     from twinform.profiles.physics import physics_changes  # noqa: PLC0415 - see `run_conversion`
@@ -197,11 +197,11 @@ def _remedied(
     return document
 
 
-def _with_files(request: ConversionRequest, load_options: LoadOptions, file: str) -> Pipeline:
-    """The user's passes; those that open files know where they are, and who reads them."""
+def _user_passes(request: ConversionRequest, load_options: LoadOptions, file: str) -> Pipeline:
+    """Return the user's passes with access to files for those that need it."""
     if not request.passes:
         return request.passes
-    from twinform.compiler.includes.other_documents import OtherDocuments  # noqa: PLC0415 - see `_pipeline`
+    from twinform.compiler.expand_includes import OtherDocuments  # noqa: PLC0415 - see `_pipeline`
 
     return request.passes.with_files(request.assets, OtherDocuments(load_options, file).read)
 
@@ -215,10 +215,10 @@ def written(
     kept: frozenset[str] | None,
     comments: Comments | None = None,
 ) -> tuple[Document, str]:
-    """What a document becomes, and its text, with the comments of its file.
+    """Convert a document as requested, and return it with its text, which has the comments of its file.
 
-    One that was put together from several files has elements that are `kept` although its version does not have
-    them: the files had them too. It is None where there was one file.
+    `kept` are the elements that stay although the version does not have them, because the document was put together
+    from several files that have them; it is None where there was one file.
     """
     document = request.selection(document).run(document, sink, instrumentation=instrumentation)
     if sink.has_errors:
@@ -239,7 +239,7 @@ def written(
 
 
 def _may_be_fixed(loaded: LoadResult, request: ConversionRequest) -> bool:
-    """Whether nothing is wrong but what a pass can put right: limits that are missing, and what remedies are for."""
+    """Whether passes may fix all errors of a file: missing limits, and errors that remedies are for."""
     if not (request.passes or request.remedies):
         return False
     errors = [each for each in loaded.diagnostics if each.is_error]

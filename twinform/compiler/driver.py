@@ -1,4 +1,4 @@
-"""`convert`, for one result or for the programs that read it, and `plan`, which says the passes that it runs."""
+"""`convert`, which converts a file for everybody or for certain consumers, and `plan`, which returns its passes."""
 
 from typing import Unpack
 
@@ -16,7 +16,7 @@ class ConversionOptions(CheckOptions, RequestOptions, total=False):
 
 
 def plan(source: Document, *, to: Language, **options: Unpack[RequestOptions]) -> Pipeline:
-    """Every pass that `convert` runs on this document.
+    """Return every pass that `convert` runs on a document.
 
     Raises:
         ValueError: SDF has no such version.
@@ -60,7 +60,7 @@ def run_conversion(
     name: str = "",
     instrumentation: PassInstrumentation | None = None,
 ) -> Conversion:
-    """`convert`, with all that is asked for in one place.
+    """Convert a source as `convert` does, with the options as a request.
 
     Raises:
         CompileError: the source, a pass or the result has an error, or a consumer would refuse the result.

@@ -16,7 +16,7 @@ _SUFFIXES: dict[str, Written] = {".urdf": "urdf", ".sdf": "sdf", ".world": "sdf"
 
 
 def dumps(document: Document, *, to: Written | None = None) -> str:
-    """The text of a document in its own format, or as JSON where `to` asks for it.
+    """Write a document as text in its own format, or as JSON where `to` says so.
 
     Raises:
         CompileError: its format cannot express it; what is wrong is in the diagnostics.

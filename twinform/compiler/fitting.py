@@ -1,7 +1,7 @@
-"""Conversions for consumers: finds the passes that make the result one that they take, and judges what was written.
+"""Conversions for consumers: finds the passes after which they accept the result.
 
-The result is what a consumer reads, so the result is judged: it is converted, assessed, and converted again with the
-passes that help, until no other pass does.
+A consumer reads the result, so it is the result that is judged: the source is converted, assessed, and converted again
+with the passes that help, until no other pass does.
 """
 
 from collections.abc import Iterable
@@ -55,7 +55,7 @@ def convert_for_consumers(
 def fitted(
     request: ConversionRequest, source: Input | LoadResult, load_options: LoadOptions, *, name: str = ""
 ) -> ConversionRequest:
-    """The request with the passes that help its consumers.
+    """Return the request with the passes that help its consumers.
 
     Raises:
         CompileError: a consumer does not read the target, or needs what `keep_physics` forbids.
@@ -69,10 +69,10 @@ def fitted(
     # and only under `--for`.
     for _ in range(_ROUNDS):
         request = replace(request, remedies=Pipeline(in_order(steps)), remedied=remedied)
-        found, entries = _tried(request, source, load_options, name)
+        found, entries = _try_conversion(request, source, load_options, name)
         # Not which passes run, but what they changed: many that could change the physics do not.
         if request.keep_physics:
-            _require_kept(entries)
+            _require_kept_physics(entries)
         more = [each for each in remedies(found, Format(request.to)) if each not in steps]
         if not more:
             break
@@ -81,13 +81,13 @@ def fitted(
 
 
 def newest_sdf(profiles: Iterable[Profile]) -> str | None:
-    """The newest version of SDF that all consumers read; None where none says."""
+    """Return the newest version of SDF that all consumers read; None where none of them has a limit."""
     versions = [each.sdf for each in profiles if each.sdf]
     return min(versions, key=lambda text: [int(part) for part in text.split(".")]) if versions else None
 
 
 def assessed(made: Conversion, load_options: LoadOptions, name: str) -> tuple[Assessment, ...]:
-    """What consumers make of the text of a conversion, read as they read it, at the lines of the source."""
+    """Read the text of a conversion as consumers do, and return their assessments, at the lines of the source."""
     plain = replace(load_options, profiles=(), xacro=False)
     loaded = inspect(read(made.text.encode(), plain, name=name), plain)
     found = assess(subject_of(loaded, plain), load_options.profiles)
@@ -96,7 +96,7 @@ def assessed(made: Conversion, load_options: LoadOptions, name: str) -> tuple[As
 
 
 def _at_source_lines(assessment: Assessment, document: Document, placed: dict[int, Diagnostic]) -> Assessment:
-    """The same at the lines of the source; what several consumers mind stays one finding."""
+    """Return an assessment at the lines of the source; findings that several consumers share stay one object."""
     judgments: list[Judgment] = []
     for judgment in assessment.judgments:
         finding = judgment.finding
@@ -106,10 +106,10 @@ def _at_source_lines(assessment: Assessment, document: Document, placed: dict[in
     return replace(assessment, judgments=tuple(judgments))
 
 
-def _tried(
+def _try_conversion(
     request: ConversionRequest, source: Input | LoadResult, load_options: LoadOptions, name: str
 ) -> tuple[tuple[Assessment, ...], tuple[LedgerEntry, ...]]:
-    """What consumers make of the result, and its ledger; or of the errors for which there is none yet."""
+    """Convert, and return the assessments with the ledger; or the assessments of the errors if there is no result."""
     try:
         made = convert_once(request, source, load_options, name=name)
     except CompileError as error:
@@ -123,15 +123,15 @@ def _tried(
 
 
 def _require_readers(profiles: Iterable[Profile], request: ConversionRequest, name: str) -> None:
-    """Raise where a consumer that was asked for does not read what is to be written."""
+    """Raise an error where a requested consumer does not read the format to be written."""
     format_ = None if request.to == "json" else Format(request.to)
     deaf = [unread(each, format_, name) for each in profiles if each.named and format_ not in each.formats]
     if deaf:
         raise CompileError(tuple(replace(each, severity=Severity.ERROR) for each in deaf))
 
 
-def _require_kept(entries: Iterable[LedgerEntry]) -> None:
-    """Raise where a pass has changed the physics."""
+def _require_kept_physics(entries: Iterable[LedgerEntry]) -> None:
+    """Raise an error where a pass has changed the physics."""
     changes = [(each.change, each.location) for each in entries if each.change]
     if changes:
         raise CompileError(tuple(_forbidden(change, place) for change, place in changes))

@@ -1,4 +1,4 @@
-"""Formats the bytes of a model file; what is no XML is refused with the place of the fault."""
+"""Formats the bytes of a model file, and reports why a file cannot be formatted."""
 
 from dataclasses import replace
 
@@ -9,16 +9,14 @@ from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, rules
 from twinform.text import SourceText, UndecodableError, UnplacedError
 from twinform.text.formatting import FormatOptions, format_text
 
-_REPAIRED = "not well-formed XML, repaired:"
-"""How the reader of models begins what is an error here."""
 _REPAIR = "correct it first: a formatter would have to guess what was meant"
 
 
 def formatted(data: bytes, name: str, options: FormatOptions, limits: Limits = USUAL_LIMITS) -> bytes:
-    """The bytes of a file, laid out.
+    """Return the bytes of a file, formatted.
 
     Raises:
-        CompileError: it is not well-formed XML, or beyond the limits.
+        CompileError: the file is not well-formed XML, or exceeds the limits.
     """
     sink = DiagnosticSink(name, strict=True)  # what others repair is an error here
     try:
@@ -32,7 +30,7 @@ def formatted(data: bytes, name: str, options: FormatOptions, limits: Limits = U
 
 
 def _explain(data: bytes, error: ValueError, sink: DiagnosticSink, limits: Limits) -> None:
-    """Report why a text cannot be formatted, in the words of the reader of models where it has any."""
+    """Report why a text cannot be formatted, as the parser does if it finds something."""
     try:
         parse(data, sink, limits)
     except UnreadableError:
@@ -44,6 +42,4 @@ def _explain(data: bytes, error: ValueError, sink: DiagnosticSink, limits: Limit
 
 
 def _not_repaired(diagnostic: Diagnostic) -> Diagnostic:
-    return replace(
-        diagnostic, message=diagnostic.message.replace("not well-formed XML, repaired:", "not well-formed XML:")
-    )
+    return replace(diagnostic, message=diagnostic.message.replace(", repaired:", ":", 1))

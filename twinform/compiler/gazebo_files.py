@@ -30,16 +30,15 @@ _EQUATOR = (
 
 
 def bridge_text(document: Document, release: str, sink: DiagnosticSink, world: str | None = None) -> str:
-    """The YAML file of ros_gz_bridge for a document."""
+    """Write the YAML file of ros_gz_bridge for a document."""
     return bridge_yaml(bridges(document, release, sink, world))
 
 
 def world_text(document: Document, release: str, sink: DiagnosticSink, name: str) -> str:
-    """An SDF file with a world that holds the model of a document, so that it runs by itself.
+    """Write an SDF file with a world around the model of a document, so that it runs by itself.
 
-    The model stands on the ground, if it has no pose and its collisions show how deep they reach.
-    The world has light, ground, the systems that gz-sim adds to worlds without any, and those that the sensors and
-    plugins need.
+    The model stands on the ground if it has no pose and its collisions show how deep it reaches. The world has light,
+    ground, the systems that gz-sim adds to worlds without any, and those that the sensors and plugins need.
     """
     if document.worlds or document.format is not Format.SDF or len(document.models) != 1:
         message = "a world is written around one model of SDF"
@@ -52,13 +51,13 @@ def world_text(document: Document, release: str, sink: DiagnosticSink, name: str
 
 
 def world_without_text(document: Document, release: str, sink: DiagnosticSink, name: str) -> str:
-    """An SDF file with such a world for the models of a document, URDF or SDF, which are put there by somebody else."""
+    """Write an SDF file with a world for the models of a document, URDF or SDF, without the models themselves."""
     template, world = _world(document, release, name)
     return emit(template.copy(worlds=(world,)), sink)
 
 
 def _world(document: Document, release: str, name: str) -> tuple[Document, World]:
-    """A file with a world, and the world with light, ground, and what the models of a document need."""
+    """Return an empty file, and a world with light, ground, and what the models of a document need."""
     template = loads(resources.files("twinform.compiler").joinpath("world.sdf").read_bytes())
     needed = _needed(document, release)
     world = add_systems(add_default_systems(template.worlds[0].copy(name=name)), needed.systems)
@@ -72,7 +71,7 @@ def _on_the_ground(model: Model) -> Model:
 
 
 def _needed(document: Document, release: str) -> WorldRequirements:
-    """What the world has to have for the sensors and plugins of a document."""
+    """Return what the sensors and plugins of a document need from their world."""
     kinds = [kind_of_sensor(sensor, release) for sensor, _ in sensors_of(document)]
     all_ = [requirements_of(kind) for kind in dict.fromkeys(kinds) if kind is not None]
     systems = dict.fromkeys(system for each in all_ for system in each.systems)

@@ -1,8 +1,7 @@
-"""Records which files a piece of work reads, lists or looks for, and which environment variables it asks for.
+"""Records which files a task reads, lists or looks for, and which environment variables it reads.
 
-Files are opened by our readers, by passes of others, and by readers of meshes, so nobody is asked to report them: the
-interpreter raises an audit event for every `open` and listing. There is none for `os.stat`, which answers whether
-something is there: that is wrapped.
+Files are opened by our readers, by passes of other packages, and by mesh libraries. So nothing has to report them: the
+interpreter raises an audit event for every `open` and listing. There is no event for `os.stat`, which is wrapped.
 """
 
 import hashlib
@@ -39,11 +38,11 @@ _CODE = (".py", ".pyc", ".so", ".pyd")
 
 @dataclass(slots=True)
 class Observation:
-    """What was asked for, by absolute path: files that were read, folders that were listed, whatever was looked at.
+    """The files that were read, folders that were listed, and paths that were looked at, by absolute path.
 
-    Each has its status before it was read, None where nothing is there. Files that are so `young` that their time
-    proves nothing have the digest of their content before they were read. Variables have their values. The work
-    `failed` where it did for a reason that lies in no file: it would perhaps end in another way the next time.
+    Each has its status before it was read, or None where nothing was there. Files that are so `young` that their times
+    prove nothing also have the digest of their content. Variables have their values. The task has `failed` if it did so
+    for a reason that is in no file, and may end in another way the next time.
     """
 
     read: dict[str, os.stat_result | None] = field(default_factory=dict[str, os.stat_result | None])
@@ -59,7 +58,7 @@ _CURRENT: ContextVar[Observation | None] = ContextVar("observation", default=Non
 
 @contextmanager
 def observed() -> Generator[Observation]:
-    """Record what is asked for inside, in this thread."""
+    """Record the files and variables that are used inside, in this thread."""
     _install()
     observation = Observation()
     token = _CURRENT.set(observation)
@@ -70,7 +69,7 @@ def observed() -> Generator[Observation]:
 
 
 def note_variable(name: str, value: str | None) -> None:
-    """Record that an environment variable was asked for."""
+    """Record that an environment variable was read."""
     observation = _CURRENT.get()
     if observation is not None:
         observation.variables.setdefault(name, value)
@@ -84,7 +83,7 @@ def note_failure() -> None:
 
 
 def note_look(path: str) -> None:
-    """Record that something was looked for in another way than by `os.stat`."""
+    """Record that a path was looked at in another way than by `os.stat`."""
     _note("looked_at", path, _status(path))
 
 
@@ -102,12 +101,12 @@ def is_coarse(time: int) -> bool:
 
 
 def is_young(modified: int, changed: int, now: int) -> bool:
-    """Whether a file was written so shortly before that it may be written again without a trace in its times."""
+    """Whether a file was written so recently that it may be written again without a trace in its times."""
     return modified >= now - _TICK or changed >= now - (_TICK if is_coarse(changed) else _FINE_TICK)
 
 
 def digest(content: bytes) -> str:
-    """The SHA-256 of a content."""
+    """Return the SHA-256 of a content."""
     return hashlib.sha256(content).hexdigest()
 
 
@@ -120,7 +119,7 @@ def _status(path: Any) -> os.stat_result | None:
 
 @cache
 def _install() -> None:
-    """Listen from now on; where nothing is observed, that costs next to nothing."""
+    """Listen from now on; it costs next to nothing while nothing is observed."""
     import shutil  # noqa: F401, PLC0415 # pyright: ignore[reportUnusedImport] - it looks once at what `os` can do
 
     sys.addaudithook(_hear)
@@ -141,7 +140,7 @@ def _hear(event: str, arguments: tuple[Any, ...]) -> None:
 
 
 def _is_import(event: str, path: object) -> bool:
-    """Whether it is the machinery of imports that lists a folder."""
+    """Whether a folder is listed by Python's import system."""
     return event == "os.listdir" and path in sys.path_importer_cache
 
 
@@ -187,7 +186,7 @@ def _note(what: str, path: Any, status: Any = _ASK) -> None:
 
 
 def _absolute(path: Any) -> str | None:
-    """A path from the root, otherwise as it was written; None for the number of an open file."""
+    """Return a path as an absolute one, otherwise as it was written; None for the number of an open file."""
     if path is None or isinstance(path, int):
         return None
     return os.path.join(os.getcwd(), os.fsdecode(path))  # noqa: PTH118, PTH109 - Path would change how it is written

@@ -1,8 +1,8 @@
-"""How an option of the compiler is declared: once, for Python's keywords, the command line and the configuration.
+"""Declarations of options: each is written once for Python's keywords, the command line and the configuration.
 
-`FileOptions`, `ConversionOptions` and their kind are typed dictionaries: a function takes them as keywords
+`FileOptions`, `ConversionOptions` and others are typed dictionaries: a function takes them as keywords
 (`**options: Unpack[FileOptions]`), the command line makes its flags of them, and a configuration sets their defaults.
-What an option means where nobody gives it is the default of the field that it fills.
+The default of an option is that of the field which it fills.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -32,13 +32,13 @@ class Option:
 
 
 def declared_options(options: type) -> Mapping[str, tuple[Any, Option]]:
-    """The type and the declaration of each option of a typed dictionary, but for those that only Python has."""
+    """Return the type and declaration of each option of a typed dictionary, except those that only Python has."""
     annotated = [(name, each) for name, each in options.__annotations__.items() if get_origin(each) is Annotated]
     return {name: (kind, option) for name, each in annotated for kind, option in [get_args(each)]}
 
 
 def require_options(given: Mapping[str, object], known: type) -> None:
-    """Refuse a keyword that is none of the options of a typed dictionary.
+    """Refuse keywords that are not options of a typed dictionary.
 
     Raises:
         TypeError: as Python does where a function does not take a keyword.
@@ -53,5 +53,5 @@ def require_options(given: Mapping[str, object], known: type) -> None:
 
 
 def given(value: Value | None, usual: Value) -> Value:
-    """The value of an option, or what is usual where there is none."""
+    """Return the value of an option, or the usual one where it is None."""
     return usual if value is None else value

@@ -14,11 +14,11 @@ from twinform.schemas import DEFAULT_SDF_VERSION, versions_of
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConversionRequest:
-    """What a conversion is asked for; `passes` are the user's, and `assets` the files beside the source.
+    """What a conversion is to make; `passes` are the user's, and `assets` the files that the source names.
 
-    `mixed` means that the source has elements that its version does not have; `comments` that those of the source go
-    along. `remedies` are the passes that consumers need, `remedied` the
-    rules of errors that these put right, and with `keep_physics` none of these may change the physics.
+    `mixed` means that the source has elements that its version does not have, and `comments` that the comments of the
+    source are kept. `remedies` are the passes that consumers need, and `remedied` the rules of errors that they fix;
+    with `keep_physics` none of them may change the physics.
     """
 
     to: Language
@@ -37,7 +37,7 @@ class ConversionRequest:
 
     @classmethod
     def of(cls, to: Language, options: RequestOptions) -> "ConversionRequest":
-        """What these options ask for; one that is `None` is not given.
+        """Make a request of options; one that is `None` is not given.
 
         Raises:
             PipelineError: `passes` is not a pipeline.
@@ -57,11 +57,11 @@ class ConversionRequest:
         )
 
     def plan(self, source: Document) -> Pipeline:
-        """Every pass that a conversion of this document runs, in order: the user's, then those of the target."""
+        """Return every pass that a conversion of a document runs, in order: the user's, then those of the target."""
         return Pipeline((*self.passes, *self.remedies, *self.selection(source), *self.legalisation(source)))
 
     def selection(self, source: Document) -> Pipeline:
-        """What takes the model that is asked for out of a file, where the way to the target does not begin so."""
+        """Return the pass that selects the requested model, where the passes of the target do not begin with it."""
         if self.model is None or (source.format is Format.SDF and self.to == "urdf"):
             return Pipeline()
         from twinform.passes.legalise.to_urdf.select_model import SelectModel  # noqa: PLC0415 - few ask for a model
@@ -69,14 +69,14 @@ class ConversionRequest:
         return Pipeline((SelectModel.unchecked(model=self.model),))
 
     def legalisation(self, source: Document) -> Pipeline:
-        """The passes that the target asks for."""
+        """Return the passes that the target needs."""
         if self.to == "json":
             return Pipeline()
         target = self.target(source, Format(self.to))
         return Pipeline(legalisation(source.format, source.version, target)).with_files(self.assets)
 
     def target(self, source: Document, format_: Format) -> Target:
-        """What a document becomes: of the version that is asked for, or else of the one that it came from."""
+        """Return the target for a document: in the requested version, or else in the one that it came from."""
         own = source.version if source.format is Format.SDF else None
         before = None if source.format is format_ else source_version(source, format_)
         before = before if before in versions_of(format_) else None

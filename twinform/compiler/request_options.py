@@ -15,7 +15,7 @@ URDF_VERSIONS: tuple[UrdfVersion, ...] = get_args(UrdfVersion)
 
 
 def known_sdf_version(version: str) -> str:
-    """The version.
+    """Return a version of SDF unchanged.
 
     Raises:
         ValueError: SDF has no such version.

@@ -7,8 +7,8 @@ from pathlib import Path
 from twinform.compiler.compare import USUAL, Comparison, ComparisonOptions, compare_files
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
+from twinform.compiler.expand_includes import expand
 from twinform.compiler.graph import Graph, build_graph
-from twinform.compiler.includes.expanding import expand
 from twinform.compiler.input.finding_spans import with_columns
 from twinform.compiler.input.load_options import name_of_input
 from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read

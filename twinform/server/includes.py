@@ -42,7 +42,7 @@ def target(include: DocumentInclude, document: TextDocument, search: SearchPath)
     """Find the file of an include; None if there is none, or if the URI has expressions of xacro."""
     found = resolve_uri(include.uri, document, search)
     if found is not None and found.is_dir():
-        from twinform.compiler.includes.model_config import manifest, model_file  # noqa: PLC0415 - few name folders
+        from twinform.compiler.model_config import manifest, model_file  # noqa: PLC0415 - few name folders
         from twinform.diagnostics import DiagnosticSink  # noqa: PLC0415 - as above
 
         config = manifest(found)

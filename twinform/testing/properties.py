@@ -10,7 +10,7 @@ from typing import NamedTuple, Self
 
 from twinform.compiler import URDF_VERSIONS, CompileError, Language, UrdfVersion, convert
 from twinform.compiler.compare import diff
-from twinform.compiler.includes.expanding import expand
+from twinform.compiler.expand_includes import expand
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.normal_form import normal_form
 from twinform.compiler.output.emitting import emit

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import convert
-from twinform.compiler.includes.expanding import expand
+from twinform.compiler.expand_includes import expand
 from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
 from twinform.compiler.inspection import inspect
 from twinform.compiler.scene import Scene, build_scene

@@ -69,7 +69,12 @@ _UNUSED = {
         "twinform.cli.config.settings",
         "difflib",
     ],
-    "convert": ["twinform.passes.legalise.to_urdf", "twinform.compiler.includes", "twinform.compiler.audit", "difflib"],
+    "convert": [
+        "twinform.passes.legalise.to_urdf",
+        "twinform.compiler.expand_includes",
+        "twinform.compiler.audit",
+        "difflib",
+    ],
     "stats": ["subprocess"],
 }
 

@@ -11,7 +11,7 @@ from inspect import isabstract
 import pytest
 
 import twinform.passes
-from twinform.compiler.reproducers.reproducer import Reproducer
+from twinform.compiler.reproducers import Reproducer
 from twinform.ir import Document, Format, Model
 from twinform.passes import FailedPassError, Pass, registered_passes
 from twinform.passes.framework.passes_page import description

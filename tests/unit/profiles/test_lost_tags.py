@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 import twinform
+from twinform.compiler.advising import assess_file
 from twinform.compiler.input.load_options import LoadOptions
-from twinform.compiler.profiling import assess_file
 from twinform.profiles import parse
 from twinform.testing.oracles import libsdformat
 from twinform.testing.oracles.libsdformat import RobotRow, describe, describing

@@ -16,13 +16,13 @@ from twinform.compiler.compare import USUAL, ComparisonOptions, compare_files
 from twinform.compiler.compare.comparison_reporters import REPORTERS, summary
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
-from twinform.compiler.includes.expanding import expand
+from twinform.compiler.expand_includes import expand
 from twinform.compiler.input.finding_spans import with_columns
 from twinform.compiler.input.loading import XACRO, LoadResult, read
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.inspection import inspect
 from twinform.compiler.request import ConversionRequest
-from twinform.compiler.splitting import split
+from twinform.compiler.split_world import split
 from twinform.compiler.statistics import measure
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy, Severity, SideFile
 from twinform.diagnostics.reporters.json import row

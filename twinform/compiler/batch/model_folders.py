@@ -11,7 +11,7 @@ from pathlib import Path, PurePosixPath
 from lxml import etree
 
 from twinform.compiler.batch.entries import PATTERNS, stem
-from twinform.compiler.includes.model_config import MANIFESTS, manifest, model_file
+from twinform.compiler.model_config import MANIFESTS, manifest, model_file
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import DiagnosticSink
 from twinform.file_access import Readable

@@ -19,7 +19,7 @@ from twinform.compiler.batch.entries import ModelEntry
 from twinform.compiler.batch.record import ModelRecord, Outcome, Row
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.observing import observed
-from twinform.compiler.reproducers.reproducer_files import write_reproducer
+from twinform.compiler.reproducers import write_reproducer
 from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.passes import PassError
 

@@ -1,21 +1,163 @@
-"""Do two files describe the same robot?"""
+"""Compares two files: reads their robots in the newest SDF version, and collects the differences for every reader."""
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Unpack
 
-from twinform.compiler.compare.canonical_sdf import Robots, read_robots
-from twinform.compiler.compare.collect_differences import ComparedSubject, ComparisonFindings, Terms
 from twinform.compiler.compare.compare_robots import RobotComparison
 from twinform.compiler.compare.compared_robot import ComparedRobot
-from twinform.compiler.compare.comparison import TOLERANCE, USUAL, Comparison, ComparisonOptions, Difference
-from twinform.compiler.compare.memo import Memo
-from twinform.compiler.compare.readers import ComparingReader, reconcile
-from twinform.compiler.compare.surroundings import compare_surroundings
+from twinform.compiler.compare.comparison import (
+    TOLERANCE,
+    USUAL,
+    ComparedSubject,
+    Comparison,
+    ComparisonFindings,
+    ComparisonOptions,
+    Difference,
+    Terms,
+)
+from twinform.compiler.compare.readers import ComparingReader, Memo, as_read_by, reconcile
+from twinform.compiler.compare.robot_builder import build_robot
+from twinform.compiler.compare.surroundings import WorldSurroundings, compare_surroundings, read_surroundings
 from twinform.compiler.conversion_error import CompileError
+from twinform.compiler.expand_includes import expand
 from twinform.compiler.input.load_options import FileOptions
-from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, garbage_collection_paused, name_of_input
+from twinform.compiler.input.loading import (
+    Input,
+    LoadOptions,
+    LoadResult,
+    garbage_collection_paused,
+    name_of_input,
+    read,
+)
 from twinform.compiler.option import require_options
+from twinform.compiler.search.resolve_uris import LocalAssets
+from twinform.diagnostics import DiagnosticSink, LineOrigins
+from twinform.ir import Document, Format, Model
+from twinform.ir.frames import FrameError
+from twinform.passes import Assets, Pass, Pipeline
+from twinform.passes.carriers.misplaced import without_misplaced
+from twinform.passes.carriers.token_mass import without_tokens
+from twinform.passes.legalise.changed_names import RestoreNames
+from twinform.passes.legalise.to_sdf import to_sdf
+from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
+from twinform.passes.legalise.to_urdf.restore_links import without_loose_floating
+from twinform.passes.legalise.to_urdf.select_model import Selector
+from twinform.passes.sdf_versions import raise_words
+from twinform.passes.shared.candidates import name_once_expanded, wanted_includes
+from twinform.schemas import versions_of
+
+
+@dataclass(frozen=True, slots=True)
+class Robots:
+    """The robots of a file by name, and the worlds around them, which are left out where one robot was chosen."""
+
+    path: str
+    format: Format
+    by_name: dict[str, ComparedRobot]
+    around: dict[str, WorldSurroundings]
+    origins: Mapping[str, LineOrigins]
+
+
+def read_robots(
+    source: Input | LoadResult,
+    load_options: LoadOptions,
+    *,
+    name: str,
+    model: str | None,
+    readers: Iterable[ComparingReader],
+) -> dict[ComparingReader, Robots]:
+    """Read the robots of a file as each reader sees them; `model` chooses one of several.
+
+    Readers that see the same share one object.
+
+    Raises:
+        CompileError: the file has an error, or no such model.
+    """
+    loaded = read(source, load_options, name=name)
+    if loaded.accepted:
+        wanted = wanted_includes(loaded.document, model) if model is not None else None
+        before, loaded = loaded.document, expand(loaded, load_options, wanted=wanted)
+        model = name_once_expanded(before, loaded.document, model)
+    document = loaded.document
+    if document is None or not loaded.accepted:
+        raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
+    sink = DiagnosticSink(loaded.path, load_options.strict, origins=dict(loaded.origins))
+    assets = LocalAssets(load_options.search, Path(loaded.path))
+    known: dict[int, Robots] = {}
+    found: dict[ComparingReader, Robots] = {}
+    memos = defaultdict[str | None, Memo](Memo)
+    for reader, seen in as_read_by(document, readers).items():
+        if id(seen) not in known:
+            known[id(seen)] = _robots_seen(loaded, seen, model, memos, sink, assets)
+        found[reader] = known[id(seen)]
+    return found
+
+
+def _robots_seen(
+    loaded: LoadResult,
+    document: Document,
+    model: str | None,
+    memos: Mapping[str | None, Memo],
+    sink: DiagnosticSink,
+    assets: Assets,
+) -> Robots:
+    # Both files are rewritten in the newest SDF by the passes that conversions use, and then
+    # resolved in the model's frame. Compared node by node, a link frame that moved by a centimeter
+    # makes every number below it another one; and an engine's numbers know nothing of colors,
+    # sensors and plugins, nor of lines in the file.
+    canonical = Pipeline(_to_newest_sdf(document)).with_files(assets).run(document, sink)
+    canonical = without_misplaced(canonical, DiagnosticSink())
+    robots: dict[str, ComparedRobot] = {}
+    around: dict[str, WorldSurroundings] = {}
+    try:
+        if not sink.has_errors:
+            robots |= _select_robots(memos, document, canonical, model, sink)
+        if document.format is Format.SDF and model is None and not sink.has_errors:
+            around = read_surroundings(canonical)
+    except FrameError as error:
+        error.report(sink)
+    if sink.has_errors:
+        raise CompileError(tuple(sink.diagnostics))
+    return Robots(loaded.path, document.format, robots, around, loaded.origins)
+
+
+def _select_robots(
+    memos: Mapping[str | None, Memo],
+    document: Document,
+    canonical: Document,
+    model: str | None,
+    sink: DiagnosticSink,
+) -> Iterator[tuple[str, ComparedRobot]]:
+    """Yield each robot with its name, which includes the world's name where several robots have one name."""
+    if document.format is Format.SDF:  # names that a model of URDF had, as far as these are unlike others
+        canonical = RestoreNames(to=Format.URDF, unique=True).run(canonical, DiagnosticSink())
+    selector = Selector(canonical)
+    names = list(dict.fromkeys(one.full_name for one in selector.among))
+    called = Counter(one.model.name for one in selector.among)
+    for name in [None] if len(names) == 1 else names if model is None else [model]:
+        chosen = selector.select(name, sink)
+        if sink.has_errors:
+            return
+        chosen = UniqueNames().run(chosen, DiagnosticSink())  # before 1.7 a joint and a link could share theirs
+        chosen = chosen.copy(models=tuple(map(_without_additions, chosen.models)))
+        source = document.models[0] if document.format is Format.URDF else chosen.models[0]
+        robot = build_robot(chosen.models[0], source, document.format, memos[name])
+        yield (robot.name if called[robot.name] == 1 or name is None else name), robot
+
+
+def _without_additions(model: Model) -> Model:
+    """Return the model without the masses and floating joints that conversions add because a target needs them."""
+    return without_tokens(without_loose_floating(model))
+
+
+def _to_newest_sdf(document: Document) -> tuple[Pass, ...]:
+    newest = versions_of("sdf")[-1]
+    if document.format is Format.URDF:
+        return to_sdf(newest, carriers=True, scopes=False)
+    return raise_words(document.version)
 
 
 def diff(
@@ -51,12 +193,12 @@ def compare_files(
     names: tuple[str, str] = ("", ""),
     model: str | None = None,
 ) -> Comparison:
-    """`diff`, with all that it needs to know in one place.
+    """Compare two files as `diff` does, with the options as objects; `names` are used in messages instead of paths.
 
     Raises:
         CompileError: a file has an error; where both have, the diagnostics are those of both.
     """
-    names = (names[0] or _name(a, "a"), names[1] or _name(b, "b"))
+    names = (names[0] or _display_name(a, "a"), names[1] or _display_name(b, "b"))
     with garbage_collection_paused():
         readers = (ComparingReader.TWINFORM,) if options.carriers else tuple(ComparingReader)
         robots: list[dict[ComparingReader, Robots]] = []
@@ -71,58 +213,58 @@ def compare_files(
             raise CompileError(found, unreadable=any(error.unreadable for error in errors))
         one, other = robots
         names = (one[readers[0]].path, other[readers[0]].path)
-        return Comparison(*names, options.tolerance, tuple(_seen_by_all(one, other, options.tolerance)))
+        return Comparison(*names, options.tolerance, tuple(_compare_for_readers(one, other, options.tolerance)))
 
 
-def _name(source: Input | LoadResult, default: str) -> str:
+def _display_name(source: Input | LoadResult, default: str) -> str:
     name = name_of_input(source)
     return f"<{default}>" if name in {"<bytes>", "<document>"} else name
 
 
-def _seen_by_all(
+def _compare_for_readers(
     a: Mapping[ComparingReader, Robots], b: Mapping[ComparingReader, Robots], tolerance: float
 ) -> Iterable[Difference]:
-    """What every reader finds, and what only some of them do."""
+    """Return the differences that every reader sees, and those that only some see."""
     first, *more = a
     pair = a[first], b[first]
     memos = defaultdict[str, Memo](Memo)
-    found = list(_compared(*pair, tolerance, memos))
+    found = list(_compare_for_reader(*pair, tolerance, memos))
     for reader in more:
         seen = a[reader], b[reader]
         # What two readers see alike is built and compared once: asking for every reader costs
         # little where carriers touch little.
         if seen[0] is not pair[0] or seen[1] is not pair[1]:
             files = pair[0].path, pair[1].path
-            found = reconcile(found, list(_compared(*seen, tolerance, memos)), reader, files)
+            found = reconcile(found, list(_compare_for_reader(*seen, tolerance, memos)), reader, files)
         pair = seen
     return found
 
 
-def _compared(a: Robots, b: Robots, tolerance: float, memos: Mapping[str, Memo]) -> Iterator[Difference]:
-    """What one reader finds; `memos` have what the reader before it found in each pair of robots."""
+def _compare_for_reader(a: Robots, b: Robots, tolerance: float, memos: Mapping[str, Memo]) -> Iterator[Difference]:
+    """Yield the differences that one reader sees; `memos` have the last results for each pair of robots."""
     terms = Terms(a.path, b.path, a.format, b.format, tolerance, {**a.origins, **b.origins})
     yield from compare_surroundings(a.around, b.around, terms)
     if len(a.by_name) == len(b.by_name) == 1:
         (one,), (other,) = a.by_name.values(), b.by_name.values()
-        yield from _compared_robots(one, other, terms, memos[""])
+        yield from _compare_pair(one, other, terms, memos[""])
         return
     for name, robot in a.by_name.items():
         if name in b.by_name:
-            yield from _compared_robots(robot, b.by_name[name], terms, memos[name], several=True)
+            yield from _compare_pair(robot, b.by_name[name], terms, memos[name], several=True)
         else:
-            yield from _missing(robot, terms, in_a=True)
+            yield from _report_missing(robot, terms, in_a=True)
     for name, robot in b.by_name.items():
         if name not in a.by_name:
-            yield from _missing(robot, terms, in_a=False)
+            yield from _report_missing(robot, terms, in_a=False)
 
 
-def _compared_robots(
+def _compare_pair(
     a: ComparedRobot, b: ComparedRobot, terms: Terms, memo: Memo, *, several: bool = False
 ) -> Iterable[Difference]:
     return memo.once("robot", (a, b), lambda: RobotComparison(a, b, terms, memo, several=several).run())
 
 
-def _missing(robot: ComparedRobot, terms: Terms, *, in_a: bool) -> list[Difference]:
+def _report_missing(robot: ComparedRobot, terms: Terms, *, in_a: bool) -> list[Difference]:
     found = ComparisonFindings(terms)
-    found.only_in_one(ComparedSubject("model", robot.name), "", "model", robot.where, in_a=in_a)
+    found.add_one_sided(ComparedSubject("model", robot.name), "", "model", robot.where, in_a=in_a)
     return found.items

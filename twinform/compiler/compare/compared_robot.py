@@ -1,8 +1,4 @@
-"""A robot as it is compared: bodies, joints and frames, all in the model's frame with every joint at zero.
-
-Which frame of a file something was expressed in is gone here; what is left of names are those of links, joints, frames
-and sensors.
-"""
+"""A robot as it is compared: bodies, joints and frames, all in the model's frame with every joint at zero."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -17,9 +13,9 @@ from twinform.ir.transform import Transform
 
 @dataclass(frozen=True, slots=True)
 class Leaf:
-    """A value and what it is where it is not written.
+    """A value, and the default that stands for it where it is not written.
 
-    `only` is the one format that has an element for it. What is `carried` is there for this compiler alone.
+    `only` is the format that alone has an element for it, if there is one. A `carried` value is only read by twinform.
     """
 
     value: Value
@@ -35,7 +31,7 @@ Leaves = Mapping[str, Leaf]
 
 @dataclass(frozen=True, slots=True)
 class LinkPart:
-    """A thing that a link, joint or model has: a visual, a sensor, a plugin."""
+    """A visual, collision, sensor, light, plugin or other part of a link, joint, model or world."""
 
     kind: str
     name: str
@@ -47,7 +43,7 @@ class LinkPart:
 
 @dataclass(frozen=True, slots=True)
 class Mass:
-    """What a body weighs, in the model's frame; an automatic one is computed by who reads it."""
+    """The mass and inertia of a body in the model's frame; an automatic one is computed by the reader."""
 
     solid: Solid = NOTHING
     automatic: bool = False
@@ -56,7 +52,7 @@ class Mass:
 
 @dataclass(frozen=True, slots=True)
 class ComparedBody:
-    """A link; `frame` is its own frame."""
+    """A link with its frame."""
 
     name: str
     frame: Transform
@@ -76,7 +72,7 @@ class JointView(PlacedJoint):
 
     @property
     def axes(self) -> tuple[Vector3, ...]:
-        """The unit vectors that are written; a ball has none."""
+        """The axes as unit vectors; a ball joint has none."""
         return () if self.type == "ball" else tuple(degree.axis for degree in self.degrees)
 
 
@@ -84,8 +80,8 @@ class JointView(PlacedJoint):
 class NamedFrame:
     """A frame that moves with a body.
 
-    `was_link` and `was_joint` say that URDF has a link without mass in its place, or the joint of one. A `lumped` one
-    is what is left of a link or joint that went into another link.
+    `was_link` and `was_joint` say that URDF has a massless link in its place, or the joint of one. A `lumped` frame is
+    what is left of a link that was merged into another one, or of its joint.
     """
 
     name: str
@@ -99,7 +95,7 @@ class NamedFrame:
 
 @dataclass(frozen=True, slots=True)
 class ComparedRobot:
-    """A model; `world` is the frame of the world in the model's, and `models` are the names of nested ones."""
+    """A model; `world` is the frame of the world in the model's frame, and `models` are the names of nested models."""
 
     name: str
     format: Format

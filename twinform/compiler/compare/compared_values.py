@@ -1,4 +1,4 @@
-"""The kinds of values that robots are compared by, and by how much two of a kind differ."""
+"""The kinds of values that are compared, and how far two values are apart."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -12,16 +12,16 @@ from twinform.ir.transform import Transform
 from twinform.schemas import format_value, parse_value
 
 _DIGITS = 10
-# Numbers that are closer than this are one: libsdformat reads none below, and conversions round them up.
+# Numbers that are closer than this are equal: libsdformat reads none below, and conversions round them up.
 _NOTHING = 1e-37
 
 
 @dataclass(frozen=True, slots=True)
 class Delta:
-    """By how much two values differ.
+    """How far two values are apart.
 
-    `scale` is what the tolerance is a share of, and `size` the larger one of the two; `aspect` names the part of the
-    values it is about.
+    The tolerance is a share of `scale`. `size` is the larger of the two magnitudes, and `aspect` names the part of the
+    values that differs.
     """
 
     absolute: float
@@ -34,21 +34,21 @@ class Delta:
 
     @property
     def relative(self) -> float | None:
-        """The share of the size; None where there is none."""
+        """The distance as a share of the size; None where the values have no size."""
         return self.absolute / self.size if self.size and math.isfinite(self.absolute) else None
 
     def exceeds(self, tolerance: float) -> bool:
-        """Whether it is more than rounding."""
+        """Whether the distance is more than rounding."""
         return self.absolute > tolerance * self.scale
 
 
 class Value:
-    """A value of some kind. What is in space is seen from a frame before it is compared."""
+    """A value of some kind. Points, directions, poses and tensors can be expressed in another frame."""
 
     __slots__ = ()
 
     def seen_from(self, base: Transform) -> Self:
-        """The value in another frame than the model's."""
+        """Return the value expressed in a frame that `base` places in the model."""
         return self
 
 
@@ -61,14 +61,14 @@ class Text(Value):
 
 @dataclass(frozen=True, slots=True)
 class Flag(Value):
-    """Yes or no."""
+    """A boolean."""
 
     on: bool
 
 
 @dataclass(frozen=True, slots=True)
 class Numbers(Value):
-    """One number or several, in a unit; `floor` is the least size that they are measured against."""
+    """One or several numbers, in a unit; `floor` is the least scale for their tolerance."""
 
     values: tuple[float, ...]
     unit: str = ""
@@ -82,7 +82,7 @@ class Point(Value):
     xyz: Vector3
 
     def seen_from(self, base: Transform) -> "Point":
-        """The point in another frame."""
+        """Return the point in another frame."""
         return Point(base.inverse().apply(self.xyz))
 
 
@@ -93,18 +93,18 @@ class UnitVector(Value):
     xyz: Vector3
 
     def seen_from(self, base: Transform) -> "UnitVector":
-        """The direction in another frame."""
+        """Return the direction in another frame."""
         return UnitVector(base.inverse().rotate(self.xyz))
 
 
 @dataclass(frozen=True, slots=True)
 class PoseValue(Value):
-    """A frame in the model's frame."""
+    """A pose in the model's frame."""
 
     pose: Transform
 
     def seen_from(self, base: Transform) -> "PoseValue":
-        """The frame in another one."""
+        """Return the pose in another frame."""
         return PoseValue(base.inverse().compose(self.pose))
 
 
@@ -120,22 +120,22 @@ class Tensor(Value):
 
 
 def gaps(a: Value, b: Value) -> Iterator[Delta]:
-    """By how much two values differ; nothing where they are exactly the same."""
+    """Yield how far two values are apart, for each aspect; nothing where they are exactly equal."""
     if a == b:
         return
     match a, b:
         case (Flag(), Numbers()) | (Numbers(), Flag()) if _number_of(a) == _number_of(b):
             return  # free content has no types, and 1 is as good as true
         case Numbers(), Numbers() if len(a.values) == len(b.values):
-            yield from _numbers(a, b)
+            yield from _number_gaps(a, b)
         case PoseValue(), PoseValue():
-            yield from _places(a.pose, b.pose)
+            yield from _pose_gaps(a.pose, b.pose)
         case Point(), Point():
             yield _distance(a.xyz, b.xyz)
         case UnitVector(), UnitVector():
-            yield Delta(_angle_between(a.xyz, b.xyz), 1.0, _row(a.xyz), _row(b.xyz), "rad")
+            yield Delta(_angle_between(a.xyz, b.xyz), 1.0, _format_row(a.xyz), _format_row(b.xyz), "rad")
         case Tensor(), Tensor():
-            yield from _tensors(a, b)
+            yield from _tensor_gaps(a, b)
         case _:
             yield Delta(math.inf, 1.0, show(a), show(b))
 
@@ -145,26 +145,26 @@ def _number_of(value: Flag | Numbers) -> tuple[float, ...]:
 
 
 def show(value: Value) -> str:
-    """A value as text."""
+    """Return a value as text."""
     match value:
         case Text():
             return repr(value.text)
         case Flag():
             return format_value(value.on)
         case Numbers():
-            return _row(value.values) + (f" {value.unit}" if value.unit else "")
+            return _format_row(value.values) + (f" {value.unit}" if value.unit else "")
         case Point() | UnitVector():
-            return _row(value.xyz)
+            return _format_row(value.xyz)
         case PoseValue():
-            return f"{_row(value.pose.translation)} m, {_row(value.pose.rpy())} rad"
+            return f"{_format_row(value.pose.translation)} m, {_format_row(value.pose.rpy())} rad"
         case Tensor():
-            return f"{_row(value.moments)} kg*m^2"
+            return f"{_format_row(value.moments)} kg*m^2"
         case _:
             return ""
 
 
-def _numbers(a: Numbers, b: Numbers) -> Iterator[Delta]:
-    apart = [_gap(one, other) for one, other in zip(a.values, b.values, strict=True)]
+def _number_gaps(a: Numbers, b: Numbers) -> Iterator[Delta]:
+    apart = [_number_distance(one, other) for one, other in zip(a.values, b.values, strict=True)]
     if any(apart):
         unit = a.unit or b.unit
         size = _size((*a.values, *b.values))
@@ -176,26 +176,28 @@ def _size(numbers: Sequence[float]) -> float:
     return max((abs(number) for number in numbers if math.isfinite(number)), default=0.0)
 
 
-def _gap(one: float, other: float) -> float:
-    """Return the distance of two numbers; two NaN have none, and one is infinitely far from any number."""
+def _number_distance(one: float, other: float) -> float:
+    """Return the distance of two numbers; two NaN are equal, and one is infinitely far from any number."""
     if one == other or (math.isnan(one) and math.isnan(other)):
         return 0.0
     gap = abs(one - other)
     return 0.0 if gap < _NOTHING else gap if math.isfinite(gap) else math.inf
 
 
-def _places(a: Transform, b: Transform) -> Iterator[Delta]:
+def _pose_gaps(a: Transform, b: Transform) -> Iterator[Delta]:
     yield _distance(a.translation, b.translation)
-    yield Delta(_angle(a, b), 1.0, f"{_row(a.rpy())} rad", f"{_row(b.rpy())} rad", "rad", "rotation")
+    yield Delta(
+        _rotation_angle(a, b), 1.0, f"{_format_row(a.rpy())} rad", f"{_format_row(b.rpy())} rad", "rad", "rotation"
+    )
 
 
 def _distance(a: Vector3, b: Vector3) -> Delta:
     size = max(math.hypot(*a), math.hypot(*b))
-    return Delta(math.dist(a, b), max(1.0, size), f"{_row(a)} m", f"{_row(b)} m", "m", "position", size)
+    return Delta(math.dist(a, b), max(1.0, size), f"{_format_row(a)} m", f"{_format_row(b)} m", "m", "position", size)
 
 
-def _angle(a: Transform, b: Transform) -> float:
-    """The angle of the rotation between two: |A - B| is 2 sqrt(2) sin(angle / 2), which is exact where it is small."""
+def _rotation_angle(a: Transform, b: Transform) -> float:
+    """Return the angle between two rotations: |A - B| is 2 sqrt(2) sin(angle / 2), which is exact for small angles."""
     chord = math.dist(a.rotation, b.rotation)
     return 2 * math.asin(min(1.0, chord / math.sqrt(8)))
 
@@ -204,21 +206,21 @@ def _angle_between(a: Vector3, b: Vector3) -> float:
     return 2 * math.asin(min(1.0, math.dist(a, b) / 2))
 
 
-def _tensors(a: Tensor, b: Tensor) -> Iterator[Delta]:
-    """The element that differs most, measured against the largest one."""
-    apart = [_gap(one, other) for one, other in zip(a.moments, b.moments, strict=True)]
+def _tensor_gaps(a: Tensor, b: Tensor) -> Iterator[Delta]:
+    """Yield the gap of the element that differs most, with the largest element as its scale."""
+    apart = [_number_distance(one, other) for one, other in zip(a.moments, b.moments, strict=True)]
     worst = apart.index(max(apart))
     scale = _size((*a.moments, *b.moments))
-    one, other = (f"{_number(each.moments[worst])} kg*m^2" for each in (a, b))
+    one, other = (f"{_format_number(each.moments[worst])} kg*m^2" for each in (a, b))
     yield Delta(apart[worst], scale, one, other, "kg*m^2", ELEMENTS[worst], scale)
 
 
-def _row(values: Sequence[float]) -> str:
-    return " ".join(map(_number, values))
+def _format_row(values: Sequence[float]) -> str:
+    return " ".join(map(_format_number, values))
 
 
-def _number(value: float) -> str:
-    """To ten digits; zeros that rounding left are zeros."""
+def _format_number(value: float) -> str:
+    """Format a number to ten digits, with zero for what rounding leaves of zero."""
     return f"{0.0 if abs(value) < 1e-15 else value:.{_DIGITS}g}"
 
 
@@ -228,9 +230,9 @@ _WITH_ALPHA = 4
 
 
 def typed_value(type: str | None, text: str, format: str = "sdf", unit: str = "") -> Value | None:
-    """A text as a truth or as numbers, where its type has such; None where the type is only text.
+    """Read a text of a boolean or numeric type; return None for other types.
 
-    What is not of its type is kept as text.
+    A text that is not of its type is kept as text.
     """
     if type != "bool" and type not in NUMBERS and type not in COLORS:
         return None

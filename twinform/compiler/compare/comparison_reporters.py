@@ -16,16 +16,16 @@ Reporter = Callable[[Comparison], str]
 
 
 def text(comparison: Comparison, paint: Paint = lambda word, _: word) -> str:
-    """A heading for each link, joint or frame, and a line for each difference: `places: severity: what`."""
+    """Format a comparison with a heading for each part, and a line for each difference: `places: severity: what`."""
     lines: list[str] = []
     for heading, items in groupby(comparison.items, key=heading_of):
         lines.append(printable(heading))
-        lines += [f"  {_line(item, comparison, paint)}" for item in items]
+        lines += [f"  {_format_item(item, comparison, paint)}" for item in items]
     return "".join(f"{line}\n" for line in lines)
 
 
 def json(comparison: Comparison) -> str:
-    """One object: `{"a", "b", "same", "tolerance", "items": [...]}`; every key is always there.
+    """Format a comparison as `{"a", "b", "same", "tolerance", "items": [...]}`; every key is always there.
 
     An item is `{"severity", "reader", "model", "group", "name", "aspect", "message", "a", "b", "absolute", "relative",
     "unit"}`; its sides are `{"value", "file", "line", "path"}`. Line 0 means unknown; a difference without end is null.
@@ -35,7 +35,7 @@ def json(comparison: Comparison) -> str:
         "b": comparison.b,
         "same": comparison.same,
         "tolerance": comparison.tolerance,
-        "items": [_row(item) for item in comparison.items],
+        "items": [_item_fields(item) for item in comparison.items],
     }
     return jsonlib.dumps(whole, indent=2, allow_nan=False) + "\n"
 
@@ -45,7 +45,7 @@ REPORTERS: Mapping[str, Reporter] = MappingProxyType({"text": text, "json": json
 
 
 def summary(comparison: Comparison) -> str:
-    """The verdict in one line."""
+    """Return the verdict in one line."""
     verdict = "the same robot" if comparison.same else "different robots"
     carried = [f"{len(comparison.carried)} carried"] if comparison.carried else []
     counts = (_count(comparison.differences, "difference"), *carried, _count(comparison.notes, "note"))
@@ -57,12 +57,12 @@ def _count(items: tuple[Difference, ...], word: str) -> str:
 
 
 def heading_of(item: Difference) -> str:
-    """The part that it is about."""
+    """Name the part that a difference is about."""
     words = f"{item.group} {item.name!r}" if item.name else item.group
     return f"{words} of model {item.model!r}" if item.model and item.group != "model" else words
 
 
-def _line(item: Difference, comparison: Comparison, paint: Paint) -> str:
+def _format_item(item: Difference, comparison: Comparison, paint: Paint) -> str:
     places = ", ".join(places_of(item, comparison))
     amounts = list(amounts_of(item))
     amount = f" ({', '.join(amounts)})" if amounts else ""
@@ -71,7 +71,7 @@ def _line(item: Difference, comparison: Comparison, paint: Paint) -> str:
 
 
 def what_differs(item: Difference) -> str:
-    """What differs, without what the heading has."""
+    """Describe a difference without repeating the heading."""
     short = item.severity is DifferenceSeverity.DIFFERENCE and item.group != "kinematics"
     if short and item.a.text is not None and item.b.text is not None:
         return f"{item.aspect} is {item.a.text}, and {item.b.text}"
@@ -79,7 +79,7 @@ def what_differs(item: Difference) -> str:
 
 
 def places_of(item: Difference, comparison: Comparison) -> Iterator[str]:
-    """Where it is in the files."""
+    """Yield the places of a difference in the files."""
     seen: set[Location] = set()
     for file, side in ((comparison.a, item.a), (comparison.b, item.b)):
         where = side.location
@@ -89,7 +89,7 @@ def places_of(item: Difference, comparison: Comparison) -> Iterator[str]:
 
 
 def amounts_of(item: Difference) -> Iterator[str]:
-    """By how much the values differ, and which share of the larger one that is; the messages on places have these."""
+    """Yield how far the values are apart, and its share of the larger one; messages on kinematics have that already."""
     if item.group == "kinematics":
         return
     if item.absolute is not None and math.isfinite(item.absolute):
@@ -98,7 +98,7 @@ def amounts_of(item: Difference) -> Iterator[str]:
         yield f"{100 * item.relative:.3g} %"
 
 
-def _row(item: Difference) -> dict[str, object]:
+def _item_fields(item: Difference) -> dict[str, object]:
     return {
         "severity": str(item.severity),
         "reader": item.reader,
@@ -107,18 +107,18 @@ def _row(item: Difference) -> dict[str, object]:
         "name": item.name,
         "aspect": item.aspect,
         "message": item.message,
-        "a": _side(item.a),
-        "b": _side(item.b),
-        "absolute": _finite(item.absolute),
-        "relative": _finite(item.relative),
+        "a": _side_fields(item.a),
+        "b": _side_fields(item.b),
+        "absolute": _finite_or_none(item.absolute),
+        "relative": _finite_or_none(item.relative),
         "unit": item.unit,
     }
 
 
-def _side(side: Side) -> dict[str, object]:
+def _side_fields(side: Side) -> dict[str, object]:
     where = side.location
     return {"value": side.text, "file": where.file, "line": where.line, "path": where.path}
 
 
-def _finite(value: float | None) -> float | None:
+def _finite_or_none(value: float | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None

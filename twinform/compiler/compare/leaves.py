@@ -1,14 +1,20 @@
-"""The values in an XML tree of SDF, each with its kind, its unit and its default from the table of facts."""
+"""Reads the values in an XML tree of SDF, with their types, units and defaults from the facts table.
+
+Values in carriers count as if they were written in the file, because a conversion does not change the robot.
+"""
 
 from collections.abc import Callable, Iterator
+from copy import deepcopy
 from dataclasses import dataclass, field
+
+from lxml import etree
 
 from twinform.compiler.compare.compared_robot import Leaf
 from twinform.compiler.compare.compared_values import Flag, Numbers, PoseValue, Text, Value, typed_value
 from twinform.diagnostics import Source
 from twinform.ir import Pose
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.carriers import NAMESPACE, from_xml
+from twinform.passes.carriers.carriers import NAMESPACE, SECOND, from_xml
 from twinform.passes.sdf_versions.name_the_nameless import plugin_stem
 from twinform.passes.shared.gazebo_tags import SCRIPT_URI
 from twinform.passes.shared.pose_frames import read_pose
@@ -21,21 +27,21 @@ _OURS = f"{{{NAMESPACE}}}"
 _MEANINGFUL_WHEN_EMPTY = frozenset({"geometry", "material", "mimic"})
 """Containers that mean something when they are empty; which shape is in a geometry is a value of it."""
 _WITHOUT_MEANING = frozenset({"frame"})
-"""Elements of older versions that no reader uses."""
+"""References to definitions of elements that no reader of any version uses."""
 _EACH_COUNTS = frozenset({("sensor", "camera")})
-"""What some reader takes where it stands again: Gazebo Classic every camera."""
+"""Elements (with their parents) whose repetitions some reader uses: Gazebo Classic uses every camera of a sensor."""
 _TRUTHS = frozenset({"true", "false"})
 _POSES = frozenset({"pose", "inertial_pose"})
 THERE = Text("there")
-"""The value that states that a thing is there at all."""
+"""The value of an element that means something by being there."""
 
 Resolve = Callable[[Pose, Transform], Transform]
-"""Where a pose is in the model, which is in a frame that is there unless it names another: (pose, frame)"""
+"""A function of a pose and its parent's frame that places the pose in the model; the pose may name another frame."""
 
 
 @dataclass(frozen=True, slots=True)
 class LeafWalk:
-    """A walk over one XML tree; `where` gives the source of the part at a path."""
+    """A walk over one XML tree, which collects the leaves that it has `found`; `where` locates a path in the source."""
 
     resolve: Resolve
     where: Callable[[str], Source | None]
@@ -45,7 +51,7 @@ class LeafWalk:
     def enter(
         self, element: XmlElement, fact: Fact, holder: Transform, path: str = "", *, carried: bool = False
     ) -> None:
-        """Take in an element whose rows are those of `fact`; poses in it are relative to `holder`."""
+        """Collect the values of an element that `fact` describes; poses in it are relative to `holder`."""
         rows = _rows(fact)
         here = self._pose(element, rows, holder, path, carried=carried)
         self._attributes(element, rows, path, carried=carried)
@@ -55,13 +61,13 @@ class LeafWalk:
                 self._child(child, row, here, f"{path}{key}", carried=carried)
 
     def enter_free(self, element: XmlElement, path: str, *, carried: bool = False, fact: Fact | None = None) -> None:
-        """Take in content that no table of SDF describes; what URDF's does has a `fact`."""
+        """Collect the values of content that SDF's table does not describe; `fact` is its row in URDF's table."""
         for name, value in element.items():
             if not str(name).startswith(_OURS):
-                self._put(_join(path, f"@{name}"), _guess(str(value)), None, carried=carried)
+                self._put(_join(path, f"@{name}"), _untyped_value(str(value)), None, carried=carried)
         text = (element.text or "").strip()
         if text or not (len(element) or element.keys()):
-            self._put(path or "text", _guess(text), None, carried=carried)
+            self._put(path or "text", _untyped_value(text), None, carried=carried)
         for key, child in _keyed(element, {}):
             row = urdf_row(fact, str(child.tag)) if fact else None
             if row is None or row.repeats or not _says_again(child):
@@ -117,7 +123,7 @@ class LeafWalk:
             self.found.pop(f"{path}/@name", None)  # it is in the path
 
     def _put(self, path: str, value: Value, default: Value | None, *, carried: bool) -> None:
-        """Of what is written twice, the first counts."""
+        """Add a leaf, unless its path has one: the first of two elements counts."""
         self.found.setdefault(in_usual_namespaces(path), Leaf(value, default, self.where(path), carried=carried))
 
 
@@ -130,7 +136,7 @@ def _join(path: str, step: str) -> str:
 
 
 def _rows(fact: Fact) -> dict[str, Fact]:
-    """The rows by name; of several, that of the newest version."""
+    """Return the rows by name; of several with one name, the one of the newest version."""
     found: dict[str, Fact] = {}
     for row in fact.rows:
         if row.name not in found or row.until > found[row.name].until:
@@ -139,9 +145,9 @@ def _rows(fact: Fact) -> dict[str, Fact]:
 
 
 def _keyed(element: XmlElement, rows: dict[str, Fact]) -> Iterator[tuple[str, XmlElement]]:
-    """The children, but for carriers, with what tells them from their like: a name, else a number.
+    """Yield the children except carriers, each with a key: its tag, and its name or number where several have the tag.
 
-    Of those that may stand once the first one is given, as `Element::GetElement` of libsdformat takes it, or the last.
+    Of an element that may stand once, only the one that readers take is yielded: the first or, for some, the last.
     """
     seen: dict[str, int] = {}
     for child in element:
@@ -167,14 +173,14 @@ def _keyed(element: XmlElement, rows: dict[str, Fact]) -> Iterator[tuple[str, Xm
 
 
 def _says_again(element: XmlElement) -> bool:
-    """Whether it is what the first element of its name says, so that it does not matter who takes which."""
+    """Whether an element repeats the first one of its name, so that it does not matter which of them a reader takes."""
     parent = element.getparent()
     first = parent.find(str(element.tag)) if parent is not None else None
     return first is not None and first is not element and same_element(first, element)
 
 
 def urdf_row(fact: Fact, *names: str) -> Fact | None:
-    """The row of an element of URDF below another one, by the names on the way, with the rows of what may be in it."""
+    """Return the row of the URDF element at a path of names below `fact`, or None where the table has none."""
     found: Fact | None = fact
     for name in names:
         found = next((row for row in table("urdf").resolve(found).children if row.name == name), None)
@@ -184,14 +190,14 @@ def urdf_row(fact: Fact, *names: str) -> Fact | None:
 
 
 def numbered(key: str, seen: dict[str, int]) -> str:
-    """The key of the next one of its like; `seen` counts them."""
+    """Return the key with a number from its second use on; `seen` counts the uses."""
     count = seen[key] = seen.get(key, 0) + 1
     return key if count == 1 else f"{key}[{count}]"
 
 
 def _value(text: str, row: Fact | None) -> Value:
     if row is None or row.type is None:
-        return _guess(text)
+        return _untyped_value(text)
     return typed_value(row.type, text, unit=row.unit or "") or text_value(text)
 
 
@@ -203,8 +209,8 @@ def _default(row: Fact | None) -> Value | None:
     return _value(row.default, row) if row.default is not None else None
 
 
-def _guess(text: str) -> Value:
-    """A truth, numbers where all pieces are, else the text with single blanks."""
+def _untyped_value(text: str) -> Value:
+    """Read a text of unknown type: a boolean, numbers if all words are, or else the text with single blanks."""
     if text.strip() in _TRUTHS:
         return Flag(text.strip() == "true")
     try:
@@ -216,5 +222,84 @@ def _guess(text: str) -> Value:
 
 
 def text_value(text: str) -> Text:
-    """A text; the scheme in which ROS names files in packages is that of Gazebo."""
+    """Return a text value in which `package://` URIs are written as `model://` ones, which name the same file."""
     return Text(text.replace("package://", "model://", 1) if text.startswith("package://") else text)
+
+
+_CARRIER = {name: f"{{{NAMESPACE}}}{name}" for name in ("sdf", "urdf", "version")}
+CARRIER_OF_URDF = _CARRIER["urdf"]
+_ABOUT_SPELLING = frozenset({"pose", "version"})
+"""Elements in carriers that tell how the other file spelled a value."""
+
+
+def unpack_sdf(element: XmlElement, fact: Fact) -> None:
+    """Move the contents of SDF carriers to their places in the tree, marked as carried, where nothing is written."""
+    for carrier in list(element.iter(_CARRIER["sdf"], _CARRIER["version"])):
+        parent = carrier.getparent()
+        if parent is None or _is_in_carrier(carrier) or carrier.get("instead") or carrier.get("without"):
+            continue
+        parent.remove(carrier)
+        at = carrier.get("at") or ""
+        if at.startswith("/"):
+            continue
+        name, value = carrier.get("attribute"), carrier.get("value")
+        if name is not None:
+            holder = _find_or_make(parent, at)
+            holder.set(name, holder.get(name, value or ""))
+        for child in carrier:
+            _graft(child, parent, at, fact if parent is element else None)
+
+
+def _is_in_carrier(carrier: XmlElement) -> bool:
+    return any(str(above.tag).startswith(f"{{{NAMESPACE}}}") for above in carrier.iterancestors())
+
+
+def _is_beside_another(carrier: XmlElement) -> bool:
+    return any(carrier.get(name) is not None for name, _ in SECOND)
+
+
+def _graft(child: XmlElement, parent: XmlElement, at: str, fact: Fact | None) -> None:
+    if child.tag in _ABOUT_SPELLING or not isinstance(child.tag, str):
+        return
+    repeats = fact is not None and not at and any(row.name == child.tag and row.repeats for row in fact.rows)
+    holder = _find_or_make(parent, at)
+    written = None if repeats else holder.find(child.tag)
+    if written is None:
+        made = deepcopy(child)
+        made.set(CARRIED, "1")
+        holder.append(made)
+        return
+    for inner in child:
+        _graft(inner, written, "", None)
+
+
+def _find_or_make(element: XmlElement, path: str) -> XmlElement:
+    for step in filter(None, path.split("/")):
+        found = element.find(step)
+        element = found if found is not None else etree.SubElement(element, step)
+    return element
+
+
+def urdf_pieces(element: XmlElement) -> Iterator[tuple[str, XmlElement]]:
+    """Yield the contents of the URDF carriers in an element: their paths, and the carrier or an element in it.
+
+    Carriers of repeated elements are skipped, because readers of URDF take the first one.
+    """
+    for carrier in element.iter(_CARRIER["urdf"]):
+        if _is_in_carrier(carrier) or _is_beside_another(carrier):
+            continue
+        at = "/".join(filter(None, (*_tags_between(element, carrier), carrier.get("at"))))
+        if carrier.get("attribute") is not None or carrier.get("text") is not None:
+            yield at, carrier
+        yield from ((at, child) for child in carrier if isinstance(child.tag, str))
+
+
+def _tags_between(element: XmlElement, carrier: XmlElement) -> list[str]:
+    """Return the tags on the way from an element down to the parent of a carrier in it."""
+    above = list(carrier.iterancestors())
+    return [str(each.tag) for each in reversed(above[: above.index(element)])]
+
+
+def definition(name: str) -> Fact:
+    """Return a definition from SDF's facts table."""
+    return table("sdf").definitions[name]

@@ -1,12 +1,13 @@
-"""What different readers see of one file: all of them, Gazebo alone, or twinform alone.
+"""Which parts of a file each reader sees, and how the comparisons for several readers become one.
 
-A *carrier* is of our namespace, and no other reader knows it. Links, joints and frames in the `<gazebo>` elements of
-URDF are read by Gazebo. This is the only place that takes either away: the comparison itself does not know who reads.
+Only twinform reads *carriers*, and only Gazebo and twinform read links, joints and frames in the `<gazebo>` elements of
+URDF. They are removed here, so the comparison itself does not depend on the reader.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Hashable, Iterable
 from dataclasses import replace
 from enum import StrEnum
+from typing import Any, TypeVar
 
 from twinform.compiler.compare.comparison import Difference, DifferenceSeverity
 from twinform.ir import Document
@@ -14,7 +15,7 @@ from twinform.passes.carriers.carriers import without_bodies_for_gazebo, without
 
 
 class ComparingReader(StrEnum):
-    """Who reads a file. Each one sees what the ones before it see, and more."""
+    """A reader of a file. Each one sees everything that the readers listed before it see, and more."""
 
     ANY = "any"
     GAZEBO = "gazebo"
@@ -25,7 +26,7 @@ _ALONE = {ComparingReader.GAZEBO: "only Gazebo and twinform read", ComparingRead
 
 
 def as_read_by(document: Document, readers: Iterable[ComparingReader]) -> dict[ComparingReader, Document]:
-    """The document without what each reader skips; one object for readers that skip the same."""
+    """Return the document without the parts that each reader skips; readers that see the same share one object."""
     if (wanted := [*readers]) == [ComparingReader.TWINFORM]:
         return {ComparingReader.TWINFORM: document}
     # A capsule that a URDF holds in a carrier is there for twinform alone: RViz, Drake and MuJoCo
@@ -42,19 +43,19 @@ def as_read_by(document: Document, readers: Iterable[ComparingReader]) -> dict[C
 def reconcile(
     found: Iterable[Difference], seen: Iterable[Difference], reader: ComparingReader, files: tuple[str, str]
 ) -> list[Difference]:
-    """What readers found, after one that sees more has compared the two files too.
+    """Merge what a reader has `seen` into the differences `found` for readers that see less of the files.
 
-    A difference that only some of them see is `carried`.
+    A difference that only some readers see becomes `carried`.
     """
-    known, found = {_key(each) for each in seen if _counts(each)}, list(found)
-    before = {_key(each) for each in found if _counts(each)}
+    known, found = {_key(each) for each in seen if _is_difference(each)}, list(found)
+    before = {_key(each) for each in found if _is_difference(each)}
     items = [each if _key(each) in known else _seen_as_same(each, reader, files) for each in found]
-    items += [_seen_by_one(each, reader) for each in seen if _counts(each) and _key(each) not in before]
+    items += [_seen_by_one(each, reader) for each in seen if _is_difference(each) and _key(each) not in before]
     places = {heading: place for place, heading in reversed([*enumerate(map(_heading, items))])}
     return sorted(items, key=lambda each: places[_heading(each)])
 
 
-def _counts(item: Difference) -> bool:
+def _is_difference(item: Difference) -> bool:
     return item.severity is not DifferenceSeverity.NOTE
 
 
@@ -63,7 +64,7 @@ def _heading(item: Difference) -> tuple[str, ...]:
 
 
 def _key(item: Difference) -> tuple[str, ...]:
-    """What differs; in kinematics the link that is furthest away depends on what is compared."""
+    """Identify a difference without its values; in kinematics, which link is furthest off depends on the reader."""
     name = "" if item.group == "kinematics" else item.name
     return item.model, item.group, name, item.aspect
 
@@ -73,12 +74,37 @@ def _seen_as_same(item: Difference, reader: ComparingReader, files: tuple[str, s
         return item
     in_one = (item.a.text is None) != (item.b.text is None)
     what = f"it in {files[item.a.text is not None]}" if in_one else "them as the same"
-    return _carried(item, reader, f"{item.message}: {_ALONE[reader]} {what}")
+    return _mark_carried(item, reader, f"{item.message}: {_ALONE[reader]} {what}")
 
 
 def _seen_by_one(item: Difference, reader: ComparingReader) -> Difference:
-    return _carried(item, reader, f"{item.message}: {_ALONE[reader]} this")
+    return _mark_carried(item, reader, f"{item.message}: {_ALONE[reader]} this")
 
 
-def _carried(item: Difference, reader: ComparingReader, message: str) -> Difference:
+def _mark_carried(item: Difference, reader: ComparingReader, message: str) -> Difference:
     return replace(item, severity=DifferenceSeverity.CARRIED, reader=str(reader), message=message)
+
+
+Made = TypeVar("Made")
+
+
+class Memo:
+    """Results for one reader, reused for the next one where both see the same; it keeps the last result of each key."""
+
+    def __init__(self) -> None:
+        self._known: dict[Hashable, tuple[object, Any]] = {}
+
+    def once(
+        self, key: Hashable, given: object, make: Callable[[], Made], lasts: Callable[[Made], bool] = lambda _: True
+    ) -> Made:
+        """Return the result of `make`, or the last one that was made from something equal to `given`.
+
+        A result is only kept if it `lasts`, that is, if it depends on nothing but `given`.
+        """
+        known = self._known.get(key)
+        if known is not None and known[0] == given:
+            return known[1]
+        made = make()
+        if lasts(made):
+            self._known[key] = given, made
+        return made

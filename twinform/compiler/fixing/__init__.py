@@ -1,4 +1,4 @@
-"""Fixes of findings: what a rule offers to fix a file, and what applies it until nothing changes."""
+"""Fixes of findings: the edits that rules offer, and how they are applied until nothing changes."""
 
 from twinform.compiler.fixing.fix_rounds import FixResult, Refused, apply_fixes, apply_fixes_by
 from twinform.compiler.fixing.offering import with_fixes

@@ -1,4 +1,4 @@
-"""Applies fixes until nothing changes. One that makes a new finding, or breaks the file, is taken back."""
+"""Applies fixes until nothing changes. A fix that causes a new finding, or breaks the file, is taken back."""
 
 import re
 from bisect import bisect_left, insort
@@ -26,12 +26,12 @@ _PREDICATE = re.compile(r"\[(?:@name='(?:.*?'\](?=[/\[]|$)|.*)|\d+\](?=[/\[]|$))
 Group = list[Diagnostic]
 """Findings that one fix fixes."""
 Look = Callable[[bytes], LoadResult]
-"""Reads a file and says what is wrong with it."""
+"""Reads a file and reports what is wrong with it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Refused:
-    """A fix that was taken back, and the rules of the findings that it would have made."""
+    """A fix that was taken back, and the rules of the findings that it would have caused."""
 
     finding: Diagnostic
     new: tuple[str, ...]
@@ -39,7 +39,7 @@ class Refused:
 
 @dataclass(frozen=True, slots=True)
 class FixResult:
-    """What came of it: the bytes, the findings that were fixed, in their order, and what is found now."""
+    """The fixed bytes, the findings that were fixed, in order, and what is found now."""
 
     data: bytes
     applied: tuple[Diagnostic, ...]
@@ -56,7 +56,7 @@ def apply_fixes(
     unsafe: bool = False,
     rules: Collection[str] | None = None,
 ) -> FixResult:
-    """Apply the fixes of a file, of all rules or of these; `name` is its path."""
+    """Apply the fixes of a file, of all rules or only of some; `name` is its path."""
 
     def look(text: bytes) -> LoadResult:
         return inspect(read(text, load_options, name=name), load_options)
@@ -92,7 +92,7 @@ class _State:
 
 @dataclass(slots=True)
 class _FixRun:
-    """One run; `tried` are the fixes that were refused."""
+    """One run; `tried` has the fixes that were refused."""
 
     look: Look
     most: Safety
@@ -104,18 +104,18 @@ class _FixRun:
     tried: set[tuple[str, str, str]] = field(default_factory=set[tuple[str, str, str]])
 
     def offered(self, loaded: LoadResult) -> list[Diagnostic]:
-        """The findings with a fix that may be applied."""
+        """Return the findings with a fix that may be applied."""
         return [
             each
             for each in with_fixes(loaded, self.wanted)
-            if each.fix and self._may(each.fix) and _key(each) not in self.tried
+            if each.fix and self._is_allowed(each.fix) and _key(each) not in self.tried
         ]
 
-    def _may(self, fix: Fix) -> bool:
+    def _is_allowed(self, fix: Fix) -> bool:
         return fix.safety is Safety.SAFE or fix.safety is self.most
 
     def applied_to(self, state: _State, offered: Sequence[Diagnostic]) -> _State:
-        """The text with all of these fixes that do not overlap and make nothing worse."""
+        """Apply the fixes that do not overlap and make nothing worse."""
         good: list[Group] = []
         pending, best = [[*_without_overlaps(offered)]], state
         while pending:
@@ -123,8 +123,8 @@ class _FixRun:
             if self.checks >= _most_checks(state.data):
                 self._refuse(groups, ("too-many-tries",))
                 continue
-            after = self._after(state, [*good, *groups])
-            new = _worse(best.loaded, after.loaded, groups)
+            after = self._apply_groups(state, [*good, *groups])
+            new = _new_rules(best.loaded, after.loaded, groups)
             if not new:
                 good, best = [*good, *groups], after
             elif len(groups) > 1:
@@ -142,7 +142,7 @@ class _FixRun:
             self.refused.append(Refused(group[0], new))
             self.tried.update(map(_key, group))
 
-    def _after(self, state: _State, groups: Iterable[Group]) -> _State:
+    def _apply_groups(self, state: _State, groups: Iterable[Group]) -> _State:
         source = SourceText.of(state.data)
         edits = [edit for first, *_ in groups if first.fix for edit in first.fix.edits]
         data = source.with_text(apply(source.text, edits)).data
@@ -151,12 +151,12 @@ class _FixRun:
 
 
 def _most_checks(data: bytes) -> int:
-    """How often a text is read: the larger it is, the less often."""
+    """Return how often a text may be read: the larger it is, the less often."""
     return max(_LEAST_CHECKS, min(_MOST_CHECKS, _MOST_BYTES // (len(data) or 1)))
 
 
 def _without_overlaps(offered: Iterable[Diagnostic]) -> Iterator[Group]:
-    """Findings with one fix together, and of fixes that overlap only the first."""
+    """Group findings that have one fix, and drop fixes that overlap an earlier one."""
     groups: dict[tuple[TextEdit, ...], Group] = {}
     for each in offered:
         if each.fix:
@@ -176,23 +176,27 @@ def _overlaps(span: Span, taken: Sequence[Span]) -> bool:
 
 
 def _meet(one: Span, other: Span) -> bool:
-    """Whether both change the same piece; what is inserted at one place is in the order of the findings."""
+    """Whether both edits change the same piece; insertions at one place do not, and keep the order of the findings."""
     return one.start < other.end and other.start < one.end
 
 
 def _most_severe(offered: Sequence[Diagnostic]) -> list[Diagnostic]:
-    """The errors, or all where there is none: an error may hide what else is wrong."""
+    """Return the errors, or all findings where there are no errors: an error may hide what else is wrong."""
     return [each for each in offered if each.is_error] or [*offered]
 
 
-def _worse(before: LoadResult, after: LoadResult, groups: Sequence[Group]) -> tuple[str, ...]:
-    """The rules of the findings that fixes have made; none where all is well.
+def _new_rules(before: LoadResult, after: LoadResult, groups: Sequence[Group]) -> tuple[str, ...]:
+    """Return the rules of the findings that fixes have caused.
 
-    Where an error is fixed, more of the file is looked at, and what was hidden is found: of several fixes all errors
-    have to be gone, and of one, there must not be more of them than before.
+    Where an error is fixed, more of the file is checked, and hidden mistakes are found. So after several fixes, all
+    errors that they fix have to be gone; after a single one, there must not be more errors than before.
     """
     if before.unreadable or after.unreadable:
-        return () if not after.unreadable or (before.unreadable and _place(after) > _place(before)) else _rules(after)
+        return (
+            ()
+            if not after.unreadable or (before.unreadable and _last_readable_line(after) > _last_readable_line(before))
+            else _error_rules(after)
+        )
     is_cut_off = len(before.diagnostics) >= MOST  # what is found now may have been there beyond the limit
     seen = (each for each in after.diagnostics if each.is_error or not is_cut_off)
     new = Counter(map(kind_of, seen)) - Counter(map(kind_of, before.diagnostics))
@@ -206,17 +210,17 @@ def _worse(before: LoadResult, after: LoadResult, groups: Sequence[Group]) -> tu
     return tuple(sorted({rule for rule, _ in new}))
 
 
-def _rules(loaded: LoadResult) -> tuple[str, ...]:
+def _error_rules(loaded: LoadResult) -> tuple[str, ...]:
     return tuple(each.rule.name for each in loaded.diagnostics if each.is_error)
 
 
-def _place(loaded: LoadResult) -> int:
-    """The line up to which a file could be read."""
+def _last_readable_line(loaded: LoadResult) -> int:
+    """Return the line up to which a file could be read."""
     return max((each.location.line for each in loaded.diagnostics if each.is_error), default=0)
 
 
 def kind_of(finding: Diagnostic) -> tuple[str, str]:
-    """What a finding is known by: its rule and its path, without what a fix of another part may change in it."""
+    """Return a finding's rule and path, without names and numbers that the fix of another part may change."""
     return finding.rule.name, _PREDICATE.sub("", finding.location.path)
 
 

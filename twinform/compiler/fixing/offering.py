@@ -1,13 +1,26 @@
-"""Offers fixes: the findings of a file that was read, each with the fix that its rule has for it."""
+"""Offers fixes: adds to each finding the fix that its rule has for it.
+
+Fixers are functions that make a fix; each of our modules `fix_...` has a table of them by rule. Other packages add
+theirs through the entry-point group `twinform.fixes`, where the name of an entry point is that of the rule.
+"""
 
 import re
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
+from typing import cast
 
-from twinform.compiler.fixing.fixer_registry import fixer_of, text_fixer_of
-from twinform.compiler.fixing.site import FindingSite, FixableFile, touches_expressions
+from twinform.compiler.fixing.site import (
+    FindingSite,
+    FixableFile,
+    Fixer,
+    Fixers,
+    TextFixer,
+    TextFixers,
+    touches_expressions,
+)
 from twinform.compiler.input.loading import LoadResult
-from twinform.diagnostics import Diagnostic, Fix, rules
+from twinform.diagnostics import Diagnostic, Fix, catalog, rules
 
 # Rules whose path may lead to an element that is not written: in URDF a <limit> implies its axis.
 _ABOUT_WHAT_IS_NOT_THERE = frozenset({rules.UNUSED_AXIS.name})
@@ -17,19 +30,19 @@ _ATTRIBUTE = re.compile(r"/@[^/\]']+$")
 
 
 def with_fixes(loaded: LoadResult, wanted: Callable[[Diagnostic], bool] = lambda _: True) -> tuple[Diagnostic, ...]:
-    """The findings of a file, those that are wanted with their fix; offsets are in `SourceText.of(content).text`.
+    """Return the findings of a file, the wanted ones with their fixes; offsets are in `SourceText.of(content).text`.
 
-    There is none for what stands in another file than the one that was read, or is made by xacro.
+    Findings about other files, or about what xacro has made, get no fix.
     """
     if not any(each.rule.fix and wanted(each) for each in loaded.diagnostics):
         return loaded.diagnostics
     file = FixableFile.of(loaded)
     if file is None:
         return loaded.diagnostics
-    return tuple(replace(each, fix=_fix(each, file)) if wanted(each) else each for each in loaded.diagnostics)
+    return tuple(replace(each, fix=_offer(each, file)) if wanted(each) else each for each in loaded.diagnostics)
 
 
-def _fix(finding: Diagnostic, file: FixableFile) -> Fix | None:
+def _offer(finding: Diagnostic, file: FixableFile) -> Fix | None:
     if finding.rule.fix is None or finding.location.file != file.loaded.path:
         return None
     fix = _make_fix(finding, file)
@@ -64,3 +77,60 @@ def _make_fix(finding: Diagnostic, file: FixableFile) -> Fix | None:
         return None
     name = where.path.rpartition("/@")[2] if _ATTRIBUTE.search(where.path) else None
     return fixer(FindingSite(finding, file, element, name, missing))
+
+
+GROUP = "twinform.fixes"
+
+
+class FixRegistryError(Exception):
+    """A package registers something that is not a fixer; the message names the package."""
+
+
+@cache
+def fixers() -> Fixers:
+    """Return our own fixers by the names of their rules."""
+    # few files have a finding that can be fixed
+    from twinform.compiler.fixing import fix_joints, fix_names, fix_numbers, fix_plugins, fix_structure  # noqa: PLC0415
+
+    modules = (fix_joints, fix_names, fix_numbers, fix_plugins, fix_structure)
+    return {rule: fixer for module in modules for rule, fixer in module.FIXERS.items()}
+
+
+@cache
+def text_fixers() -> TextFixers:
+    """Return our own fixers that work on the text of a file, by the names of their rules."""
+    from twinform.compiler.fixing import fix_names, fix_xml_syntax  # noqa: PLC0415 - as above
+
+    return {**fix_names.TEXT_FIXERS, **fix_xml_syntax.TEXT_FIXERS}
+
+
+def fixer_of(rule: str) -> Fixer | None:
+    """Return the fixer of a rule, if it has one that works on elements.
+
+    Raises:
+        FixRegistryError: a package registers something that is not a fixer.
+    """
+    return fixers().get(rule) if rule in catalog() else strangers().get(rule)
+
+
+def text_fixer_of(rule: str) -> TextFixer | None:
+    """Return the fixer of a rule, if it has one that works on the text of a file."""
+    return text_fixers().get(rule)
+
+
+@cache
+def strangers() -> Fixers:
+    """Return the fixers of other packages by the names of their rules."""
+    from importlib.metadata import entry_points  # noqa: PLC0415 - few rules are those of other packages
+
+    found: dict[str, Fixer] = {}
+    for entry in sorted(entry_points(group=GROUP), key=lambda each: each.name):
+        owner = entry.dist.name if entry.dist else "an unknown distribution"
+        try:
+            fixer = entry.load()
+        except (ImportError, AttributeError) as error:
+            raise FixRegistryError(f"{owner} registers a fixer of {entry.name} that cannot be imported") from error
+        if entry.name in catalog() or entry.name in found or not callable(fixer):
+            raise FixRegistryError(f"{owner} registers a fixer of {entry.name}, which has one already or is none")
+        found[entry.name] = cast("Fixer", fixer)
+    return found

@@ -1,4 +1,4 @@
-"""`Site`: what a finding is about, as those who offer fixes see it, and the edits that they make of it."""
+"""The site of a finding for fixers: the file, the element and the attribute that it is about, and edits of them."""
 
 import re
 from collections import defaultdict
@@ -21,7 +21,7 @@ _FORMATS = {"robot": "urdf", "sdf": "sdf"}
 
 @dataclass(frozen=True)
 class FixableFile:
-    """The text of a file that was read, its elements and their places; `parts` is None where the text is no XML."""
+    """The text of a file that was read, its elements and their places; `parts` is None where the text is not XML."""
 
     loaded: LoadResult
     source: SourceText
@@ -30,7 +30,7 @@ class FixableFile:
 
     @classmethod
     def of(cls, loaded: LoadResult) -> "FixableFile | None":
-        """Nothing for what has no text of its own: a document in memory, JSON, what xacro has made."""
+        """Prepare a file for fixers; None for a document in memory, for JSON, and for what xacro has made."""
         if loaded.content is None or loaded.origins:
             return None
         try:
@@ -63,12 +63,12 @@ class FixableFile:
 
     @cached_property
     def names(self) -> frozenset[str]:
-        """Every name that an element has."""
+        """The names of all elements."""
         return frozenset(each.get("name", "") for each in self.root.iter("*"))
 
     @cached_property
     def values(self) -> dict[str, list[tuple[XmlElement, str | None]]]:
-        """Where each value stands alone: in an attribute, or as the text of an element without children."""
+        """The places of each value: attributes with their elements, and elements with a text."""
         found: defaultdict[str, list[tuple[XmlElement, str | None]]] = defaultdict(list)
         for each in self.root.iter("*"):
             for name, value in each.attrib.items():
@@ -79,7 +79,7 @@ class FixableFile:
 
     @cached_property
     def words(self) -> dict[str, set[str]]:
-        """The words of texts and of attributes but `name`, with the elements that say them."""
+        """The words in texts, and in attributes other than `name`, with the tags of their elements."""
         found: defaultdict[str, set[str]] = defaultdict(set)
         for each in self.root.iter("*"):
             said = [str(value) for key, value in each.attrib.items() if key != "name"]
@@ -89,7 +89,7 @@ class FixableFile:
 
     @cached_property
     def memo(self) -> dict[str, Any]:
-        """What fixers have found out about the whole file, so that each asks once however many findings there are."""
+        """What fixers have found out about the whole file, so that they do so once for all findings."""
         return {}
 
     @cached_property
@@ -99,7 +99,7 @@ class FixableFile:
 
     @cached_property
     def version(self) -> Version:
-        """The version of the format, as the document was read."""
+        """The version by which the document was read."""
         found = table(self.format)
         declared = self.root.get("version")
         if declared in found.versions:
@@ -108,7 +108,7 @@ class FixableFile:
         return (1, 0) if self.format == "urdf" and declared is None else found.newest
 
     def row_of(self, element: XmlElement) -> Fact | None:
-        """The row of the facts table that an element is read by, with the rows of what may be in it."""
+        """Return the row of the facts table by which an element is read, with the rows of its content."""
         facts = table(self.format)
         here = facts.definitions[facts.root]
         for each in [*reversed([*element.iterancestors()]), element][1:]:
@@ -121,9 +121,9 @@ class FixableFile:
 
 @dataclass(frozen=True)
 class FindingSite:
-    """A finding, and the element that it is about; `attribute` is the one that its path names, written or not.
+    """A finding and its element; `attribute` is the attribute that its path names, whether it is written or not.
 
-    Where the path leads to an element that is not written, `missing` is the last step, and `element` the one around it.
+    Where the path leads to an element that is not written, `missing` is its tag, and `element` the one around it.
     """
 
     finding: Diagnostic
@@ -134,22 +134,22 @@ class FindingSite:
 
     @property
     def edit(self) -> Editor:
-        """What makes edits."""
+        """The editor, which makes edits of the text."""
         return self.file.edit
 
     @property
     def value(self) -> str:
-        """The attribute that the finding is about or, where it names none, the text of the element."""
+        """The value of the attribute that the finding is about, or the text of the element."""
         return self.element.get(self.attribute, "") if self.attribute else (self.element.text or "")
 
     def set_value(self, value: str) -> tuple[TextEdit, ...]:
-        """Write another value there."""
+        """Write another value in the place of `value`."""
         if self.attribute:
             return (self.edit.set_attribute(self.element, self.attribute, value),)
         return self.edit.set_text(self.element, value)
 
     def part(self, where: Location) -> XmlElement | None:
-        """The element that another location leads to."""
+        """Return the element that another location leads to."""
         return self.file.parts.find(where) if self.file.parts else None
 
 
@@ -158,25 +158,25 @@ Fixer = Callable[[FindingSite], Fix | None]
 Fixers = Mapping[str, Fixer]
 """Fixers by the names of their rules."""
 TextFixer = Callable[[Diagnostic, FixableFile], Fix | None]
-"""Makes the fix of a finding that leads to no element: the text is not well-formed, or its lines are what is wrong."""
+"""Makes the fix of a finding about text that is not well-formed, or about lines instead of an element."""
 TextFixers = Mapping[str, TextFixer]
 
 
 def safe(title: str, *edits: TextEdit) -> Fix:
-    """A fix after which every reader takes the file for the same robot, or the only one that it can mean."""
+    """Make a fix after which all readers read the same robot as before, or the only one that the file can mean."""
     return Fix(title, edits, Safety.SAFE)
 
 
 def unsafe(title: str, *edits: TextEdit) -> Fix:
-    """A fix that may make another robot of it, or is a guess."""
+    """Make a fix that may change the robot, or is a guess."""
     return Fix(title, edits, Safety.UNSAFE)
 
 
 def display(title: str, *edits: TextEdit) -> Fix:
-    """An idea, in which something has to be filled in."""
+    """Make a fix in which the user has to fill in something."""
     return Fix(title, edits, Safety.DISPLAY)
 
 
 def touches_expressions(fix: Fix, text: str) -> bool:
-    """Whether a fix changes what xacro, or a template, makes a value of."""
+    """Whether a fix changes an expression of xacro or of a template."""
     return any(_EXPRESSION.search(edit.span.of(text)) for edit in fix.edits)

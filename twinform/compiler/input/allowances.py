@@ -1,6 +1,6 @@
-"""Allowed findings: rules that the caller allows, and comments in the files that findings lead to.
+"""Allowed findings: rules that the caller allows, and suppressions in comments of the files.
 
-What is allowed is no finding: an allowed error stops nothing, as long as there is a model in spite of it.
+An allowed finding is not reported, and an allowed error stops nothing, as long as there is a model in spite of it.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
@@ -9,24 +9,24 @@ from pathlib import Path
 
 from twinform.compiler.input.size_limits import Limits
 from twinform.diagnostics import Diagnostic, DiagnosticSink, LineOrigins, Location, Rule
-from twinform.diagnostics.rules import MALFORMED_SUPPRESSION
-from twinform.diagnostics.suppressions import NO_SUPPRESSIONS, Suppressions
+from twinform.diagnostics.rules import MALFORMED_SUPPRESSION, UNUSED_SUPPRESSION
+from twinform.diagnostics.suppressions import NO_SUPPRESSIONS, Suppression, Suppressions
 from twinform.file_access import Readable
 
 _MARKS = tuple(("twinform".encode(code), "urn:twinform:".encode(code)) for code in ("utf-8", "utf-16-le", "utf-16-be"))
-"""What stands in a comment that allows something, and where else it stands, in each encoding."""
+"""The word that begins a suppression, and the namespace that has the word too, in each encoding."""
 _WITHOUT_MODEL = "without this part there is no model, and nothing else could be checked"
 
 
 @dataclass(slots=True)
 class Allowances:
-    """What may be left out of the findings about one file.
+    """What is left out of the findings about one file.
 
-    `file` is that file, and `files` are the suppressions of it and of others, which are read when a finding leads
-    there. `known` are the findings that were left out, by what they are known by at later stages, where lines differ.
+    `files` has the suppressions of the file and of others, which are read when a finding is about them. `known` has the
+    keys of findings that were left out, by which they are recognized at later stages, where their lines differ.
 
-    Warnings are always left out. Errors are where the caller is `tolerant`, if there is a model in spite of them; those
-    that are unsound once it is `checked`, and nothing more is to be made of it.
+    Allowed warnings are always left out. Allowed errors are left out where the caller is `tolerant` and there is a
+    model in spite of them; unsound ones only once the file is `checked`, when nothing more will be made of it.
     """
 
     file: str
@@ -48,7 +48,7 @@ class Allowances:
         return self._suppressions_in(where.file).covers(diagnostic.rule.name, where.line)
 
     def in_conversion(self, diagnostic: Diagnostic) -> bool:
-        """Whether a finding of a conversion is allowed; errors that reading did not find never are."""
+        """Whether a finding of a conversion is allowed; an error that reading did not find never is."""
         is_new = all(diagnostic.rule.name != rule for rule, _, _ in self.known)
         return not (diagnostic.is_error and is_new) and self(diagnostic)
 
@@ -60,25 +60,25 @@ class Allowances:
         return self.tolerant and (self.checked or not rule.unsound)
 
     def read(self, text: bytes, sink: DiagnosticSink) -> None:
-        """Take the suppressions of the file itself from its text, and report what is wrong with them."""
+        """Read the suppressions of the file itself from its text, and report what is wrong with them."""
         found = self.files[self.file] = suppressions(text)
         for flaw in found.flaws:
             sink.report(MALFORMED_SUPPRESSION, flaw.message, Location(self.file, flaw.line), help=flaw.help)
         for entry in found.entries:
             for name in entry.rules:
                 where = Location(self.file, entry.line)
-                for message, help in _problems(name):
+                for message, help in _name_problems(name):
                     sink.report(MALFORMED_SUPPRESSION, message, where, found=name, help=help)
 
     def settle(self, sink: DiagnosticSink) -> None:
-        """Take what is allowed out of the findings of a stage."""
+        """Remove what is allowed from the findings of a stage."""
         found = [each for each in sink.diagnostics if self(each)]
         if found:
             self.known.update(self._key(each) for each in found)
             sink.take_out(found)
 
     def put_back(self, sink: DiagnosticSink) -> None:
-        """Report the errors again that were allowed, since there is no model."""
+        """Report allowed errors after all, because there is no model."""
         self.tolerant = False
         errors = [each for each in sink.allowed if each.is_error]
         sink.allowed = [each for each in sink.allowed if not each.is_error]
@@ -89,7 +89,7 @@ class Allowances:
         return diagnostic.rule.name, self._place_in_source(where).file, where.path or str(where.line)
 
     def _place_in_source(self, where: Location) -> Location:
-        """The place in the file that somebody has written, of one in what that expands to."""
+        """Return the place in the file that the author has written, for a place in what it expands to."""
         origins = self.origins.get(where.file)
         return (origins.place(where.line) if origins else None) or where
 
@@ -101,14 +101,14 @@ class Allowances:
 
 
 def staying(errors: Iterable[Diagnostic], reason: str) -> Iterator[Diagnostic]:
-    """Errors that are allowed, and have to be reported for a reason."""
+    """Yield allowed errors as errors that are reported nevertheless, with the reason."""
     for each in errors:
         help = f"it is allowed, and stays: {reason}"
         yield replace(each, help=f"{each.help}\n{help}" if each.help else help)
 
 
 def suppressions(text: bytes) -> Suppressions:
-    """The suppressions in a file."""
+    """Parse the suppressions in a file."""
     if not any(text.count(mark) > text.count(namespace) for mark, namespace in _MARKS):
         return NO_SUPPRESSIONS
     from twinform.diagnostics.suppressions import parse_suppressions  # noqa: PLC0415 - few files have any
@@ -122,15 +122,15 @@ def suppressions(text: bytes) -> Suppressions:
 
 
 def content_of(file: Path, limits: Limits) -> bytes:
-    """What is in a file; nothing where it cannot be read."""
+    """Return the content of a file, or nothing where it cannot be read."""
     try:
         return Readable.of(file).read(file, limits.size)
     except (OSError, ValueError):
         return b""  # a name that stands for something that is no file
 
 
-def _problems(name: str) -> Iterator[tuple[str, str | None]]:
-    """What is wrong with the name of a rule in a comment, and help."""
+def _name_problems(name: str) -> Iterator[tuple[str, str | None]]:
+    """Yield what is wrong with the name of a rule in a comment, and help."""
     from twinform.diagnostics import did_you_mean  # noqa: PLC0415 - few files have any
     from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule, rules  # noqa: PLC0415 - as above
 
@@ -142,3 +142,39 @@ def _problems(name: str) -> Iterator[tuple[str, str | None]]:
             yield f"{name} is fatal, and cannot be allowed", None
     except RuleRegistryError as error:
         yield f"{name!r} is not known: {error}", None
+
+
+_NAMES = """
+    ambiguous-frame angle-in-degrees backslash-in-path bare-material blank-value conflicting-material
+    continuous-in-sdf dangling-frame dangling-link defaulted-attribute deprecated-element dialect duplicate-name
+    empty-dynamics empty-model empty-name frame-cycle gazebo-conflict gazebo-tag-without-target impossible-inertia
+    indefinite-inertia inertia-from-nothing invalid-value kinematic-loop lower-above-upper mimic-cycle
+    misplaced-sensor missing-attribute missing-axis missing-element missing-file missing-inertial missing-limit
+    missing-part missing-shape no-links non-positive-mass old-root out-of-range outside-version repaired-xml
+    repeated-element reserved-name self-joint sensor-mismatch several-at-top several-roots shared-name split-value
+    stray-text tabbed-numbers transmission-without-joint two-parents unexpanded-xacro unknown-attribute
+    unknown-canonical-link unknown-collision unknown-driven-joint unknown-element unknown-gripper-link
+    unknown-leader unknown-material unknown-reference unknown-version unnamed-material unnormalised-axis
+    unnormalised-quaternion unprintable-name unused-axis unused-limit world-child xacro-warning zero-axis zero-limit
+    zero-size
+"""
+ALWAYS_SOUGHT = frozenset(_NAMES.split())
+"""The rules that every check looks for; others are looked for by passes, conversions, or where includes are read."""
+
+
+def report_unused(allowances: Allowances, sink: DiagnosticSink) -> None:
+    """Report each suppression in the file itself that suppresses nothing."""
+    own = allowances.files.get(allowances.file)
+    for entry, rule in own.unused() if own else ():
+        if rule in ALWAYS_SOUGHT:
+            where = _describe_lines(entry)
+            message = f"no {rule} is found {where}, so nothing has to be allowed"
+            help = f"delete {rule} from the comment" if len(entry.rules) > 1 else "delete the comment"
+            sink.report(UNUSED_SUPPRESSION, message, Location(allowances.file, entry.line), found=rule, help=help)
+
+
+def _describe_lines(entry: Suppression) -> str:
+    """Say in words on which lines an entry allows its rules."""
+    if not entry.last:
+        return "in this file"
+    return f"on line {entry.first}" if entry.first == entry.last else f"on the lines {entry.first} to {entry.last}"

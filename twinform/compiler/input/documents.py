@@ -1,11 +1,11 @@
-"""Documents in memory as input: checked as the file that they would be, which has to say all that they do."""
+"""Checks documents in memory as the files that they would be, which have to say everything that they do."""
 
 import json
 import re
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple, cast
 
-from twinform.compiler.input.gazebo_extensions import check_extensions
+from twinform.compiler.input.front_ends import check_extensions
 from twinform.compiler.input.load_options import LoadOptions, LoadResult
 from twinform.compiler.output.emitting import document_tree, located
 from twinform.compiler.output.json import Data, JsonPath, is_array, is_object, json_data
@@ -45,10 +45,7 @@ def check_document(
     load_options: LoadOptions,
     lower: Callable[[XmlElement, DiagnosticSink], Document | None],
 ) -> LoadResult:
-    """Report everything that is wrong with a document, as if it were a file: it is, once it is written.
-
-    `lower` makes a document of its tree again.
-    """
+    """Write a document, read it again with `lower`, and report everything that is wrong with it."""
     unwritable = unwritable_part(json_data(document))
     if unwritable is not None:
         path, message = unwritable

@@ -1,7 +1,7 @@
-"""Lines of findings: from the line of the node that holds a part to that of the part itself, by the path.
+"""Exact lines of findings: finds the element that the path of a finding leads to.
 
-Nodes know where they were written, and their simple parts, such as the `<child>` of a joint, only the step to them.
-Findings of the reader need none of this: it has the elements themselves.
+Nodes only know their own lines, and not those of simple parts, such as the `<child>` of a joint. Findings of the reader
+have exact lines already, because it has the elements themselves.
 """
 
 import re
@@ -20,28 +20,25 @@ _STEP = re.compile(
 )
 _ATTRIBUTE = re.compile(r"/@[^/\]']+$")
 
-# Nodes of the IR know the line of the element that made them, and not that of the part of it that
-# is wrong. Only findings of later checks need this; the reader has the element that it
-# reports on.
 _KEYS = ("name", "reference")
 _SEVERAL = 2
 
 
 class _Parts:
-    """The elements that one path leads to, and those by one step more: each element is looked through once."""
+    """The elements that a path leads to, with an index of their children, so that each element is looked at once."""
 
     def __init__(self, elements: list[XmlElement]) -> None:
         self.elements = elements
         self._inside: dict[str, _Parts] = {}
 
     def inside(self, step: re.Match[str]) -> "_Parts":
-        """What another step leads to."""
+        """Return the elements that another step leads to."""
         if step[0] not in self._inside:
             self._inside[step[0]] = _Parts(self._found(step["tag"], step["key"], step["value"], step["place"]))
         return self._inside[step[0]]
 
     def only_one_at(self, line: int) -> XmlElement | None:
-        """The only element that begins, or is in one that begins, on a line; None where there are several."""
+        """Return the only element that begins on a line, or is inside one that does; None where there are several."""
         found = self._by_line.get(line, [])
         return found[0] if len(found) == 1 else None
 
@@ -54,7 +51,7 @@ class _Parts:
 
     @cached_property
     def _children(self) -> dict[tuple[str, str | None, str | None], list[XmlElement]]:
-        """By the name, and by an attribute that tells one from others with its value."""
+        """All children by tag, and by tag with the name and value of an attribute that identifies them."""
         found: defaultdict[tuple[str, str | None, str | None], list[XmlElement]] = defaultdict(list)
         for child in chain.from_iterable(self.elements):
             tag = _written_tag(child)
@@ -67,7 +64,7 @@ class _Parts:
 
     @cached_property
     def _numbered(self) -> dict[tuple[str, int], list[XmlElement]]:
-        """By the name, and the place among those of this name in one element."""
+        """All children by tag, and their number among those of one tag in one element."""
         found: defaultdict[tuple[str, int], list[XmlElement]] = defaultdict(list)
         for element in self.elements:
             count = Counter[str]()
@@ -79,7 +76,7 @@ class _Parts:
 
     @cached_property
     def _by_line(self) -> dict[int | None, list[XmlElement]]:
-        """By the lines on which one, or one around it, begins; of several for a line the first two."""
+        """The elements by the lines on which they or elements around them begin; at most two for a line."""
         found: defaultdict[int | None, list[XmlElement]] = defaultdict(list)
         for element in self.elements:
             for line in {element.sourceline, *(each.sourceline for each in element.iterancestors())}:
@@ -89,16 +86,16 @@ class _Parts:
 
 
 class PartFinder:
-    """Finds the parts of one tree that locations lead to."""
+    """Finds the elements of one tree that locations lead to."""
 
     def __init__(self, root: XmlElement) -> None:
         self.root = root
         self._parts = _Parts([root])
 
     def find(self, where: Location) -> XmlElement | None:
-        """The part at a location; None where the path is not ours, or leads to several parts or beside the line.
+        """Return the element at a location; None where there is none, or several.
 
-        The line is that of the part, or of one around it.
+        The line of the location may be that of an element around it.
         """
         steps = _steps(_ATTRIBUTE.sub("", where.path))
         if not steps or steps[0]["tag"] != self.root.tag:
@@ -109,12 +106,12 @@ class PartFinder:
         return parts.only_one_at(where.line)
 
     def find_path(self, where: Location) -> XmlElement | None:
-        """The part that a path leads to, whatever the line is; None where it leads to several."""
+        """Return the element that a path leads to, whatever the line is; None where it leads to several."""
         return self.find(where._replace(line=self.root.sourceline or 0))
 
 
 def with_exact_lines(diagnostics: Iterable[Diagnostic], root: XmlElement, file: str) -> Iterator[Diagnostic]:
-    """The findings, each at the line of the smallest part that its path leads to without a doubt."""
+    """Yield findings with the line of the element that their path leads to, where it is the only one."""
     parts = PartFinder(root)
     for each in diagnostics:
         where = each.location
@@ -124,7 +121,7 @@ def with_exact_lines(diagnostics: Iterable[Diagnostic], root: XmlElement, file: 
 
 
 def _steps(path: str) -> list[re.Match[str]]:
-    """The steps of a path; none where something in it is no step."""
+    """Return the steps of a path, or nothing where a part of it is not a step."""
     steps: list[re.Match[str]] = []
     end = 0
     while found := _STEP.match(path, end):
@@ -134,14 +131,14 @@ def _steps(path: str) -> list[re.Match[str]]:
 
 
 def _written_tag(element: XmlElement) -> str:
-    """The name of an element as paths have it: with the prefix that it was written with."""
+    """Return the tag of an element with the prefix that it was written with, as in paths."""
     tag = str(element.tag)
     prefix = prefix_of(element, tag)
     return f"{prefix}:{tag.partition('}')[2]}" if prefix else tag
 
 
 def line_of_text(parts: PartFinder, where: Location, text: str) -> int:
-    """The line of the first part in what a location leads to that has this text; 0 where there is none."""
+    """Return the line of the first element with a text or value at a location; 0 where there is none."""
     start = parts.find(where)
     if start is None:
         return 0

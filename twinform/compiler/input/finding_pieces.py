@@ -1,6 +1,6 @@
-"""Which piece of an element a finding is about: the value, the text or the name that is wrong.
+"""Finds the piece of an element that a finding is about: the value, the text or the name that is wrong.
 
-The smallest piece is chosen that holds what was found; where none does without a doubt, the name of the start tag.
+It is the smallest piece that contains what was found, or the name in the start tag where that is in doubt.
 """
 
 import re
@@ -28,7 +28,7 @@ _NAMES: frozenset[Rule] = frozenset(
         rules.GAZEBO_CONFLICT,
     }
 )
-"""Findings about an element or attribute itself, whatever its value is."""
+"""Findings about the name of an element or attribute, whatever its value is."""
 _PARTS: dict[Rule, str] = {
     rules.DUPLICATE_NAME: "name",
     rules.EMPTY_NAME: "name",
@@ -50,46 +50,48 @@ _QUOTED = re.compile(r"'((?:[^']|(?<=\w)'(?=\w))+)'")
 _EXPRESSION = re.compile(r"when evaluating expression '(.*)'$", re.DOTALL)
 _ARGUMENT = re.compile(r"^Undefined substitution argument (\S+)$")
 _ALIKE = 0.75
-"""How much of an attribute's name is that of the missing one where it is a typo of it."""
+"""How similar an attribute's name has to be to that of a missing attribute to be taken for a typo of it."""
 _SHORTEST = 4
-"""Names with fewer letters are no typos of others."""
+"""Shorter names are not taken for typos."""
 _TOKEN = re.compile(r"[^\s,]+")
 _ASIDE = re.compile(f"{COMMENT}|{INSTRUCTION}")
 
 
 def piece(finding: Diagnostic, element: ElementSpan, text: str) -> Span:
-    """The piece of an element that a finding is about; the element is the one that its path leads to."""
+    """Return the piece that a finding is about, in the element that its path leads to."""
     attribute = finding.location.path.rpartition("/@")[2] if "/@" in finding.location.path else None
     if attribute is not None:
         written = element.attributes.get(attribute)
-        return _of_attribute(finding, written, text) if written else element.name
+        return _piece_of_attribute(finding, written, text) if written else element.name
     if finding.rule is rules.STRAY_TEXT:
         return (finding.found and element.find_text(finding.found, text)) or element.name
     if finding.rule is rules.MISSING_ATTRIBUTE:
-        return _misspelt(finding, element) or element.name
+        return _misspelt_attribute(finding, element) or element.name
     if finding.rule in _NAMES:
         return element.name
     if finding.rule is rules.SPLIT_VALUE:
         return _own_text(element, text) or element.name
-    return _part(finding, element, text) or _holding(finding, element, text) or element.name
+    return _piece_for_rule(finding, element, text) or _piece_with_found(finding, element, text) or element.name
 
 
 def quoted(message: str, element: ElementSpan, text: str) -> Span | None:
-    """The value, or text, of an element that a message quotes, or an expression of xacro in it."""
+    """Return the value, text or xacro expression of an element that a message quotes."""
     wanted = set(_QUOTED.findall(message)) | {word.strip(".,:;[]'\"") for word in message.split()}
     expression = _EXPRESSION.search(message)
     argument = _ARGUMENT.search(message)
     if argument is not None:
-        return _place(f"$(arg {argument[1]})", element, text)
+        return _find_word(f"$(arg {argument[1]})", element, text)
     if expression is not None:
-        begin = [at for form in ("${%s}", "$(%s)") if (at := _place(form % expression[1], element, text)) is not None]
+        begin = [
+            at for form in ("${%s}", "$(%s)") if (at := _find_word(form % expression[1], element, text)) is not None
+        ]
         return begin[0] if len(begin) == 1 else None
     ends = [each for each in values(element, text) if "." in each.of(text) and f"/{each.of(text)}'" in message]
-    return _exact(values(element, text), wanted, text) or _only(ends)
+    return _only_equal(values(element, text), wanted, text) or _only(ends)
 
 
 def values(element: ElementSpan, text: str) -> list[Span]:
-    """The text of an element, if it has one, and the values of its attributes, if they are not empty."""
+    """Return the text of an element and the values of its attributes, except empty ones."""
     own = _own_text(element, text)
     return [
         *((own,) if own else ()),
@@ -97,15 +99,15 @@ def values(element: ElementSpan, text: str) -> list[Span]:
     ]
 
 
-def _misspelt(finding: Diagnostic, element: ElementSpan) -> Span | None:
-    """The name of the attribute that is a typo of the missing one; short names, such as ixx and ixy, are all alike."""
+def _misspelt_attribute(finding: Diagnostic, element: ElementSpan) -> Span | None:
+    """Return the name of an attribute that is a typo of a missing one; short names, such as ixx, are too similar."""
     missing = _QUOTED.search(finding.message)
     near = nearest_name(missing[1], element.attributes, _ALIKE) if missing and len(missing[1]) >= _SHORTEST else None
     return element.attributes[near].name if near else None
 
 
-def _place(word: str, element: ElementSpan, text: str) -> Span | None:
-    """Where a word stands in a start tag or text, if it is there once."""
+def _find_word(word: str, element: ElementSpan, text: str) -> Span | None:
+    """Return where a word stands in a start tag or text, if it is there once."""
     inside = Span(element.start_tag.start, (_own_text(element, text) or element.start_tag).end)
     start = text.find(word, *inside)
     if start < 0 or text.find(word, start + 1, inside.end) >= 0:
@@ -113,7 +115,7 @@ def _place(word: str, element: ElementSpan, text: str) -> Span | None:
     return Span(start, start + len(word))
 
 
-def _part(finding: Diagnostic, element: ElementSpan, text: str) -> Span | None:
+def _piece_for_rule(finding: Diagnostic, element: ElementSpan, text: str) -> Span | None:
     name = _PARTS.get(finding.rule)
     if name is None:
         return None
@@ -126,32 +128,32 @@ def _part(finding: Diagnostic, element: ElementSpan, text: str) -> Span | None:
     return _own_text(child, text) or (value.value if value else child.name)
 
 
-def _of_attribute(finding: Diagnostic, attribute: AttributeSpan, text: str) -> Span:
+def _piece_of_attribute(finding: Diagnostic, attribute: AttributeSpan, text: str) -> Span:
     if finding.rule in _NAMES:
         return attribute.name
     found = _only_token(attribute.value, finding.found, text)
     return found or (attribute.value if attribute.value.of(text) else attribute.whole)
 
 
-def _holding(finding: Diagnostic, element: ElementSpan, text: str) -> Span | None:
-    """The text or value in an element that holds what was found, or what the message quotes."""
+def _piece_with_found(finding: Diagnostic, element: ElementSpan, text: str) -> Span | None:
+    """Return the text or value in an element that contains what was found, or what the message quotes."""
     parts = values(element, text)
     found = finding.found
     if found is not None:
         words = (word for part in parts if (word := _only_token(part, found, text)))
-        return _exact(parts, {found}, text) or _only(words) or _in_children(element, found, text)
+        return _only_equal(parts, {found}, text) or _only(words) or _in_children(element, found, text)
     name = element.attributes.get("name")
     others = [part for part in parts if name is None or part != name.value]
-    return _exact(others, set(_QUOTED.findall(finding.message)), text)
+    return _only_equal(others, set(_QUOTED.findall(finding.message)), text)
 
 
-def _exact(parts: list[Span], wanted: set[str], text: str) -> Span | None:
+def _only_equal(parts: list[Span], wanted: set[str], text: str) -> Span | None:
     return _only(each for each in parts if each.of(text) in wanted)
 
 
 def _in_children(element: ElementSpan, found: str, text: str) -> Span | None:
-    """The text or value of a child that is what was found, if only one is."""
-    return _exact([part for child in element.children for part in values(child, text)], {found}, text)
+    """Return the only text or value of a child that is equal to what was found."""
+    return _only_equal([part for child in element.children for part in values(child, text)], {found}, text)
 
 
 def _only(found: Iterable[Span]) -> Span | None:
@@ -160,7 +162,7 @@ def _only(found: Iterable[Span]) -> Span | None:
 
 
 def _only_token(part: Span, wanted: str | None, text: str) -> Span | None:
-    """The word of a text or value, if that has several of which exactly one is wanted."""
+    """Return a word in a text or value, if it is there exactly once."""
     if not wanted or not _TOKEN.fullmatch(wanted):
         return None
     words = (found for found in _TOKEN.finditer(text, part.start, part.end) if found[0] == wanted)
@@ -168,7 +170,7 @@ def _only_token(part: Span, wanted: str | None, text: str) -> Span | None:
 
 
 def _own_text(element: ElementSpan, text: str) -> Span | None:
-    """The text of an element without blanks around it, and with comments between; None where it has children."""
+    """Return the text of an element without blanks and comments around it; None where it has children."""
     if element.children or element.content is None:
         return None
     written = _ASIDE.sub(lambda aside: " " * len(aside[0]), element.content.of(text))

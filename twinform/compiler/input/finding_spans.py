@@ -1,7 +1,7 @@
-"""Columns of findings: the piece of the text that a finding is about, from its line and its path.
+"""Columns of findings: finds the piece of the text that a finding is about, from its line and path.
 
-Positions are made when somebody asks for them, and for files with findings only. Where it is in doubt which piece is
-meant, a finding stays as it is: with a line and without a column.
+It is only done on demand, for files with findings. A finding keeps its line without a column where it is in doubt which
+piece is meant.
 """
 
 import re
@@ -24,7 +24,7 @@ from twinform.text.positions import Tags, start_tag
 
 _WORD = re.compile(r"[\w:.-]+")
 _OF_ROOT = frozenset({rules.UNKNOWN_ROOT, rules.OLD_ROOT})
-"""Findings about the root element whatever it is called."""
+"""Findings about the root element, whatever its name is."""
 # libxml2 knows the line on which a start tag ends, and findings are made with that, which costs
 # nothing. Columns take 0.24 s for 1,000 findings in a file of 10,000 links, whose check takes 0.7
 # s. expat would need 3.0 s and refuses what is repaired, so one regular expression finds the tags.
@@ -32,12 +32,12 @@ _MOST_ON_LINE = 1000
 
 
 def located(loaded: LoadResult) -> tuple[Diagnostic, ...]:
-    """The findings about a file, with columns, in the order in which they stand in it."""
+    """Return the findings about a file with columns, in the order of the file."""
     return with_columns(loaded.diagnostics, SourceFiles.of(loaded))
 
 
 def with_columns(diagnostics: tuple[Diagnostic, ...], files: SourceFiles) -> tuple[Diagnostic, ...]:
-    """The findings with columns, file after file, in the order of their lines; `files` are those they are about."""
+    """Return findings with columns, sorted by file and line; `files` are the files that they are about."""
     texts: dict[str, FindingSpans | None] = {}
     with garbage_collection_paused():
         found = [_with_column(each, files, texts) for each in diagnostics]
@@ -60,19 +60,19 @@ def _with_column(one: Diagnostic, files: SourceFiles, texts: dict[str, "FindingS
 
 
 def _with_end(where: Location, files: SourceFiles) -> Location:
-    """A place that another program gave, up to the end of the word there."""
+    """Extend a place from another program to the end of the word there."""
     word = _WORD.match(files.line(where.file, where.line) or "", where.column - 1)
     return where._replace(end_line=where.line, end_column=word.end() + 1) if word else where
 
 
 def _is_expanded(one: Diagnostic) -> bool:
-    """Whether a finding is about a part of what xacro made of a file: its place in that comes second."""
+    """Whether a finding is about the expansion of a xacro file, where it has a second place."""
     return bool(one.related) and one.related[0].file.endswith(expanded_name(""))
 
 
 @dataclass(frozen=True)  # no slots: the lines are kept in the dictionary
 class FindingSpans:
-    """Where the findings about one file stand in its text."""
+    """Finds the pieces of one file that findings are about."""
 
     tags: Tags
     parts: PartFinder
@@ -80,14 +80,14 @@ class FindingSpans:
 
     @classmethod
     def of(cls, data: bytes, tree: XmlElement | None = None) -> "FindingSpans | None":
-        """Prepare the search in a file, whose tree may be at hand; None for a file that has no readable text."""
+        """Prepare the search in a file, whose tree may be at hand; None where the file cannot be read."""
         try:
-            root = _tree(data) if tree is None else tree
+            root = _parse_again(data) if tree is None else tree
             tags = Tags(SourceText.of(data).text)
             places = dict(zip(root.iter("*"), range(len(tags)), strict=True))
         except (UnreadableError, ValueError):  # also: not the same elements; a codec that knows its own errors
             return None
-        return cls(tags, PartFinder(root), places) if _agree(places, tags) else None
+        return cls(tags, PartFinder(root), places) if _have_equal_tags(places, tags) else None
 
     @property
     def text(self) -> str:
@@ -100,9 +100,9 @@ class FindingSpans:
         return Lines(self.text)
 
     def span(self, where: Location) -> Span | None:
-        """The attribute with its value, or the start tag, that a location leads to; None where it leads to none.
+        """Return the attribute or start tag that a location leads to; None where it leads to no element.
 
-        An attribute that is not written is missed in the start tag.
+        For an attribute that is not written it is the start tag.
         """
         element = self.parts.find(where)
         if element is None:
@@ -112,13 +112,13 @@ class FindingSpans:
         return attribute.whole if attribute else place.start_tag
 
     def piece(self, finding: Diagnostic, *, expanded: bool = False) -> Span | None:
-        """The smallest piece that a finding is about; None where that is in doubt.
+        """Return the smallest piece that a finding is about; None where that is in doubt.
 
-        Of one whose part was `expanded` from what stands here, the path may be another.
+        The path of a finding about `expanded` content may lead elsewhere in the source.
         """
         where = finding.location
         if finding.rule is rules.TABBED_NUMBERS:
-            return self._tabbed(finding)
+            return self._tabbed_value(finding)
         if finding.rule in _OF_ROOT:
             return start_tag(self.text, self.tags.starts[0]).name
         element = self.parts.find(where)
@@ -128,20 +128,20 @@ class FindingSpans:
         if element is not None:
             return piece(finding, self._element(element), self.text)
         if not where.path:
-            return self._named(finding)
-        place = self._on_line(where) if expanded else None
-        return piece(finding, place, self.text) if place else self._inside(finding)
+            return self._quoted_on_line(finding)
+        place = self._only_match_on_line(where) if expanded else None
+        return piece(finding, place, self.text) if place else self._found_below(finding)
 
     def location(self, where: Location, span: Span) -> Location:
-        """A location at a piece of the text."""
+        """Return a location with the lines and columns of a piece."""
         (line, column), (end_line, end_column) = self.lines.place(span.start), self.lines.place(span.end)
         return where._replace(line=line, column=column, end_line=end_line, end_column=end_column)
 
     def _element(self, element: XmlElement) -> ElementSpan:
         return self.tags.element(self.places[element])
 
-    def _begun(self, line: int) -> list[ElementSpan]:
-        """The elements that begin on a line; none of them where there are too many to tell one from the others."""
+    def _elements_beginning_on(self, line: int) -> list[ElementSpan]:
+        """Return the elements that begin on a line, or nothing where there are too many to search."""
         if not 0 < line <= len(self.lines):
             return []
         begin = self.lines.start(line)
@@ -149,19 +149,19 @@ class FindingSpans:
         places = range(bisect_left(self.tags.starts, begin), bisect_left(self.tags.starts, end))
         return [self.tags.element(place) for place in places] if len(places) <= _MOST_ON_LINE else []
 
-    def _on_line(self, where: Location) -> ElementSpan | None:
-        """The only element of this kind that begins on a line, with the attribute if it is about one."""
+    def _only_match_on_line(self, where: Location) -> ElementSpan | None:
+        """Return the only element on a line that has the tag, and the attribute, which a path ends with."""
         path, _, attribute = where.path.partition("/@")
         tag = path.rpartition("/")[2].partition("[")[0] if "']" not in path else _last_tag(path)
         found = [
             each
-            for each in self._begun(where.line)
+            for each in self._elements_beginning_on(where.line)
             if each.name.of(self.text) == tag and (not attribute or attribute in each.attributes)
         ]
         return found[0] if len(found) == 1 else None
 
-    def _inside(self, finding: Diagnostic) -> Span | None:
-        """What was found in the part that a path leads to, on the line that is that of something in this part."""
+    def _found_below(self, finding: Diagnostic) -> Span | None:
+        """Return the only text or value equal to what was found, on the line of a finding and below its path."""
         where, found = finding.location, finding.found
         around = self.parts.find_path(where)
         if around is None or not found:
@@ -185,15 +185,15 @@ class FindingSpans:
             found[element.sourceline].append(element)
         return found
 
-    def _named(self, finding: Diagnostic) -> Span | None:
-        """What the message of a finding without a path names, in the only element that begins on its line."""
-        found = self._begun(finding.location.line)
+    def _quoted_on_line(self, finding: Diagnostic) -> Span | None:
+        """Return what the message of a finding quotes, in the only element that begins on its line."""
+        found = self._elements_beginning_on(finding.location.line)
         if len(found) != 1:
             return None
         return quoted(finding.message, found[0], self.text) or found[0].name
 
-    def _tabbed(self, finding: Diagnostic) -> Span | None:
-        """The value of the only attribute on a line that the message names, and whose value is broken."""
+    def _tabbed_value(self, finding: Diagnostic) -> Span | None:
+        """Return the value of the only attribute on a line that the message names."""
         line = finding.location.line
         if not 0 < line <= len(self.lines):
             return None
@@ -201,7 +201,7 @@ class FindingSpans:
         before = [self.tags.element(around)] if around >= 0 else []
         found = [
             attribute.value
-            for element in (*before, *self._begun(line))
+            for element in (*before, *self._elements_beginning_on(line))
             for name, attribute in element.attributes.items()
             if f"'{name}'" in finding.message and self.lines.place(attribute.name.start).line == line
         ]
@@ -209,17 +209,17 @@ class FindingSpans:
 
 
 def _last_tag(path: str) -> str:
-    """The name of the element that a path ends with, whose names may have slashes in them."""
+    """Return the tag of the element that a path ends with; names in the path may have slashes in them."""
     steps = path.split("']")
     last = steps[-1] or steps[-2].partition("[@")[0]
     return last.rpartition("/")[2].partition("[")[0]
 
 
-def _tree(data: bytes) -> XmlElement:
-    """The tree as it was read, also of a file of another format.
+def _parse_again(data: bytes) -> XmlElement:
+    """Parse a file again as it was read, or as XML of another format.
 
     Raises:
-        UnreadableError: it is no XML.
+        UnreadableError: it is not XML.
     """
     try:
         return read_tree_again(data)
@@ -227,8 +227,8 @@ def _tree(data: bytes) -> XmlElement:
         return parse(data, DiagnosticSink(), LIFTED_LIMITS)
 
 
-def _agree(places: dict[XmlElement, int], tags: Tags) -> bool:
-    """Whether the elements are called the same in the tree and in the text, but for prefixes and old roots."""
+def _have_equal_tags(places: dict[XmlElement, int], tags: Tags) -> bool:
+    """Whether the elements have the same names in the tree and in the text, except for prefixes and old roots."""
     return all(
         place == 0 or str(element.tag).rpartition("}")[2] == tags.name(place).rpartition(":")[2]
         for element, place in places.items()

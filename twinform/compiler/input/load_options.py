@@ -22,7 +22,7 @@ Input = str | Path | bytes | Document
 
 
 class FileOptions(TypedDict, total=False):
-    """How a file is read. `arguments` are those of xacro."""
+    """How a file is read; `arguments` are those of xacro."""
 
     strict: Annotated[bool, Option(help="Refuse what readers ignore, such as unknown names.", setting=True)]
     engine: Annotated[Engine, Option(help="The XSD validator; xmlschema is the slow reference.")]
@@ -69,7 +69,7 @@ class FileOptions(TypedDict, total=False):
 
 
 class ReadingOptions(FileOptions, total=False):
-    """How a file is read, and whether those that it includes are."""
+    """How a file is read, and whether the files that it includes are read too."""
 
     expand_includes: Annotated[
         bool, Option(help="Read the files that includes name, and put them in their place.", switch=True)
@@ -87,14 +87,14 @@ class CheckOptions(ReadingOptions, total=False):
 class LoadOptions:
     """How files are read.
 
-    `search` are the folders for URIs, `arguments` those of xacro. `xacro` selects which files are expanded: by default
-    those whose name ends so, all where it is true, and none where it is false. `limits` say how large files may be.
-    Without `keep_tree` the result has no tree, which needs more memory than the document; with `keep_comments` it has
-    the comments. Findings of the rules in `allow` are left out, as are those that comments in the files allow; errors
-    too where the caller is `tolerant`.
+    `search` has the folders for URIs, and `arguments` are those of xacro. `xacro` selects which files are expanded: by
+    default those whose names end in `.xacro`, all where it is true, and none where it is false. `limits` are the
+    largest sizes of files. Without `keep_tree` the result has no tree, which needs more memory than the document; with
+    `keep_comments` it has the comments. Findings of the rules in `allow` are left out, as are those that comments in
+    the files allow; allowed errors are left out only if the caller is `tolerant`.
     `profiles` are those of the consumers that the files are for. `variables` are environment variables that xacro files
-    may read besides those of ROS and Gazebo; `*` may stand in a name. `sdf_version` is the newest that the reader
-    of the files knows: of a folder that has a model in several versions, it takes the newest one up to that.
+    may read besides those of ROS and Gazebo; `*` may stand in a name. `sdf_version` is the newest version that the
+    reader of the files knows: of a folder with a model in several versions, the newest one up to it is read.
     """
 
     strict: bool = False
@@ -120,7 +120,7 @@ class LoadOptions:
         profiles: "str | Iterable[Profile]" = (),
         tolerant: bool = False,
     ) -> "LoadOptions":
-        """What these options ask for; one that is `None` is not given.
+        """Make the options from keywords; one that is `None` is not given.
 
         Raises:
             UnknownProfileError: there is no such consumer.
@@ -140,30 +140,31 @@ class LoadOptions:
         )
 
     def read_by(self, sdf_version: str | None) -> "LoadOptions":
-        """The options for files that a reader of this version of SDF reads; the same ones where none is asked for."""
+        """Return the options for a reader that knows SDF up to a version, or unchanged where that is None."""
         return self if sdf_version is None else replace(self, sdf_version=sdf_version)
 
     def allowances(self, file: str, origins: Mapping[str, LineOrigins] | None = None) -> Allowances:
-        """What may be left out of the findings about a file."""
+        """Return what may be left out of the findings about a file."""
         return Allowances(file, self.allow, self.limits, self.tolerant, origins or {})
 
 
 def checking_options(options: CheckOptions) -> LoadOptions:
-    """How a file is read whose errors may be allowed."""
+    """Make the options to read a file whose errors may be allowed."""
     allow, profiles = options.get("allow", ()), options.get("profiles", ())
     return LoadOptions.of(options, allow=allow, profiles=profiles, tolerant=True)
 
 
 @dataclass(frozen=True, slots=True)
 class LoadResult:
-    """What `check` found. `unreadable` means that there is no model at all: no file, no XML, or another format.
+    """The document of a file, and what was found in it.
 
-    The document may be there in spite of errors; `accepted` is whether it has any. `tree` is the XML that it came
-    from, parsed from `content` where that was no document in memory, and `tree_size` its size where it was not kept.
-    `origins` lead from its lines to where they were written if it was expanded. Where includes were expanded,
-    `included` is the size of their files, `entries` what became of parts of them, and `mixed` means that the files may
-    have been of several versions. `allowed` are the findings that the caller or a comment in a file allows, and
-    `allowances` know of others whether they are. `comments` are those of the file, where they are kept.
+    `unreadable` means that there is no model at all: no file, no XML, or another format. The document may be there in
+    spite of errors; it is `accepted` where there are none. `tree` is the XML that the document came from, parsed from
+    `content` unless it was a document in memory, and `tree_size` is its size where it was not kept. `origins` lead from
+    the lines of an expanded text to where they were written. Where includes were expanded, `included` is the size of
+    their files, `entries` what became of parts of them, and `mixed` means that the files may be of several versions.
+    `allowed` are the findings that the caller or a comment in a file allows, and `allowances` decide about further
+    findings. `comments` are those of the file, where they are kept.
     """
 
     path: str
@@ -183,13 +184,13 @@ class LoadResult:
 
     @property
     def text_name(self) -> str:
-        """What the text that the document was read from is called in locations: a file, or what it expanded to."""
+        """The name in locations of the text that the document was read from: the file, or its expansion."""
         expanded = expanded_name(self.path)
         return expanded if expanded in self.origins else self.path
 
     @property
     def size(self) -> int:
-        """How many elements and attributes the source has."""
+        """The number of elements and attributes in the source."""
         if self.tree_size is not None:
             return self.included + self.tree_size
         if self.tree is not None:
@@ -203,22 +204,22 @@ class LoadResult:
 
 
 def expanded_name(file: str) -> str:
-    """What the text is called that a xacro file expands to."""
+    """Return the name in locations of the text that a xacro file expands to."""
     return f"{file} (expanded)"
 
 
 def unexpanded_name(name: str) -> str:
-    """The file that a text with such a name is of: the xacro file that expanded to it, or itself."""
+    """Return the name of the xacro file that an expanded text comes from; other names are returned unchanged."""
     return name.removesuffix(expanded_name(""))
 
 
 def parts_of(tree: XmlElement) -> int:
-    """How many elements and attributes a tree has."""
+    """Count the elements and attributes of a tree."""
     return sum(1 + len(element.keys()) for element in tree.iter())
 
 
 def name_of_input(source: Input | LoadResult) -> str:
-    """What messages call it: a document is called as the file that it came from."""
+    """Return the name of an input in messages; a document has the name of its file."""
     if isinstance(source, LoadResult):
         return source.path
     if isinstance(source, Document):
@@ -227,10 +228,10 @@ def name_of_input(source: Input | LoadResult) -> str:
 
 
 def profiles_of(profiles: "str | Iterable[Profile]") -> "tuple[Profile, ...]":
-    """The profiles of consumers, or those of their names.
+    """Return profiles, given as such or as names with commas between.
 
     Raises:
-        UnknownProfileError: there is none of such a name.
+        UnknownProfileError: there is no profile of a name.
     """
     if not isinstance(profiles, str):
         return tuple(profiles)

@@ -4,19 +4,25 @@ import errno
 import gc
 import os
 import re
-from collections import defaultdict
-from collections.abc import Callable, Generator
+from collections.abc import Generator
 from contextlib import contextmanager
 from dataclasses import replace
-from itertools import count
 from pathlib import Path
 from typing import Unpack
 
 from twinform.compiler.conversion_error import CompileError
-from twinform.compiler.input import read_sdf, read_urdf
 from twinform.compiler.input.allowances import Allowances, content_of
 from twinform.compiler.input.finding_lines import with_exact_lines
-from twinform.compiler.input.gazebo_extensions import check_extensions
+from twinform.compiler.input.front_ends import (
+    LARGE,
+    ROOTS,
+    build_document,
+    check_extensions,
+    declared_version,
+    lower_tree,
+    namespaces_of,
+    used_up,
+)
 from twinform.compiler.input.load_options import (
     FileOptions,
     Input,
@@ -26,7 +32,12 @@ from twinform.compiler.input.load_options import (
     name_of_input,
     parts_of,
 )
-from twinform.compiler.input.parser_quirks import has_comment_after_text, report_split_values, report_tabbed_numbers
+from twinform.compiler.input.parser_quirks import (
+    has_comment_after_text,
+    report_split_values,
+    report_tabbed_numbers,
+    report_unexpanded,
+)
 from twinform.compiler.input.parsing import (
     UnreadableError,
     parse,
@@ -36,8 +47,6 @@ from twinform.compiler.input.parsing import (
 )
 from twinform.compiler.input.size_limits import LIFTED_LIMITS, USUAL_LIMITS, Limits, excess_of_json
 from twinform.compiler.input.take_comments import may_have_comments, take_comments
-from twinform.compiler.input.unexpanded_xacro import report_unexpanded
-from twinform.compiler.input.used_up_tree import LARGE, used_up
 from twinform.compiler.option import require_options
 from twinform.compiler.output.source_comments import Comments
 from twinform.diagnostics import DiagnosticSink, Location, rules
@@ -46,21 +55,12 @@ from twinform.ir.record import amend
 from twinform.ir.verify import verify
 from twinform.schemas import (
     Context,
-    Version,
     XmlElement,
-    declared_namespaces,
     has_prefixed_attributes,
-    parse_version,
     refusals,
-    undeclared_prefix,
     validate,
-    versions_of,
 )
 
-_ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Document | None]]] = {
-    "robot": ("urdf", read_urdf.build),
-    "sdf": ("sdf", read_sdf.build),
-}
 _CONSEQUENCES = frozenset(
     {rules.MISSING_LIMIT, rules.PARTIAL_LIMIT, rules.SEVERAL_ROOTS, rules.EMPTY_MODEL, rules.UNKNOWN_MATERIAL}
 )
@@ -71,8 +71,6 @@ XACRO = ".xacro"
 _OLD_ROOT = "gazebo"
 _OLD_ROOT_VERSIONS = frozenset({"1.2"})
 """What the root of SDF was called, and the versions of these that are known; 1.0 is another language."""
-_WITHOUT_VERSION = {"urdf": (1, 0)}
-"""The version of a file that declares none."""
 
 
 def read(source: Input | LoadResult, load_options: LoadOptions, *, name: str = "") -> LoadResult:
@@ -88,10 +86,10 @@ def read(source: Input | LoadResult, load_options: LoadOptions, *, name: str = "
             from twinform.compiler.input.documents import check_document  # noqa: PLC0415 - it reads what it has written
 
             return check_document(source, sink, load_options, lower_tree)
-        return _check(source, sink, load_options)
+        return _read_source(source, sink, load_options)
 
 
-def _check(source: str | Path | bytes, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
+def _read_source(source: str | Path | bytes, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
     if not isinstance(source, bytes):
         load_options.search.seen.add(Path(source))
     try:
@@ -99,31 +97,31 @@ def _check(source: str | Path | bytes, sink: DiagnosticSink, load_options: LoadO
         # that is named could be run through the `xacro` command as well; --no-xacro is for
         # pipelines over files of strangers.
         if not isinstance(source, bytes) and (load_options.xacro or Path(source).suffix.lower() == XACRO):
-            return _check_xacro(Path(source), sink, load_options)
+            return _read_xacro(Path(source), sink, load_options)
         text = source if isinstance(source, bytes) else bytes_of(Path(source), sink, load_options)
     except UnreadableError:
         return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
     allowances = load_options.allowances(sink.file)
     if not _JSON.match(text):
         allowances.read(text, sink)
-    return _check_text(text, sink, load_options, allowances)
+    return _read_text(text, sink, load_options, allowances)
 
 
 def bytes_of(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes:
-    """What is in a file, or what an editor has of it.
+    """Return the content of a file, or of the editor that has it open.
 
     Raises:
-        UnreadableError: it is missing, or too large.
+        UnreadableError: the file is missing, or too large.
     """
     search = load_options.search
     unsaved = search.unsaved_of(path)
     return read_bytes(path, sink, load_options.limits, search.readable(path)) if unsaved is None else unsaved
 
 
-def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, allowances: Allowances) -> LoadResult:
+def _read_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, allowances: Allowances) -> LoadResult:
     try:
         if _JSON.match(text):
-            return _check_json(text, sink, load_options, allowances)
+            return _read_json(text, sink, load_options, allowances)
         document, tree, size, comments = read_document(text, sink, load_options, allowances)
     except UnreadableError:
         return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True, content=text)
@@ -153,11 +151,11 @@ def _check_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, al
     )
 
 
-def _check_json(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, allowances: Allowances) -> LoadResult:
-    """Read a JSON document as the text of its format that it stands for.
+def _read_json(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, allowances: Allowances) -> LoadResult:
+    """Read a JSON document by way of the text in its format that it stands for.
 
     Raises:
-        UnreadableError: there is too much of it.
+        UnreadableError: the document is too large.
     """
     from twinform.compiler.input.json_input import read_json  # noqa: PLC0415 - few files are JSON
 
@@ -167,7 +165,7 @@ def _check_json(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, al
         return LoadResult(sink.file, None, tuple(sink.diagnostics))
     name = f"{sink.file} (as {source.format.upper()})"
     allowances.origins = sink.origins
-    loaded = _check_text(source.text, DiagnosticSink(name, sink.strict), load_options, allowances)
+    loaded = _read_text(source.text, DiagnosticSink(name, sink.strict), load_options, allowances)
     sink.origins[name] = source.origins(loaded.document, sink.file)
     sink.extend(loaded.diagnostics)
     if loaded.document is not None and loaded.accepted:
@@ -178,11 +176,11 @@ def _check_json(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, al
     return replace(loaded, path=sink.file, diagnostics=found, origins=sink.origins, allowed=allowed)
 
 
-def _check_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
+def _read_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
     """Expand a xacro file and read the text that comes out; findings are reported where their parts were written.
 
     Raises:
-        UnreadableError: it cannot be expanded, or must not.
+        UnreadableError: the file cannot be expanded, or must not be.
     """
     from twinform.compiler.input.xacro.expansion import expand  # noqa: PLC0415 - few files need it
 
@@ -197,7 +195,7 @@ def _check_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) ->
     allowances = load_options.allowances(sink.file, sink.origins)
     unsaved = load_options.search.unsaved_of(path)
     allowances.read(content_of(path, load_options.limits) if unsaved is None else unsaved, sink)
-    loaded = _check_text(expansion.text, DiagnosticSink(name, sink.strict), load_options, allowances)
+    loaded = _read_text(expansion.text, DiagnosticSink(name, sink.strict), load_options, allowances)
     sink.extend(loaded.diagnostics)
     allowances.settle(sink)
     allowed = (*loaded.allowed, *sink.allowed)
@@ -205,7 +203,7 @@ def _check_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) ->
 
 
 def load(source: str | Path, **options: Unpack[FileOptions]) -> Document:
-    """The document of a file; `options` are those of `check`.
+    """Read the document of a file; `options` are those of `check`.
 
     Raises:
         CompileError: the file has an error; what was found is in its diagnostics.
@@ -216,11 +214,11 @@ def load(source: str | Path, **options: Unpack[FileOptions]) -> Document:
     loaded = read(source, LoadOptions.of(options))
     if loaded.unreadable and not Path(source).exists():
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(source))
-    return _document(loaded)
+    return _accepted_document(loaded)
 
 
 def loads(text: str | bytes, name: str = "<string>", **options: Unpack[FileOptions]) -> Document:
-    """The document of a text; `name` stands for the file in diagnostics.
+    """Read the document of a text; `name` stands for the file in diagnostics.
 
     Raises:
         CompileError: the text has an error; what was found is in its diagnostics.
@@ -228,10 +226,10 @@ def loads(text: str | bytes, name: str = "<string>", **options: Unpack[FileOptio
     """
     require_options(options, FileOptions)
     data = text.encode() if isinstance(text, str) else text
-    return _document(read(data, LoadOptions.of(options), name=name))
+    return _accepted_document(read(data, LoadOptions.of(options), name=name))
 
 
-def _document(loaded: LoadResult) -> Document:
+def _accepted_document(loaded: LoadResult) -> Document:
     if loaded.document is None or not loaded.accepted:
         raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
     return loaded.document
@@ -240,13 +238,13 @@ def _document(loaded: LoadResult) -> Document:
 def read_document(
     text: bytes, sink: DiagnosticSink, load_options: LoadOptions, allowances: Allowances
 ) -> tuple[Document | None, XmlElement | None, int | None, Comments | None]:
-    """The document of an XML text, its tree, the size of that if it need not be kept, and the comments.
+    """Read an XML text: return its document, its tree, the size of a tree that need not be kept, and the comments.
 
-    A large tree is not kept then, and neither are comments unless they are wanted. Where the text has errors, the
-    document is there if it can be.
+    The tree of a large text is used up where it need not be kept. Where the text has errors, there may still be a
+    document.
 
     Raises:
-        UnreadableError: it is not XML.
+        UnreadableError: the text is not XML.
     """
     engine = load_options.engine
     may_split = has_comment_after_text(text)
@@ -257,7 +255,7 @@ def read_document(
     comments = take_comments(root) if with_comments else None
     if b"<xacro:" in text or b"${" in text:
         report_unexpanded(root, sink)
-    format_, build = _ROOTS[str(root.tag)]
+    format_, build = ROOTS[str(root.tag)]
     if format_ == "urdf":
         report_tabbed_numbers(text, sink)
     context = Context(sink, sink.file, format_, declared_version(root, format_, sink))
@@ -265,35 +263,25 @@ def read_document(
     # the like in what the XSD accepts.
     errors = refusals(root, context, engine)
     context.simple = not errors and (_is_plain(text, sink) or not has_prefixed_attributes(root))
-    namespaces = _namespaces(root, namespace, inside=_declares_inside(root, text, sink))
+    namespaces = namespaces_of(root, namespace, inside=_declares_inside(root, text, sink))
     size = None if load_options.keep_tree else parts_of(root)
     comments = comments if load_options.keep_comments else None
     is_used_up = not (load_options.keep_tree or comments) and context.simple and len(text) > LARGE
-    document = _built(build, used_up(root) if is_used_up else root, context)
+    document = build_document(build, used_up(root) if is_used_up else root, context)
     if errors:
         validate(root, context, engine, errors)
     if document is not None:
         amend(document, "namespaces", namespaces)
         allowances.settle(sink)
         if sink.has_errors:
-            _verify_what_is_there(document, read_tree_again(text) if is_used_up else root, sink)
+            _verify_partial(document, read_tree_again(text) if is_used_up else root, sink)
     return document, None if is_used_up else root, size, comments
-
-
-def _built(
-    build: Callable[[XmlElement, Context], Document | None], root: XmlElement, context: Context
-) -> Document | None:
-    """The document of a tree; None where errors leave gaps in it."""
-    document = build(root, context)
-    if document is None and not context.sink.has_errors:
-        raise ValueError(f"{context.file}: some part lacks what it needs, and nothing was reported")
-    return document
 
 
 def read_tree(
     text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS, *, keep_comments: bool = False
 ) -> tuple[XmlElement, str | None]:
-    """The XML tree of a text in one of our formats, its names plain, and the default namespace that it had.
+    """Parse a text of one of our formats: return its tree, with plain names, and the default namespace that it had.
 
     Raises:
         UnreadableError: it is not XML, or of another format.
@@ -304,7 +292,7 @@ def read_tree(
         message = f"the root of SDF {root.get('version')} is <{_OLD_ROOT}>; read, and written, as <sdf>"
         sink.report(rules.OLD_ROOT, message, Location(line=root.sourceline or 0, path=f"/{root.tag}"))
         root.tag = "sdf"
-    if root.tag not in _ROOTS:
+    if root.tag not in ROOTS:
         where = Location(line=root.sourceline or 0, path=f"/{root.tag}")
         message = f"the root element is <{root.tag}>; expected <robot> or <sdf>"
         sink.report(rules.UNKNOWN_ROOT, message, where, found=str(root.tag), expected="robot or sdf")
@@ -313,28 +301,14 @@ def read_tree(
 
 
 def read_tree_again(text: bytes, *, keep_comments: bool = False) -> XmlElement:
-    """The tree of a text that `read_tree` took before, whatever its size; with its comments where they are kept."""
+    """Parse a text that `read_tree` has accepted before, without limits on its size."""
     return read_tree(text, DiagnosticSink(), LIFTED_LIMITS, keep_comments=keep_comments)[0]
 
 
-def lower_tree(root: XmlElement, sink: DiagnosticSink) -> Document | None:
-    """The document of a tree that we have written ourselves; errors in the notes where it is not valid after all."""
-    format_, build = _ROOTS[str(root.tag)]
-    context = Context(sink, sink.file, format_, declared_version(root, format_, sink))
-    errors = refusals(root, context, "libxml2")
-    context.simple = not errors and not has_prefixed_attributes(root)
-    document = _built(build, root, context)
-    if errors:
-        validate(root, context, "libxml2", errors)
-    if document is not None:
-        amend(document, "namespaces", _namespaces(root, None))
-    return document
+def _verify_partial(document: Document, root: XmlElement, sink: DiagnosticSink) -> None:
+    """Check names and references after an error too, so that the author sees all mistakes at once.
 
-
-def _verify_what_is_there(document: Document, root: XmlElement, sink: DiagnosticSink) -> None:
-    """After an error the names and references are still checked, so that the author sees all at once.
-
-    Left out are findings that may only follow from what could not be read.
+    Findings that may only follow from what could not be read are left out.
     """
     found = DiagnosticSink(file=sink.file, strict=sink.strict)
     verify(document, found)
@@ -342,57 +316,27 @@ def _verify_what_is_there(document: Document, root: XmlElement, sink: Diagnostic
     sink.extend(with_exact_lines(kept, root, sink.file))
 
 
-def declared_version(root: XmlElement, format_: str, sink: DiagnosticSink) -> Version:
-    """The version that the reader goes by: the declared one where the format has it, else the newest."""
-    known, declared = versions_of(format_), root.get("version")
-    if declared is None and format_ in _WITHOUT_VERSION:
-        return _WITHOUT_VERSION[format_]
-    if declared in known:
-        return parse_version(declared)
-    where = Location(line=root.sourceline or 0, path=f"/{root.tag}/@version")
-    newest = known[-1]
-    if declared is not None:
-        message = f"{format_.upper()} has no version {declared!r}; read as {newest}"
-        sink.report(rules.UNKNOWN_VERSION, message, where, found=declared, expected=", ".join(known))
-    return parse_version(newest)
-
-
 def _is_plain(text: bytes, sink: DiagnosticSink) -> bool:
-    """Whether no name has a namespace: none is declared, nor was a prefix repaired; in UTF-16 there is a zero byte."""
+    """Whether no name has a namespace: none is declared, and no prefix was repaired; UTF-16 has zero bytes."""
     repaired = any(found.rule is rules.REPAIRED_XML for found in sink.diagnostics)
     return not repaired and b"xmlns" not in text and b"\0" not in text
 
 
 def _declares_inside(root: XmlElement, text: bytes, sink: DiagnosticSink) -> bool:
-    """Whether other elements than the root may declare namespaces, or have had prefixes of theirs repaired."""
+    """Whether elements below the root may declare namespaces, or may have had prefixes repaired."""
     repaired = any(found.rule is rules.REPAIRED_XML for found in sink.diagnostics)
     return repaired or text.count(b"xmlns") > len(root.nsmap) or b"\0" in text
 
 
-def _namespaces(root: XmlElement, default: str | None, *, inside: bool = True) -> tuple[tuple[str, str], ...]:
-    """The prefixes of a document, those of its root first; one that is another namespace inside gets another name."""
-    own = [(prefix, uri) for prefix, uri in root.nsmap.items() if prefix]
-    others = sorted(declared_namespaces(root).difference(own)) if inside else []
-    found: dict[str, str] = {}
-    known: set[str] = set()
-    numbers: defaultdict[str, count[int]] = defaultdict(lambda: count(2))
-    for prefix, uri in (*own, *others):
-        wanted = undeclared_prefix(uri) or prefix
-        if found.setdefault(wanted, uri) != uri and uri not in known:
-            found[next(name for n in numbers[wanted] if (name := f"{wanted}{n}") not in found)] = uri
-        known.add(uri)
-    return (*((("", default),) if default else ()), *sorted(found.items()))
-
-
 @contextmanager
 def garbage_collection_paused() -> Generator[None]:
-    """Keep the collector from walking a growing tree again and again; nothing here makes cycles.
+    """Pause the garbage collector, which would walk the growing tree again and again; nothing here makes cycles.
 
-    Before it goes on, all that was made joins the old generation, which `freeze` and `unfreeze` do without looking at
-    it; otherwise the first thing that the collector did would be to walk all of it once more.
+    Afterwards `freeze` and `unfreeze` move all new objects into the oldest generation without looking at them;
+    otherwise the collector would begin with walking all of them once more.
     """
     enabled = gc.isenabled()
-    # Walking a growing tree again and again costs 8 to 15 % of the time.
+    # It costs 8 to 15 % of the time.
     gc.disable()
     try:
         yield

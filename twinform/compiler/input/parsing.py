@@ -1,7 +1,7 @@
-"""From bytes to a safe XML tree.
+"""Parses bytes into an XML tree, safely.
 
-The input may be hostile: no entities, no DTD, no network, no decompression, a limit on size. Real files are often not
-quite XML; what the parsers of ROS and Gazebo let pass is repaired when it can only mean one thing.
+The input may be hostile: no entities, no DTD, no network, no decompression, and limits on size. Real files are often
+not quite XML; mistakes that the parsers of ROS and Gazebo accept are repaired where they can only mean one thing.
 """
 
 import codecs
@@ -41,13 +41,13 @@ _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 class UnreadableError(Exception):
-    """There is no tree; the diagnostics tell why."""
+    """There is no tree; the reasons are in the diagnostics."""
 
 
 def read_bytes(
     path: Path, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS, readable: Readable | None = None
 ) -> bytes:
-    """The bytes of a file that is `readable`, or without this one that does not lead out of its own root.
+    """Read the bytes of a file, which has to be `readable`, or without this inside its own root.
 
     Raises:
         UnreadableError: it is missing, no regular file, too large, or must not be read.
@@ -69,7 +69,7 @@ def read_bytes(
 def parse(
     text: bytes, sink: DiagnosticSink, limits: Limits = USUAL_LIMITS, *, keep_comments: bool = False
 ) -> XmlElement:
-    """The root of the document, its default namespace removed and undeclared prefixes given a namespace.
+    """Parse a text, and return the root of its tree, with namespaces for undeclared prefixes.
 
     Raises:
         UnreadableError: it is not XML, or has a document type declaration.
@@ -102,10 +102,10 @@ def parse(
 
 
 def refuse_excess(excess: Excess | None, sink: DiagnosticSink) -> None:
-    """Report what there is too much of.
+    """Report an excess, if there is one.
 
     Raises:
-        UnreadableError: there is something.
+        UnreadableError: there is an excess.
     """
     if excess is not None:
         sink.report(rules.OVERSIZED_FILE, excess.message, excess.location, help=excess.help)
@@ -166,9 +166,9 @@ def _recover(
 
 
 def _unlisted_flaw(text: bytes) -> XmlError | None:
-    """What leaves doubt about a tree behind so many harmless errors that libxml2 lists no more of them.
+    """Return an error that leaves doubt about the tree, behind so many harmless ones that libxml2 stops listing them.
 
-    In real files these are lines of hyphens in comments. Others are not told apart: after a hundred, the last is named.
+    In real files the harmless ones are hyphens in comments. Of a hundred others, the last counts as such an error.
     """
     parser = _parser(recover=True, keep_comments=False)
     etree.fromstring(without_hyphens(text), parser)
@@ -178,7 +178,7 @@ def _unlisted_flaw(text: bytes) -> XmlError | None:
 
 
 def _declare_prefixes(root: XmlElement) -> None:
-    """Give the names of undeclared prefixes, which libxml2 leaves as literal `prefix:name`, a namespace."""
+    """Give names with undeclared prefixes, which libxml2 leaves as literal `prefix:name`, a namespace."""
     for element in root.iter("*"):
         tag = str(element.tag)
         if ":" in tag and tag[0] != "{":
@@ -193,7 +193,7 @@ def _qualified(name: str) -> str:
 
 
 def strip_default_namespace(root: XmlElement) -> str | None:
-    """Make names in the default namespace plain, as the readers of ROS and Gazebo see them; give the namespace."""
+    """Remove the default namespace from names, as the readers of ROS and Gazebo do, and return it."""
     namespace = root.nsmap.get(None)
     if namespace is None:
         return None

@@ -1,6 +1,6 @@
-"""Size limits for input: far more than any robot needs, far less than fills the memory.
+"""Size limits for input: far more than any robot needs, and far less than fills the memory.
 
-What is counted here is counted in the bytes, before there is a tree, since the tree is what fills the memory.
+Most are checked on the bytes, before there is a tree, because the tree is what fills the memory.
 """
 
 import re
@@ -95,7 +95,7 @@ LIFTED_LIMITS = Limits(sys.maxsize, sys.maxsize)
 
 
 class Excess(NamedTuple):
-    """What there is too much of, where, and what can be done about it."""
+    """A limit that was exceeded, as a message, where, and what can be done about it."""
 
     message: str
     location: Location = Location()
@@ -103,10 +103,10 @@ class Excess(NamedTuple):
 
 
 def parse_size(text: str) -> int:
-    """The bytes that a text such as `64MB` or `1.5 GiB` says: powers of 1000, or with an `i` of 1024.
+    """Parse a size such as `64MB` or `1.5 GiB` into bytes: units are powers of 1000, or with an `i` of 1024.
 
     Raises:
-        ValueError: it is no positive size.
+        ValueError: the text is not a positive size.
     """
     found = _SIZE.fullmatch(text.strip())
     size = int(float(found["number"]) * _UNITS[found["unit"].lower()]) if found else 0
@@ -117,7 +117,7 @@ def parse_size(text: str) -> int:
 
 
 def excess_of_bytes(text: bytes, limits: Limits = USUAL_LIMITS) -> Excess | None:
-    """Why this is too much to be parsed."""
+    """Return how a text exceeds the limits on bytes and tags, or None."""
     if len(text) > limits.size:
         return Excess(f"the file has more than {limits.size:,} bytes", help=LIFTED_BY_SIZE)
     tags = text.count(b"<")
@@ -127,13 +127,13 @@ def excess_of_bytes(text: bytes, limits: Limits = USUAL_LIMITS) -> Excess | None
 
 
 def uncountable_encoding(text: bytes) -> str | None:
-    """The encoding that a file declares, if tags cannot be counted in it."""
+    """Return the encoding that a file declares, if tags cannot be counted in it."""
     declared = _DECLARED.match(text)
     return declared[1].decode() if declared and not _COUNTABLE.fullmatch(declared[1]) else None
 
 
 def excess_of_tree(root: XmlElement, text: bytes, limits: Limits = USUAL_LIMITS) -> Excess | None:
-    """Why this tree is too much to be read, which was parsed from this text."""
+    """Return how a tree, which was parsed from a text, exceeds the limits on its parts, or None."""
     if text.count(b"<model") > DEEPEST_MODELS:
         deep = cast("list[XmlElement]", _DEEP_MODEL(root))
         if deep:
@@ -160,7 +160,7 @@ def excess_of_tree(root: XmlElement, text: bytes, limits: Limits = USUAL_LIMITS)
 
 
 def _excess_of_parts(root: XmlElement) -> Excess | None:
-    """Why so many elements or texts in a tree are too much, each of which becomes a part of the model."""
+    """Return how a tree exceeds the limits on elements in one, and on texts between elements, or None."""
     populous = cast("list[XmlElement]", _POPULOUS(root))
     if populous:
         element = populous[0]
@@ -176,14 +176,14 @@ def _excess_of_parts(root: XmlElement) -> Excess | None:
 
 
 def excess_of_colons(count: int) -> Excess | None:
-    """Why a file with so many names that have two colons is not repaired."""
+    """Return that too many names have two colons to be repaired, or None."""
     if count <= MOST_COLONS:
         return None
     return Excess(f"{count:,} names of the file have two colons behind their prefix; the limit is {MOST_COLONS:,}")
 
 
 def excess_of_namespaces(root: XmlElement, text: bytes, *, repaired: bool) -> Excess | None:
-    """Why this tree has too many namespaces; `repaired` is whether it has some that the text does not declare."""
+    """Return that a tree has too many namespaces, or None; if `repaired`, the text does not declare all of them."""
     if not repaired and text.count(b"xmlns") <= _FEW and b"\0" not in text:
         return None
     count = len(declared_namespaces(root))
@@ -191,14 +191,14 @@ def excess_of_namespaces(root: XmlElement, text: bytes, *, repaired: bool) -> Ex
 
 
 def excess_of_names(count: int, names: int) -> Excess | None:
-    """Why so many names in so many namespaces are too much."""
+    """Return that there are too many names in too many namespaces, or None."""
     if count * (count + names) <= MOST_LOOKUPS:
         return None
     return Excess(f"there are {count:,} namespaces, and {names:,} names may be in one of them; that is too much")
 
 
 def excess_of_json(text: bytes, limits: Limits = USUAL_LIMITS) -> Excess | None:
-    """Check a JSON document against the limits: each object and each array counts as a part."""
+    """Return how a JSON document exceeds the limits, or None: each object and each array counts as a part."""
     if len(text) > limits.size:
         return Excess(f"the file has more than {limits.size:,} bytes", help=LIFTED_BY_SIZE)
     parts = text.count(b"{") + text.count(b"[")

@@ -1,4 +1,4 @@
-"""The texts of the files that findings are about: the one that was read, and those that it includes or is made from."""
+"""The texts of the files that findings are about: the file that was read, and those that it includes or comes from."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -12,16 +12,16 @@ from twinform.schemas import XmlElement
 from twinform.text import Lines, SourceText
 
 _BLANK = b"\xef\xbb\xbf\xff\xfe\0 \t\r\n"
-"""What may stand before the first tag, in UTF-8 or UTF-16."""
+"""The bytes that may stand before the first tag, in UTF-8 or UTF-16."""
 _JSON_MARK = b"urn:twinform:document:"
 _BEGINNING = 2**12
 
 
 @dataclass(frozen=True, slots=True)
 class SourceFiles:
-    """The bytes and lines of files by their names in locations; each is read once, when something asks for it.
+    """The bytes and lines of files by their names in locations; each file is read once, on demand.
 
-    `contents` are those that are at hand, and `trees` what was read from them.
+    `contents` has the files that are at hand, and `trees` what was parsed from them.
     """
 
     contents: Mapping[str, bytes] = field(default_factory=dict[str, bytes], repr=False)
@@ -33,7 +33,7 @@ class SourceFiles:
 
     @classmethod
     def of(cls, loaded: LoadResult) -> "SourceFiles":
-        """Return the files of a result of reading; a xacro file that was refused is not opened for it."""
+        """Return the files of a result of reading; a xacro file that was refused is not opened."""
         if any(each.rule is XACRO_REFUSED for each in loaded.diagnostics):
             return cls(_read={loaded.path: None})
         was_made = any(name.startswith(f"{loaded.path} (") for name in loaded.origins)
@@ -43,7 +43,7 @@ class SourceFiles:
         return cls({loaded.path: loaded.content}, trees)
 
     def data(self, file: str) -> bytes | None:
-        """The bytes of a file; None where there is none, or it is too large."""
+        """Return the bytes of a file; None where there is none, or it is too large."""
         found = self.contents.get(file)
         if found is not None or not file:
             return found
@@ -52,7 +52,7 @@ class SourceFiles:
         return self._read[file]
 
     def line(self, file: str, number: int) -> str | None:
-        """A line of a file, from 1, without its end; None where it has none."""
+        """Return a line of a file, counted from 1, without its end; None where there is no such line."""
         if (file, number) in self._last:
             return self._last[file, number]
         found = self._lines_of(file)
@@ -65,7 +65,7 @@ class SourceFiles:
         return line
 
     def place(self, file: str, offset: int) -> tuple[int, int] | None:
-        """The line and column of an offset in a file; None where it has no such place."""
+        """Return the line and column of an offset in a file; None where it has no such place."""
         found = self._lines_of(file)
         return found[1].place(offset) if found is not None and 0 <= offset <= len(found[0]) else None
 
@@ -93,5 +93,5 @@ def _data(file: str) -> bytes | None:
 
 
 def _is_model(data: bytes) -> bool:
-    """Whether it begins as XML does, or is a document of ours: no line of another file is shown to anybody."""
+    """Whether a file is XML or one of our JSON documents: lines of other files are never shown."""
     return data.lstrip(_BLANK)[:1] in {b"<", b"?"} or _JSON_MARK in data[:_BEGINNING]

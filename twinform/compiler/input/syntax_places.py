@@ -1,7 +1,7 @@
-"""Where in the text a syntax error of XML is: from the line and column at which libxml2 noticed it to the piece itself.
+"""Finds the piece of the text that is wrong in an XML syntax error, from the line and column that libxml2 reports.
 
-libxml2 says how far it had read, which is behind a name that it does not know, and at the end of a file for a comment
-that is never closed. What it calls the error tells which piece before that is meant.
+libxml2 reports how far it had read: behind a name that it does not know, or at the end of the file for a comment that
+is never closed. Its name for the error tells which piece before that is meant.
 """
 
 import re
@@ -18,7 +18,7 @@ _WORDS: Mapping[str, str] = {
     "ERR_ATTRIBUTE_WITHOUT_VALUE": r"for attribute (?P<word>\S+)$",
     "NS_ERR_UNDEFINED_NAMESPACE": r"prefix (?P<prefix>\S+) (?:for (?P<word>\S+) )?on (?P<tag>\S+) is",
 }
-"""Where the message names the piece."""
+"""For errors whose message names the piece: how to find the name in it."""
 _BEFORE: Mapping[str, str] = {
     "ERR_TAG_NAME_MISMATCH": r"</\s*(?P<piece>{word})",
     "ERR_ATTRIBUTE_REDEFINED": r"\s(?P<piece>{word})\s*=",
@@ -31,67 +31,67 @@ _BEFORE: Mapping[str, str] = {
     "NS_ERR_QNAME": r"<(?P<piece>[\w.-]+::)",
     "ERR_ATTRIBUTE_NOT_FINISHED": r"\s(?P<piece>[^\s=<>\"']+\s*=\s*[\"'])",
 }
-"""The piece is the last of this form before the place that libxml2 gives."""
+"""The form of the piece, which is the last one before the place that libxml2 reports."""
 # So the line of some findings is an earlier one than that of other tools, which report where the
 # parser noticed.
 _NEAR = 300
 _HERE = re.compile(r"</?[\w:.-]+|--|[\w:.-]+|\S")
-"""What stands at that place, where that is the piece."""
+"""The piece at the place that libxml2 reports, for all other errors."""
 _DOCTYPE = re.compile(rf"(?:\s++|{COMMENT}|{INSTRUCTION})*+(?P<piece><!DOCTYPE)")
 _OPEN_TAG = re.compile(r"</?(?P<piece>[\w:.-]+)")
 _OPEN_VALUE = re.compile(r"\s(?P<piece>[^\s=<>\"']+\s*=\s*[\"'])")
 
 
 class SyntaxPlaces:
-    """Finds the pieces of one text."""
+    """Finds the wrong pieces of one text."""
 
     def __init__(self, data: bytes) -> None:
         self._data = data
-        self._text = _decoded(data)
+        self._text = _decode(data)
         self._lines = Lines(self._text or "")
         # libxml2 ends lines at line feeds only
         self._starts = [0, *(found.end() for found in re.finditer("\n", self._text or ""))]
 
     def location(self, error: XmlError, path: str = "/") -> Location:
-        """The location of an error; without a column where it is not known."""
+        """Return the location of an error; without a column where it is not known."""
         if self._text is None:
             return self._first_undecodable(error, path)
-        span = self._piece(error, self._text)
+        span = self._find_piece(error, self._text)
         return self.at(span, path) if span else Location(line=error.line, path=path)
 
     def at(self, span: Span, path: str = "/") -> Location:
-        """The location of a piece."""
+        """Return the location of a piece."""
         (line, column), (end_line, end_column) = self._lines.place(span.start), self._lines.place(span.end)
         return Location("", line, path, column, end_line, end_column)
 
     def doctype(self) -> Location:
-        """The location of the document type declaration."""
+        """Return the location of the document type declaration."""
         found = _DOCTYPE.match(self._text or "")
         return self.at(Span(*found.span("piece"))) if found else Location(line=1, path="/")
 
-    def _piece(self, error: XmlError, text: str) -> Span | None:
+    def _find_piece(self, error: XmlError, text: str) -> Span | None:
         if not 0 < error.line <= len(self._starts):
             return None
         offset = self._starts[error.line - 1] + max(0, error.column - 1)
         if offset > len(text):
             return None
         if error.kind == "ERR_LT_IN_ATTRIBUTE":
-            return _unclosed(text, offset)
+            return _unclosed_value(text, offset)
         if error.kind == "ERR_NAME_REQUIRED":
-            return _nameless(text, offset)
+            return _piece_without_name(text, offset)
         if error.kind == "ERR_COMMENT_NOT_FINISHED":
             start = text.find("<!--", text.rfind("-->") + 1)
             return Span(start, start + len("<!--")) if start >= 0 else None
         if error.kind == "ERR_GT_REQUIRED" and text[offset : offset + 1] == "<":
             return _last_before(_OPEN_TAG, text, offset - 1)
-        pattern = _pattern(error)
+        pattern = _pattern_of_piece(error)
         if pattern is not None:
             return _last_before(re.compile(pattern), text, offset)
         here = _HERE.match(text, offset)
         return Span(*here.span()) if here else Span(offset, offset)
 
     def _first_undecodable(self, error: XmlError, path: str) -> Location:
-        """The first byte that is no character of UTF-8, where that is on the line of the error."""
+        """Return the location of the first byte that is not UTF-8, where it is on the line of the error."""
         if error.kind != "ERR_INVALID_ENCODING" or b"\0" in self._data:
             return Location(line=error.line, path=path)
         try:
@@ -105,14 +105,14 @@ class SyntaxPlaces:
         return Location(line=error.line, path=path)
 
 
-def _decoded(data: bytes) -> str | None:
+def _decode(data: bytes) -> str | None:
     try:
         return SourceText.of(data).text
     except ValueError:
         return None
 
 
-def _pattern(error: XmlError) -> str | None:
+def _pattern_of_piece(error: XmlError) -> str | None:
     found = re.search(_WORDS[error.kind], error.message) if error.kind in _WORDS else None
     if error.kind == "NS_ERR_UNDEFINED_NAMESPACE":
         if found is None:
@@ -126,7 +126,7 @@ def _pattern(error: XmlError) -> str | None:
 
 
 def _last_before(pattern: re.Pattern[str], text: str, end: int) -> Span | None:
-    """The last piece before an offset, which is near it unless something was never closed."""
+    """Return the last piece of a form before an offset, which is near it unless something was never closed."""
     for start in (max(0, end - _NEAR), max(0, end - 10_000), 0):
         found = list(pattern.finditer(text, start, end + 1))
         if found:
@@ -134,16 +134,16 @@ def _last_before(pattern: re.Pattern[str], text: str, end: int) -> Span | None:
     return None
 
 
-def _unclosed(text: str, offset: int) -> Span | None:
-    """A `<` in a value; where the value goes on over lines, its quotes are not closed, and its beginning is meant."""
+def _unclosed_value(text: str, offset: int) -> Span | None:
+    """Return a `<` in a value, or the beginning of a value that goes on over lines: its quotes are not closed."""
     opened = _last_before(_OPEN_VALUE, text, offset)
     if opened is not None and "\n" in text[opened.end : offset]:
         return opened
     return Span(offset, offset + 1) if text[offset : offset + 1] == "<" else None
 
 
-def _nameless(text: str, offset: int) -> Span | None:
-    """A `&` or `<` without a name; a tag that is not closed before the next one begins."""
+def _piece_without_name(text: str, offset: int) -> Span | None:
+    """Return a `&` or `<` without a name, or a tag that is not closed before the next one begins."""
     if text[offset - 1 : offset] in {"&", "<"}:
         return Span(offset - 1, offset)
     if text[offset : offset + 1] == "<":

@@ -1,4 +1,4 @@
-"""Takes the comments out of the tree of a file that is read, for the file that it is converted to."""
+"""Takes comments out of the tree of a file, to put them into the file that it is converted to."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -19,21 +19,24 @@ _LONGEST_RUN = 32
 
 
 def may_have_comments(text: bytes) -> bool:
-    """Whether there is the beginning of a comment in a file."""
+    """Whether a file may have comments."""
     return any(each in text for each in _BEGINS)
 
 
 def take_comments(root: XmlElement) -> Comments | None:
-    """Take the comments out of a tree; None where there are none."""
-    inside = [_found(each) if number < _MOST else _text(each) for number, each in enumerate(root.iter(etree.Comment))]
-    above = [_text(each)._replace(is_above=True) for each in root.itersiblings(etree.Comment, preceding=True)]
-    found = (*reversed(above), *inside, *map(_text, root.itersiblings(etree.Comment)))
+    """Take the comments out of a tree, and return them; None where there are none."""
+    inside = [
+        _comment_with_place(each) if number < _MOST else _bare_comment(each)
+        for number, each in enumerate(root.iter(etree.Comment))
+    ]
+    above = [_bare_comment(each)._replace(is_above=True) for each in root.itersiblings(etree.Comment, preceding=True)]
+    found = (*reversed(above), *inside, *map(_bare_comment, root.itersiblings(etree.Comment)))
     etree.strip_tags(root, etree.Comment)
     return Comments(root, found) if found else None
 
 
 def comments_of(loaded: LoadResult, document: Document, target: str, model: str | None) -> Comments | None:
-    """The comments of a file for what its document becomes in a format."""
+    """Return the comments of a file, prepared for the conversion of its document to a format."""
     if loaded.comments is None:
         return None
     is_other = document.format != target
@@ -47,11 +50,11 @@ def _holds_more(document: Document) -> bool:
     return bool(document.worlds) or len(document.models) > 1
 
 
-def _text(comment: XmlElement) -> SourceComment:
+def _bare_comment(comment: XmlElement) -> SourceComment:
     return SourceComment(comment.text or "", comment.sourceline or 0)
 
 
-def _found(comment: XmlElement) -> SourceComment:
+def _comment_with_place(comment: XmlElement) -> SourceComment:
     behind = next(comment.itersiblings("*"), None)
     has_own_line = _begins_line(comment) or (behind is not None and not _ends_line(comment))
     return SourceComment(
@@ -72,17 +75,17 @@ def _blanks_before(comment: XmlElement) -> str:
 
 
 def _begins_line(comment: XmlElement) -> bool:
-    """Whether nothing stands before it on its line but other comments that begin it."""
-    return any("\n" in _blanks_before(each) for each in _run(comment, lambda each: each.getprevious()))
+    """Whether nothing but comments stands before a comment on its line."""
+    return any("\n" in _blanks_before(each) for each in _adjacent_comments(comment, lambda each: each.getprevious()))
 
 
 def _ends_line(comment: XmlElement) -> bool:
-    """Whether no element stands behind it on its line."""
-    return any("\n" in (each.tail or "") for each in _run(comment, lambda each: each.getnext()))
+    """Whether no element stands behind a comment on its line."""
+    return any("\n" in (each.tail or "") for each in _adjacent_comments(comment, lambda each: each.getnext()))
 
 
-def _run(comment: XmlElement, step: Callable[[XmlElement], XmlElement | None]) -> Iterator[XmlElement]:
-    """A comment and those that follow each other in one direction."""
+def _adjacent_comments(comment: XmlElement, step: Callable[[XmlElement], XmlElement | None]) -> Iterator[XmlElement]:
+    """Yield a comment, and the comments that follow it directly in one direction."""
     here: XmlElement | None = comment
     for _ in range(_LONGEST_RUN):
         if here is None or here.tag is not etree.Comment:

@@ -13,16 +13,16 @@ REPAIRS = {
     "NS_ERR_UNDEFINED_NAMESPACE": "declare the prefix on the root element with xmlns:prefix='...'",
     "ERR_RESERVED_XML_NAME": "move <?xml ...?> to the very beginning of the file",
 }
-"""What libxml2 recovers from without any doubt about the tree, and what the author should do instead."""
+"""Errors after which libxml2 leaves no doubt about the tree, and what the author should write instead."""
 
 LIMITS = "elements are more than 256 deep, a text has more than 10 MB, or entities make more of it than they are"
-"""What libxml2 refuses whatever its content is."""
+"""The reasons for which libxml2 refuses any file."""
 
 LOST_BRACKET = "write <?xml, with the '<', at the beginning"
 
 _BOM = b"\xef\xbb\xbf"
 _FOLLOWS = frozenset({"ERR_SPACE_REQUIRED", "ERR_STRING_NOT_STARTED", "ERR_XMLDECL_NOT_FINISHED"})
-"""What libxml2 reports as well of a declaration that it does not understand."""
+"""Errors that libxml2 also reports for a declaration that it does not understand."""
 
 _HELP = {
     "ERR_ATTRIBUTE_NOT_STARTED": "put the value of the attribute in quotes: name='value'",
@@ -45,11 +45,11 @@ _HELP = {
 _COLONS = re.compile(
     rb"<!--(?:.*?-->|.*)|<!\[CDATA\[(?:.*?\]\]>|.*)|(?P<start></?[A-Za-z_][\w.-]*)::(?=[A-Za-z_])", re.DOTALL
 )
-"""Two colons in a tag; comments and sections are passed over, and those that do not end to the end of the text."""
+"""Two colons in a tag, or a comment or section, which is skipped; one that does not end goes to the end of the text."""
 _COMMENT = re.compile(rb"<!\[CDATA\[(?:.*?\]\]>|.*)|<!--(?:(?P<content>.*?)-->|.*)", re.DOTALL)
-"""A section, or a comment with its content; of what does not end, there is one to the end of the text."""
+"""A section, or a comment with its content; one that does not end goes to the end of the text."""
 _MOST_LOGGED = 100
-"""How many errors libxml2 lists; it keeps still about those after that, unless they are of a graver level."""
+"""The number of errors that libxml2 lists; of later ones it only lists those of a graver level."""
 _MISMATCH = re.compile(r"Opening and ending tag mismatch: (?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)")
 
 
@@ -69,7 +69,7 @@ class LogEntry(Protocol):
 
 
 class XmlError(NamedTuple):
-    """What is wrong at a place, and what to do about it; `kind` is what libxml2 calls it."""
+    """An error at a place, and what to do about it; `kind` is libxml2's name for it."""
 
     line: int
     column: int
@@ -79,13 +79,13 @@ class XmlError(NamedTuple):
 
 
 def with_bracket(text: bytes) -> bytes | None:
-    """The text with the `<` that its declaration has lost; None where that is not what is wrong with it."""
+    """Return the text with a `<` before `?xml`; None where the text does not begin with `?xml`."""
     start = text.removeprefix(_BOM)
     return text.replace(b"?xml", b"<?xml", 1) if start.lstrip().startswith(b"?xml") else None
 
 
 def with_single_colons(text: bytes) -> tuple[bytes, list[XmlError]]:
-    """The text with one colon where tags have two between a prefix and a name, and where that was."""
+    """Return the text with one colon for two between a prefix and a name in tags, and where they were."""
     flaws: list[XmlError] = []
     pieces: list[bytes] = []
     line, column, copied = 1, 0, 0
@@ -104,22 +104,22 @@ def with_single_colons(text: bytes) -> tuple[bytes, list[XmlError]]:
 
 
 def is_full(log: Iterable[LogEntry]) -> bool:
-    """Whether there may be more that is not XML than libxml2 lists."""
+    """Whether there may be more errors than libxml2 lists."""
     # A hundred harmless errors may hide the one that leaves doubt about the tree.
     return sum(entry.level == etree.ErrorLevels.FATAL for entry in log) >= _MOST_LOGGED
 
 
 def without_hyphens(text: bytes) -> bytes:
-    """The text with blanks for the hyphens inside of comments, which leaves all else where it is."""
-    return _COMMENT.sub(lambda found: found[0] if found["content"] is None else _blanked(found["content"]), text)
+    """Return the text with blanks for the hyphens in comments, so that all else stays where it is."""
+    return _COMMENT.sub(_without_hyphens_inside, text)
 
 
-def _blanked(content: bytes) -> bytes:
-    return b"<!--" + content.replace(b"-", b" ") + b"-->"
+def _without_hyphens_inside(found: re.Match[bytes]) -> bytes:
+    return found[0] if found["content"] is None else b"<!--%b-->" % found["content"].replace(b"-", b" ")
 
 
 def first_fatal(log: Iterable[LogEntry], text: bytes) -> XmlError | None:
-    """The first entry that leaves doubt about the tree."""
+    """Return the first error that leaves doubt about the tree."""
     entries = list(log)
     fixed = {(entry.line, entry.column) for entry in entries if entry.type_name == "ERR_VERSION_MISSING"}
     for entry in entries:
@@ -130,12 +130,12 @@ def first_fatal(log: Iterable[LogEntry], text: bytes) -> XmlError | None:
         # libxml2 reports it where the file ends, and the mistake is where the comment begins.
         if entry.type_name == "ERR_COMMENT_NOT_FINISHED":
             line = text.count(b"\n", 0, text.find(b"<!--", text.rfind(b"-->") + 1)) + 1
-        return XmlError(line, entry.column, entry.message.strip(), _help(entry, text), entry.type_name)
+        return XmlError(line, entry.column, entry.message.strip(), _help_for(entry, text), entry.type_name)
     return None
 
 
 def repaired(log: Iterable[LogEntry]) -> list[XmlError]:
-    """The entries that do not."""
+    """Return the errors that leave no doubt about the tree."""
     return [
         XmlError(entry.line, entry.column, entry.message.strip(), REPAIRS[entry.type_name], entry.type_name)
         for entry in log
@@ -143,12 +143,12 @@ def repaired(log: Iterable[LogEntry]) -> list[XmlError]:
     ]
 
 
-def _help(entry: LogEntry, text: bytes) -> str | None:
+def _help_for(entry: LogEntry, text: bytes) -> str | None:
     if _is_at_the_end(entry, text) and entry.type_name in {"ERR_ATTRIBUTE_WITHOUT_VALUE", "ERR_GT_REQUIRED"}:
         return "the file ends in the middle of a tag: it was cut off"
     match entry.type_name:
         case "ERR_TAG_NAME_MISMATCH":
-            return _mismatch(entry.message)
+            return _help_for_mismatch(entry.message)
         case "ERR_NAME_REQUIRED":
             if entry.message.startswith("xmlParseEntityRef"):
                 return "write & as &amp;"
@@ -158,7 +158,7 @@ def _help(entry: LogEntry, text: bytes) -> str | None:
         case "ERR_DOCUMENT_EMPTY":
             return "a model begins with '<': delete what stands before it, or name another file if this is no model"
         case "ERR_DOCUMENT_END":
-            return _extra(entry.line, text)
+            return _help_for_rest(entry.line, text)
         case _:
             return _HELP.get(entry.type_name)
 
@@ -167,7 +167,7 @@ def _is_at_the_end(entry: LogEntry, text: bytes) -> bool:
     return entry.line >= text.rstrip().count(b"\n") + 1 and not text.rstrip().endswith(b">")
 
 
-def _mismatch(message: str) -> str:
+def _help_for_mismatch(message: str) -> str:
     found = _MISMATCH.match(message)
     if found is None:
         return "let every end tag repeat the name of its start tag"
@@ -175,7 +175,7 @@ def _mismatch(message: str) -> str:
     return f"write </{opened}> for the <{opened}> of line {line} before this </{closed}>, or correct the name"
 
 
-def _extra(line: int, text: bytes) -> str:
+def _help_for_rest(line: int, text: bytes) -> str:
     rest = b"\n".join(text.splitlines()[line - 1 :]).lstrip()
     if rest.startswith(b"<") and not rest.startswith(b"</"):
         return "a file holds one root element: move the second one into a file of its own"

@@ -1,19 +1,17 @@
 """Checks of `twinform check` beyond validity: named files, driven joints, mass of moving links, read-only passes.
 
-A conversion asks none of this; the passes that it runs say what becomes of such parts.
+A conversion does without them; its passes report what becomes of such parts.
 """
 
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from twinform.compiler.input.allowances import report_unused
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.loading import LoadOptions, LoadResult
-from twinform.compiler.inspection.contact_sensors import report_contact_sensors
-from twinform.compiler.inspection.driven_joints import report_driven_joints
-from twinform.compiler.inspection.massless import report_massless
 from twinform.compiler.inspection.named_files import report_named_files
-from twinform.compiler.inspection.unused_suppressions import report_unused
+from twinform.compiler.inspection.part_checks import report_contact_sensors, report_driven_joints, report_massless
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 
 if TYPE_CHECKING:
@@ -35,21 +33,20 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
     file = loaded.text_name
     sink = DiagnosticSink(file, load_options.strict)
     report_driven_joints(document, sink)
-    # These questions take a fifth of the time of `check` where the files are there. A conversion
-    # does not ask them: it reports what becomes of such parts by itself.
+    # These checks take a fifth of the time of `check` where the files are there.
     if loaded.accepted:
         report_massless(document, sink)
         report_contact_sensors(document, sink)
     report_named_files(document, Path(loaded.path), load_options.search, loaded.tree, sink)
     whole = DiagnosticSink(loaded.path, load_options.strict, list(loaded.diagnostics), origins=dict(loaded.origins))
     whole.allows, whole.allowed = loaded.allowances, list(loaded.allowed)
-    whole.extend_new(_placed(sink, loaded))
+    whole.extend_new(_with_lines(sink, loaded))
     if passes and loaded.accepted:
         from twinform.compiler.inspection.read_only_passes import run_read_only  # noqa: PLC0415 - few runs have passes
 
         found = DiagnosticSink(file, load_options.strict)
         run_read_only(document, passes, found, Path(loaded.path), load_options)
-        whole.extend_new(_placed(found, loaded))
+        whole.extend_new(_with_lines(found, loaded))
     if load_options.profiles:
         # few files are for certain consumers
         from twinform.compiler.inspection.inspect_for_consumers import report_for_consumers  # noqa: PLC0415 - see above
@@ -66,7 +63,7 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
     return replace(loaded, diagnostics=tuple(ordered), allowed=tuple(whole.allowed))
 
 
-def _placed(sink: DiagnosticSink, loaded: LoadResult) -> list[Diagnostic]:
-    """What was found, at exact lines where there is a text."""
+def _with_lines(sink: DiagnosticSink, loaded: LoadResult) -> list[Diagnostic]:
+    """Return the findings of a sink, with exact lines where there is a text."""
     found = sink.diagnostics
     return found if loaded.tree is None else list(with_exact_lines(found, loaded.tree, sink.file))

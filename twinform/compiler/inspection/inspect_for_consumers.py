@@ -1,4 +1,4 @@
-"""What the consumers that a file is for make of it: findings of `check --for`."""
+"""Findings of `check --for`: what the consumers that a file is for make of it."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -17,7 +17,7 @@ _FORMATS = {"robot": Format.URDF, "sdf": Format.SDF, "gazebo": Format.SDF}
 def subject_of(
     loaded: LoadResult, load_options: LoadOptions, found: Sequence[Diagnostic] | None = None
 ) -> ProfiledFile:
-    """A file that was read and inspected, as profiles see it. What comments in it allow is there for consumers too."""
+    """Return a file that was read and inspected as profiles see it; consumers also see what its comments allow."""
     found = (*loaded.diagnostics, *loaded.allowed) if found is None else found
     assets = LocalAssets(load_options.search, Path(loaded.path))
     format_ = _format(loaded)
@@ -25,7 +25,7 @@ def subject_of(
 
 
 def report_for_consumers(loaded: LoadResult, load_options: LoadOptions, sink: DiagnosticSink) -> None:
-    """Report what consumers mind; what was found anyway is reported once, with their names."""
+    """Report what consumers mind; findings that are there already get the names of the consumers."""
     found = assess(subject_of(loaded, load_options, (*sink.diagnostics, *sink.allowed)), load_options.profiles)
     told = {id(judgment.finding) for each in found for judgment in each.judgments}
     sink.diagnostics = [each for each in sink.diagnostics if id(each) not in told]
@@ -43,7 +43,7 @@ def report_for_consumers(loaded: LoadResult, load_options: LoadOptions, sink: Di
 
 
 def unread(profile: Profile, format_: Format | None, path: str) -> Diagnostic:
-    """That a consumer does not read a format at all."""
+    """Make the finding that a consumer does not read a format at all."""
     reads = " and ".join(each.upper() for each in profile.formats)
     message = f"{profile.label} does not read {format_.upper() if format_ else 'this format'}; it reads {reads}"
     advice = f"twinform convert --to {profile.formats[0]} --for {profile.name}"

@@ -1,9 +1,9 @@
-"""Read-only passes: run by `check` for the diagnostics that they report."""
+"""Read-only passes, which `check` runs for the diagnostics that they report."""
 
 from pathlib import Path
 
 from twinform.compiler.conversion_error import ReadOnlyPassError
-from twinform.compiler.includes.other_documents import OtherDocuments
+from twinform.compiler.expand_includes import OtherDocuments
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.search.resolve_uris import LocalAssets
 from twinform.diagnostics import DiagnosticSink
@@ -14,7 +14,7 @@ from twinform.passes import FilesPass, Pass, Pipeline
 def run_read_only(
     document: Document, passes: Pipeline, sink: DiagnosticSink, path: Path, load_options: LoadOptions
 ) -> None:
-    """Run passes on a document for what they report.
+    """Run passes on a document for their diagnostics.
 
     Raises:
         ReadOnlyPassError: one of them changes the document, or makes a file.

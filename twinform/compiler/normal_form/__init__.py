@@ -25,7 +25,6 @@ What counts, and what does not:
 * Comments, processing instructions and the prefixes of namespaces do not count.
 """
 
-from twinform.compiler.normal_form.comparing import DifferenceKind, Discrepancy
-from twinform.compiler.normal_form.form import NormalForm, normal_form
+from twinform.compiler.normal_form.form import DifferenceKind, Discrepancy, NormalForm, normal_form
 
 __all__ = ["DifferenceKind", "Discrepancy", "NormalForm", "normal_form"]

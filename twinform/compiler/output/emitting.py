@@ -1,4 +1,4 @@
-"""From a document to validated text."""
+"""Writes a document as text that its schema accepts."""
 
 import re
 from collections.abc import Callable
@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from lxml import etree
 
-from twinform.compiler.output import write_sdf, write_urdf
+from twinform.compiler.output import back_ends
 from twinform.compiler.output.place_comments import place_comments
 from twinform.compiler.output.source_comments import Comments
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Fate, Location, rules
@@ -37,8 +37,8 @@ _NAMED = re.compile(r"\[@name='([^']*)'\]")
 _START_TAG = re.compile("<[^/?]")
 _ROOT_TAG = re.compile(r'<[^\s/>?]+(?: xmlns:[^=]+="[^"]*")*')
 _BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str], WrittenParts | None], str]] = {
-    Format.URDF: write_urdf.emit,
-    Format.SDF: write_sdf.emit,
+    Format.URDF: back_ends.urdf_text,
+    Format.SDF: back_ends.sdf_text,
 }
 
 
@@ -50,11 +50,11 @@ def emit(
     kept: AbstractSet[str] = frozenset(),
     comments: Comments | None = None,
 ) -> str:
-    """The text of a document in its own format and version, and errors in the notes where its schema refuses it.
+    """Write a document in its own format and version, and report where its schema refuses it.
 
-    Where the document was not read in this version, `fit` leaves out what other versions have and this one has not, and
-    accounts for it; but not the names that are `kept`, which the files that it was made of had so too. `comments` are
-    those of the file that it was made of.
+    For a document that was not read in this version, `fit` leaves out elements that only other versions have, and
+    accounts for them in the ledger. Elements named in `kept` stay, because the source files had them too. `comments`
+    are those of the source file.
 
     Raises:
         ValueError: there is a name or a text that XML cannot hold.
@@ -64,7 +64,7 @@ def emit(
     # The text is validated as it stands. What is refused is parsed, because findings, and what `fit`
     # leaves out, are about its elements and their lines.
     if not is_valid_text(text, document.format, written_version(document)):
-        text = _fitting(document, text, sink, parts, kept=kept if fit else None)
+        text = _fit_to_version(document, text, sink, parts, kept=kept if fit else None)
     plain, text = text, _with_default_namespace(text, document)
     if comments is None or parts is None:
         return text
@@ -88,7 +88,7 @@ def emit_legal(
     kept: AbstractSet[str] = frozenset(),
     comments: Comments | None = None,
 ) -> tuple[Document, str]:
-    """The document after the passes that its target asks for, and its text; empty where the notes have errors.
+    """Run the passes that a target needs, and return the document and its text, which is empty after an error.
 
     `fit`, `kept` and `comments` are those of `emit`.
     """
@@ -102,14 +102,14 @@ def emit_legal(
     return document, "" if sink.has_errors else text
 
 
-def _fitting(
+def _fit_to_version(
     document: Document, text: str, sink: DiagnosticSink, parts: WrittenParts | None, *, kept: AbstractSet[str] | None
 ) -> str:
-    """The text of a document that its schema refuses, and findings; without what `_validate` leaves out."""
+    """Return the text of a document that its schema refuses, without what `_validate` leaves out."""
     if parts is None:
         parts = []
         text = _plain_text(document, parts)
-    root = _parsed(text, parts)
+    root = _parse_text(text, parts)
     elements = list(root.iter())
     found = DiagnosticSink(file=sink.file)
     _validate(root, document.format, written_version(document), found, kept=kept)
@@ -119,14 +119,14 @@ def _fitting(
         return text
     etree.indent(root, "  ")
     made = f'<?xml version="1.0"?>\n{etree.tostring(root, encoding="unicode")}\n'
-    starts = dict(zip(root.iter(), _starts(made), strict=True))
-    of_start = dict(zip(_starts(text), elements, strict=True))
+    starts = dict(zip(root.iter(), _start_offsets(made), strict=True))
+    of_start = dict(zip(_start_offsets(text), elements, strict=True))
     parts[:] = [(part, starts[of_start[start]]) for part, start in parts if of_start[start] in starts]
     return made
 
 
 def located(diagnostic: Diagnostic, document: Document) -> Diagnostic:
-    """A finding about what is to be written, with the line of the part of the source that it was made of."""
+    """Add the line of the source part to a finding about a document that is being written."""
     if diagnostic.location.line:
         return diagnostic
     lines = {name: node.source.line for node in walk(document) if node.source and (name := getattr(node, "name", None))}
@@ -135,17 +135,17 @@ def located(diagnostic: Diagnostic, document: Document) -> Diagnostic:
 
 
 def document_tree(document: Document) -> XmlElement:
-    """The XML of a document, its names without a default namespace, and without layout.
+    """Return the XML tree of a document, without a default namespace and without layout.
 
     Raises:
         ValueError: there is a name or a text that XML cannot hold.
     """
     parts: WrittenParts = []
-    return _parsed(_plain_text(document, parts), parts)
+    return _parse_text(_plain_text(document, parts), parts)
 
 
-def _parsed(text: str, parts: WrittenParts) -> XmlElement:
-    """The tree of a text: untyped elements have the line that they were read at, and others none."""
+def _parse_text(text: str, parts: WrittenParts) -> XmlElement:
+    """Parse a written text; untyped elements get the lines that they were read at, and others none."""
     root = parse_written(text)
     for element in root.iter():
         element.sourceline = 0  # pyright: ignore[reportAttributeAccessIssue] - it can be set
@@ -153,20 +153,20 @@ def _parsed(text: str, parts: WrittenParts) -> XmlElement:
             element.text = None
         if (element.tail or "").isspace():
             element.tail = None
-    elements = dict(zip(_starts(text), root.iter(), strict=True))
+    elements = dict(zip(_start_offsets(text), root.iter(), strict=True))
     for part, start in parts:
         if isinstance(part, Element) and part.source is not None:
             elements[start].sourceline = min(part.source.line, LAST_LINE)  # pyright: ignore[reportAttributeAccessIssue] - see above
     return root
 
 
-def _starts(text: str) -> list[int]:
-    """Where the start tags in a text begin that has no comments."""
+def _start_offsets(text: str) -> list[int]:
+    """Return the offsets of the start tags in a text without comments."""
     return [found.start() for found in _START_TAG.finditer(text)]
 
 
 def document_text(document: Document) -> str:
-    """The text of a document, whether its schema accepts it or not.
+    """Return the text of a document, whether its schema accepts it or not.
 
     Raises:
         ValueError: there is a name or a text that XML cannot hold.
@@ -175,13 +175,13 @@ def document_text(document: Document) -> str:
 
 
 def _plain_text(document: Document, parts: WrittenParts | None = None) -> str:
-    """The text of a document, its names without a default namespace."""
+    """Return the text of a document without its default namespace."""
     prefixes: dict[str | None, str] = {prefix: uri for prefix, uri in document.namespaces if prefix}
     return _BACK_ENDS[document.format](document, written_version(document), prefixes, parts)
 
 
 def _with_default_namespace(text: str, document: Document) -> str:
-    """A text with the default namespace of its document on the root."""
+    """Return the text with the default namespace of its document on the root."""
     default = dict(document.namespaces).get("")
     if default is None:
         return text
@@ -189,7 +189,7 @@ def _with_default_namespace(text: str, document: Document) -> str:
 
 
 def written_version(document: Document) -> Version:
-    """The version whose schema a document follows; the newest where it declares none that exists."""
+    """Return the version whose schema a document follows: the newest where it declares none that exists."""
     known = versions_of(document.format)
     if document.version in known:
         return parse_version(document.version)
@@ -199,9 +199,9 @@ def written_version(document: Document) -> Version:
 def _validate(
     root: XmlElement, format_: Format, version: Version, sink: DiagnosticSink, *, kept: AbstractSet[str] | None
 ) -> None:
-    """XSD validation of the output. The reader runs only where the XSD refuses: on what came in as unknown.
+    """Validate the output with the XSD, and run the reader where the XSD refuses something.
 
-    What the version does not have is left out, but for the names that are kept; all of it stays where `kept` is None.
+    Elements that the version does not have are left out, except those named in `kept`; all stay where it is None.
     """
     errors = libxml2_errors(root, format_, version)
     if not errors:
@@ -216,7 +216,7 @@ def _validate(
 
 
 def _leave_out(context: Context, kept: AbstractSet[str], sink: DiagnosticSink) -> None:
-    """Take what the version does not have out of the tree that the reader has read."""
+    """Remove from the tree that the reader has read what the version does not have."""
     version = f"{context.format.upper()} {print_version(context.version)}"
     for element, fact in context.outside:
         if fact.name in kept:

@@ -1,4 +1,4 @@
-"""From a document to JSON, and the JSON Schema that such JSON has."""
+"""Writes a document as JSON, and the JSON Schema of such documents."""
 
 import json
 import re
@@ -14,7 +14,7 @@ IDENTIFIER = "urn:twinform:document:1"
 """The name of the schema, with its version: another one where documents of the old one are no longer valid."""
 
 _ROOTS: dict[Format, type[Node]] = {Format.URDF: Model, Format.SDF: Document}
-"""What the root element of a format makes."""
+"""The type of node that the root element of a format makes."""
 _FIELD = re.compile(r"^    (\w+): (.*(?:\n {5,}.*)*)", re.MULTILINE)
 """A field in the docstring of a class, and what stands there about it."""
 _ORDER = (
@@ -40,32 +40,32 @@ def json_text(document: Document) -> str:
 
 
 def json_data(document: Document) -> Data:
-    """A document as JSON has it, without the line that names the schema."""
+    """Return a document as JSON data, without the reference to the schema."""
     data: Data = json.loads(document.model_dump_json(exclude_defaults=True))
-    _complete(document, data, document.format)
+    _add_spellings_and_order(document, data, document.format)
     if document.format is Format.URDF:
         for model in data.get("models", ()):
-            _leave_out_places(model)
+            _remove_pose_frames(model)
     return data
 
 
-def _complete(node: Node, data: Data, format_: Format) -> None:
-    """Add what takes no part in equality: spellings, and the order of parts of several kinds."""
+def _add_spellings_and_order(node: Node, data: Data, format_: Format) -> None:
+    """Add the spellings, and the order of parts of several kinds, which are not fields of the nodes."""
     if node.spelling:
         data["spelling"] = dict(node.spelling)
-    order = _order(node, format_)
+    order = _order_of_parts(node, format_)
     if order:
         data["order"] = order
     for name, value in node_values(node):
         if isinstance(value, Node):
-            _complete(value, data[name], format_)
+            _add_spellings_and_order(value, data[name], format_)
         else:
             for child, its in zip(value, data.get(name, ()), strict=True):
-                _complete(child, its, format_)
+                _add_spellings_and_order(child, its, format_)
 
 
-def _order(node: Node, format_: Format) -> list[str]:
-    """The kinds of a node's parts in the order of the file; nothing where that is the usual one."""
+def _order_of_parts(node: Node, format_: Format) -> list[str]:
+    """Return the kinds of a node's parts in the order of the file, or nothing where that is the usual order."""
     facts = table(format_)
     name = facts.root if isinstance(node, _ROOTS[format_]) else type(node).__name__.lower()
     fields = repeated_fields(format_, name)
@@ -74,20 +74,14 @@ def _order(node: Node, format_: Format) -> list[str]:
     return kinds if kinds != [field for _, field in items] else []
 
 
-def _leave_out_places(model: Data) -> None:
-    """In URDF, a joint is posed in its parent link and a link in its joint, so there is no attribute for that."""
-    for joint in model.get("joints", ()):
-        _leave_out(joint, "relative_to")
-    for link in model.get("links", ()):
-        _leave_out(link, "relative_to")
-
-
-def _leave_out(holder: Data, name: str) -> None:
-    pose: Data | None = holder.get("pose")
-    if pose is not None:
-        pose.pop(name, None)
-        if not pose:
-            del holder["pose"]
+def _remove_pose_frames(model: Data) -> None:
+    """Remove the frames of poses: in URDF, a joint is always posed in its parent link, and a link in its joint."""
+    for part in (*model.get("joints", ()), *model.get("links", ())):
+        pose: Data | None = part.get("pose")
+        if pose is not None:
+            pose.pop("relative_to", None)
+            if not pose:
+                del part["pose"]
 
 
 def json_schema_text() -> str:

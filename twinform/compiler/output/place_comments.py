@@ -1,9 +1,8 @@
-"""Comments of a file in what it is converted to: each stands where the part went that it stood at in the file.
+"""Places the comments of a file in the text that it is converted to.
 
-The document knows nothing of comments. When it is written, the writer notes which element each part has become, and a
-part knows where it was read. So a comment is led from its place in the tree of the source to one in the text of the
-target: before or behind the element that its own has become, at the end of that which it stood in, or, where these have
-no place, at the nearest part that has one.
+The document has no comments. But the writer notes which element each part has become, and a part knows where it was
+read. So each comment is put before or behind the element that its neighbor has become, at the end of the element that
+it stood in, or, where these have no place, at the nearest part that has one.
 """
 
 import re
@@ -52,7 +51,7 @@ class _Target(NamedTuple):
 
 
 class _Insertion(NamedTuple):
-    """What is put at a place of the text."""
+    """A text that is inserted at an offset, in the order of ranks."""
 
     at: int
     rank: int
@@ -62,7 +61,7 @@ class _Insertion(NamedTuple):
 def place_comments(
     comments: Comments, text: str, parts: WrittenParts, namespaces: Iterable[tuple[str, str]]
 ) -> tuple[str, list[SourceComment]]:
-    """The text of the document that a file has become with the file's comments, and those that have no place in it."""
+    """Return a converted text with the comments of its source, and the comments that have no place in it."""
     placing = _CommentPlacing(comments, text, parts, {uri: prefix for prefix, uri in namespaces})
     placing.run()
     return placing.with_comments(), placing.left
@@ -97,7 +96,7 @@ class _CommentPlacing:
             if comment.around is not None:
                 self._place(comment, comment.around)
             else:
-                (self.top if comment.is_above else self.bottom).append(_shown(comment))
+                (self.top if comment.is_above else self.bottom).append(_format_comment(comment))
 
     def with_comments(self) -> str:
         """Return the text with the comments in it."""
@@ -128,16 +127,16 @@ class _CommentPlacing:
         if self.comments.partial:
             self.left.append(comment)
         else:
-            self.top.append(_shown(comment))
+            self.top.append(_format_comment(comment))
 
     def _put_before(self, element: XmlElement, comment: SourceComment) -> bool:
-        """Put a comment before what an element, or the next one behind it, has become; else at the end around it."""
+        """Put a comment before what an element, or the next one, has become, or else at the end of their parent."""
         parent = element.getparent()
         is_outside = self.comments.partial and (parent is None or self._target(parent) is None)
         for each in (element, *islice(element.itersiblings("*"), 0 if is_outside else _FAR)):
             target = self._target(each)
             if target == self.root:
-                self.top.append(_shown(comment))
+                self.top.append(_format_comment(comment))
                 return True
             if target is not None:
                 self._add_below(target.start - len(target.indent), target.indent, comment)
@@ -150,7 +149,7 @@ class _CommentPlacing:
         if target is None:
             return False
         if target == self.root:
-            self.bottom.append(_shown(comment))
+            self.bottom.append(_format_comment(comment))
         else:
             self._add_beside(target, comment)
         return True
@@ -161,7 +160,7 @@ class _CommentPlacing:
         if target is None:
             return self._put_before(parent, comment)
         if self._has_children(target):
-            self.insertions.append(_Insertion(target.head, _BESIDE, f" {_shown(comment)}"))
+            self.insertions.append(_Insertion(target.head, _BESIDE, f" {_format_comment(comment)}"))
             return True
         return self._put_last(parent, comment) if target == self.root else self._put_beside(parent, comment)
 
@@ -172,7 +171,7 @@ class _CommentPlacing:
             return parent.getparent() is not None and self._put_before(parent, comment)
         inner = target.indent + _STEP
         if self._is_empty(target):
-            self.filled[target].append(inner + _shown(comment, inner))
+            self.filled[target].append(inner + _format_comment(comment, inner))
         elif self._has_children(target):
             end = self.text.rindex("</", target.head, self._end(target))
             self._add_below(end - len(target.indent), inner, comment)
@@ -181,10 +180,10 @@ class _CommentPlacing:
         return True
 
     def _add_beside(self, target: _Target, comment: SourceComment) -> None:
-        self.insertions.append(_Insertion(self._end(target), _BESIDE, f" {_shown(comment, target.indent)}"))
+        self.insertions.append(_Insertion(self._end(target), _BESIDE, f" {_format_comment(comment, target.indent)}"))
 
     def _add_below(self, at: int, indent: str, comment: SourceComment) -> None:
-        self.insertions.append(_Insertion(at, _BELOW, indent + _shown(comment, indent)))
+        self.insertions.append(_Insertion(at, _BELOW, indent + _format_comment(comment, indent)))
 
     def _target_at(self, start: int) -> _Target:
         tag = _START.match(self.text, start)
@@ -206,14 +205,14 @@ class _CommentPlacing:
         return self.ends[target]
 
     def _target(self, element: XmlElement) -> _Target | None:
-        """What an element has become."""
+        """Return what an element has become."""
         if element not in self.known:
-            ways = (self._own, self._inside, self._of_child, self._of_name)
+            ways = (self._target_of_part, self._target_in_parent, self._target_of_child, self._target_by_name)
             self.known[element] = next((found for way in ways if (found := way(element)) is not None), None)
         return self.known[element]
 
-    def _own(self, element: XmlElement) -> _Target | None:
-        """What a part of the document has become; of several elements that which is called like it, or the first."""
+    def _target_of_part(self, element: XmlElement) -> _Target | None:
+        """Return what a part of the document has become; of several elements the one with its tag, or the first."""
         parts = self.parts.get(element.sourceline or 0)
         if not parts:
             return None
@@ -227,8 +226,8 @@ class _CommentPlacing:
         prefix = self.prefixes.get(namespace[1:]) if namespace else ""
         return f"{prefix}:{local}" if prefix else local
 
-    def _inside(self, element: XmlElement) -> _Target | None:
-        """What an element has become that is no part of the document: by its name in the part that it belongs to."""
+    def _target_in_parent(self, element: XmlElement) -> _Target | None:
+        """Return what an element that is not a part of the document has become: one of its name in its parent."""
         parent = element.getparent()
         around = self._target(parent) if parent is not None else None
         if around is None or self._is_empty(around):
@@ -241,7 +240,7 @@ class _CommentPlacing:
         return None
 
     def _starts_inside(self, around: _Target, tag: str) -> list[int]:
-        """Where the children of an element begin that have a name; if there is none, the first one further inside."""
+        """Return where the children with a tag begin in an element; if there are none, the first one deeper inside."""
         if (around, tag) not in self.inside:
             span = around.head, self._end(around)
             named = rf"<{re.escape(tag)}(?=[\s/>])"
@@ -254,21 +253,21 @@ class _CommentPlacing:
             self.inside[around, tag] = [deeper.start()] if deeper is not None else found
         return self.inside[around, tag]
 
-    def _of_name(self, element: XmlElement) -> _Target | None:
-        """What has the name of an element, and its tag but for the namespace: a carrier; or what it refers to."""
+    def _target_by_name(self, element: XmlElement) -> _Target | None:
+        """Return an element with the same name and tag, whatever its namespace is, or one that an element refers to."""
         name, reference = element.get("name"), element.get("reference")
         if name is None and reference is None:
             return None
         if not self.named:
-            self.named = self._names()
+            self.named = self._starts_by_name()
         if reference is None:
             wanted = [(etree.QName(element).localname, in_attribute(name or ""))]
         else:
             wanted = [(tag, in_attribute(reference)) for tag in _REFERRED]
         return next((self._target_at(self.named[each]) for each in wanted if each in self.named), None)
 
-    def _names(self) -> dict[tuple[str, str], int]:
-        """Where elements begin, by their names without a prefix and their names."""
+    def _starts_by_name(self) -> dict[tuple[str, str], int]:
+        """Return where elements begin, by their tags without prefixes and their names."""
         made = dict[tuple[str, str], int]()
         done = self.root.head
         for found in _NAME.finditer(self.text, done):
@@ -279,18 +278,18 @@ class _CommentPlacing:
                 made.setdefault((tag, found[1]), start)
         return made
 
-    def _of_child(self, element: XmlElement) -> _Target | None:
-        """What the first child has become that has become anything, where the element itself is only around it."""
+    def _target_of_child(self, element: XmlElement) -> _Target | None:
+        """Return what the first child with a place has become, for elements that only wrap their children."""
         if element.tag in _WHOLE:
             return None
-        found = (self._own(each) for each in element.iterchildren("*"))
+        found = (self._target_of_part(each) for each in element.iterchildren("*"))
         return next((each for each in found if each is not None), None)
 
 
-def _shown(comment: SourceComment, indent: str | None = None) -> str:
-    """A comment; its lines keep what they are indented more than the first, where that has this indent now.
+def _format_comment(comment: SourceComment, indent: str | None = None) -> str:
+    """Format a comment; its lines are indented relative to the first one, which now has another indent.
 
-    Two hyphens, and one at the end, are what other parsers let pass.
+    Double hyphens, and one at the end, which some parsers accept, are separated.
     """
     text = re.sub("-(?=-)", "- ", comment.text)
     text = f"{text} " if text.endswith("-") else text

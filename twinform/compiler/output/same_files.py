@@ -1,4 +1,4 @@
-"""Whether two paths lead to one file: by symbolic links, hard links, or names that some file systems take for one."""
+"""Tells whether two paths lead to one file: by links, or by names that some file systems take for one."""
 
 import os
 import stat
@@ -9,9 +9,9 @@ from pathlib import Path
 
 
 def identities(path: Path) -> Iterator[Hashable]:
-    """What tells a file from all others: where its path really leads, and the number that the file system gives it.
+    """Yield the identities of a file: where its path really leads, and its number in the file system.
 
-    Pipes and devices, such as /dev/null, have none: what is written into them replaces nothing.
+    Pipes and devices, such as /dev/null, have none: writing into them replaces nothing.
     """
     status = None
     with suppress(OSError, ValueError):
@@ -33,7 +33,7 @@ def is_below(path: Path, folder: Path) -> bool:
 
 
 def is_nothing(path: Path) -> bool:
-    """Whether it is the device that forgets, into which any number of things may be written."""
+    """Whether a path is the null device, into which any number of outputs may be written."""
     return os.path.realpath(path) == os.devnull
 
 

@@ -1,4 +1,4 @@
-"""Comments of a file, as they were found when it was read, and the tree of elements that they stood in."""
+"""The comments of a file that was read, and the tree of elements that they stood in."""
 
 import re
 from dataclasses import dataclass
@@ -16,9 +16,9 @@ _OWN = re.compile(r"\s*twinform:")
 class SourceComment(NamedTuple):
     """A comment, and where it stood.
 
-    `around` is the element that it was in, `before` and `behind` the next ones on both sides of it; none of these is
-    there for a comment outside of the root, which is above it or not. One with a line of its own is about what follows,
-    others about what stands before them. `indent` is that of a comment of several lines.
+    `around` is the element that it was in, and `before` and `behind` are the next elements on both sides. They are None
+    for a comment outside of the root, which may be above it. A comment with a line of its own is about what follows,
+    others are about what stands before them. `indent` is the indent of a comment of several lines.
     """
 
     text: str
@@ -33,10 +33,10 @@ class SourceComment(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Comments:
-    """The comments of a file, the tree that they were taken from, and the names that the file has as a source.
+    """The comments of a file, the tree that they were taken from, and the names of the file in sources of nodes.
 
-    `partial` means that not all of it is converted. In the other format comments for twinform itself are `foreign`.
-    Where a file becomes several, only comments `inside` of a part go along, or those `outside` of these.
+    `partial` means that not all of the file is converted, and `foreign` that it is converted to the other format. Where
+    a file becomes several, only comments `inside` of an element go along, or those `outside` of some elements.
     """
 
     tree: XmlElement
@@ -48,7 +48,7 @@ class Comments:
     outside: frozenset[XmlElement] = frozenset()
 
     def travels(self, comment: SourceComment) -> bool:
-        """Whether a comment goes along."""
+        """Whether a comment goes along with the conversion."""
         # The finding that a suppression is about is one in its own format.
         if self.foreign and _OWN.match(comment.text):
             return False
@@ -60,7 +60,7 @@ class Comments:
         return (self.inside is None or self.inside in around) and not around & self.outside
 
     def element(self, source: Source) -> XmlElement | None:
-        """The element of a part."""
+        """Return the element that a node was read from."""
         path = source.path.replace(FIRST, "")
         name = path.rpartition("/")[2].partition("[")[0]
         found = (each for each in self.tree.iter(name) if each.sourceline == source.line)

@@ -1,5 +1,5 @@
-"""Packages: a model with all its files, as Gazebo or ROS 2 wants it in a folder.
+"""Packages: a model with all its files in a folder, as Gazebo or ROS 2 wants it.
 
-`collecting.py` finds the files, `layout.py` says where each goes, `package.py` is the result, and `writing.py` puts it
-on the disk. There is a room for each kind of package.
+`collecting.py` finds the files, `layout.py` says where each goes, and `package.py` has the result and writes it.
+`kinds.py` lists the kinds of packages.
 """

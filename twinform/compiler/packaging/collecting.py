@@ -1,4 +1,4 @@
-"""Collects the files that a model names, and what these name themselves, for a package."""
+"""Collects the files that a model names, and the files that those name themselves, for a package."""
 
 import hashlib
 import stat
@@ -9,9 +9,7 @@ from posixpath import basename, relpath
 from posixpath import dirname as folder_of
 from urllib.parse import unquote
 
-from twinform.compiler.packaging.file_kinds import FileKind, kind_of, suffix_of
-from twinform.compiler.packaging.layout import PackageLayout, PackagePlaces
-from twinform.compiler.packaging.origins import FileOrigins
+from twinform.compiler.packaging.layout import FileKind, PackageLayout, PackagePlaces, kind_of, suffix_of
 from twinform.compiler.packaging.package import Content
 from twinform.compiler.search.resolve_uris import LocalAssets
 from twinform.diagnostics import Rule
@@ -20,6 +18,39 @@ from twinform.file_access import OutsideError
 from twinform.passes.framework.assets import AssetError
 from twinform.passes.mesh_jobs.mesh_files import POINTER, is_pointer
 from twinform.passes.mesh_references import FORMATS, ReferenceFormat
+
+HIGHEST = 8
+"""The number of folders upwards in which a package or model is looked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class FileOrigins:
+    """Finds the packages and models that the files of a document lie in."""
+
+    assets: LocalAssets
+    _known: dict[Path, tuple[Path, str] | None] = field(default_factory=dict[Path, tuple[Path, str] | None])
+
+    def place(self, file: Path) -> tuple[str, tuple[str, ...]]:
+        """Return the name of the package or model that a file lies in, or an empty one, and the path in it."""
+        holder = self._holder(file.parent)
+        if holder is not None:
+            folder, name = holder
+            return name, file.relative_to(folder).parts
+        own = self.assets.folder
+        if own is not None and file.is_relative_to(own) and ".." not in file.relative_to(own).parts:
+            return "", file.relative_to(own).parts
+        return "", (file.name,)
+
+    def _holder(self, folder: Path) -> tuple[Path, str] | None:
+        """Return the nearest folder upwards that is a package or model, and its name."""
+        for around in (folder, *folder.parents)[:HIGHEST]:
+            if around not in self._known:
+                name = self.assets.holder(around, "package") or self.assets.holder(around, "model")
+                self._known[around] = (around, name) if name else None
+            if self._known[around] is not None:
+                return self._known[around]
+        return None
+
 
 _LARGEST_READ = 2**28
 """A file is only looked into up to this size."""
@@ -35,7 +66,7 @@ _NAMED: dict[FileKind, frozenset[FileKind]] = {
     "data": frozenset({"image"}),
     "script": frozenset({"image"}),
 }
-"""What kinds of files a file may name."""
+"""The kinds of files that a file of each kind may name."""
 
 
 class UncollectedError(Exception):
@@ -50,10 +81,10 @@ class UncollectedError(Exception):
 
 @dataclass(slots=True)
 class Collection:
-    """The files of a package while they are found: each once by content, under a name that says where it was.
+    """The files of a package while they are collected: files of equal content are there once.
 
-    `sources` are the files that they were, of those too whose names of other files are written anew. `lenient`: what a
-    mesh names and is not there is left out of the package, and noted in `problems`.
+    `sources` has the original of each file, also of those in which names of other files are rewritten. A `lenient`
+    collection leaves out files that a mesh names and that are missing, and notes them in `problems`.
     """
 
     layout: PackageLayout
@@ -67,16 +98,16 @@ class Collection:
     _by_content: dict[tuple[object, ...], str] = field(default_factory=dict[tuple[object, ...], str])
 
     def reserve(self, path: str) -> None:
-        """Keep a place free for a file that is written by somebody else."""
+        """Keep a place free for a file that is generated later."""
         self._places.take([path])
         self._reserved.add(path)
 
     def is_reserved(self, uri: str) -> bool:
-        """Whether a URI leads to a file of the package that is written by somebody else."""
+        """Whether a URI leads to a file of the package that is generated later."""
         return any(uri == self.layout.uri(path, scheme) for path in self._reserved for scheme in self.layout.names)
 
     def add(self, found: Path, kinds: frozenset[FileKind], assets: LocalAssets) -> str:
-        """Put a file of one of these kinds into the package, or a folder of scripts or images; gives its place there.
+        """Put a file of one of these kinds, or a folder of scripts or images, into the package; return its place.
 
         Raises:
             UncollectedError: it does not belong there, or cannot be read.
@@ -87,9 +118,9 @@ class Collection:
             if real in self._by_source:
                 return self._by_source[real]
             if real.is_dir() and "script" in kinds:
-                place = self._folder(found, origins)
+                place = self._collect_folder(found, origins)
             elif kind_of(found) in kinds:
-                place = self._file(found, origins)
+                place = self._collect_file(found, origins)
             else:
                 wanted = " or ".join(sorted(kinds))
                 raise UncollectedError(f"{str(found)!r} is no {wanted} by its name, so it is put into no package")
@@ -99,7 +130,7 @@ class Collection:
         return place
 
     def put(self, path: str, data: bytes) -> None:
-        """Put a file into the package that a pass has made, at its own path; the same one may come again.
+        """Put a file that a pass has made into the package, at its own path; the same file may be put again.
 
         Raises:
             UncollectedError: another file is there.
@@ -110,8 +141,8 @@ class Collection:
             raise UncollectedError(f"a pass makes {path!r}, and another file of the package is there")
         self.files[path] = data
 
-    def _folder(self, folder: Path, origins: FileOrigins) -> str:
-        """The scripts or images in a folder, which are found by their names, so that they stay together."""
+    def _collect_folder(self, folder: Path, origins: FileOrigins) -> str:
+        """Collect a folder of scripts or images, which are found by their names and therefore stay together."""
         inside = sorted(each for each in folder.iterdir() if kind_of(each) in {"image", "script"} and each.is_file())
         if len(inside) > _MOST_IN_FOLDER:
             raise UncollectedError(f"{str(folder)!r} has more than {_MOST_IN_FOLDER} files")
@@ -127,7 +158,7 @@ class Collection:
             self._by_source.setdefault(each.resolve(), own)
         return place
 
-    def _file(self, found: Path, origins: FileOrigins) -> str:
+    def _collect_file(self, found: Path, origins: FileOrigins) -> str:
         kind = kind_of(found) or "data"
         content = self._checked(found, origins)
         format_ = FORMATS.get(suffix_of(found))
@@ -137,7 +168,7 @@ class Collection:
         named = self._places_of_references(found, kind, data, format_, origins)
         key = (hashlib.sha256(data).hexdigest(), *sorted(named.items()))
         place = self._place_of(found, kind, content, key, origins)
-        names = {name: _as_seen(target, place, format_) for name, target in named.items()}
+        names = {name: _name_in_file(target, place, format_) for name, target in named.items()}
         # Only the names are replaced, in the bytes of the file: a mesh that went through a library
         # comes back with other numbers.
         if self.sources[place] == content and any(name != written for written, name in names.items()):
@@ -147,7 +178,7 @@ class Collection:
     def _place_of(
         self, found: Path, kind: FileKind, content: Path, key: tuple[object, ...], origins: FileOrigins
     ) -> str:
-        """The place of a file: that of one of the same content, or a new one."""
+        """Return the place of a file: that of a file with the same content, or a new one."""
         # Files of one content and one ending are one file. The ending counts, since readers tell
         # the format of a mesh by it.
         key = (suffix_of(found), *key)
@@ -158,15 +189,15 @@ class Collection:
         return self._by_content[key]
 
     def _wanted_places(self, found: Path, kind: FileKind, origins: FileOrigins) -> Iterator[str]:
-        """Where a file would go: as it lies in its package, or else below the name of that."""
+        """Yield where a file may go: as it lies in its own package, or else below the name of that package."""
         holder, parts = origins.place(found)
         return self.layout.places(parts, kind, holder)
 
     def _checked(self, path: Path, origins: FileOrigins) -> Path:
-        """The file itself, wherever links lead.
+        """Return the file that a path really leads to.
 
         Raises:
-            UncollectedError: it is none, or the link leads out of all folders that are known.
+            UncollectedError: it is not a file, or a link leads out of all known folders.
         """
         real = path.resolve()
         if not stat.S_ISREG(real.stat().st_mode):
@@ -186,7 +217,7 @@ class Collection:
     def _places_of_references(
         self, found: Path, kind: FileKind, data: bytes, format_: ReferenceFormat, origins: FileOrigins
     ) -> dict[str, str]:
-        """The places of the files that a file names."""
+        """Collect the files that a file names, and return their places."""
         try:
             names = format_.references(data)
         except ValueError as error:
@@ -194,17 +225,17 @@ class Collection:
         places: dict[str, str] = {}
         for name in names:
             try:
-                places[name] = self._companion(name, found, kind, origins)
+                places[name] = self._collect_companion(name, found, kind, origins)
             except UncollectedError as error:
                 if not self.lenient or error.rule.fatal:
                     raise
                 self.problems.append(error)
         return places
 
-    def _companion(self, name: str, by: Path, kind: FileKind, origins: FileOrigins) -> str:
+    def _collect_companion(self, name: str, by: Path, kind: FileKind, origins: FileOrigins) -> str:
         path = _companion_path(name, by, origins)
         if path is None:
-            raise UncollectedError(f"{str(by)!r} names {name!r}, which is not there", _advice(name))
+            raise UncollectedError(f"{str(by)!r} names {name!r}, which is not there", _advice_for_missing(name))
         if kind_of(path) not in _NAMED.get(kind, ()):
             raise UncollectedError(f"{str(by)!r} names {name!r}, but it cannot need a file of that kind")
         try:
@@ -214,12 +245,12 @@ class Collection:
             raise UncollectedError(message, error.help, URI_LEAVES_FOLDER) from error
         real = path.resolve()
         if real not in self._by_source:
-            self._by_source[real] = self._file(path, origins)
+            self._by_source[real] = self._collect_file(path, origins)
         return self._by_source[real]
 
 
 def _companion_path(name: str, by: Path, origins: FileOrigins) -> Path | None:
-    """The file that another one names: by a URI, a path from its own folder, or a bare name."""
+    """Find the file that another one names by a URI, a path from its own folder, or a bare name."""
     for written in dict.fromkeys((name, unquote(name), unquote(name).replace("\\", "/"))):
         if "://" in written and not written.startswith("file://"):
             try:
@@ -242,14 +273,14 @@ def _is_file(path: Path) -> bool:
         return False
 
 
-def _advice(name: str) -> str | None:
+def _advice_for_missing(name: str) -> str | None:
     if name[1:2] == ":" or name.startswith(("/", "file:///")):
         return "it is a path on the machine that made the file: copy the file beside it, and write its name alone"
     return "put the file there, or correct the name; --allow-missing goes on without it"
 
 
-def _as_seen(target: str, place: str, format_: ReferenceFormat) -> str:
-    """A file of the package as another one names it."""
+def _name_in_file(target: str, place: str, format_: ReferenceFormat) -> str:
+    """Return the name of a file of the package in another one."""
     return basename(target) if format_.by_name else relpath(target, folder_of(place))
 
 

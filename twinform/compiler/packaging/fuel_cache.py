@@ -10,7 +10,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from twinform.compiler.includes.model_config import manifest
+from twinform.compiler.model_config import manifest
 from twinform.compiler.search.fuel import FuelName, Kind, name_of, newest_first
 from twinform.file_access import Readable
 from twinform.storage.transaction import named_after, transaction
@@ -27,7 +27,7 @@ class FuelError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Resource:
-    """A folder that is a model or a world, and what it calls itself."""
+    """A folder that is a model or a world, and its name."""
 
     folder: Path
     kind: Kind
@@ -35,7 +35,7 @@ class Resource:
 
 
 def resources(folder: Path) -> list[Resource]:
-    """The model or world that a folder is, or the models in it.
+    """Return the model or world that a folder is, or the models in it.
 
     Raises:
         FuelError: there is none.
@@ -52,7 +52,7 @@ def resources(folder: Path) -> list[Resource]:
 
 
 def add(resource: Resource, cache: Path, server: str, owner: str, name: str, version: int | None = None) -> FuelName:
-    """Put a folder into a cache; gives its address. One that is there already with the same files stays.
+    """Put a folder into a cache, unless a version with the same files is there, and return its address.
 
     Raises:
         FuelError: a name is no name of a folder, or this version is there with other files.
@@ -76,7 +76,7 @@ def add(resource: Resource, cache: Path, server: str, owner: str, name: str, ver
 
 
 def listed(caches: Iterable[Path]) -> Iterator[FuelName]:
-    """All that is in the caches, in its newest version, by address."""
+    """Yield the addresses of everything in the caches, each in its newest version."""
     for cache in caches:
         for kind in ("models", "worlds"):
             for versions in sorted(cache.glob(f"*/*/{kind}/*")):
@@ -87,7 +87,7 @@ def listed(caches: Iterable[Path]) -> Iterator[FuelName]:
 
 
 def _model(folder: Path) -> Resource:
-    """A model by the name in its model.config, which is its name on the server."""
+    """Return a model with the name in its model.config, which is its name on the server."""
     config = manifest(folder)
     name = ""
     if config is not None:
@@ -102,7 +102,7 @@ def _model(folder: Path) -> Resource:
 
 
 def _files(folder: Path) -> list[str]:
-    """The files of a folder that belong to it: none that is hidden, and no link to one or out of the folder."""
+    """Return the files of a folder, without hidden ones and links that lead out of the folder."""
     readable, found = Readable((os.path.realpath(folder),)), list[str]()
     for place, folders, files in os.walk(folder):
         folders[:] = sorted(name for name in folders if not name.startswith("."))

@@ -1,10 +1,10 @@
-"""The kinds of packages, and what builds each."""
+"""The kinds of packages, and the functions that build them."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from twinform.compiler.packaging.collecting import Collection
-from twinform.compiler.packaging.gazebo_model.models import build as build_gazebo_model
+from twinform.compiler.packaging.gazebo_models import build as build_gazebo_model
 from twinform.compiler.packaging.kind_names import REQUIRED
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
@@ -13,20 +13,20 @@ from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.diagnostics.rules import PLACEHOLDER
 
 Builder = Callable[[Order, Collection], Built]
-"""Makes a package of an order; the files of the model go into the collection, which several may share."""
+"""Builds a package from an order; the files of the model go into the collection, which several builders may share."""
 
 KINDS: Mapping[str, Builder] = {"gazebo-model": build_gazebo_model, "ros2": build_ros2}
 
 
 def build(order: Order, kinds: tuple[str, ...]) -> Built:
-    """One folder that is a package of each of these kinds; meshes and textures are in it once.
+    """Build one folder that is a package of each of these kinds; meshes and textures are in it once.
 
     Raises:
         CompileError: the model or a file of it has an error.
         ValueError: two kinds have different contents for one file.
     """
     said = replace(order, details=order.details.with_placeholders())
-    built = list(_built(said, kinds))
+    built = list(_build_each(said, kinds))
     files: dict[str, Content] = {}
     for each in built:
         for path, content in each.package.files.items():
@@ -34,11 +34,11 @@ def build(order: Order, kinds: tuple[str, ...]) -> Built:
                 raise ValueError(f"two kinds of packages have different contents for {path}")
     found = dict.fromkeys(found for each in built for found in each.diagnostics)
     ledgers = {path: ledger for each in built for path, ledger in each.ledgers.items()}
-    return Built(Package(order.name, files), (*found, *_unsaid(order, kinds)), ledgers)
+    return Built(Package(order.name, files), (*found, *_report_missing_details(order, kinds)), ledgers)
 
 
-def _built(order: Order, kinds: Iterable[str]) -> Iterator[Built]:
-    """A package of each kind; each knows the files of those before it."""
+def _build_each(order: Order, kinds: Iterable[str]) -> Iterator[Built]:
+    """Yield a package of each kind; each builder knows the files of the packages before."""
     collection = order.collection()
     beside: tuple[str, ...] = ()
     for kind in kinds:
@@ -47,8 +47,8 @@ def _built(order: Order, kinds: Iterable[str]) -> Iterator[Built]:
         yield made
 
 
-def _unsaid(order: Order, kinds: Iterable[str]) -> tuple[Diagnostic, ...]:
-    """A warning about what the package has to say about itself, and nobody has said."""
+def _report_missing_details(order: Order, kinds: Iterable[str]) -> tuple[Diagnostic, ...]:
+    """Warn about required details of the package that are missing."""
     missing = [name for name in order.details.missing if any(name in REQUIRED[kind] for kind in kinds)]
     if not missing:
         return ()

@@ -1,20 +1,32 @@
-"""`Package`: the files of a package before they are written, by their paths in it."""
+"""The files of a package, and how they are written into a folder.
 
-from collections.abc import Iterator, Mapping
+Either all files are written or nothing is, and never over a file that somebody else has put there.
+"""
+
+import errno
+import hashlib
+import os
+import shutil
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from types import MappingProxyType
 
+from twinform.storage.staging import remove_leftovers
+from twinform.storage.transaction import Transaction, named_after, transaction
+from twinform.storage.writing import stage_texts, sync_files
+
 Content = bytes | Path
-"""What is in a file: bytes, or those of another file."""
+"""The content of a file: bytes, or another file that is copied."""
 
 
 @dataclass(frozen=True, slots=True)
 class Package:
-    """What a package is called, and its files: paths with `/`, sorted, none of which leaves the folder.
+    """The name of a package, and its files by their paths, which are sorted and stay inside the folder.
 
     Raises:
-        ValueError: a path leaves the folder, is below a file, or two are one file where capitals do not count.
+        ValueError: a path leaves the folder, is below a file, or two paths only differ in case.
     """
 
     name: str
@@ -35,15 +47,159 @@ class Package:
 
     @property
     def folders(self) -> tuple[str, ...]:
-        """The folders directly in it, sorted."""
+        """The top folders of the package, sorted."""
         return tuple(sorted({path.partition("/")[0] for path in self.files if "/" in path}))
 
     def below(self, folder: str) -> Iterator[str]:
-        """The paths in one of its folders."""
+        """Return the paths in a folder of the package."""
         return (path for path in self.files if path.startswith(f"{folder}/"))
 
 
 def is_inner_path(path: str) -> bool:
-    """Whether a path stays in the folder that it is relative to, as far as there are no links."""
+    """Whether a relative path stays in its folder, if there are no links."""
     parts = path.split("/")
     return all(parts) and not {".", ".."}.intersection(parts) and "\\" not in path and "\0" not in path
+
+
+MARK = ".twinform-package"
+"""The file that lists which files of a folder are ours."""
+_HEAD = "# The files that `twinform package` has put here; it writes over no others.\n"
+
+
+class OccupiedError(OSError):
+    """The folder has files that `twinform package` has not put there."""
+
+
+def write_package(
+    package: Package, folder: Path, *, force: bool = False, beside: Mapping[Path, str] | None = None
+) -> None:
+    """Write a package into a folder, and the texts `beside` it to their paths; all are staged first, and then moved.
+
+    Files of an earlier package are removed, unless they were changed since. Files of somebody else stay; where one has
+    the name of a file of the package, nothing is written, unless `force` is true.
+
+    Raises:
+        OccupiedError: files of somebody else would be written over.
+        OSError: it cannot be written; the folder is as it was.
+    """
+    target = Path(os.path.realpath(folder))
+    if target.exists() and not target.is_dir():
+        raise NotADirectoryError(errno.ENOTDIR, "a file stands where the folder of the package would be", str(target))
+    ours = frozenset(_unchanged_files(target))
+    over = _foreign_files(package, target, ours)
+    if over and not force:
+        more = f" and {len(over) - 1} more" if len(over) > 1 else ""
+        message = f"{target / over[0]}{more} would be written over, and twinform has not put it there"
+        raise OccupiedError(errno.EEXIST, message, str(target))
+    with transaction() as moves:
+        texts = stage_texts(moves, beside or {})
+        _move_files(moves, package, target, {*ours, *over})
+        for new, place in texts:
+            with named_after(place):
+                moves.move(new, place)
+        moves.sync()
+        moves.done = True
+    for path in ours:
+        _remove_empty_folders((target / path).parent, target)
+
+
+def _move_files(moves: Transaction, package: Package, target: Path, old: set[str]) -> None:
+    """Stage the files of a package and move them to their places; `old` are the files and links that are removed."""
+    remove_leftovers(target.parent)
+    is_new = not target.exists()
+    new = moves.stage(target.parent if is_new else target)
+    for path, content in package.files.items():
+        with named_after(target / path):
+            _write_content(content, new / path)
+    rows = {path: _digest(new / path) for path in package.files}
+    (new / MARK).write_bytes(_mark_bytes(rows.items()))
+    sync_files((new / path, target / path) for path in (*package.files, MARK))
+    if is_new:
+        with named_after(target):
+            moves.move(new, target)
+        return
+    # a run that is killed on the way leaves old and new files, and this says of both that they are ours
+    both = moves.stage(target)
+    both.write_bytes(_mark_bytes([*_read_mark(target / MARK), *rows.items()]))
+    moves.move(both, target / MARK)
+    for path in sorted(old):
+        if _has_to_go(target / path, target, stays=path in rows):
+            moves.take_away(target / path, target)
+    for path in (*package.files, MARK):
+        with named_after(target / path):
+            moves.make((target / path).parent)
+            moves.move(new / path, target / path)
+
+
+def _foreign_files(package: Package, target: Path, ours: frozenset[str]) -> list[str]:
+    """Return the files and links of somebody else that are in the places of the package's files."""
+    found: dict[str, None] = {}
+    for path in package.files:
+        for place in (*reversed([str(each) for each in Path(path).parents][:-1]), path):
+            at = target / place
+            if at.is_symlink() or (at.exists() and (place == path or not at.is_dir())):
+                found.setdefault(place)
+                break
+    return [place for place in found if place not in ours]
+
+
+def _has_to_go(path: Path, folder: Path, *, stays: bool) -> bool:
+    """Whether an old file, or a link in the place of a file or folder, is removed before the new files are moved.
+
+    A file that is replaced stays until then. Files behind a link are somebody else's.
+    """
+    return not _through_link(path, folder) and (path.is_symlink() or (path.is_file() and not stays))
+
+
+def _through_link(path: Path, folder: Path) -> bool:
+    """Whether a link is on the way to a path in a folder."""
+    return any(parent.is_symlink() for parent in path.parents if parent != folder and parent.is_relative_to(folder))
+
+
+def _remove_empty_folders(folder: Path, top: Path) -> None:
+    with suppress(OSError):  # it is not empty
+        while folder != top:
+            folder.rmdir()
+            folder = folder.parent
+
+
+def _unchanged_files(folder: Path) -> Iterator[str]:
+    """Yield the files of an earlier package that were not changed since.
+
+    Raises:
+        OSError: one cannot be read.
+    """
+    for path, digest in _read_mark(folder / MARK):
+        at = folder / path
+        if not at.is_symlink() and not _through_link(at, folder) and at.is_file() and _digest(at) == digest:
+            yield path
+
+
+def _read_mark(mark: Path) -> list[tuple[str, str]]:
+    """Read an earlier package's list of paths and digests; nothing if it is not ours, or a path leaves the folder."""
+    try:
+        text = mark.read_text(encoding="utf-8") if mark.is_file() and not mark.is_symlink() else ""
+    except UnicodeDecodeError:
+        return []
+    lines = text.removeprefix(_HEAD).splitlines() if text.startswith(_HEAD) else []
+    rows = [(path, digest) for digest, _, path in (line.partition("  ") for line in lines)]
+    return rows if all(is_inner_path(path) for path, _ in rows) else []
+
+
+def _mark_bytes(rows: Iterable[tuple[str, str]]) -> bytes:
+    """Write the list of files, in the notation of `sha256sum`."""
+    return (_HEAD + "".join(f"{digest}  {path}\n" for path, digest in rows)).encode()
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def _write_content(content: Content, path: Path) -> None:
+    """Write bytes, or copy a file, to a path in the package."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if isinstance(content, bytes):
+        path.write_bytes(content)
+    else:
+        shutil.copyfile(content, path)

@@ -17,22 +17,22 @@ from twinform.passes.shared.document_uris import FUEL_SERVERS
 SERVER = FUEL_SERVERS[0]
 """The server that addresses are written for."""
 TIP = "tip"
-"""What stands for the newest version in an address."""
+"""The word for the newest version in an address."""
 # Environment variables that name the cache; releases up to Fortress read the second one.
 _VARIABLES = ("GZ_FUEL_CACHE_PATH", "IGN_FUEL_CACHE_PATH")
 # One server under two names: fuel.ignitionrobotics.org became fuel.gazebosim.org.
 _TWINS = {SERVER: FUEL_SERVERS[1], FUEL_SERVERS[1]: SERVER}
 _ADDRESS = re.compile(r"/(?:\d+\.\d+/)?(?P<owner>[^/]+)/(?P<kind>models|worlds)/(?P<name>[^/]+)(?:/(?P<rest>.*))?")
 _FIRST_OWNER = "openrobotics"
-"""Whose models are taken first where several owners have one of a name."""
+"""The owner whose models are preferred where several owners have one of a name."""
 Kind = Literal["models", "worlds"]
 _TO_VERSION = 5
-"""So many folders lead from a cache to a version: server, owner, kind, name, version."""
+"""The number of folders from a cache to a version: server, owner, kind, name, version."""
 
 
 @dataclass(frozen=True, slots=True)
 class FuelName:
-    """A model or world on a server, or a file of it; without a `version` the newest one, without a `file` all of it."""
+    """A model or world on a server, or one `file` of it; without a `version` it is the newest one."""
 
     server: str
     owner: str
@@ -43,7 +43,7 @@ class FuelName:
 
     @classmethod
     def parse(cls, uri: str) -> Self | None:
-        """What an address names; None where it is no address of a model or world."""
+        """Parse an address; None where it is not that of a model or world."""
         try:
             parts = urlsplit(uri.strip())
         except ValueError:  # such as a bracket without its like
@@ -59,32 +59,32 @@ class FuelName:
 
     @property
     def uri(self) -> str:
-        """Its address."""
+        """The address."""
         version = self.version or (TIP if self.file else "")
         parts = (self.owner, self.kind, self.name, version, f"files/{self.file}" if self.file else "")
         return f"https://{self.server}/1.0/" + "/".join(quote(part) for part in parts if part)
 
     def folders(self, cache: Path) -> Iterator[Path]:
-        """The folders of its versions in a cache: names are in lower case there; older caches kept them."""
+        """Yield the folders of its versions in a cache: names are in lower case there, except in older caches."""
         for server in dict.fromkeys((self.server, _TWINS.get(self.server, self.server))):
             yield cache / server / self.owner.lower() / self.kind / self.name.lower()
             yield cache / server / self.owner / self.kind / self.name
 
 
 def caches(environment: Mapping[str, str]) -> tuple[Path, ...]:
-    """The folders in which the programs of Gazebo keep what they fetched."""
+    """Return the folders in which the programs of Gazebo keep what they have fetched."""
     named = tuple(environment[name] for name in _VARIABLES if environment.get(name))
     return _caches(named, environment.get("HOME") or str(Path.home()))
 
 
 @lru_cache(maxsize=16)
 def _caches(named: tuple[str, ...], home: str) -> tuple[Path, ...]:
-    """Every file that is read asks for them, and few need them."""
+    """Return the caches; the result is kept, because every file that is read asks for them."""
     return (*map(Path, named), Path(home, ".gz", "fuel"), Path(home, ".ignition", "fuel"))
 
 
 def cached(uri: str, folders: Iterable[Path]) -> Path | None:
-    """The folder or file of a model or world that an address names; None where it is not on this machine."""
+    """Return the folder or file that an address names; None where it is not on this machine."""
     name = FuelName.parse(uri)
     if name is None:
         return None
@@ -97,7 +97,7 @@ def cached(uri: str, folders: Iterable[Path]) -> Path | None:
 
 
 def models_named(name: str, folders: Iterable[Path]) -> Iterator[Path]:
-    """The models of a name in the caches, of any owner, each in its newest version."""
+    """Yield the models of a name in the caches, of any owner, each in its newest version."""
     for cache in folders:
         owners = [owner for server in _folders(cache) for owner in _folders(server)]
         for owner in sorted(owners, key=lambda path: (path.name != _FIRST_OWNER, path)):
@@ -114,7 +114,7 @@ def _folders(folder: Path) -> list[Path]:
 
 
 def name_of(path: Path, folders: Iterable[Path]) -> FuelName | None:
-    """What a file or folder in a cache is called on its server; None where it is in none."""
+    """Return the name on its server of a file or folder in a cache; None where it is in none."""
     for cache in folders:
         if path.is_relative_to(cache):
             parts = path.relative_to(cache).parts
@@ -125,7 +125,7 @@ def name_of(path: Path, folders: Iterable[Path]) -> FuelName | None:
 
 
 def newest_first(model: Path) -> list[str]:
-    """The versions of a model or world that are in a cache."""
+    """Return the versions of a model or world that are in a cache, the newest first."""
     numbers = [folder.name for folder in _folders(model) if folder.name.isdecimal()]
     return sorted(numbers, key=int, reverse=True)
 

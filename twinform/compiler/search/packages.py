@@ -12,24 +12,24 @@ from twinform.file_access import read_regular
 from twinform.schemas import XmlElement
 
 MANIFEST = "package.xml"
-"""What makes a folder a package."""
+"""The file that makes a folder a package."""
 MODEL_CONFIG = "model.config"
-"""What makes a folder a model of Gazebo."""
+"""The file that makes a folder a model of Gazebo."""
 _LARGEST = 2**20
 _DEEPEST = 5
 _MOST = 2000
-"""Entries of a folder that are looked at."""
+"""The number of entries of a folder that are looked at."""
 _SKIPPED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 
 
 def package_name(folder: Path) -> str | None:
-    """What the package in a folder calls itself; None where there is none."""
+    """Return the name of the package in a folder; None where there is none."""
     root = read_manifest(folder / MANIFEST)
     return None if root is None else (root.findtext("name") or "").strip() or None
 
 
 def read_manifest(file: Path) -> XmlElement | None:
-    """The root of a small XML file that says what a folder is; None where there is none, or it is not well-formed."""
+    """Read the manifest of a folder, a small XML file; None where there is none, or it is not well-formed."""
     try:
         # an installation links its manifests to those of the sources, and a manifest is never a link to anything else
         if os.path.basename(os.path.realpath(file)) != file.name:  # noqa: PTH119
@@ -44,27 +44,27 @@ def read_manifest(file: Path) -> XmlElement | None:
 
 @dataclass(frozen=True, slots=True)
 class PackageIndex:
-    """The packages below some folders, looked for once and only when one is asked for."""
+    """The packages below some folders, which are looked for once and on demand."""
 
     found: dict[Path, dict[str, Path]] = field(default_factory=dict[Path, dict[str, Path]])
     inside: dict[Path, dict[str, Path]] = field(default_factory=dict[Path, dict[str, Path]])
     names: dict[Path, str | None] = field(default_factory=dict[Path, str | None])
 
     def name_of(self, folder: Path) -> str | None:
-        """What the package in a folder calls itself; None where there is none."""
+        """Return the name of the package in a folder; None where there is none."""
         if folder not in self.names:
             self.names[folder] = package_name(folder)
         return self.names[folder]
 
     def named(self, name: str, root: Path) -> Iterator[Path]:
-        """The package of this name below a folder, if there is one."""
+        """Yield the package of a name below a folder, if there is one."""
         if root not in self.found:
             self.found[root] = dict(_packages_below(root))
         if name in self.found[root]:
             yield self.found[root][name]
 
     def directly_in(self, name: str, folder: Path) -> Iterator[Path]:
-        """The package of this name that lies in a folder, whatever its own folder is called."""
+        """Yield the package of a name directly in a folder, whatever the name of its own folder is."""
         if folder not in self.inside:
             self.inside[folder] = {called: each for each in _folders(folder) if (called := package_name(each))}
         if name in self.inside[folder]:
@@ -72,7 +72,7 @@ class PackageIndex:
 
 
 def _folders(folder: Path) -> Iterator[Path]:
-    """The folders in a folder, sorted; none where there are too many for a workspace."""
+    """Yield the folders in a folder, sorted."""
     try:
         with os.scandir(folder) as entries:
             found = sorted(each.name for each in islice(entries, _MOST) if each.is_dir())
@@ -82,7 +82,7 @@ def _folders(folder: Path) -> Iterator[Path]:
 
 
 def _packages_below(root: Path) -> Iterator[tuple[str, Path]]:
-    """Every package and its name; a package holds no others."""
+    """Yield every package below a folder with its name; a package does not contain others."""
     depth = len(root.parts)
     for place, folders, files in os.walk(root):
         here = Path(place)

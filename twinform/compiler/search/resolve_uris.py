@@ -19,11 +19,11 @@ _MOST_SHOWN = 6
 
 
 class UriError(AssetError):
-    """A URI that leads nowhere, or where it must not lead."""
+    """A URI leads nowhere, or to a file that must not be read."""
 
 
 class SearchFolders(NamedTuple):
-    """The folders that are searched because of where a file lies: those around it, and one beside them."""
+    """The folders that are searched because of where a file lies: those above it, and one beside them."""
 
     folders: tuple[Path, ...]
     neighbors: Path | None
@@ -33,10 +33,10 @@ class SearchFolders(NamedTuple):
 class SearchPath:
     """The folders in which URIs are looked up.
 
-    `own` comes from the caller and is looked in first; `models` hold a folder for each model, `packages` one for each
-    package, and `workspaces` packages at any depth. The folders around the file that has the URI come last. `seen` are
-    the files that were found or read, so that nothing is written over one of them. `unsaved` are files, without links,
-    that are open in an editor: their contents count in place of what is on the disk.
+    `own` folders come from the caller and are searched first. `models` contain a folder for each model, `packages` one
+    for each package, and `workspaces` packages at any depth. The folders around the file with the URI come last. `seen`
+    are the files that were found or read, so that none of them is overwritten. `unsaved` has the contents of files,
+    by real path, that are open in an editor; they are used instead of those on the disk.
     """
 
     own: tuple[Path, ...] = ()
@@ -52,18 +52,18 @@ class SearchPath:
 
     @classmethod
     def of(cls, own: Iterable[str | Path] = (), environment: Mapping[str, str] = os.environ) -> Self:
-        """The folders given, and those that the variables of Gazebo and ROS name."""
-        ament = tuple(prefix / "share" for prefix in _folders(environment, "AMENT_PREFIX_PATH"))
+        """Make a search path of given folders and of those that the variables of Gazebo and ROS name."""
+        ament = tuple(prefix / "share" for prefix in _folders_in_variable(environment, "AMENT_PREFIX_PATH"))
         return cls(
             own=tuple(map(Path, own)),
-            models=tuple(folder for name in _MODEL_VARIABLES for folder in _folders(environment, name)),
+            models=tuple(folder for name in _MODEL_VARIABLES for folder in _folders_in_variable(environment, name)),
             packages=ament,
-            workspaces=tuple(_folders(environment, "ROS_PACKAGE_PATH")),
+            workspaces=tuple(_folders_in_variable(environment, "ROS_PACKAGE_PATH")),
             fuel=fuel.caches(environment),
         )
 
     def find(self, uri: str, beside: Path) -> Path:
-        """The file or folder that a URI names, which stands in the file `beside`.
+        """Return the file or folder that a URI in the file `beside` names.
 
         Raises:
             UriError: there is none, or it must not be read.
@@ -87,26 +87,26 @@ class SearchPath:
                 raise UriError(rules.UNRESOLVED_URI, f"{uri!r} has a scheme that is not known: {scheme!r}")
 
     def readable(self, file: Path) -> Readable:
-        """The files that may be read because `file` leads to them, and this file."""
+        """Return the files that may be read because `file` leads to them, and `file` itself."""
         if file not in self._readable:
-            self._readable[file] = Readable.of(file, (*self._roots(), *self.fuel), self._of_environment())
+            self._readable[file] = Readable.of(file, (*self._roots(), *self.fuel), self._environment_roots())
         return self._readable[file]
 
     def _surroundings(self, file: Path) -> SearchFolders:
-        """The folders around a file, asked for once: a world may have a URI in each of its lines."""
+        """Return the folders around a file; they are kept, since a world may have a URI in each of its lines."""
         if file not in self._around:
             self._around[file] = SearchFolders(folders_around(file), neighborhood(find_root(file)))
         return self._around[file]
 
     def unsaved_of(self, path: str | Path) -> bytes | None:
-        """What an editor has of a file; None where none does."""
+        """Return the content of a file that is open in an editor; None for other files."""
         return self.unsaved.get(os.path.realpath(path)) if self.unsaved else None
 
     def package(self, name: str, beside: Path) -> Path:
-        """The folder of a package, as `$(find name)` and `package://name` mean it.
+        """Return the folder of a package, for `$(find name)` and `package://name`.
 
         Raises:
-            UriError: it is not there, or is no name.
+            UriError: the package is not there, or the name is invalid.
         """
         return self._find_named(f"package://{name}", name, beside)
 
@@ -121,11 +121,11 @@ class SearchPath:
         candidates = self._candidates(name, (*around, neighbors) if neighbors else around)
         found = self._first_readable(uri, (folder / inner for folder in candidates), beside)
         if found is None:
-            raise self._missing(uri, (*self._roots(), *around))
+            raise self._not_found(uri, (*self._roots(), *around))
         return found
 
     def _candidates(self, name: str, around: tuple[Path, ...]) -> Iterator[Path]:
-        """Every folder that may be called so, the most likely first."""
+        """Yield every folder that a name may mean, the most likely first."""
         # A folder called like the model comes first, as in Gazebo and ROS; folders that a
         # package.xml or a model.config calls so come after, and the cache of Fuel last of all.
         # Gazebo would not look there, but a file that another machine wrote can then be read.
@@ -146,16 +146,16 @@ class SearchPath:
         yield from fuel.models_named(name, self.fuel)
 
     def _roots(self) -> tuple[Path, ...]:
-        return (*self.own, *self._of_environment())
+        return (*self.own, *self._environment_roots())
 
-    def _of_environment(self) -> tuple[Path, ...]:
+    def _environment_roots(self) -> tuple[Path, ...]:
         return (*self.models, *self.packages, *self.workspaces)
 
     def _first_readable(self, uri: str, paths: Iterable[Path], beside: Path) -> Path | None:
-        """The first of some paths that is there and may be read; None where none is there.
+        """Return the first path that exists and may be read; None where none exists.
 
         Raises:
-            UriError: those that are there must not be read.
+            UriError: a path exists, but none of these may be read.
         """
         readable = self.readable(beside)
         denied: OutsideError | None = None
@@ -174,12 +174,12 @@ class SearchPath:
         return None
 
     def _find_path(self, path: str, beside: Path, uri: str | None = None) -> Path:
-        """A path: absolute, beside the file, or in one of the folders."""
+        """Find a path that is absolute, beside the file, or in one of the folders."""
         around = self._surroundings(beside).folders
         roots = (beside.parent, *self._roots(), *around, *(folder / "models" for folder in around))
         found = self._first_readable(uri or path, (root / path for root in roots), beside) if path else None
         if found is None:
-            raise self._missing(uri or path, (beside.parent, *self._roots(), *around))
+            raise self._not_found(uri or path, (beside.parent, *self._roots(), *around))
         return found
 
     def _find_cached(self, uri: str) -> Path:
@@ -191,16 +191,16 @@ class SearchPath:
                 raise UriError(rules.UNRESOLVED_URI, message, "put the file beside the model, and name it by its path")
             message = f"{uri!r} is not in the local cache of Fuel, and nothing is fetched from {host}"
             advice = f"run `gz fuel download -u '{uri}'`, or `twinform fuel add FOLDER --owner NAME` where you have it"
-            raise UriError(rules.UNRESOLVED_URI, message, _searched(self.fuel, advice))
+            raise UriError(rules.UNRESOLVED_URI, message, _describe_search(self.fuel, advice))
         return found
 
-    def _missing(self, uri: str, roots: Iterable[Path]) -> UriError:
-        where = _searched(dict.fromkeys(roots), "name other folders with --path DIR")
+    def _not_found(self, uri: str, roots: Iterable[Path]) -> UriError:
+        where = _describe_search(dict.fromkeys(roots), "name other folders with --path DIR")
         return UriError(rules.UNRESOLVED_URI, f"{uri!r} is not found", where)
 
 
 def exists(path: Path) -> bool:
-    """Whether a file or folder is there."""
+    """Whether a file or folder exists."""
     try:
         return path.exists()
     except OSError:  # a name that is too long, a folder that may not be read
@@ -208,18 +208,18 @@ def exists(path: Path) -> bool:
 
 
 def _host(uri: str) -> str:
-    """The machine that an address names, for a message."""
+    """Return the host of an address, for a message."""
     try:
         return urlsplit(uri).hostname or "the network"
     except ValueError:  # such as a bracket without its like
         return "the network"
 
 
-def _folders(environment: Mapping[str, str], variable: str) -> Iterator[Path]:
+def _folders_in_variable(environment: Mapping[str, str], variable: str) -> Iterator[Path]:
     return (Path(part) for part in environment.get(variable, "").split(os.pathsep) if part)
 
 
-def _searched(folders: Iterable[Path], advice: str) -> str:
+def _describe_search(folders: Iterable[Path], advice: str) -> str:
     names = [str(folder) for folder in folders]
     more = f" and {len(names) - _MOST_SHOWN} more" if len(names) > _MOST_SHOWN else ""
     looked = f"looked in {', '.join(names[:_MOST_SHOWN])}{more}; " if names else ""
@@ -228,7 +228,7 @@ def _searched(folders: Iterable[Path], advice: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class LocalAssets:
-    """The files that the document in the file `beside` names, for its passes."""
+    """The files that a document names, for passes; `beside` is the file of the document."""
 
     search: SearchPath
     beside: Path
@@ -244,7 +244,7 @@ class LocalAssets:
         return self.search.readable(self.beside)
 
     def find(self, uri: str) -> Path:
-        """The file or folder that a URI names.
+        """Return the file or folder that a URI names.
 
         Raises:
             UriError: there is none, or it must not be read.
@@ -252,7 +252,7 @@ class LocalAssets:
         return self.search.find(uri, self.beside)
 
     def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
-        """What the package of ROS or the model of Gazebo is called that a folder is; None where it is none."""
+        """Return the name of the ROS package or Gazebo model that a folder is; None where it is none."""
         if kind == "package":
             return package_name(folder)
         if not exists(folder / MODEL_CONFIG):
@@ -261,6 +261,6 @@ class LocalAssets:
         return name.name if name else folder.name
 
     def address(self, file: Path) -> str | None:
-        """The address on Fuel of a file or folder in its local cache; None for all others."""
+        """Return the address on Fuel of a file or folder in its local cache; None for all others."""
         name = fuel.name_of(file, self.search.fuel)
         return name.uri if name else None

@@ -1,6 +1,6 @@
 """Hooks around passes: statistics and their table, printed changes, and dumps of the IR as JSON.
 
-`Reproducer`, the hook that records a failed pass, is in `compiler/reproducers/`.
+`Reproducer`, the hook that records a failed pass, is in `compiler/reproducers.py`.
 """
 
 import json

@@ -4,8 +4,8 @@ from importlib.metadata import EntryPoint
 
 import pytest
 
-from twinform.compiler.fixing import fixer_registry
-from twinform.compiler.fixing.fixer_registry import FixRegistryError, fixer_of, fixers, text_fixer_of, text_fixers
+from twinform.compiler.fixing import offering
+from twinform.compiler.fixing.offering import FixRegistryError, fixer_of, fixers, text_fixer_of, text_fixers
 from twinform.diagnostics import catalog
 
 
@@ -17,7 +17,7 @@ def test_rules_say_whether_they_have_fixes() -> None:
 
 
 def test_a_built_in_rule_is_found_without_a_look_at_other_packages(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fixer_registry, "strangers", None)
+    monkeypatch.setattr(offering, "strangers", None)
     assert fixer_of("unknown-element")
     assert fixer_of("repaired-xml") is None
     assert text_fixer_of("repaired-xml")
@@ -32,7 +32,7 @@ def _install(monkeypatch: pytest.MonkeyPatch, *entries: EntryPoint) -> None:
         return tuple(each for each in entries if each.group == group)
 
     monkeypatch.setattr("importlib.metadata.entry_points", entry_points)
-    fixer_registry.strangers.cache_clear()
+    offering.strangers.cache_clear()
 
 
 _HERE = f"{__name__}:_fixer"
@@ -41,9 +41,9 @@ _HERE = f"{__name__}:_fixer"
 @pytest.mark.parametrize(
     ("entries", "message"),
     [
-        ((EntryPoint("unknown-element", _HERE, fixer_registry.GROUP),), "has one already"),
-        ((EntryPoint("own-rule", f"{__name__}:nothing", fixer_registry.GROUP),), "cannot be imported"),
-        ((EntryPoint("own-rule", f"{__name__}:_HERE", fixer_registry.GROUP),), "has one already or is none"),
+        ((EntryPoint("unknown-element", _HERE, offering.GROUP),), "has one already"),
+        ((EntryPoint("own-rule", f"{__name__}:nothing", offering.GROUP),), "cannot be imported"),
+        ((EntryPoint("own-rule", f"{__name__}:_HERE", offering.GROUP),), "has one already or is none"),
     ],
 )
 def test_wrong_registrations_are_reported(
@@ -52,10 +52,10 @@ def test_wrong_registrations_are_reported(
     _install(monkeypatch, *entries)
     with pytest.raises(FixRegistryError, match=message):
         fixer_of("own-rule")
-    fixer_registry.strangers.cache_clear()
+    offering.strangers.cache_clear()
 
 
 def test_other_packages_bring_fixers(monkeypatch: pytest.MonkeyPatch) -> None:
-    _install(monkeypatch, EntryPoint("own-rule", _HERE, fixer_registry.GROUP))
+    _install(monkeypatch, EntryPoint("own-rule", _HERE, offering.GROUP))
     assert fixer_of("own-rule") is _fixer
-    fixer_registry.strangers.cache_clear()
+    offering.strangers.cache_clear()

@@ -8,7 +8,8 @@ from lxml import etree
 
 import twinform
 from twinform.compiler import LoadResult, check, dumps
-from twinform.compiler.input.loading import LoadOptions, garbage_collection_paused, load, loads, lower_tree, read
+from twinform.compiler.input.front_ends import lower_tree
+from twinform.compiler.input.loading import LoadOptions, garbage_collection_paused, load, loads, read
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location
 from twinform.ir import Document
 

@@ -27,7 +27,7 @@ def _sdf(*models: Model, **fields: Any) -> Document:
 def test_a_valid_document_needs_no_tree(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     document = twinform.loads(ROBOT)
     document = document.copy(models=(document.models[0].copy(name=name),))
-    monkeypatch.setattr(emitting, "_parsed", None)
+    monkeypatch.setattr(emitting, "_parse_text", None)
     assert etree.fromstring(emit(document, DiagnosticSink())).get("name") == name
 
 

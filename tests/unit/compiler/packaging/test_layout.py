@@ -5,8 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.profile import examples
-from twinform.compiler.packaging.file_kinds import FileKind
-from twinform.compiler.packaging.layout import PackageLayout, PackagePlaces, safe_name
+from twinform.compiler.packaging.layout import FileKind, PackageLayout, PackagePlaces, safe_name
 from twinform.compiler.packaging.package import Package, is_inner_path
 
 _KINDS: list[FileKind] = ["mesh", "image", "script", "data"]

@@ -1,19 +1,97 @@
-"""Gazebo's plugin for ros2_control in a model: its names in each release, and the file of controllers that it reads."""
+"""The `<ros2_control>` systems of a model, and Gazebo's plugin for them, which reads the controllers of the package."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.compiler.packaging.ros2.systems import System, systems_of
-from twinform.diagnostics import DiagnosticSink, rules
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Element, Format, GazeboExtension, Model, Plugin, rewrite
+from twinform.passes.control.carried_elements import location_of, urdf_elements
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sites import PluginSite, map_plugins, plugins_of
 
+
+@dataclass(frozen=True, slots=True)
+class Component:
+    """A joint, sensor or GPIO with the names of its interfaces and its own parameters.
+
+    A joint that is `alone` moves by its own commands, even if it has a mimic.
+    """
+
+    name: str
+    commands: tuple[str, ...] = ()
+    states: tuple[str, ...] = ()
+    parameters: tuple[tuple[str, str], ...] = ()
+    alone: bool = False
+
+    def parameter(self, name: str) -> str | None:
+        """Return the value of a parameter."""
+        return dict(self.parameters).get(name)
+
+
+@dataclass(frozen=True, slots=True)
+class System:
+    """A `<ros2_control>` element: `kind` is its type, and `hardware` the class of the plugin that drives it."""
+
+    name: str
+    kind: str
+    hardware: str
+    location: Location
+    joints: tuple[Component, ...] = ()
+    sensors: tuple[Component, ...] = ()
+    gpios: tuple[Component, ...] = ()
+
+    def parts(self) -> frozenset[str]:
+        """Return the names of its joints and sensors."""
+        return frozenset(each.name for each in (*self.joints, *self.sensors))
+
+
+def systems_of(model: Model, format_: Format) -> tuple[System, ...]:
+    """Return the `<ros2_control>` systems of a model."""
+    return tuple(
+        _system(element, location_of(part, model)) for part, element in urdf_elements(model, format_, "ros2_control")
+    )
+
+
+def _system(element: Element, location: Location) -> System:
+    hardware = element.find("hardware")
+    plugin = hardware.find("plugin") if hardware else None
+    return System(
+        name=element.get("name") or "",
+        kind=element.get("type") or "",
+        hardware=((plugin.text if plugin else None) or "").strip(),
+        location=location,
+        joints=tuple(_components(element, "joint")),
+        sensors=tuple(_components(element, "sensor")),
+        gpios=tuple(_components(element, "gpio")),
+    )
+
+
+def _components(system: Element, kind: str) -> Iterator[Component]:
+    for each in system.children:
+        if each.name == kind:
+            yield Component(
+                name=each.get("name") or "",
+                commands=_names(each, "command_interface"),
+                states=_names(each, "state_interface"),
+                parameters=tuple((child.get("name") or "", child.text or "") for child in _all(each, "param")),
+                alone=(each.get("mimic") or "").strip().lower() == "false",
+            )
+
+
+def _names(element: Element, kind: str) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(name for each in _all(element, kind) if (name := each.get("name"))))
+
+
+def _all(element: Element, name: str) -> Iterator[Element]:
+    return (child for child in element.children if child.name == name)
+
+
 CONTROLLERS = "config/controllers.yaml"
-"""The file of the package that it reads."""
+"""The file of the package that the plugin reads."""
 _FORTRESS = "fortress"
 _PARAMETERS = "parameters"
 _CLASSES = ("::GazeboSimROS2ControlPlugin", "::IgnitionROS2ControlPlugin")
@@ -22,18 +100,18 @@ _OLD, _NEW = "ign_ros2_control", "gz_ros2_control"
 
 
 def control_package(release: str) -> str:
-    """The ROS package with Gazebo's plugin for ros2_control."""
+    """Return the ROS package with Gazebo's plugin for ros2_control."""
     return _OLD if release == _FORTRESS else _NEW
 
 
 def runs_in_gazebo(system: System, release: str) -> bool:
-    """Whether the hardware of a system is a plugin of a release of Gazebo; later ones know the old name too."""
+    """Whether a release of Gazebo loads the hardware of a system; later releases know the old name too."""
     package = system.hardware.partition("/")[0]
     return package == _OLD or (package == _NEW and release != _FORTRESS)
 
 
 def controllers_uri(package: str) -> str:
-    """What the plugin has for the path of its file, which the launch file puts in its place."""
+    """Return the URI that stands for the path of the controllers' file until the launch file replaces it."""
     # gz_ros2_control wants the file's path, which is known only after the installation. Other
     # packages write a xacro with $(find ...) for that; then a name with ${...} in it would run, and
     # what reads no xacro cannot read the robot. So the URDF stays a URDF, and two lines of the
@@ -55,7 +133,7 @@ class ConnectControllers(Pass):
     release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that runs the model.")
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document with the plugin."""
+        """Return the document with the plugin."""
         if not has_gazebo_control(document, self.release, sink):
             return document
         if any(_is_control(plugin) for plugin, _ in plugins_of(document)):
@@ -90,7 +168,7 @@ class ConnectControllers(Pass):
 
 
 def has_gazebo_control(document: Document, release: str, sink: DiagnosticSink) -> bool:
-    """Whether a document has a `<ros2_control>` for Gazebo; those for other hardware are reported."""
+    """Whether a document has a `<ros2_control>` for Gazebo; systems with other hardware are reported."""
     systems = [system for model in document.models for system in systems_of(model, document.format)]
     for system in systems:
         if not runs_in_gazebo(system, release):

@@ -1,8 +1,12 @@
-"""Builds the ROS 2 package of one robot."""
+"""Builds the ROS 2 package of one robot, and gives its sensors the frames that they lack."""
 
 import re
-from collections.abc import Sequence
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from typing import ClassVar
+
+from pydantic import Field
 
 from twinform.compiler.conversion import Conversion
 from twinform.compiler.conversion_error import CompileError
@@ -10,20 +14,25 @@ from twinform.compiler.gazebo_files import world_without_text
 from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
-from twinform.compiler.packaging.ros2.contents import PackageContents
 from twinform.compiler.packaging.ros2.controllers import controllers_in_gazebo, controllers_of
 from twinform.compiler.packaging.ros2.gazebo_control import CONTROLLERS, ConnectControllers, has_gazebo_control
-from twinform.compiler.packaging.ros2.sensor_frames import NameSensorFrames, report_frames
-from twinform.compiler.packaging.ros2.texts import generated_files
+from twinform.compiler.packaging.ros2.texts import PackageContents, generated_files
 from twinform.diagnostics import DiagnosticSink, rules
+from twinform.ir import Document, Model, Sensor, rewrite
 from twinform.passes import Pipeline
 from twinform.passes.control.carried_elements import urdf_elements
+from twinform.passes.framework.pass_base import Pass
+from twinform.passes.plugins.add_elements import add_own_frame, frames_of, is_placed, own_frame_name, set_frame_id
 from twinform.passes.plugins.bridge import bridges
+from twinform.passes.plugins.catalog import release
+from twinform.passes.plugins.release_names import ReleaseName
+from twinform.passes.plugins.sites import PluginSite, map_sensors, sensors_of
+from twinform.passes.plugins.world_systems import kind_of_sensor
 
 _NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
 """Names of packages (REP 144): lower case, digits, single underscores, a letter first."""
 _WORLD = "default"
-"""What the world of the package is called; names of topics contain it."""
+"""The name of the world of the package, which is a part of the names of topics."""
 _PUBLISHER = "add the system that does with --passes add-plugin{system=joint-state-publisher}"
 _FROM_TRANSMISSIONS = (
     "turn its transmissions of ROS 1 into what ROS 2 reads with --passes ros2-control-from-transmissions, "
@@ -33,7 +42,7 @@ _JOINT_STATE = "sensor_msgs/msg/JointState"
 
 
 def build(order: Order, collection: Collection) -> Built:
-    """The package of a robot.
+    """Build the package of a robot.
 
     Raises:
         CompileError: the model or a file of it has an error, or ROS does not take the name.
@@ -41,8 +50,8 @@ def build(order: Order, collection: Collection) -> Built:
     _check_name(order)
     collection.reserve(CONTROLLERS)
     sink = DiagnosticSink(order.source_name)
-    conversion = _converted(order, collection)
-    contents = _contents(order, conversion, [*collection.files, *order.beside], sink)
+    conversion = _convert(order, collection)
+    contents = _collect_contents(order, conversion, [*collection.files, *order.beside], sink)
     texts = generated_files(contents)
     # The robot is spawned in Gazebo from the URDF that robot_state_publisher publishes:
     # gz_ros2_control needs the description anyway, so tf and Gazebo have one source, and whoever
@@ -55,7 +64,7 @@ def build(order: Order, collection: Collection) -> Built:
     return Built(Package(order.name, {**collection.files, **files}), tuple(found), ledgers)
 
 
-def _converted(order: Order, collection: Collection) -> Conversion:
+def _convert(order: Order, collection: Collection) -> Conversion:
     connect = ConnectControllers.unchecked(package=order.name, release=order.release)
     frames = NameSensorFrames.unchecked(release=order.release)
     passes = Pipeline((*order.conversion.passes, connect, frames))
@@ -63,7 +72,9 @@ def _converted(order: Order, collection: Collection) -> Conversion:
     return ordered.convert(collection, "urdf")
 
 
-def _contents(order: Order, conversion: Conversion, files: Sequence[str], sink: DiagnosticSink) -> PackageContents:
+def _collect_contents(
+    order: Order, conversion: Conversion, files: Sequence[str], sink: DiagnosticSink
+) -> PackageContents:
     document = conversion.document
     controllers = controllers_of(document, sink, order.release)
     runs = has_gazebo_control(document, order.release, DiagnosticSink())
@@ -103,3 +114,64 @@ def _check_joint_states(contents: PackageContents, sink: DiagnosticSink) -> None
         old = any(urdf_elements(contents.model, contents.document.format, "transmission"))
         advice = _FROM_TRANSMISSIONS if old else _PUBLISHER
         sink.report(rules.NO_JOINT_STATES, message, contents.model.location, help=advice)
+
+
+class NameSensorFrames(Pass):
+    """Give each sensor that names no frame the one of its link, or a frame where it is.
+
+    Changes: sensors on links that Gazebo simulates; the model gets a frame, in URDF a link, for those with a pose of
+    their own, and for cameras one that looks along z as images of ROS do.
+    Never touches: frames that a sensor names, and sensors on joints.
+    """
+
+    name: ClassVar[str] = "name-sensor-frames"
+
+    release: ReleaseName = Field(default="harmonic", description="The release of Gazebo that runs the model.")
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """Return the document with frames for all sensors on links."""
+        added: dict[str, list[tuple[str, Sensor, str, str]]] = defaultdict(list)
+        often = Counter(sensor.name for sensor, _ in sensors_of(document))
+
+        def change(sensor: Sensor, site: PluginSite) -> Iterable[Sensor]:
+            kind = kind_of_sensor(sensor, self.release)
+            link = site.link_or_joint
+            if kind is None or site.scope != "link" or link is None or site.model is None or any(frames_of(sensor)):
+                return (sensor,)
+            own = own_frame_name(site.model, sensor, kind.type)
+            if own is not None:
+                own = f"{link}_{own}" if often[sensor.name] > 1 else own
+                added[site.model.name].append((own, sensor, kind.type, link))
+            return (set_frame_id(sensor, own or link, self.release),)
+
+        def with_frames(model: Model) -> Model:
+            for own, sensor, type_, link in added.get(model.name, ()):
+                model = add_own_frame(model, own, sensor, type_, link, document.format)
+            return model
+
+        named = map_sensors(document, change)
+        return rewrite(named, Model, with_frames) if added else named
+
+
+def report_frames(document: Document, gazebo: str, sink: DiagnosticSink) -> None:
+    """Report simulated sensors that name no frame, or the frame of their link although they are elsewhere on it."""
+    for sensor, site in sensors_of(document):
+        if kind_of_sensor(sensor, gazebo) is None or site.model is None:
+            continue
+        named = list(frames_of(sensor))
+        if not named:
+            _report_nameless(sensor, site, gazebo, sink)
+        elif site.scope == "link" and site.link_or_joint in named and is_placed(sensor):
+            message = f"messages of sensor {sensor.name!r} are in the frame of link {site.link_or_joint!r}, "
+            message += "and the sensor has a pose of its own on it"
+            help_ = "leave the frame out, and the package has a link where the sensor is"
+            sink.report(rules.FRAME_ELSEWHERE, message, sensor.location, found=site.link_or_joint, help=help_)
+
+
+def _report_nameless(sensor: Sensor, site: PluginSite, gazebo: str, sink: DiagnosticSink) -> None:
+    model = site.model.name if site.model else None
+    frame = "/".join(filter(None, (model, site.link_or_joint, sensor.name)))
+    message = f"messages of sensor {sensor.name!r} are in the frame {frame!r}, which tf does not have"
+    element = release(gazebo).frame_element
+    help_ = f"write the link that it measures in into it: <{element}>LINK</{element}>"
+    sink.report(rules.FRAME_NOT_IN_TF, message, sensor.location, found=frame, help=help_)

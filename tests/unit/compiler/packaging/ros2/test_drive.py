@@ -1,6 +1,6 @@
 import pytest
 
-from twinform.compiler.packaging.ros2.drive import Drive, differential_drive
+from twinform.compiler.packaging.ros2.controllers import Drive, differential_drive
 from twinform.ir import Document
 from twinform.passes.plugins.wheels import NotMeasuredError
 

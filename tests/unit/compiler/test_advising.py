@@ -1,0 +1,75 @@
+"""Which format a robot is best kept in: a case for each reason."""
+
+from pathlib import Path
+
+import pytest
+
+from twinform.compiler import LoadOptions
+from twinform.compiler.advising import Advice, advise
+from twinform.ir import Format
+
+_EXAMPLES = Path(__file__).parents[3] / "examples"
+_LINK = '<link name="a"/>'
+_ARM = (
+    '<model name="m"><link name="a"/><link name="b"/>'
+    '<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis></joint>{}</model>'
+)
+_SECOND = '<joint name="k" type="revolute"><parent>b</parent><child>a</child><axis><xyz>0 0 1</xyz></axis></joint>'
+
+
+def _urdf(content: str) -> bytes:
+    return f'<robot name="r">{_LINK}{content}</robot>'.encode()
+
+
+def _sdf(content: str) -> bytes:
+    return f'<sdf version="1.11">{content}</sdf>'.encode()
+
+
+def _advice(source: bytes | Path, model: str | None = None) -> Advice:
+    return advise(source, (), LoadOptions(), model=model)
+
+
+@pytest.mark.parametrize(
+    ("source", "kept", "reason"),
+    [
+        pytest.param(_sdf('<world name="w"/>'), Format.SDF, "it is a world of 0 models", id="world"),
+        pytest.param(
+            _sdf(f'<model name="a">{_LINK}</model><model name="b">{_LINK}</model>').replace(b"1.11", b"1.4"),
+            Format.SDF,
+            "it has 2 models; URDF holds one",
+            id="two models",
+        ),
+        pytest.param(_sdf(_ARM.format("")), Format.URDF, "ROS, RViz and MoveIt read URDF alone", id="plain arm"),
+        pytest.param(_sdf(_ARM.format(_SECOND)), Format.SDF, "1 part has no URDF equivalent (cut-loop)", id="loop"),
+        pytest.param(
+            _sdf('<model name="m"><link name="a"/></model>'), Format.SDF, "no joint of it moves", id="scenery"
+        ),
+        pytest.param(_urdf("<transmission name='t'/>"), Format.URDF, "it has <transmission>", id="transmission"),
+        pytest.param(
+            _urdf("<ros2_control name='c' type='system'/>"), Format.URDF, "it has <ros2_control>", id="ros2_control"
+        ),
+        pytest.param(_EXAMPLES / "four_wheels.urdf.xacro", Format.URDF, "its macros are the source", id="macros"),
+    ],
+)
+def test_each_reason(source: bytes | Path, kept: Format, reason: str) -> None:
+    choice = _advice(source).choice
+    assert choice.format is kept
+    assert any(reason in words for words in choice.reasons), choice.reasons
+
+
+def test_what_is_only_written_otherwise_is_no_loss() -> None:
+    """Moved frames, names of materials and tiny masses are in the ledger, and the robot is the same."""
+    assert not list(_advice(_EXAMPLES / "gripper.urdf").other.losses())
+
+
+def test_the_gravest_losses_come_first() -> None:
+    axis2 = _SECOND.replace("</joint>", "<sensor name='s' type='force_torque'/></joint>")
+    names = [each.rule for each in _advice(_sdf(_ARM.format(axis2))).other.losses()]
+    assert names[0] == "cut-loop"
+
+
+def test_a_format_that_is_impossible_is_told() -> None:
+    plane = '<collision name="c"><geometry><plane/></geometry></collision>'
+    advice = _advice(_sdf(f'<model name="m"><link name="a"><inertial auto="true"/>{plane}</link></model>'))
+    assert advice.choice.format is Format.SDF
+    assert any("it cannot be written as URDF" in reason for reason in advice.choice.reasons)

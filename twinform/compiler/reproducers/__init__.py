@@ -1,1 +1,0 @@
-"""Reproducers: files to run a failed pass again, for `twinform reproduce`."""
