@@ -34,9 +34,9 @@ from twinform.passes.plugins.world_systems import (
     has_system,
     kind_of_sensor,
     missing_defaults,
+    report_needed_systems,
     requirements_of,
     system_plugin,
-    system_xml,
     systems_needed_by_plugins,
 )
 
@@ -157,13 +157,8 @@ def report_needs(document: Document, release: Release, sink: DiagnosticSink) -> 
         kind = kind_of_sensor(sensor, release.name)
         if kind is None or site.world is not None:
             continue
-        for needed in requirements_of(kind).systems:
-            if needed.name not in noted:
-                noted.add(needed.name)
-                where = sensor.location if sensor.source or site.model is None else site.model.location
-                message = f"sensor {sensor.name!r} needs {needed.class_name} in the world"
-                help_ = f"the world needs {system_xml(needed)}"
-                sink.report(rules.WORLD_SYSTEM_NEEDED, message, where, help=help_)
+        where = sensor.location if sensor.source or site.model is None else site.model.location
+        report_needed_systems(sensor, kind, where, noted, sink)
 
 
 def report_unread(document: Document, sink: DiagnosticSink) -> None:

@@ -22,7 +22,7 @@ from twinform.ir import (
 )
 from twinform.ir.scopes import SCOPE, nested_models, outer_models, scoped_models
 from twinform.ir.transform import Transform
-from twinform.passes.plugins.catalog import nearest, release
+from twinform.passes.plugins.catalog import release, suggestion
 from twinform.passes.plugins.sites import plugin_element, sensor_element
 from twinform.passes.shared.pose_notation import in_radians
 
@@ -81,8 +81,7 @@ def report_missing_target(
         message = f"there are several: {', '.join(known)}" if known else "there is none"
         sink.report(rules.NOTHING_TO_ADD_TO, f"it is not clear which {what} to add to: {message}", document.location)
         return
-    near = nearest(name, known)
-    help_ = f"did you mean {near}?" if near else f"there are {', '.join(known)}" if known else None
+    help_ = suggestion(name, known, f"there are {', '.join(known)}" if known else None)
     message = f"there is no {what} {name!r} to add to"
     sink.report(rules.NOTHING_TO_ADD_TO, message, document.location, found=name, help=help_)
 

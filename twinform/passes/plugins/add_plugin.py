@@ -16,7 +16,7 @@ from twinform.passes.plugins.add_elements import (
     report_missing_target,
     world_of,
 )
-from twinform.passes.plugins.catalog import nearest, releases, system
+from twinform.passes.plugins.catalog import releases, suggestion, system
 from twinform.passes.plugins.catalog_types import PluginKind
 from twinform.passes.plugins.ground_clearance import base_link
 from twinform.passes.plugins.parameters import names_in
@@ -192,9 +192,8 @@ class AddPlugin(SelectingPass):
                 continue
             named = cast("tuple[str, ...]", value) if isinstance(value, tuple) else (str(value),)
             for name in [each for each in named if each not in known]:
-                near = nearest(name, sorted(known))
                 message = f"{option}: model {model.name!r} has no {row.type} {name!r}"
-                help_ = f"did you mean {near}?" if near else None
+                help_ = suggestion(name, sorted(known))
                 sink.report(
                     rules.PLUGIN_REFERENCE, message, model.location, found=name, help=help_, severity=Severity.ERROR
                 )

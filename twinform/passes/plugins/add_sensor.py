@@ -26,7 +26,13 @@ from twinform.passes.plugins.plugin_options import Fields, SelectingPass
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sensor_settings import addable, setting_fields, settings_element, settings_of
 from twinform.passes.plugins.sites import sensors_of
-from twinform.passes.plugins.world_systems import add_systems, has_element, has_system, requirements_of, system_xml
+from twinform.passes.plugins.world_systems import (
+    add_systems,
+    has_element,
+    has_system,
+    report_needed_systems,
+    requirements_of,
+)
 from twinform.passes.shared.nodes import unique_name
 
 _Number = Annotated[float, Field(allow_inf_nan=False)]
@@ -126,7 +132,7 @@ class AddSensor(SelectingPass):
         # Nothing is added to a model without a world: a world system in a model works only until a
         # second model brings the same one. The finding has the line that the world needs instead.
         if world is None:
-            self._report_needed_systems(made, holder, sink)
+            report_needed_systems(made, sensor(self.type), holder.location, set(), sink)
             return document
         return self._add_to_world(document, world.name, made, sink)
 
@@ -194,13 +200,6 @@ class AddSensor(SelectingPass):
             return None
         chosen = [self.collision] if self.collision else names
         return Element(name="contact", children=tuple(Element(name="collision", text=each) for each in chosen))
-
-    def _report_needed_systems(self, made: Sensor, holder: Link | Joint, sink: DiagnosticSink) -> None:
-        for system in requirements_of(sensor(self.type)).systems:
-            message = f"sensor {made.name!r} needs {system.class_name} in the world"
-            sink.report(
-                rules.WORLD_SYSTEM_NEEDED, message, holder.location, help=f"the world needs {system_xml(system)}"
-            )
 
     def _add_to_world(self, document: Document, name: str, made: Sensor, sink: DiagnosticSink) -> Document:
         world = next(each for each in document.worlds if each.name == name)

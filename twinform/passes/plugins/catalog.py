@@ -7,7 +7,7 @@ to 10 and its main branch, of gazebo_ros_pkgs, gz_ros2_control and ros_gz_bridge
 import re
 import tomllib
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 from functools import cache
 from importlib import resources
@@ -32,6 +32,7 @@ __all__ = [
     "ros_message",
     "sensor",
     "sensors",
+    "suggestion",
     "system",
     "system_of_class",
     "systems",
@@ -58,14 +59,19 @@ _IGNITION_CLASS = re.compile(r"^(?:::)?(?:ignition::gazebo|gz::sim)(?:::v\d+)?::
 class UnknownNameError(LookupError):
     """The catalog has nothing of this name; the message suggests a similar one."""
 
-    def __init__(self, what: str, name: str, known: Iterator[str] | list[str]) -> None:
+    def __init__(self, what: str, name: str, known: Iterable[str]) -> None:
         listed = list(known)
-        near = nearest(name, listed)
-        hint = f"did you mean {near}?" if near else f"there are {', '.join(listed)}"
+        hint = suggestion(name, listed, f"there are {', '.join(listed)}")
         super().__init__(f"there is no {what} {name}; {hint}")
 
 
-def nearest(name: str, known: Iterator[str] | list[str] | tuple[str, ...]) -> str | None:
+def suggestion(name: str, known: Iterable[str], otherwise: str | None = None) -> str | None:
+    """The text `did you mean NAME?` with the most similar name, or another text if none is similar."""
+    near = nearest(name, known)
+    return f"did you mean {near.lstrip('@')}?" if near else otherwise
+
+
+def nearest(name: str, known: Iterable[str]) -> str | None:
     """The most similar name; None if none is similar, or if there are too many to compare."""
     listed = list(known)
     if len(listed) > _MOST_NAMES:

@@ -12,8 +12,8 @@ from twinform.passes.plugins.catalog import (
     is_ignition_name,
     modern_class,
     modern_file,
-    nearest,
     releases,
+    suggestion,
     system,
     system_of_class,
     systems,
@@ -28,6 +28,8 @@ from twinform.passes.plugins.world_systems import (
     has_system,
     kind_of_sensor,
     missing_defaults,
+    missing_system_for,
+    report_needed_systems,
     requirements_of,
     system_xml,
 )
@@ -109,11 +111,11 @@ def _check_plugin(plugin: Plugin, site: PluginSite, release: str, names: ModelNa
 
 def _check_needs(plugin: Plugin, kind: PluginKind, site: PluginSite, sink: DiagnosticSink) -> None:
     """Report if the world has none of the systems that this one needs."""
-    choice = [system(name) for name in kind.needs]
-    if not choice or (site.world is not None and any(has_system(site.world, each) for each in choice)):
+    needed = missing_system_for(kind, site.world)
+    if needed is None:
         return
-    listed = " or ".join(each.class_name for each in choice)
-    help_ = f"add {system_xml(choice[0])} to the world"
+    listed = " or ".join(system(name).class_name for name in kind.needs)
+    help_ = f"add {system_xml(needed)} to the world"
     if site.world is None:
         message = f"{kind.class_name} needs {listed} in the world"
         sink.report(rules.WORLD_SYSTEM_NEEDED, message, plugin.location, help=help_)
@@ -146,9 +148,8 @@ def _check_unknown_file(plugin: Plugin, sink: DiagnosticSink) -> None:
         message = f"{file} is a plugin of Gazebo Classic"
         sink.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=file)
     elif modern_file(file).startswith("gz-sim-"):
-        near = nearest(modern_file(file), [each.file for each in systems().values()])
         message = f"gz-sim has no {file}"
-        help_ = f"did you mean {near}?" if near else None
+        help_ = suggestion(modern_file(file), [each.file for each in systems().values()])
         sink.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=file, help=help_)
 
 
@@ -179,13 +180,7 @@ def _check_sensor(sensor: Sensor, site: PluginSite, release: str, noted: set[str
     if site.world is not None:
         _check_sensor_world(sensor, kind, site.world, sink)
         return
-    for needed in requirements_of(kind).systems:
-        if needed.name not in noted:
-            noted.add(needed.name)
-            message = f"sensor {sensor.name!r} needs {needed.class_name} in the world"
-            sink.report(
-                rules.WORLD_SYSTEM_NEEDED, message, sensor.location, help=f"the world needs {system_xml(needed)}"
-            )
+    report_needed_systems(sensor, kind, sensor.location, noted, sink)
 
 
 def _check_sensor_world(sensor: Sensor, kind: SensorKind, world: World, sink: DiagnosticSink) -> None:

@@ -1,13 +1,13 @@
 """Checking the parameters of one plugin against those of its system: names, counts, types of values, references."""
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Element, Model, Plugin
 from twinform.ir.scopes import scoped_models
-from twinform.passes.plugins.catalog import nearest
+from twinform.passes.plugins.catalog import suggestion
 from twinform.passes.plugins.catalog_types import PluginKind, PluginParameter
 from twinform.schemas import parse_value
 
@@ -133,9 +133,8 @@ def _check_reference(kind: str, name: str, what: str, context: ParameterContext,
     known = context.names.of(context.model, kind) if context.model else None
     if known is None or name in known or (context.model and context.model.includes and "::" in name):
         return
-    near = nearest(name, sorted(known))
     message = f"{what} of {_short_name(context.kind)} names {name!r}, and the model has no such {kind}"
-    context.sink.report(rules.PLUGIN_REFERENCE, message, at, found=name, help=_did_you_mean(near))
+    context.sink.report(rules.PLUGIN_REFERENCE, message, at, found=name, help=suggestion(name, sorted(known)))
 
 
 def _report_unknown(
@@ -146,16 +145,9 @@ def _report_unknown(
         message = f"{_short_name(context.kind)} does not read {called} in {context.release}"
     else:
         message = f"{_short_name(context.kind)} does not read {called}"
-    near = nearest(name, list(_readable_names(rows, context.release)))
-    context.sink.report(rules.UNKNOWN_PLUGIN_PARAMETER, message, at, found=name.lstrip("@"), help=_did_you_mean(near))
-
-
-def _readable_names(rows: Sequence[PluginParameter], release: str) -> Iterator[str]:
-    return (row.name for row in rows if release in row.releases and "[" not in row.name)
-
-
-def _did_you_mean(near: str | None) -> str | None:
-    return f"did you mean {near.lstrip('@')}?" if near else None
+    readable = [each.name for each in rows if context.release in each.releases and "[" not in each.name]
+    help_ = suggestion(name, readable)
+    context.sink.report(rules.UNKNOWN_PLUGIN_PARAMETER, message, at, found=name.lstrip("@"), help=help_)
 
 
 def _short_name(kind: PluginKind) -> str:

@@ -19,7 +19,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 from twinform.ir import Element
 from twinform.passes.carriers.carriers import from_xml
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.plugins.catalog import UnknownNameError, nearest
+from twinform.passes.plugins.catalog import UnknownNameError, suggestion
 from twinform.passes.plugins.catalog_types import ParameterType, PluginKind, PluginParameter
 from twinform.passes.plugins.parameters import problem_of
 from twinform.schemas import format_value
@@ -263,8 +263,7 @@ def _selected_class(cls: P, options: Mapping[str, object]) -> P:
     known = {field.alias or key for key, field in made.model_fields.items()}
     for option, value in options.items():
         if option.replace("_", "-") not in known:
-            near = nearest(option, sorted(known))
-            hint = f"did you mean {near}?" if near else f"it has {', '.join(sorted(known))}"
+            hint = suggestion(option, sorted(known), f"it has {', '.join(sorted(known))}")
             raise _option_error(cls.name, option, f"{word} has no such option; {hint}", value)
     return made
 

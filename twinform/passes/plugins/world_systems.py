@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Element, Plugin, Sensor, World
 from twinform.passes.plugins.catalog import (
     DEFAULT_SYSTEMS,
@@ -47,6 +48,17 @@ def custom_type(node: Sensor) -> str:
 def requirements_of(kind: SensorKind) -> WorldRequirements:
     """What sensors of a kind need in the world."""
     return WorldRequirements(tuple(system(name) for name in kind.systems), kind.world_elements)
+
+
+def report_needed_systems(
+    node: Sensor, kind: SensorKind, where: Location, noted: set[str], sink: DiagnosticSink
+) -> None:
+    """Report the systems that a sensor needs in a world that is not known, except those noted; notes them."""
+    for needed in requirements_of(kind).systems:
+        if needed.name not in noted:
+            noted.add(needed.name)
+            message = f"sensor {node.name!r} needs {needed.class_name} in the world"
+            sink.report(rules.WORLD_SYSTEM_NEEDED, message, where, help=f"the world needs {system_xml(needed)}")
 
 
 def missing_system_for(kind: PluginKind, world: World | None) -> PluginKind | None:
