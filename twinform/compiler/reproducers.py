@@ -21,7 +21,8 @@ from twinform.file_access import Readable
 from twinform.ir import Document
 from twinform.ir.verify import verify
 from twinform.passes.framework.assets import NO_ASSETS, Assets
-from twinform.passes.framework.pass_base import BrokenPassError, DocumentReader, PassError, Refusal
+from twinform.passes.framework.pass_base import DocumentReader, Refusal
+from twinform.passes.framework.pass_errors import BrokenPassError, PassError
 from twinform.passes.framework.pipeline import Pipeline
 from twinform.passes.framework.pipeline_text import parse_pipeline
 from twinform.passes.legalise import legalisation_kinds

@@ -6,15 +6,8 @@ from twinform.lazy import lazy_attributes
 
 if TYPE_CHECKING:
     from twinform.passes.framework.assets import NO_ASSETS, AssetError, Assets
-    from twinform.passes.framework.pass_base import (
-        AssetPass,
-        BrokenPassError,
-        DocumentPass,
-        DocumentReader,
-        FailedPassError,
-        Pass,
-        PassError,
-    )
+    from twinform.passes.framework.pass_base import AssetPass, DocumentPass, DocumentReader, Pass
+    from twinform.passes.framework.pass_errors import BrokenPassError, FailedPassError, PassError
     from twinform.passes.framework.pass_registry import (
         GROUP,
         Registered,
@@ -32,8 +25,8 @@ else:
     __getattr__ = lazy_attributes(
         __name__,
         {
-            "twinform.passes.framework.pass_base": "AssetPass BrokenPassError DocumentPass DocumentReader "
-            "FailedPassError Pass PassError",
+            "twinform.passes.framework.pass_base": "AssetPass DocumentPass DocumentReader Pass",
+            "twinform.passes.framework.pass_errors": "BrokenPassError FailedPassError PassError",
             "twinform.passes.framework.assets": "NO_ASSETS AssetError Assets",
             "twinform.passes.framework.pipeline": "CombinedInstrumentation PassInstrumentation Pipeline Verifier",
             "twinform.passes.framework.pass_registry": "GROUP Registered RegistryError UnknownPassError "

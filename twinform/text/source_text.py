@@ -4,7 +4,6 @@ import codecs
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from difflib import unified_diff
 from typing import Self
 
 from twinform.diagnostics import TextEdit
@@ -99,6 +98,8 @@ _NO_END = "\n\\ No newline at end of file\n"
 def line_diff(name: str, before: str, after: str) -> Iterator[str]:
     """Yield the lines of a unified diff with their line ends; none if both texts are equal."""
     if before != after:
+        from difflib import unified_diff  # noqa: PLC0415 - few runs print a diff
+
         for line in unified_diff(_lines(before), _lines(after), printable(name), printable(name)):
             yield line if line.endswith("\n") else line + _NO_END
 

@@ -1,13 +1,13 @@
-"""Base classes of passes, errors of a failed pass, and name patterns in options."""
+"""Base classes of passes, and name patterns in options."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from fnmatch import fnmatchcase
 from typing import ClassVar, ParamSpec, Protocol, Self, TypeVar, cast
 
 from pydantic import BaseModel, ConfigDict, PrivateAttr
 
-from twinform.diagnostics import Diagnostic, DiagnosticSink
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import UNREAD_DOCUMENT
 from twinform.ir import Document, Model, replace_fields
 from twinform.passes.framework.assets import NO_ASSETS, Assets
@@ -133,35 +133,6 @@ class DocumentPass(Pass):
     @abstractmethod
     def run_with(self, document: Document, sink: DiagnosticSink, read: DocumentReader) -> Document:
         """The document after the pass; the one that came in where nothing changes."""
-
-
-class PassError(Exception):
-    """A bug of a pass. `step` is the pass with its options, `document` its input."""
-
-    def __init__(self, message: str, step: Pass, document: Document) -> None:
-        super().__init__(message)
-        self.step, self.document = step, document
-
-    @property
-    def name(self) -> str:
-        """The name of the pass."""
-        return self.step.name
-
-
-class FailedPassError(PassError):
-    """A pass raised an exception, which is the cause of this error."""
-
-    def __init__(self, step: Pass, document: Document, error: Exception) -> None:
-        super().__init__(f"the pass {step.name} failed: {type(error).__name__}: {error}", step, document)
-
-
-class BrokenPassError(PassError):
-    """A pass returned invalid IR; `problems` are the errors found in it."""
-
-    def __init__(self, step: Pass, document: Document, problems: Sequence[Diagnostic]) -> None:
-        self.problems = tuple(problems)
-        found = "; ".join(f"{each.message} [{each.rule.name}]" for each in problems)
-        super().__init__(f"the pass {step.name} made an invalid document: {found}", step, document)
 
 
 EVERY = ("*",)

@@ -6,16 +6,8 @@ from dataclasses import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.ir import Document
 from twinform.passes.framework.assets import Assets
-from twinform.passes.framework.pass_base import (
-    AssetPass,
-    BrokenPassError,
-    DocumentPass,
-    DocumentReader,
-    FailedPassError,
-    Pass,
-    PassError,
-    Refusal,
-)
+from twinform.passes.framework.pass_base import AssetPass, DocumentPass, DocumentReader, Pass, Refusal
+from twinform.passes.framework.pass_errors import BrokenPassError, FailedPassError, PassError
 
 
 class PassInstrumentation:
