@@ -131,7 +131,7 @@ def _find_in_joint(joint: Joint, sink: DiagnosticSink) -> None:
 
 
 def _is_uncertain(inertial: Inertial) -> bool:
-    """Whether it depends on rounding if an engine finds the inertia possible."""
+    """Whether rounding decides if an engine finds the inertia possible."""
     matrix = inertia_matrix(inertial.inertia, MOMENT[Format.SDF])
     # Two equal moments cost libsdformat's solution of the cubic equation half of its digits, and
     # MuJoCo loses one or two: of inertias next to the bound, one is accepted and the next refused.

@@ -9,7 +9,7 @@ from twinform.ir import Pose
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import ORIGIN, Solid, combined, placed
 from twinform.ir.transform import Transform
-from twinform.passes.inertia.physical_consistency import clearances, doubt, is_doubtful
+from twinform.passes.inertia.physical_consistency import clearances, is_doubtful, rounding_loss
 from twinform.profiles.forms import FORMS
 from twinform.profiles.nodes import Fact, FactTable, RawNode
 from twinform.profiles.sdformat_facts import foreign_ends, is_static, preserved_joints
@@ -176,7 +176,7 @@ def _kept_bodies(root: RawNode) -> tuple[_Body, ...]:
 
 
 def _is_physical(inertia: Symmetric) -> bool:
-    return min(clearances(inertia)) >= -max(_ROUNDING, doubt(inertia))
+    return min(clearances(inertia)) >= -max(_ROUNDING, rounding_loss(inertia))
 
 
 def _impossible_lumps(root: RawNode) -> Fact:

@@ -11,6 +11,7 @@ from twinform.profiles.reads_notation import Demand, PlaceStep, Reads
 
 IsThere = Callable[[str], bool]
 """Says whether a URI leads to a file."""
+_is_number = FORMS["python"][1]
 _ITEMS = re.compile(r"[\w:.-]+\??")
 
 
@@ -199,24 +200,14 @@ def _ros_control_fault(node: RawNode) -> str:
     if any(joint.first("hardwareInterface") is None for joint in joints):
         return "a <joint> of a <transmission> has no <hardwareInterface>"
     reductions = (actuator.first("mechanicalReduction") for actuator in actuators)
-    return next(
-        (f"{each.text!r} is no reduction" for each in reductions if each and not _is_python_number(each.text)), ""
-    )
+    return next((f"{each.text!r} is no reduction" for each in reductions if each and not _is_number(each.text)), "")
 
 
 def _pr2_fault(node: RawNode) -> str:
     named = [node.first("joint"), node.first("actuator")]
     reduction = node.first("mechanicalReduction")
-    if not {"name", "type"} <= node.attributes.keys() or reduction is None or not _is_python_number(reduction.text):
+    if not {"name", "type"} <= node.attributes.keys() or reduction is None or not _is_number(reduction.text):
         return "<transmission> is not of the older form either"
     if any(each is None or "name" not in each.attributes for each in named):
         return "<transmission> is not of the older form either"
     return ""
-
-
-def _is_python_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True

@@ -25,7 +25,7 @@ class DropBareScripts(Pass):
     example: ClassVar[str] = "materials,drop-bare-scripts"
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document without such scripts."""
+        """The document without incomplete scripts."""
         if document.format is not Format.SDF:
             return document
         return rewrite(document, Material, lambda material: _remove_script(material, sink))

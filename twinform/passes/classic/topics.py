@@ -109,7 +109,7 @@ class RosNames:
         return _clean_name("/".join((self.namespace, self.node if name.startswith("~") else "", name)))
 
     def _remappings(self) -> Iterator[tuple[str, str]]:
-        """What is to be called otherwise, in order; older versions have remappings in `<argument>`."""
+        """Old and new names of all remappings, in order; older versions have them in `<argument>`."""
         for ros in self._ros():
             for child in ros.children:
                 old, arrow, new = (child.text or "").partition(":=")

@@ -110,7 +110,7 @@ def _interface_classes(joint: Element) -> tuple[str, ...]:
 
 
 def _rest_of_system(system: Element) -> tuple[Element, ...]:
-    """The system without what became transmissions; nothing if only its hardware is left."""
+    """The parts of a system that did not become transmissions; nothing if only its hardware is left."""
     left = tuple(child for child in system.children if child.name not in {"joint", "transmission"})
     return (system.copy(children=left),) if any(child.name != "hardware" for child in left) else ()
 

@@ -1,11 +1,11 @@
-"""Physical consistency of inertias: whether a body can have one, and the nearest that a body can have.
+"""Physical consistency of inertias: whether a body can have an inertia, and the nearest one that a body can have.
 
-An inertia I is that of a body where its second moments of mass S = tr(I)/2 - I are positive definite, which holds the
-triangle inequality and the positive moments at once: P. Wensing, S. Kim and J.-J. Slotine 2018, "Linear matrix
-inequalities for physically-consistent inertial parameter identification", IEEE Robotics and Automation Letters 3(1).
-These inertias are a convex cone that depends on the principal moments alone, so that the nearest of them (by the sum of
-the squares of all nine elements) has the same axes, and its moments are the nearest of three numbers in a cone with
-three sides: A. Lewis 1996, "Convex analysis on the Hermitian matrices", SIAM Journal on Optimization 6(1).
+An inertia I belongs to a body if its second moments of mass S = tr(I)/2 - I are positive definite, which implies both
+the triangle inequality and positive moments: P. Wensing, S. Kim and J.-J. Slotine 2018, "Linear matrix inequalities for
+physically-consistent inertial parameter identification", IEEE Robotics and Automation Letters 3(1). These inertias are
+a convex cone that depends only on the principal moments, so the nearest one (by the sum of the squares of all nine
+elements) has the same axes, and its moments are the nearest three numbers in a cone with three sides: A. Lewis 1996,
+"Convex analysis on the Hermitian matrices", SIAM Journal on Optimization 6(1).
 """
 
 import math
@@ -17,12 +17,12 @@ from twinform.ir.transform import common_exponent
 from twinform.ir.verify.verify_bodies import inertia_matrix
 
 ROUNDING = 1e-15
-"""What ten operations on doubles leave of a moment that is exactly zero, as a part of the trace."""
+"""The error of a moment that is exactly zero after ten operations on doubles, as a fraction of the trace."""
 FOUND_AXES = 1e-8
-"""What libsdformat loses of the largest moment where it finds the axes of an inertia, by the roots of a cubic equation:
-two equal ones cost half of the digits. Others lose less."""
+"""The error of libsdformat when it computes principal axes, as a fraction of the largest moment: of two equal roots of
+the cubic equation half of the digits are lost. Other programs lose less."""
 DIGITS = 1e-6
-"""What files lose by cutting digits off, as a part of the trace."""
+"""The error of moments in files that have few digits, as a fraction of the trace."""
 
 
 def has_mass(inertial: Inertial | None) -> bool:
@@ -31,7 +31,7 @@ def has_mass(inertial: Inertial | None) -> bool:
 
 
 def is_possible(inertial: Inertial, format_: Format) -> bool:
-    """Whether mass and moments are those of a body, but for the digits that files cut off."""
+    """Whether a body can have this mass and inertia, if the few digits of files are taken into account."""
     matrix = inertia_matrix(inertial.inertia, MOMENT[format_])
     if not has_mass(inertial) or matrix is None or not all(map(math.isfinite, matrix)):
         return False
@@ -41,61 +41,61 @@ def is_possible(inertial: Inertial, format_: Format) -> bool:
 
 
 def clearances(matrix: Symmetric) -> tuple[float, float]:
-    """The smallest principal moment, and what the largest lacks to the sum of the others, as parts of the largest.
+    """The smallest principal moment, and the sum of the two smaller ones minus the largest, relative to the largest.
 
-    An inertia of which one is less than zero is that of no body. All elements have to be finite.
+    If one of them is negative, no body has the inertia. All elements have to be finite.
     """
     smallest, middle, largest = relative_moments(matrix)
     size = abs(largest) or 1.0
     return smallest / size, (smallest + middle - largest) / size
 
 
-def doubt(matrix: Symmetric) -> float:
-    """How much of the clearances its readers lose: nothing where they need not find its axes."""
+def rounding_loss(matrix: Symmetric) -> float:
+    """By how much programs may err in the clearances: nothing if they need not compute the axes."""
     return FOUND_AXES if any(matrix[3:]) else 0.0
 
 
 def is_clearly_possible(matrix: Symmetric) -> bool:
-    """Whether a body can have this inertia, and every engine finds it so."""
+    """Whether a body can have this inertia, and every engine agrees."""
     smallest, gap = clearances(matrix)
-    lost = doubt(matrix)
+    lost = rounding_loss(matrix)
     return smallest > lost and gap >= lost
 
 
 def is_doubtful(matrix: Symmetric) -> bool:
-    """Whether one engine finds that a body can have this inertia, and another one does not, by how they round."""
-    return any(matrix[3:]) and abs(min(clearances(matrix))) <= doubt(matrix)
+    """Whether rounding decides if an engine finds that a body can have this inertia."""
+    return any(matrix[3:]) and abs(min(clearances(matrix))) <= rounding_loss(matrix)
 
 
 Moments = tuple[float, float, float]
 
 
 def nearest_possible(matrix: Symmetric, floor: float) -> Symmetric:
-    """The nearest inertia of which every second moment of mass is at least `floor`, in kg m^2, which has to be finite.
+    """The nearest inertia whose second moments of mass are all at least `floor`, which is finite, in kg m^2.
 
-    Elements that no double holds are infinite.
+    Elements that overflow are infinite.
     """
     exponent = common_exponent((*matrix, floor))
     moments, axes = principal_axes(times_each(matrix, -exponent))
-    return times_each(_composed(nearest_moments(moments, math.ldexp(floor, -exponent)), axes), exponent)
+    return times_each(_compose(nearest_moments(moments, math.ldexp(floor, -exponent)), axes), exponent)
 
 
 def nearest_moments(moments: Moments, floor: float) -> Moments:
     """The principal moments of the nearest inertia, in the same order.
 
-    A body with second moments f along all axes has the moments 2f: taken off first, they leave a cone with its tip at
+    A body with second moments f along all axes has the moments 2f: subtracting these leaves a cone with its tip at
     zero.
     """
     order = sorted(range(3), key=lambda axis: moments[axis])
     smallest, middle, largest = (moments[axis] - 2 * floor for axis in order)
     found = [0.0, 0.0, 0.0]
-    for axis, value in zip(order, _onto_cone(smallest, middle, largest), strict=True):
+    for axis, value in zip(order, _project_onto_cone(smallest, middle, largest), strict=True):
         found[axis] = value + 2 * floor
     return found[0], found[1], found[2]
 
 
-def _onto_cone(smallest: float, middle: float, largest: float) -> Moments:
-    """The nearest to three sorted moments of which none exceeds the sum of the others."""
+def _project_onto_cone(smallest: float, middle: float, largest: float) -> Moments:
+    """The nearest to three sorted moments of which none is greater than the sum of the others."""
     # Three cases in closed form. A test holds the result to the inequality that defines a
     # projection onto a convex set.
     excess = largest - smallest - middle
@@ -110,7 +110,7 @@ def _onto_cone(smallest: float, middle: float, largest: float) -> Moments:
 
 
 def second_moments(moments: Moments) -> Moments:
-    """The second moments of mass along the principal axes, in kg m^2: the spread of the mass along each of them."""
+    """The second moments of mass along the principal axes, in kg m^2: how far the mass spreads along each of them."""
     half = sum(moments) / 2
     return half - moments[0], half - moments[1], half - moments[2]
 
@@ -121,7 +121,7 @@ def distance(one: Symmetric, other: Symmetric) -> float:
     return math.hypot(*gaps, *gaps[3:])
 
 
-def _composed(moments: Moments, axes: Axes) -> Symmetric:
+def _compose(moments: Moments, axes: Axes) -> Symmetric:
     """The matrix with these moments about these axes."""
 
     def entry(i: int, j: int) -> float:

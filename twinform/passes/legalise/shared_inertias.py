@@ -22,10 +22,10 @@ from twinform.ir.verify.verify_bodies import inertia_matrix, is_plain
 from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
 from twinform.passes.inertia.physical_consistency import (
     clearances,
-    doubt,
     has_mass,
     is_clearly_possible,
     nearest_possible,
+    rounding_loss,
 )
 from twinform.passes.shared.gazebo_tags import lumped_links
 from twinform.passes.structure.combined_bodies import body_of
@@ -68,7 +68,7 @@ def is_refused(matrix: Symmetric | None) -> bool:
         return False
     # Within the rounding of the file's own digits, an inertia on the boundary (a thin rod, a flat
     # plate) is possible.
-    return min(clearances(matrix)) < -max(_ROUNDING, doubt(matrix))
+    return min(clearances(matrix)) < -max(_ROUNDING, rounding_loss(matrix))
 
 
 def _of_body(members: Sequence[Link], needy: AbstractSet[str], graph: FrameGraph) -> dict[str, Solid]:

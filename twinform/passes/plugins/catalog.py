@@ -108,7 +108,7 @@ def release(name: str) -> Release:
 # report NAME=systems` holds them against checkouts.
 @cache
 def systems() -> dict[str, PluginKind]:
-    """The systems of gz-sim by their name here, such as `diff-drive`."""
+    """The systems of gz-sim by their names in the catalog, such as `diff-drive`."""
     return {each.name: each for each in _read_tables("systems")}
 
 

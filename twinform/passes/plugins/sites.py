@@ -108,7 +108,7 @@ class _Walk:
         self._sensor = sensor
 
     def node(self, node: AnyNode, site: PluginSite) -> AnyNode:
-        """The node with what is in it changed. Models may be nested deeply, so there is one call for each level."""
+        """The node with changes below it. Models may be nested deeply, so there is only one call for each level."""
         site = _enter_node(node, site)
         update: dict[str, Any] = {}
         for field in node_fields(type(node)):

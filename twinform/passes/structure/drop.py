@@ -84,7 +84,7 @@ class Drop(Pass):
         return self
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document without what is to go."""
+        """The document without the selected parts."""
         removed = RemovedNames()
         everywhere = "*" in self.links
         made = self._drop_children(document, removed, meant=everywhere)

@@ -51,7 +51,7 @@ def shape_elements(elements: Iterable[Element], field: str) -> tuple[Element, ..
 
 
 def body_settings(elements: Iterable[Element]) -> dict[str, object]:
-    """What elements set for the body of a link, except defaults."""
+    """The settings for the body of a link among the elements, except defaults."""
     settings: dict[str, object] = {}
     for element in elements:
         about = _BODY_ELEMENTS.get(element.name)

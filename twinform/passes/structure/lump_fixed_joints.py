@@ -37,7 +37,7 @@ class LumpFixedJoints(ModelEdit, AssetPass):
     compat: Literal["libsdformat"] | None = Field(default=None, description="The program whose rules are followed.")
 
     def edit_model(self, model: Model, place: EditContext) -> Model:
-        """The model with one body for what cannot move apart."""
+        """The model with one body for each group of links that cannot move against each other."""
         # imported here: a document needs one way only
         if self.compat is not None:
             if place.format is Format.SDF:

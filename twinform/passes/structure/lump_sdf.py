@@ -83,7 +83,7 @@ class _SdfObstacles:
         return self._find_untransferable(child) or self._find_missing_mass((parent, child))
 
     def _find_untransferable(self, child: Link) -> str | None:
-        """Why a link has a part that cannot move to another link; None where there is none."""
+        """Why a part of a link cannot move to another link; None if all parts can."""
         known = link_elements("pose") | _BODY_ELEMENTS
         unknown = next((part for part in child.opaque if not is_ours(part) and _element_name(part) not in known), None)
         if unknown is not None:
