@@ -33,7 +33,7 @@ class _Above(NamedTuple):
 
 @dataclass(slots=True)
 class _Way:
-    """A way from a link towards its root, as far as it was walked."""
+    """A path from a link towards its root, as far as it was walked."""
 
     start: str
     end: str
@@ -41,21 +41,21 @@ class _Way:
 
 
 class JointTree:
-    """The joints that were taken in, so that each link hangs from one at most; `turned` names those to be reversed.
+    """Joints added so that each link hangs from at most one; `turned` are the names of joints to reverse.
 
-    All joints of a robot are taken in in linear time, but for a logarithm: of two ways that can be reversed the shorter
-    one is, and the links of one that cannot be are remembered.
+    Adding all joints takes nearly linear time: of two paths that can be reversed the shorter one is, and the links of
+    a path that cannot be reversed are remembered.
     """
 
     def __init__(self, links: list[str]) -> None:
         self.turned: set[str] = set()
         self._above: dict[str, _Above] = {}
         self._stuck = {WORLD}
-        """What cannot become a root any more: there is the world, or a joint that is not reversible, above it."""
+        """Links that cannot become a root: the world, or a joint that is not reversible, is above them."""
         self._group = {name: name for name in (*links, WORLD)}
 
     def add(self, joint: Joint) -> bool:
-        """Take a joint in as it is, unless its child hangs from another one or it closes a circle."""
+        """Add a joint as it is, unless its child hangs from another joint or it closes a circle."""
         parent, child = joint.parent or WORLD, joint.child or ""
         if child in self._above or self._find(parent) == self._find(child):
             return False
@@ -63,7 +63,7 @@ class JointTree:
         return True
 
     def join(self, joint: Joint) -> bool:
-        """Take a joint in, and reverse what has to be for that; not one that closes a circle, or cannot be reversed."""
+        """Add a joint, reversing joints where needed; returns False if it closes a circle or none can be reversed."""
         if self.add(joint):
             return True
         parent, child = joint.parent or WORLD, joint.child or ""
@@ -81,7 +81,7 @@ class JointTree:
         return True
 
     def root(self, link: str) -> str:
-        """The link, or `world`, that a link hangs from in the end."""
+        """The root of the tree that a link is in, which may be `world`."""
         while link in self._above:
             link = self._above[link].parent
         return link
@@ -95,7 +95,7 @@ class JointTree:
         self._group[self._find(link)] = self._find(above.parent)
 
     def _shorter_way(self, *links: str) -> _Way | None:
-        """The way up to its root from the link that has fewer joints above it; None where none can be reversed."""
+        """The path to the root from the link with fewer joints above it; None where neither can be reversed."""
         # Both ways are walked in turns, so that the work is that of the shorter one.
         ways = [_Way(link, link) for link in links]
         while ways:
@@ -112,7 +112,7 @@ class JointTree:
         return None
 
     def _reverse(self, way: _Way) -> None:
-        """Let what the way leads to hang from where it begins."""
+        """Reverse all joints of a path, so that its end hangs from its start."""
         joints = [self._above.pop(link) for link in way.links]
         for link, above in zip(way.links, joints, strict=True):
             self.turned ^= {above.joint.name}
@@ -159,7 +159,7 @@ class BuildTree(ToUrdfPass):
                 (kept if joint.type == "gearbox" or take_in(joint) else cut).append(joint.name)
         for joint in annotated:  # what nothing else holds needs it
             (kept if joint.parent != WORLD and tree.add(joint) else extensions).append(joint.name)
-        model = _reversed(model, tree.turned, keeper)
+        model = _reverse_joints(model, tree.turned, keeper)
         joints = {joint.name: without_annotation(joint, EXTENSION) for joint in model.joints}
         holding = {joint.child or "": joint for joint in map(joints.__getitem__, kept) if joint.type != "gearbox"}
         for name in cut:
@@ -169,11 +169,11 @@ class BuildTree(ToUrdfPass):
             model = cut_joints(model, [joints[name] for name in kept], out, holding, keeper)
         roots = [link for link in model.links if link.name not in holding]
         first = _first_root(model, tree, keeper)
-        return _hang(model, [link for link in roots if link.name != first], first, keeper)
+        return _hang_roots(model, [link for link in roots if link.name != first], first, keeper)
 
 
-def _reversed(model: Model, names: set[str], keeper: UrdfKeeper) -> Model:
-    """The model with these joints reversed, each of which has an annotation that says so."""
+def _reverse_joints(model: Model, names: set[str], keeper: UrdfKeeper) -> Model:
+    """The model with the named joints reversed and annotated."""
     turned = [joint for joint in model.joints if joint.name in names]
     if not turned:
         return model
@@ -182,11 +182,13 @@ def _reversed(model: Model, names: set[str], keeper: UrdfKeeper) -> Model:
         message = f"joint {joint.name!r} is reversed: link {joint.child!r} hangs from another joint in URDF"
         keeper.account(rules.REVERSED_JOINT, message, joint.location, 2)
     before = {joint.name: joint for joint in turned}
-    joints = (_annotated(each, before[each.name], keeper) if each.name in names else each for each in model.joints)
+    joints = (
+        _annotate_reversed(each, before[each.name], keeper) if each.name in names else each for each in model.joints
+    )
     return model.copy(joints=tuple(joints))
 
 
-def _annotated(joint: Joint, before: Joint, keeper: UrdfKeeper) -> Joint:
+def _annotate_reversed(joint: Joint, before: Joint, keeper: UrdfKeeper) -> Joint:
     # A word and no copy: reversing again is exact whatever was edited in between.
     joint = keeper.annotate(joint, REVERSED, always=True)
     attributes = joint_pose_attributes(before)
@@ -208,7 +210,7 @@ def _report_cut(joint: Joint, closed: Joint | None, keeper: UrdfKeeper) -> None:
     keeper.sink.account(Fate.CARRIED, rules.CUT_LOOP, message, joint.location, count_parts(joint))
 
 
-def _hang(model: Model, roots: list[Link], first: str, keeper: UrdfKeeper) -> Model:
+def _hang_roots(model: Model, roots: list[Link], first: str, keeper: UrdfKeeper) -> Model:
     if not roots:
         return model
     taken = {node.name for node in (*model.links, *model.joints)}
@@ -226,10 +228,10 @@ def _hang(model: Model, roots: list[Link], first: str, keeper: UrdfKeeper) -> Mo
 def cut_joints(
     model: Model, kept: Sequence[Joint], cut: Sequence[Joint], parent_joint: Mapping[str, Joint], keeper: UrdfKeeper
 ) -> Model:
-    """The model with only the joints that are kept, and each of the others in a `<gazebo>` element.
+    """The model with the joints in `cut` moved into `<gazebo>` elements.
 
-    `parent_joint` has the joint of the tree that holds a link: the pose of what is cut is in the frame that this link
-    has in URDF. Poses relative to a joint that is cut become relative to the model.
+    `parent_joint` is the joint of the tree that holds a link, which decides the frame of that link in URDF and so the
+    pose of a cut joint. Poses relative to a cut joint become relative to the model.
     """
     graph = FrameGraph(model)
     extensions = list(model.extensions)
@@ -243,11 +245,11 @@ def cut_joints(
         extensions.append(GazeboExtension(content=(blob,), source=joint.source))
     model = model.copy(joints=tuple(kept), extensions=tuple(extensions))
     names = frozenset(joint.name for joint in cut)
-    return rewrite(model, Pose, partial(_without_cut, graph, names))
+    return rewrite(model, Pose, partial(_repose_from_cut, graph, names))
 
 
-def _without_cut(graph: FrameGraph, names: frozenset[str], pose: Pose) -> Pose:
-    """A pose relative to a joint that was cut, in the frame of the model: either of its links may be posed by it."""
+def _repose_from_cut(graph: FrameGraph, names: frozenset[str], pose: Pose) -> Pose:
+    """A pose relative to a cut joint, in the frame of the model."""
     joint = pose.relative_to
     if joint not in names:
         return pose

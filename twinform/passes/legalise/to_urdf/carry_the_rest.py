@@ -1,4 +1,4 @@
-"""The last pass to URDF: moving all remaining SDF parts into carriers, and changing the format."""
+"""Carrying all remaining parts of SDF, and changing the format to URDF."""
 
 from functools import partial
 from typing import ClassVar, TypeVar
@@ -19,7 +19,7 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 _NO_EQUIVALENT = "has no equivalent in URDF"
 _IMPLIED = KnownFields({"relative_to": None})
-"""The frame of a joint's or link's pose, which URDF does not write because it cannot be another."""
+"""The frame of the pose of a joint or link, which is implied in URDF."""
 
 
 class CarryTheRest(Pass):
@@ -36,14 +36,16 @@ class CarryTheRest(Pass):
     carriers: bool = True
     urdf_version: UrdfVersion = "1.0"
     words: UrdfVersion = "1.0"
-    """The version whose elements and attributes may be written: that of a file with some of a newer version is 1.2."""
+    """The version whose elements and attributes may be written: 1.2 for a file that has some of a newer version."""
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document as URDF."""
         if sink.has_errors:
             return document
         keeper = UrdfKeeper(sink, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
-        models = tuple(_finish(model, document, _RemainderCarrier(keeper, self.words)) for model in document.models)
+        models = tuple(
+            _finish_model(model, document, _RemainderCarrier(keeper, self.words)) for model in document.models
+        )
         if not self.carriers:
             models = tuple(without_synthesized(model) for model in models)
         namespaces = tuple(pair for pair in document.namespaces if pair[0] not in ("", PREFIX))
@@ -55,12 +57,12 @@ class CarryTheRest(Pass):
         return document.copy(**update)
 
 
-def _finish(model: Model, document: Document, rest: "_RemainderCarrier") -> Model:
+def _finish_model(model: Model, document: Document, rest: "_RemainderCarrier") -> Model:
     keeper = rest.keeper
     model = _without_usual_root(model, keeper)
     model = model.copy(links=tuple(map(rest.link, model.links)), joints=tuple(map(rest.joint, model.joints)))
     model = rest.take(model, "model", rest.fields("robot"))
-    model = model.copy(links=tuple(_annotated_world(link, keeper) for link in model.links))
+    model = model.copy(links=tuple(_annotate_world(link, keeper) for link in model.links))
     has_world = any(link.name == WORLD for link in model.links)  # which SDF before 1.7 did not forbid
     if not has_world and any(joint.parent == WORLD for joint in model.joints):
         model = model.copy(links=(Link(name=WORLD), *model.links))
@@ -72,13 +74,13 @@ def _finish(model: Model, document: Document, rest: "_RemainderCarrier") -> Mode
     return with_provenance(without_provenance(model), document)
 
 
-def _annotated_world(link: Link, keeper: UrdfKeeper) -> Link:
-    """A link called `world`, which SDF before 1.7 did not forbid, is a body; the one of URDF is SDF's world."""
+def _annotate_world(link: Link, keeper: UrdfKeeper) -> Link:
+    """A link called `world` (legal before SDF 1.7) annotated as a body, since URDF's `world` is SDF's world."""
     return keeper.annotate(link, BODY) if link.name == WORLD else link
 
 
 def _without_usual_root(model: Model, keeper: UrdfKeeper) -> Model:
-    """The model, if it came from URDF, without a canonical link that the conversion named: the root."""
+    """The model without the canonical link that a conversion from URDF set: the root."""
     children = {joint.child for joint in model.joints}
     root = next((link.name for link in model.links if link.name not in children), None)
     usual = keeper.back and root is not None and model.canonical_link == root
@@ -86,7 +88,7 @@ def _without_usual_root(model: Model, keeper: UrdfKeeper) -> Model:
 
 
 class _RemainderCarrier:
-    """Takes the remainders off, from the inside out."""
+    """Carries what URDF cannot express, from the innermost nodes outwards."""
 
     def __init__(self, keeper: UrdfKeeper, words: UrdfVersion) -> None:
         self.keeper = keeper
@@ -137,9 +139,9 @@ class _RemainderCarrier:
 
 
 def _is_second(piece: Opaque, node: Node, kept: Node) -> bool:
-    """Whether it repeats an element deeper in a node, such as a second limit of an axis.
+    """Whether a piece repeats an element deeper in a node, such as a second limit of an axis.
 
-    URDF has the first one in what is `kept`, or says it in other words, such as the color of a material.
+    The first one is in the `kept` node, or expressed otherwise, such as the color of a material.
     """
     if piece.element is None or not piece.at:
         return False

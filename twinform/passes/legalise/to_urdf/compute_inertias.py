@@ -26,10 +26,10 @@ class ComputeInertias(ToUrdfPass, AssetPass):
 
     def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with every inertia written out."""
-        return map_automatic(model, partial(_compute, keeper, Meshes(self._assets)))
+        return map_automatic(model, partial(_compute_inertia, keeper, Meshes(self._assets)))
 
 
-def _compute(keeper: UrdfKeeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
+def _compute_inertia(keeper: UrdfKeeper, meshes: Meshes, link: Link, inertial: Inertial, graph: FrameGraph) -> Link:
     try:
         found = automatic(link, inertial, link.collisions, graph, meshes)
     except NoSolidError as error:

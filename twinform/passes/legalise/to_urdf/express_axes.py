@@ -35,12 +35,12 @@ class ExpressAxes(ToUrdfPass):
         for joint in model.joints:
             expressed = joint
             for field in _AXES.get(joint.type, ()):
-                expressed = _express(expressed, field, graph, keeper)
+                expressed = _express_axis(expressed, field, graph, keeper)
             joints.append(expressed)
         return model.copy(joints=tuple(joints))
 
 
-def _express(joint: Joint, field: str, graph: FrameGraph, keeper: UrdfKeeper) -> Joint:
+def _express_axis(joint: Joint, field: str, graph: FrameGraph, keeper: UrdfKeeper) -> Joint:
     written: Axis | None = getattr(joint, field)
     axis = written or Axis()
     if axis.xyz is not None and not any(axis.xyz):

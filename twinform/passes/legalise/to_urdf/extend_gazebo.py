@@ -24,8 +24,8 @@ _PHYSICS_TAGS = {
     "provide_feedback": "provideFeedback",
 }
 _NOT_VERBATIM = frozenset({"physics", "frame", *LINK_TAGS, *JOINT_TAGS, *MODEL_TAGS})
-"""A second `<physics>` would be a second one in Gazebo too; `<frame>` in links and joints went with SDF 1.7. What is
-called like a tag would mean what the tag means."""
+"""Elements that must not be copied into `<gazebo>`: a second `<physics>` would count twice, `<frame>` went with 1.7,
+and an element named like a tag would be read as the tag."""
 
 
 class ExtendGazebo(ToUrdfPass):
@@ -75,8 +75,8 @@ def _extension(node: Link | Joint, content: Iterable[Element]) -> Iterator[Gazeb
 
 
 @cache
-def _typed(definition: str) -> frozenset[str]:
-    """The children that have a typed form; an opaque one is a repetition or empty."""
+def _typed_children(definition: str) -> frozenset[str]:
+    """The children of a definition that have a typed form, so that an opaque one is a repetition or empty."""
     return frozenset(row.name for row in table("sdf").definitions[definition].children if row.place)
 
 
@@ -84,10 +84,10 @@ def _is_verbatim(part: Opaque, definition: str) -> bool:
     element = part.element
     if element is None or part.at or element.name[0] == "{":
         return False
-    return element.name not in _typed(definition) and element.name not in _NOT_VERBATIM
+    return element.name not in _typed_children(definition) and element.name not in _NOT_VERBATIM
 
 
-def _verbatim(parts: Iterable[Opaque], definition: str) -> list[Element]:
+def _verbatim_elements(parts: Iterable[Opaque], definition: str) -> list[Element]:
     return [part.element for part in parts if part.element and _is_verbatim(part, definition)]
 
 
@@ -101,7 +101,7 @@ def _link_content(link: Link) -> tuple[list[Element], Link]:
     link = link.copy(**dict.fromkeys(FLAGS)) if content else link
     if any(value not in (None, ()) for value in written.values()):
         content += to_element(Link(name=link.name, spelling=link.spelling, **written), "link", "sdf").children
-    content += _verbatim(link.opaque, "link")
+    content += _verbatim_elements(link.opaque, "link")
     if not content:
         return content, link
     empty = {field: () if isinstance(value, tuple) else None for field, value in written.items()}
@@ -116,18 +116,18 @@ def _joint_content(
     # the URDF, and contact sensors and plugins would lose the names that they know.
     if joint.type == "fixed" and joint.parent != WORLD and joint.child in with_mass and not is_synthesized(joint):
         content.append(Element.unchecked(name="preserveFixedJoint", text="true"))
-    springs, joint = _springs(joint)
-    physics, joint = _physics(joint, keeper)
+    springs, joint = _take_springs(joint)
+    physics, joint = _take_physics(joint, keeper)
     content += [*springs, *physics]
     if joint.name in links:  # a reference would mean the link
         return content, joint
     if joint.sensors:
         content += to_element(Joint(name="", type="fixed", sensors=joint.sensors), "joint", "sdf").children
-    content += _verbatim(joint.opaque, "joint")
+    content += _verbatim_elements(joint.opaque, "joint")
     return content, replace_fields(joint, sensors=(), opaque=_without_verbatim(joint.opaque, "joint"))
 
 
-def _springs(joint: Joint) -> tuple[list[Element], Joint]:
+def _take_springs(joint: Joint) -> tuple[list[Element], Joint]:
     axis = joint.axis
     if axis is None or axis.dynamics is None or joint.type == "fixed":
         return [], joint
@@ -144,8 +144,8 @@ def _springs(joint: Joint) -> tuple[list[Element], Joint]:
     return content, joint.copy(axis=axis.copy(dynamics=dynamics))
 
 
-def _physics(joint: Joint, keeper: UrdfKeeper) -> tuple[list[Element], Joint]:
-    """The tags that mean what the first `<physics>` of a joint does; others go into carriers that are not its rest."""
+def _take_physics(joint: Joint, keeper: UrdfKeeper) -> tuple[list[Element], Joint]:
+    """The tags for the first `<physics>` of a joint, and the joint with further ones in carriers."""
     content: list[Element] = []
     parts: list[Opaque] = []
     again: list[Opaque] = []
@@ -165,7 +165,7 @@ def _physics(joint: Joint, keeper: UrdfKeeper) -> tuple[list[Element], Joint]:
 
 
 def _take_tags(element: Element, path: str, tags: list[Element]) -> Element | None:
-    """Move the leaves that have tags out of an element; what is left of it, if anything is."""
+    """Move the leaves that have tags from an element to `tags`; returns the rest of the element, if any."""
     children: list[Element] = []
     for child in element.children:
         inner = f"{path}/{child.name}" if path else child.name
@@ -184,7 +184,7 @@ def _model_extensions(model: Model) -> Iterator[GazeboExtension]:
     # One <gazebo> for each plugin, as people write them by hand.
     for plugin in model.plugins:
         yield GazeboExtension(content=(to_element(plugin, "plugin", "sdf"),), source=plugin.source)
-    for element in _verbatim(model.opaque, "model"):
+    for element in _verbatim_elements(model.opaque, "model"):
         yield GazeboExtension(content=(element,))
     written = {field: getattr(model, field) for field in _MODEL_FIELDS}
     flags = to_element(Model.unchecked(name=model.name, spelling=model.spelling, **written), "model", "sdf").children

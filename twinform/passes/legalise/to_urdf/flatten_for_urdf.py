@@ -34,7 +34,7 @@ class FlattenForUrdf(ToUrdfPass):
         _refuse_includes(model, keeper)
         if keeper.sink.has_errors:
             return model
-        flat = _flat(model, keeper) if model.models else model
+        flat = _flatten(model, keeper) if model.models else model
         names = _legal_names(flat)
         if not names:
             return flat
@@ -42,15 +42,15 @@ class FlattenForUrdf(ToUrdfPass):
         return with_old_names(flat, names) if keeper.carriers else flat
 
 
-def _flat(model: Model, keeper: UrdfKeeper) -> Model:
+def _flatten(model: Model, keeper: UrdfKeeper) -> Model:
     for nested, message in differing_rests(model):
         where = nested.location.at("allow_auto_disable")
         keeper.sink.account(Fate.APPROXIMATED, rules.NESTED_SETTING, f"{message}: Gazebo reads the outer one", where, 0)
     settled = settle_links(model, annotated=keeper.carriers)
-    return flatten(with_static_models_fixed(settled), partial(_keep, keeper))
+    return flatten(with_static_models_fixed(settled), partial(_keep_settings, keeper))
 
 
-def _keep(keeper: UrdfKeeper, frame: Frame, shell: Model) -> Frame:
+def _keep_settings(keeper: UrdfKeeper, frame: Frame, shell: Model) -> Frame:
     """The frame of a nested model with all else that the model has; its pose is the frame's."""
     message = f"nested model {frame.name!r} is flattened"
     keeper.account(rules.NESTED_MODEL, message, shell.location, count_parts(shell))

@@ -16,7 +16,7 @@ AnyPart = TypeVar("AnyPart", Joint, Link)
 
 _SLIDES = 2
 _BESIDE = NOT_CONTENT | {"type", "opaque"}
-"""Fields in which the parts of a chain that is as it was made may differ; their types are looked at before."""
+"""Fields in which the parts of an unedited chain may differ."""
 
 
 class FoldPlanarJoints(ToUrdfPass):
@@ -43,7 +43,7 @@ class FoldPlanarJoints(ToUrdfPass):
         gone: set[str] = set()
         stale: set[str] = set()
         for joint in annotated:
-            chain = _chain(joint, above, links)
+            chain = _find_chain(joint, above, links)
             # Made anew and compared: the planar joint returns only if it would become exactly this
             # chain, names included. A name that somebody gave to a part is one that plugins know,
             # and a planar joint has no place for it.
@@ -56,7 +56,7 @@ class FoldPlanarJoints(ToUrdfPass):
                 stale |= set(_upwards(joint, above))
             else:
                 first, second = chain
-                folded[joint.name] = _planar(joint, first)
+                folded[joint.name] = _make_planar(joint, first)
                 gone |= {first.name, second.name, first.child or "", second.child or ""}
         joints = (folded.get(joint.name, joint) for joint in model.joints if joint.name not in gone)
         kept = (link for link in model.links if link.name not in gone)
@@ -68,7 +68,7 @@ class FoldPlanarJoints(ToUrdfPass):
 
 
 def _upwards(joint: Joint, above: dict[str | None, Joint]) -> Iterator[str]:
-    """The names of the links and joints above that were synthesized for a chain."""
+    """The names of the joints and links of a chain above its last joint."""
     for _ in range(_SLIDES):
         upper = above.get(joint.parent)
         if upper is None:
@@ -78,7 +78,7 @@ def _upwards(joint: Joint, above: dict[str | None, Joint]) -> Iterator[str]:
 
 
 def _without_stale_mark(part: AnyPart, stale: set[str]) -> AnyPart:
-    """A part of a chain that stays, which stands for itself now."""
+    """A part of a chain that is not folded, without the annotation that it was synthesized."""
     return without_annotation(part, SYNTHESIZED) if part.name in stale else part
 
 
@@ -86,8 +86,8 @@ def _is_annotation(part: Opaque) -> bool:
     return is_carrier(part, "urdf") and any(piece.attribute == ("type", "planar") for piece in unpack(part))
 
 
-def _chain(joint: Joint, above: dict[str | None, Joint], links: dict[str, Link]) -> tuple[Joint, Joint] | None:
-    """The two sliding joints above, if the chain is still what it was made."""
+def _find_chain(joint: Joint, above: dict[str | None, Joint], links: dict[str, Link]) -> tuple[Joint, Joint] | None:
+    """The two sliding joints of a chain; None where the chain was edited."""
     second = above.get(joint.parent)
     first = above.get(second.parent) if second else None
     if first is None or second is None or joint.type not in {"continuous", "revolute"}:
@@ -98,19 +98,19 @@ def _chain(joint: Joint, above: dict[str | None, Joint], links: dict[str, Link])
 
 
 def _is_as_made(turn: Joint, chain: tuple[Joint, Joint], links: dict[str, Link], taken: set[str]) -> bool:
-    """Whether a chain is the one that a planar joint becomes, with the axis and in the place that it has now."""
+    """Whether a chain equals the one that a planar joint with its present axis and pose becomes."""
     first, second = chain
     between = (links[first.child or ""], links[second.child or ""])
     names = {part.name for part in (*chain, *between)}
     taken -= names
-    made = planar_chain(_planar(turn, first), planar_names(turn.name, taken))
+    made = planar_chain(_make_planar(turn, first), planar_names(turn.name, taken))
     taken |= names
     parts = zip((first, second, turn, *between), (*made.joints, *made.links), strict=True)
-    return all(_bare(is_now) == _bare(was) for is_now, was in parts)
+    return all(_motion_of(is_now) == _motion_of(was) for is_now, was in parts)
 
 
-def _bare(part: Joint | Link) -> dict[str, object]:
-    """What a part has about the motion; a pose of nothing is none, and so is a limit."""
+def _motion_of(part: Joint | Link) -> dict[str, object]:
+    """The fields of a part that matter for its motion; an empty limit counts as none."""
     written = {name: getattr(part, name) for name in fields_of(type(part)) if name not in _BESIDE}
     if isinstance(part, Joint) and part.axis is not None:
         limit = None if part.axis.limit == Limit() else part.axis.limit
@@ -118,7 +118,7 @@ def _bare(part: Joint | Link) -> dict[str, object]:
     return written
 
 
-def _planar(joint: Joint, first: Joint) -> Joint:
+def _make_planar(joint: Joint, first: Joint) -> Joint:
     update = {"type": "planar", "parent": first.parent, "pose": first.pose, "opaque": _without_planar(joint)}
     return joint.copy(**update)
 

@@ -22,9 +22,8 @@ from twinform.passes.shared.document_uris import GAZEBO, MESH_SCHEME, package_ur
 from twinform.passes.shared.nodes import piece
 
 Sayable = frozenset[str]
-"""The kinds of shapes that a version of URDF has, which requires their sizes."""
+"""The kinds of shapes that a version of URDF has."""
 AnyShaped = TypeVar("AnyShaped", Visual, Collision)
-
 _UNSAYABLE = {
     "ellipsoid": "is an ellipsoid, which URDF does not have",
     "empty": "has an empty shape, which URDF does not have",
@@ -32,7 +31,7 @@ _UNSAYABLE = {
     "mesh": "is one part of a mesh, which URDF cannot express",
     "no shape": "has no shape, which URDF cannot express",
 }
-"""What messages call a shape that is not simply a box, a plane and so on."""
+"""Descriptions of shapes in messages, where the kind alone does not fit."""
 
 
 class MapGeometry(ToUrdfPass):
@@ -55,17 +54,19 @@ class MapGeometry(ToUrdfPass):
 def _map_link(link: Link, sayable: Sayable, keeper: UrdfKeeper) -> Link:
     # A shape in a carrier is carried after the link's frame has moved onto its joint, so that its
     # pose means the same place as in SDF.
-    link = _sort(link, "collisions", "collision", link.collisions, sayable, keeper)
-    return _sort(link, "visuals", "visual", link.visuals, sayable, keeper)
+    link = _map_shapes(link, "collisions", "collision", link.collisions, sayable, keeper)
+    return _map_shapes(link, "visuals", "visual", link.visuals, sayable, keeper)
 
 
-def _sort(
+def _map_shapes(
     link: Link, field: str, tag: str, shapes: tuple[AnyShaped, ...], sayable: Sayable, keeper: UrdfKeeper
 ) -> Link:
     kept: list[AnyShaped] = []
     taken = 0
     for one in shapes:
-        if _can_say(one.geometry, sayable) or (keeper.back and (one.geometry is None or one.geometry.shape is None)):
+        if _is_expressible(one.geometry, sayable) or (
+            keeper.back and (one.geometry is None or one.geometry.shape is None)
+        ):
             kept.append(_map_shape(one, keeper))
             continue
         kind = one.geometry.shape.kind if one.geometry and one.geometry.shape else "no shape"
@@ -80,7 +81,7 @@ def _sort(
     return replace_fields(link, **{field: tuple(kept)})
 
 
-def _can_say(geometry: Geometry | None, sayable: Sayable) -> bool:
+def _is_expressible(geometry: Geometry | None, sayable: Sayable) -> bool:
     shape = geometry.shape if geometry else None
     if isinstance(shape, Mesh):
         # urdfdom reads the whole file of a mesh.
@@ -103,13 +104,10 @@ def _map_shape(one: AnyShaped, keeper: UrdfKeeper) -> AnyShaped:
     return replace_fields(one, geometry=replace_fields(geometry, shape=made))
 
 
-Shape = TypeVar("Shape", Visual, Collision)
+def urdf_uri(shape: AnyShaped, kind: str, written: str, keeper: UrdfKeeper) -> tuple[AnyShaped, str]:
+    """A URI for ROS, and its visual or collision with an annotation if the reverse conversion needs the scheme.
 
-
-def urdf_uri(shape: Shape, kind: str, written: str, keeper: UrdfKeeper) -> tuple[Shape, str]:
-    """A URI in a visual or collision for ROS, and the shape with an annotation if SDF would have another scheme for it.
-
-    `kind` is the annotation's. One that came from URDF with the scheme of Gazebo keeps that.
+    `kind` is the kind of the annotation. A URI of URDF that had the scheme of Gazebo keeps it.
     """
     annotation = find_annotation(shape, kind)
     shape = without_annotation(shape, kind)

@@ -17,7 +17,7 @@ from twinform.schemas import format_value
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 _WITHOUT_STRENGTH = ("effort", "velocity", "stiffness", "dissipation")
-"""What goes from the limit of a continuous joint without strength: URDF would ask for the strength beside the rest."""
+"""The limits that a continuous joint without strength loses: beside them URDF would require the strength."""
 _LIMITS = ("lower", "upper", "effort", "velocity")
 _TYPES = frozenset({"fixed", "revolute", "continuous", "prismatic", "floating", "planar"})
 _FORCES = ("effort", "velocity")
@@ -39,11 +39,11 @@ class MapJoints(ToUrdfPass):
         """The model with joints of URDF."""
         # URDF 1.0 and 1.1 ask for finite numbers where SDF has infinity.
         strength = UNLIMITED if urdf_row(self.urdf_version, "joint", "limit", "@effort").required else None
-        return model.copy(joints=tuple(_map(joint, strength, keeper) for joint in model.joints))
+        return model.copy(joints=tuple(_map_joint(joint, strength, keeper) for joint in model.joints))
 
 
-def _map(joint: Joint, strength: float | None, keeper: UrdfKeeper) -> Joint:
-    """The joint in URDF, which writes this for an effort or a velocity without a limit."""
+def _map_joint(joint: Joint, strength: float | None, keeper: UrdfKeeper) -> Joint:
+    """The joint in URDF; `strength` is written for an unlimited effort or velocity, unless it is None."""
     if joint.type in BALLS:  # it came from a dialect of URDF; another one is a chain by now
         return joint
     if joint.type not in _TYPES:
@@ -64,9 +64,9 @@ def _map(joint: Joint, strength: float | None, keeper: UrdfKeeper) -> Joint:
     # continuous, and nothing needs to be annotated.
     endless = limit.lower is None and limit.upper is None if keeper.back else _is_endless(limit)
     if joint.type == "continuous" or (joint.type == "revolute" and endless):
-        joint, limit = _continuous(joint.copy(type="continuous"), limit, strength, keeper)
+        joint, limit = _map_continuous(joint.copy(type="continuous"), limit, strength, keeper)
     else:
-        limit = _fill(
+        limit = _fill_limit(
             joint, limit, {"lower": -UNLIMITED, "upper": UNLIMITED, **dict.fromkeys(_FORCES, strength)}, keeper
         )
     made = None if limit == Limit.unchecked() else limit
@@ -82,11 +82,11 @@ def _is_bound(value: float | None) -> bool:
 
 
 def _is_strength(value: float | None) -> bool:
-    """Whether it limits effort or velocity: negative is infinite in SDF."""
+    """Whether a value limits effort or velocity; negative values are infinite in SDF."""
     return value is not None and 0 <= value < math.inf
 
 
-def _continuous(joint: Joint, limit: Limit, strength: float | None, keeper: UrdfKeeper) -> tuple[Joint, Limit]:
+def _map_continuous(joint: Joint, limit: Limit, strength: float | None, keeper: UrdfKeeper) -> tuple[Joint, Limit]:
     ends = tuple(name for name in ("lower", "upper") if _is_bound(getattr(limit, name)))
     joint = _keep_written(joint, limit, ends, keeper)
     endless = [name for name in _LIMITS if name not in ends and not _limits(limit, name)]
@@ -95,13 +95,13 @@ def _continuous(joint: Joint, limit: Limit, strength: float | None, keeper: Urdf
         keeper.account(rules.UNBOUNDED_LIMIT, message, limit.location, len(endless))
     limit = limit.copy(lower=None, upper=None)
     if _is_strength(limit.effort) or _is_strength(limit.velocity):
-        return joint, _fill(joint, limit, dict.fromkeys(_FORCES, strength), keeper)
+        return joint, _fill_limit(joint, limit, dict.fromkeys(_FORCES, strength), keeper)
     joint = _keep_written(joint, limit, ("stiffness", "dissipation"), keeper)
     return joint, limit.copy(**dict.fromkeys(_WITHOUT_STRENGTH))
 
 
-def _fill(joint: Joint, limit: Limit, numbers: Mapping[str, float | None], keeper: UrdfKeeper) -> Limit:
-    """The limit with these numbers where URDF needs one; None is a number that it does not need."""
+def _fill_limit(joint: Joint, limit: Limit, numbers: Mapping[str, float | None], keeper: UrdfKeeper) -> Limit:
+    """The limit with numbers where URDF requires finite ones; None stands for one that is not required."""
     strength = _is_finite if keeper.back else _is_strength
     valid = {"lower": _is_finite, "upper": _is_finite, "effort": strength, "velocity": strength}
     missing = {name: number for name, number in numbers.items() if not valid[name](getattr(limit, name))}
@@ -125,7 +125,10 @@ def _keep_written(joint: Joint, limit: Limit, names: tuple[str, ...], keeper: Ur
 
 
 def _map_mimic(joint: Joint, axis: Axis, keeper: UrdfKeeper) -> Joint:
-    """A mimic of multiplier (leader - reference) + offset is multiplier leader + (offset - multiplier reference)."""
+    """The joint with the reference of its mimic in the offset.
+
+    multiplier (leader - reference) + offset = multiplier leader + (offset - multiplier reference).
+    """
     mimic = axis.mimic
     if mimic is None or mimic.reference is None:
         return joint
@@ -139,6 +142,6 @@ def _map_mimic(joint: Joint, axis: Axis, keeper: UrdfKeeper) -> Joint:
 
 
 def _limits(limit: Limit, name: str) -> bool:
-    """Whether a limit is not written, or does limit something."""
+    """Whether a limit is absent or really limits something."""
     value = getattr(limit, name)
     return value is None or (name in {"effort", "velocity"} and _is_strength(value))

@@ -68,7 +68,7 @@ def _map_visual(visual: Visual, link: Link, names: set[str], keeper: UrdfKeeper)
 
 
 def _keep_colors(visual: Visual, material: Material, keeper: UrdfKeeper) -> Visual:
-    """Carry the colors where they say more than one color does."""
+    """The visual with an annotation on its colors, if one color cannot express them."""
     written = {"ambient": material.ambient, "diffuse": material.diffuse}
     color = urdf_color(material.diffuse or material.ambient or ())
     others = {
@@ -84,7 +84,7 @@ def _keep_colors(visual: Visual, material: Material, keeper: UrdfKeeper) -> Visu
 
 
 def _note_gazebo(visual: Visual, material: Material, keeper: UrdfKeeper) -> None:
-    """An entry in the ledger where Gazebo makes another material of that of URDF."""
+    """Enter into the ledger that Gazebo shows the material of the URDF otherwise."""
     # A <material> in <gazebo> would give Gazebo the SDF's color. A color that somebody edits in the
     # URDF would then count for RViz and not for Gazebo: one fact would stand twice in the file.
     if what := seen_by_gazebo(urdf_color(material.diffuse or material.ambient or ()), material.albedo_map):
@@ -93,7 +93,7 @@ def _note_gazebo(visual: Visual, material: Material, keeper: UrdfKeeper) -> None
 
 
 def _script_tag(link: Link, keeper: UrdfKeeper) -> GazeboExtension | None:
-    """The tag of a link whose visuals all have one material of Gazebo Classic."""
+    """The `<gazebo>` element for a link whose visuals share a material of Gazebo Classic."""
     scripts = {
         visual.material.script.name if visual.material and visual.material.script else None for visual in link.visuals
     }
@@ -106,7 +106,7 @@ def _script_tag(link: Link, keeper: UrdfKeeper) -> GazeboExtension | None:
 
 
 def _set_by_tag(link: Link, keeper: UrdfKeeper) -> Link:
-    """The link, whose visuals only say by now from which files their material is."""
+    """The link without the materials that a tag sets, but with annotations on their files."""
     visuals: list[Visual] = []
     for visual in link.visuals:
         material, script = visual.material, visual.material.script if visual.material else None

@@ -19,7 +19,7 @@ _TAGS = {
     "min_depth": "minDepth",
 }
 OF_ALL_COLLISIONS = ("surface", "max_contacts", "laser_retro")
-"""Fields of collisions that a link's tags set for all of them."""
+"""Fields of collisions that the tags of a link set for all of its collisions."""
 
 
 class MapSurfaces(ToUrdfPass):
@@ -38,16 +38,16 @@ class MapSurfaces(ToUrdfPass):
         links: list[Link] = []
         extensions = list(model.extensions)
         for link in model.links:
-            content, fields = _shared(link.collisions)
-            links.append(_without(link, fields))
+            content, fields = _share_fields(link.collisions)
+            links.append(_without_fields(link, fields))
             _note_unshared(links[-1], keeper)
             if content:
                 extensions.append(GazeboExtension(reference=link.name, content=tuple(content), source=link.source))
         return model.copy(links=tuple(links), extensions=tuple(extensions))
 
 
-def _shared(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]]:
-    """What all collisions have in common, as tags, and the fields that it was in."""
+def _share_fields(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]]:
+    """The tags for fields that all collisions have alike, and the names of the fields."""
     if not collisions:
         return [], []
     first, content, fields = collisions[0], list[Element](), list[str]()
@@ -59,7 +59,7 @@ def _shared(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]
             continue
         fields.append(field)
         if isinstance(value, Surface):
-            content.extend(_surface(value))
+            content.extend(_surface_tags(value))
         else:
             tag = "maxContacts" if field == "max_contacts" else "laserRetro"
             content.append(Element.unchecked(name=tag, text=format_value(value)))
@@ -67,7 +67,7 @@ def _shared(collisions: tuple[Collision, ...]) -> tuple[list[Element], list[str]
 
 
 def _note_unshared(link: Link, keeper: UrdfKeeper) -> None:
-    """A warning where collisions keep something for themselves, which is lost to Gazebo."""
+    """Warn about fields that differ between the collisions of a link, which Gazebo does not read."""
     left = [(field, one) for field in OF_ALL_COLLISIONS for one in link.collisions if getattr(one, field) is not None]
     if left:
         names = ", ".join(repr(name) for name in dict.fromkeys(one.name for _, one in left))
@@ -79,14 +79,14 @@ def _note_unshared(link: Link, keeper: UrdfKeeper) -> None:
         keeper.sink.report(UNSHARED_SURFACE, message, left[0][1].location, found=left[0][1].name, help=hint)
 
 
-def _surface(surface: Surface) -> list[Element]:
+def _surface_tags(surface: Surface) -> list[Element]:
     written = {name: value for name, value in field_values(surface).items() if value is not None and name != "opaque"}
     if surface.opaque or not written.keys() <= _TAGS.keys():
         return [Element.unchecked(name="collision", children=(to_element(surface, "surface", "sdf"),))]
     return [Element.unchecked(name=_TAGS[name], text=format_value(value)) for name, value in written.items()]
 
 
-def _without(link: Link, fields: list[str]) -> Link:
+def _without_fields(link: Link, fields: list[str]) -> Link:
     if not fields:
         return link
     cleared = dict.fromkeys(fields)

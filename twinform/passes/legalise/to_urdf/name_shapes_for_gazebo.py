@@ -38,7 +38,7 @@ class NameShapesForGazebo(ToUrdfPass):
         # names of all shapes would work too, but would cost every other reader names that nobody
         # had a problem with.
         named = name_shapes_for_gazebo(model, rename)
-        for old, new in zip(_sensed(model), _sensed(named), strict=True):
+        for old, new in zip(_sensed_collisions(model), _sensed_collisions(named), strict=True):
             if old != new:
                 message = f"libsdformat calls collision {old.collision!r} {new.collision!r}, and so does the sensor"
                 keeper.account(GAZEBO_SHAPE_NAME, message, old.location, 0)
@@ -52,7 +52,7 @@ class _Sensed(NamedTuple):
     location: Location
 
 
-def _sensed(model: Model) -> Iterator[_Sensed]:
+def _sensed_collisions(model: Model) -> Iterator[_Sensed]:
     for extension in model.extensions:
         for sensor in (each for each in extension.content if each.name == "sensor"):
             where = extension.location.at(f"sensor[@name='{sensor.get('name')}']/contact/collision")

@@ -31,7 +31,7 @@ from twinform.passes.shared.pose_notation import FRAME, OFFSET, POSE, in_radians
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 _MOVED = PLAIN | bits_of(Pose, "relative_to", "degrees", "quat_xyzw", "rotation_format")
-"""What a part of a link may have whose pose is not six numbers in the frame of the link."""
+"""The census bits of parts whose pose is more than six numbers in the frame of the link."""
 
 
 class RebaseLinks(ToUrdfPass):
@@ -55,7 +55,7 @@ class RebaseLinks(ToUrdfPass):
         bases: dict[str, Base] = {WORLD: (WORLD, "world")}
         bases |= {link.name: keeper.frame_of(link.name, carried_by.get(link.name)) for link in model.links}
         framed = frozenset(joint.child or "" for joint in model.joints if _is_of_frame(joint))
-        named = _unmoved(model, graph, bases) if keeper.back else frozenset[str]()
+        named = _unmoved_links(model, graph, bases) if keeper.back else frozenset[str]()
         links = tuple(
             _Rebase(graph, link.name, bases[link.name], keeper, framed=framed, named=named).link(
                 link, carried_by.get(link.name)
@@ -70,7 +70,7 @@ class RebaseLinks(ToUrdfPass):
 
 @dataclass(frozen=True, slots=True)
 class _Rebase:
-    """One link or joint and the frame that the poses in it are to be in."""
+    """Moves the poses in one link or joint into the frame `base`."""
 
     graph: FrameGraph
     name: str
@@ -78,22 +78,22 @@ class _Rebase:
     keeper: UrdfKeeper
     kind: Kind = "link"
     framed: frozenset[str] = frozenset()
-    """Links that are frames in SDF, which are accounted for as such."""
+    """Links that are frames in SDF, which have ledger entries of their own."""
     named: frozenset[str] = frozenset()
     """Links that the poses of sensors and lights may go on naming, as in `<gazebo>`."""
 
     @property
     def poses(self) -> Rebasing:
-        elements = ElementPoses(self.graph, self.name, self.base, self._element, self.kind, stays=self.named)
+        elements = ElementPoses(self.graph, self.name, self.base, self._annotate_element, self.kind, stays=self.named)
         return Rebasing(self.graph, self.name, self.kind, self.base, elements, self._write, self._stays)
 
     def _stays(self, holder: Posed) -> bool:
-        """Whether URDF, or SDF in an extension of it, can write its pose as it is."""
+        """Whether the pose of a part can be written unchanged, in URDF or in an extension."""
         named = holder.pose.relative_to if holder.pose and isinstance(holder, Sensor | Light) else None
         return _is_plain(holder) or named in self.named
 
     def link(self, link: Link, joint: Joint | None) -> Link:
-        """The link that a joint carries, if any does, and all in it in the frame that it has in URDF."""
+        """The link with its parts in the frame that it has in URDF; `joint` is the one that carries it."""
         offset = self.graph.pose(link.name, self.base[0], base=self.base[1])
         if not offset.is_identity or link.opaque or any(map(_may_move, _parts(link))):
             link = self.poses.link(link)
@@ -109,12 +109,12 @@ class _Rebase:
             # by then, also to what was added by hand or by a pass.
             moved = self.keeper.annotate(moved, OFFSET, attributes=offset_attributes(offset), always=True)
         if find_annotation(link, FRAME) is None:
-            moved = self._annotated(moved, written)
+            moved = self._annotate_pose(moved, written)
         if written is not None and written != made and _is_written(written, link) and link.name not in self.framed:
             message = f"link {link.name!r} is the root, whose frame is that of the robot"
             if joint is not None:
                 message = f"the frame of link {link.name!r} is that of its joint {joint.name!r}"
-            _account(self.keeper, message, written, written.location)
+            _account_for_pose(self.keeper, message, written, written.location)
         return moved
 
     def _write(self, holder: AnyPosed, tag: str, transform: Transform) -> AnyPosed:
@@ -128,10 +128,10 @@ class _Rebase:
             f"the pose of the {tag} {name!r} is written differently in URDF" if name else f"the pose of the {tag} moved"
         )
         message = f"{message} ({self.kind} {self.name!r})"
-        _account(self.keeper, message, written, written.location)
-        return self._annotated(moved, written, notation=made)
+        _account_for_pose(self.keeper, message, written, written.location)
+        return self._annotate_pose(moved, written, notation=made)
 
-    def _annotated(self, node: AnyNode, written: Pose | None, *, notation: Pose | None = None) -> AnyNode:
+    def _annotate_pose(self, node: AnyNode, written: Pose | None, *, notation: Pose | None = None) -> AnyNode:
         attributes = pose_attributes(written)
         if attributes.get("relative_to") == _scope_of(node):
             del attributes["relative_to"]
@@ -139,15 +139,15 @@ class _Rebase:
             attributes = {name: text for name, text in attributes.items() if name != "degrees"}
         return self.keeper.annotate(node, POSE, attributes=attributes) if attributes else node
 
-    def _element(self, message: str, written: Pose) -> tuple[Element, ...]:
-        _account(self.keeper, message, written, NOWHERE)
+    def _annotate_element(self, message: str, written: Pose) -> tuple[Element, ...]:
+        _account_for_pose(self.keeper, message, written, NOWHERE)
         attributes = pose_attributes(written)
         made = annotation(POSE, attributes=attributes).element if attributes else None
         return (made,) if made and self.keeper.carriers and not self.keeper.back else ()
 
 
-def _account(keeper: UrdfKeeper, message: str, written: Pose, where: Location) -> None:
-    """Account for a pose: it moved, and what is in it besides numbers has no place there."""
+def _account_for_pose(keeper: UrdfKeeper, message: str, written: Pose, where: Location) -> None:
+    """Enter a moved pose into the ledger, and as dropped what it holds besides numbers."""
     rest = sum(part.weight for part in written.opaque)
     keeper.account(rules.MOVED_FRAME, message, where, count_parts(written) - rest)
     for part in written.opaque:
@@ -163,12 +163,12 @@ def _parts(link: Link) -> Iterator[Posed]:
 
 
 def _may_move(part: Posed) -> bool:
-    """Whether there is more to a pose of a part than six numbers, which nearly always is all."""
+    """Whether the pose of a part is more than six numbers."""
     return census_of(part) & _MOVED != 0 or (part.pose is not None and bool(part.pose.opaque))
 
 
-def _unmoved(model: Model, graph: FrameGraph, bases: dict[str, Base]) -> frozenset[str]:
-    """The links that are where URDF has them, and are called so there."""
+def _unmoved_links(model: Model, graph: FrameGraph, bases: dict[str, Base]) -> frozenset[str]:
+    """The links whose frames and names stay the same in URDF."""
     return frozenset(
         link.name
         for link in model.links
@@ -178,23 +178,23 @@ def _unmoved(model: Model, graph: FrameGraph, bases: dict[str, Base]) -> frozens
 
 
 def _scope_of(node: Node) -> str:
-    """The frame of the nested model that a link was in, which its pose is relative to without saying so."""
+    """The frame of the nested model that a link was in, the default frame of its pose."""
     found = find_annotation(node, SCOPED_NAME)
     return (found.text or "").rpartition("::")[0].replace("::", "__") if found else ""
 
 
 def _is_of_frame(joint: Joint) -> bool:
-    """Whether it was synthesized to fix a frame, which is a link by now."""
+    """Whether a joint was synthesized to fix a frame that became a link."""
     return joint.type == "fixed" and joint.parent != WORLD and is_synthesized(joint)
 
 
 def _is_written(pose: Pose, holder: Link | Joint) -> bool:
-    """Whether a pose stands in the file that its holder was read from; passes make others."""
+    """Whether a pose was read from the file, not made by a pass."""
     return pose.source is not None or holder.source is None
 
 
 def _is_plain(holder: Posed) -> bool:
-    """Whether URDF can write its pose as it is."""
+    """Whether URDF can write the pose of a part unchanged."""
     pose = holder.pose
     return pose is None or not (
         pose.relative_to or pose.degrees or pose.quat_xyzw or pose.rotation_format or pose.opaque
@@ -214,13 +214,13 @@ def _place_joint(joint: Joint, graph: FrameGraph, bases: Mapping[str, Base], kee
         return placed
     if written != made and _is_written(written, joint):
         message = f"the pose of joint {joint.name!r} is relative to its parent link"
-        _account(keeper, message, written, written.location)
+        _account_for_pose(keeper, message, written, written.location)
     attributes = {} if find_annotation(joint, REVERSED) else joint_pose_attributes(joint)
     return keeper.annotate(placed, POSE, attributes=attributes) if attributes else placed
 
 
 def _place_model(model: Model, graph: FrameGraph, roots: list[str], keeper: UrdfKeeper) -> Model:
-    """The pose of the root, which is the robot's frame."""
+    """The model with the pose of its root link, whose frame is that of the robot."""
     written, root = model.pose, roots[0] if roots else WORLD
     made = None
     if roots:
@@ -233,6 +233,6 @@ def _place_model(model: Model, graph: FrameGraph, roots: list[str], keeper: Urdf
     if written is None or written == made:
         return moved
     message = f"the pose of model {model.name!r} is that of its root link {root!r}"
-    _account(keeper, message, written, written.location)
+    _account_for_pose(keeper, message, written, written.location)
     attributes = pose_attributes(written)
     return keeper.annotate(moved, POSE, attributes=attributes) if attributes else moved

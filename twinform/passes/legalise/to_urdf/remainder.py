@@ -20,12 +20,12 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 
 class KnownFields(dict[str, Union["KnownFields", None]]):
-    """The fields of a node that URDF has, each with the fields inside; None where that is a plain value."""
+    """The fields of a node that URDF has, each with its inner fields, or None for a plain value."""
 
     def __init__(self, fields: Mapping[str, "KnownFields | None"] = MappingProxyType({})) -> None:
         super().__init__(fields)
         self.questions: dict[type[Node], _Questions] = {}
-        """What `fits` asks of each class of nodes, once it was asked."""
+        """The questions of `fits` for each class of nodes, cached."""
 
 
 class _Questions(NamedTuple):
@@ -44,9 +44,10 @@ _NONE: tuple[()] = ()
 
 @dataclass(slots=True)
 class SplitNode:
-    """The two halves of a node: `paths` are the places below it where both have something.
+    """The two halves of a node: what URDF can write is `kept`, the rest is `left`.
 
-    `endless` are the paths and texts of numbers that are kept and not finite, which URDF cannot write.
+    `paths` are the places below the node that are in both halves; `endless` are the paths and texts of kept numbers
+    that are not finite, which URDF cannot write.
     """
 
     kept: dict[str, object] = field(default_factory=dict[str, object])
@@ -57,14 +58,14 @@ class SplitNode:
 
 @cache
 def urdf_fields(version: UrdfVersion, definition: str, *steps: str) -> KnownFields:
-    """The fields that a version of URDF has for the node of a definition, or of the row below it that steps name."""
+    """The fields that a version of URDF has for a definition, or for the row below it at the path `steps`."""
     known = KnownFields()
     _collect(urdf_row(version, definition, *steps), known, parse_version(version))
     return known
 
 
 def urdf_row(version: UrdfVersion, definition: str, *steps: str) -> Fact:
-    """The facts of a definition, or of the row below it that the steps name in this version."""
+    """The facts of a definition in a version, or of the row below it at the path `steps`."""
     facts, number = table("urdf"), parse_version(version)
     fact = facts.definitions[definition]
     for step in steps:
@@ -103,9 +104,9 @@ def _place(row: Fact, known: KnownFields, version: Version) -> None:
 
 
 def take_remainder(node: AnyNode, tag: str, known: KnownFields) -> tuple[AnyNode, list[Opaque], list[tuple[str, str]]]:
-    """The node with only what URDF can write, the rest as pieces of the SDF element that the node is, and bad numbers.
+    """The node with what URDF can write, the rest as pieces of its SDF element, and numbers that are not finite.
 
-    Nodes in tuples (links, visuals, ...) stay where URDF has them: they have remainders of their own.
+    Nodes in tuples (links, visuals, ...) stay: they have remainders of their own.
     """
     # Nearly every node fits. Asking that first costs a few attribute reads; taking a node apart
     # costs many times as much.
@@ -121,7 +122,7 @@ def take_remainder(node: AnyNode, tag: str, known: KnownFields) -> tuple[AnyNode
 
 
 def fits(node: Node, known: KnownFields) -> bool:
-    """Whether URDF can write all that is in a node, which nearly always it can."""
+    """Whether URDF can write everything in a node."""
     return all(is_ours(part) or _is_foreign(part) for part in node.opaque) and _fits(node, known)
 
 
@@ -197,7 +198,7 @@ def _split_inner(split: SplitNode, name: str, value: Node, known: KnownFields, p
 
 
 def _is_empty(node: Node) -> bool:
-    """Whether there is nothing in a node but its own fields."""
+    """Whether a node has no field set besides its kind."""
     return all(value in (None, ()) for name, value in field_values(node).items() if name != "kind")
 
 
@@ -211,7 +212,7 @@ def _is_endless(value: object) -> bool:
 
 
 def _split_opaque(split: SplitNode, node: Node, *, own_element: bool) -> None:
-    """Carriers stay, and so do other tools' elements and attributes where the node is an element of URDF too."""
+    """Split the opaque parts: carriers stay, and other tools' parts where the node is an element of URDF too."""
     if not node.opaque:
         return
     stays = [part for part in node.opaque if is_ours(part) or (own_element and _is_foreign(part))]
@@ -232,7 +233,7 @@ def _qualified(part: Opaque) -> str:
 
 
 def _only(node: Node, fields: dict[str, object]) -> Node:
-    """The node with these fields alone."""
+    """The node with no fields set but these."""
     blank = {name: _blank(node, name) for name in fields_of(type(node)) if name not in _APART}
     return node.copy(**{**blank, "opaque": (), **fields})
 
@@ -250,7 +251,7 @@ def _blanks(kind: type[Node]) -> dict[str, object]:
 def _pieces(
     element: Element, at: str, paths: frozenset[str], identity: frozenset[str] = frozenset()
 ) -> Iterator[Opaque]:
-    """What an element holds but for the attributes of its identity, which both halves of the node have."""
+    """The content of an element as pieces, without the attributes of its identity, which both halves have."""
     for name, value in element.attributes:
         if name not in identity:
             yield Opaque.unchecked(at=at, attribute=(name, value))

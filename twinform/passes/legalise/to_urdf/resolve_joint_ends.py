@@ -25,10 +25,10 @@ class ResolveJointEnds(ToUrdfPass):
         if all(joint.parent in links and joint.child in links for joint in model.joints):
             return model
         graph = FrameGraph(model)
-        return model.copy(joints=tuple(_resolve(joint, links, graph, keeper) for joint in model.joints))
+        return model.copy(joints=tuple(_resolve_joint(joint, links, graph, keeper) for joint in model.joints))
 
 
-def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: UrdfKeeper) -> Joint:
+def _resolve_joint(joint: Joint, links: set[str], graph: FrameGraph, keeper: UrdfKeeper) -> Joint:
     resolved, pieces = resolve_ends(joint, links, graph)
     if not pieces:
         return joint

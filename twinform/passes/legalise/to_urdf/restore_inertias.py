@@ -36,7 +36,7 @@ class RestoreInertias(ModelPass):
         }
         if not old:
             return model
-        restored = _with(model, old)
+        restored = _with_inertials(model, old)
         shared, graph = shared_inertias(restored), FrameGraph(model)
         now = {link.name: body_of(link, graph, Format.URDF) for link in model.links if link.name in old}
         # Proved by repetition: the old inertias come back if sharing them would give the numbers of
@@ -52,10 +52,10 @@ class RestoreInertias(ModelPass):
             for link in model.links
             if link.inertial and link.name in old
         }
-        return _with(model, bare)
+        return _with_inertials(model, bare)
 
 
-def _with(model: Model, inertials: dict[str, Inertial]) -> Model:
+def _with_inertials(model: Model, inertials: dict[str, Inertial]) -> Model:
     links = (link.copy(inertial=inertials[link.name]) if link.name in inertials else link for link in model.links)
     return model.copy(links=tuple(links))
 

@@ -37,11 +37,11 @@ class RestoreLinks(ToUrdfPass):
 
 
 def _with_links(model: Model, keeper: UrdfKeeper) -> Model:
-    pairs = dict(_pairs(model, keeper))
+    pairs = dict(_link_frames(model, keeper))
     graph = FrameGraph(model)
     mounts = {mount.name for mount in pairs.values()}
     held_by = {name: graph.body(name, kind="frame") for name in pairs}
-    links = [_emptied(link, {name for name in pairs if held_by[name] == link.name}) for link in model.links]
+    links = [_without_held(link, {name for name in pairs if held_by[name] == link.name}) for link in model.links]
     joints: list[Joint] = []
     for name, mount in pairs.items():
         frame = next(each for each in model.frames if each.name == name)
@@ -58,18 +58,18 @@ def _with_links(model: Model, keeper: UrdfKeeper) -> Model:
         own = (frame.pose or Pose()).copy(relative_to=mount.name)
         bare = Link(name=name, pose=own, opaque=without_annotation(frame, LINK).opaque)
         holders = [link for link in model.links if link.name == held_by[name]]
-        links.append(_filled(bare.copy(source=frame.source), holders))
+        links.append(_with_held(bare.copy(source=frame.source), holders))
     frames = tuple(
         without_annotation(frame, LINK)
         for frame in model.frames
         if frame.name not in pairs and frame.name not in mounts
     )
-    joints += [_holding_a_link(joint, held_by) for joint in model.joints]  # after those that hold what was a frame
+    joints += [_hold_a_link(joint, held_by) for joint in model.joints]  # after those that hold what was a frame
     return model.copy(links=tuple(links), joints=tuple(joints), frames=frames)
 
 
-def _holding_a_link(joint: Joint, held_by: dict[str, str]) -> Joint:
-    """The joint with the link as its child that a frame moves with: the frame's link has a joint already."""
+def _hold_a_link(joint: Joint, held_by: dict[str, str]) -> Joint:
+    """A joint whose child was a frame, now with the link that the frame moves with as its child."""
     body = held_by.get(joint.child or "")
     # Where an edit closes a circle over such a frame, its own fixed joint comes first, and the
     # joint of the edit is the one that is cut and carried. The other way round, the result could
@@ -81,8 +81,8 @@ def _holding_a_link(joint: Joint, held_by: dict[str, str]) -> Joint:
     return joint.copy(child=body, pose=pose)
 
 
-def _pairs(model: Model, keeper: UrdfKeeper) -> Iterator[tuple[str, Frame]]:
-    """Each frame that is a link, by its name, with the one that is its joint."""
+def _link_frames(model: Model, keeper: UrdfKeeper) -> Iterator[tuple[str, Frame]]:
+    """The names of frames that were links in URDF, with the frames that were their joints."""
     frames = {frame.name: frame for frame in model.frames}
     taken: set[str] = set()
     for frame in model.frames:
@@ -103,7 +103,7 @@ def _pairs(model: Model, keeper: UrdfKeeper) -> Iterator[tuple[str, Frame]]:
 
 
 def _parent_of(mount: Frame, pairs: dict[str, Frame], graph: FrameGraph) -> str:
-    """The parent of the joint: what it is attached to, if that is or becomes a link."""
+    """The parent link of the fixed joint that a frame becomes."""
     name = mount.attached_to or MODEL
     joints = {joint.name: link for link, joint in pairs.items()}
     if name in pairs:
@@ -115,8 +115,8 @@ def _is_in(node: Placed, names: Container[str]) -> bool:
     return node.pose is not None and (node.pose.relative_to or "") in names
 
 
-def _emptied(link: Link, frames: set[str]) -> Link:
-    """The link without what it holds for one of the frames that move with it."""
+def _without_held(link: Link, frames: set[str]) -> Link:
+    """The link without the parts that are posed in one of the frames."""
     if not frames:
         return link
     update: dict[str, object] = {
@@ -126,30 +126,30 @@ def _emptied(link: Link, frames: set[str]) -> Link:
     return link.copy(**update)
 
 
-def _filled(link: Link, holders: list[Link]) -> Link:
-    """The link with what others hold for it."""
+def _with_held(link: Link, holders: list[Link]) -> Link:
+    """The link with the parts that other links hold in its frame."""
     own = {link.name}
     update: dict[str, object] = {}
     for field in _HELD:
         held = [each for other in holders for each in getattr(other, field) if _is_in(each, own)]
-        update[field] = tuple(_in_own_frame(each) for each in held)
+        update[field] = tuple(_pose_in_own_frame(each) for each in held)
     parts = [part for other in holders for part in other.opaque if _frame_of(part) == link.name]
-    update["opaque"] = (*link.opaque, *map(_part_in_own_frame, parts))
+    update["opaque"] = (*link.opaque, *map(_pose_part_in_own_frame, parts))
     return link.copy(**update)
 
 
-def _in_own_frame(node: Placed) -> Placed:
+def _pose_in_own_frame(node: Placed) -> Placed:
     pose = node.pose.copy(relative_to=None) if node.pose else None
     return node.copy(pose=None if pose == Pose() else pose)
 
 
 def _frame_of(part: Opaque) -> str | None:
-    """The frame in which an element without a typed form, such as a projector, is posed."""
+    """The frame in which an untyped element, such as a projector, is posed."""
     pose = part.element.find("pose") if part.element else None
     return pose.get("relative_to") if pose else None
 
 
-def _part_in_own_frame(part: Opaque) -> Opaque:
+def _pose_part_in_own_frame(part: Opaque) -> Opaque:
     element = part.element
     pose = element.find("pose") if element else None
     if element is None or pose is None:
@@ -160,7 +160,7 @@ def _part_in_own_frame(part: Opaque) -> Opaque:
 
 
 def with_floating_joints(model: Model, keeper: UrdfKeeper) -> Model:
-    """The model with the annotated floating joints; one that fits the file no more is a `stale-carrier`."""
+    """The model with its annotated floating joints restored, or reported where they no longer fit."""
     if not _has_annotations(model):
         return model
     joints = list(model.joints)
@@ -178,7 +178,7 @@ def with_floating_joints(model: Model, keeper: UrdfKeeper) -> Model:
 
 
 def without_loose_floating(model: Model) -> Model:
-    """The model without the annotations that fit the file no more."""
+    """The model without annotations of floating joints that no longer fit."""
     if not _has_annotations(model):
         return model
     loose = {link.name for link, _, fits in _annotated_links(model) if not fits}
@@ -191,7 +191,7 @@ def _has_annotations(model: Model) -> bool:
 
 
 def _annotated_links(model: Model) -> Iterator[tuple[Link, Element, bool]]:
-    """Each annotated link, its annotation, and whether the joint can be: new name, free link, parent not below."""
+    """Each annotated link, its annotation, and whether its floating joint can be restored."""
     graph = FrameGraph(model)
     holders = {joint.child: joint.parent or WORLD for joint in model.joints if joint.child}
     names = {joint.name for joint in model.joints}
@@ -211,7 +211,7 @@ def _annotated_links(model: Model) -> Iterator[tuple[Link, Element, bool]]:
 
 
 def _hangs_below(link: str, name: str, holders: Mapping[str, str], graph: FrameGraph) -> bool:
-    """Whether what is called `name` hangs from a link, or is nowhere."""
+    """Whether a frame or link hangs from a link, or does not exist."""
     seen: set[str] = set()
     while name != WORLD:
         try:

@@ -30,12 +30,12 @@ class RestoreMaterials(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with materials of its URDF file."""
-        visuals = [one for link in model.links for visual in link.visuals if (one := _annotated(visual))]
-        shared = _shared(model, visuals)
+        visuals = [one for link in model.links for visual in link.visuals if (one := _read_annotation(visual))]
+        shared = _find_shared(model, visuals)
         if sink.has_errors or not (visuals or shared):
             return model
         defined = {**_own_looks(visuals, shared), **{name: _look_of(material) for name, material in shared.items()}}
-        links = tuple(_link(link, defined, shared, sink) for link in model.links)
+        links = tuple(_restore_in_link(link, defined, shared, sink) for link in model.links)
         kept = tuple(
             part for part in model.opaque if not is_annotation(part, SHARED_MATERIAL) and _carried(part) is None
         )
@@ -44,9 +44,9 @@ class RestoreMaterials(ModelPass):
 
 
 class _Annotated(NamedTuple):
-    """A visual, and what its annotation says of its material.
+    """A visual, and its annotation on the material.
 
-    `defined` is where the material is defined, if that is not where its name makes one expect.
+    `defined` is where the material is defined, if that is not the default for its name.
     """
 
     visual: Visual
@@ -55,15 +55,15 @@ class _Annotated(NamedTuple):
     is_unnamed: bool
 
 
-def _annotated(visual: Visual) -> _Annotated | None:
+def _read_annotation(visual: Visual) -> _Annotated | None:
     found = find_annotation(visual, MATERIAL)
     if found is None:
         return None
     return _Annotated(visual, found.text or "", found.get("defined"), found.get("unnamed") == "true")
 
 
-def _shared(model: Model, visuals: list[_Annotated]) -> dict[str, Material]:
-    """What the robot defines: what most of its visuals look like, or what was carried whole."""
+def _find_shared(model: Model, visuals: list[_Annotated]) -> dict[str, Material]:
+    """The materials of the robot: with the look of most of their visuals, or as they were carried."""
     names = {part.element.text or "" for part in model.opaque if part.element and is_annotation(part, SHARED_MATERIAL)}
     counts: dict[str, Counter[Look]] = {name: Counter() for name in names}
     for one in visuals:
@@ -88,11 +88,11 @@ def _carried(part: Opaque) -> Material | None:
     """The material in a carrier of URDF."""
     pieces = unpack(part) if is_carrier(part, "urdf") else ()
     element = pieces[0].element if len(pieces) == 1 else None
-    return _material(element) if element is not None and element.name == "material" else None
+    return _read_material(element) if element is not None and element.name == "material" else None
 
 
-def _material(element: Element) -> Material | None:
-    """The material that an element defines; None where it was edited into nonsense."""
+def _read_material(element: Element) -> Material | None:
+    """The material that an element defines; None where the element is invalid."""
     sink = DiagnosticSink()
     context = Context(sink, "", "urdf", table("urdf").newest)
     data = reader("urdf", context.version).read(element_xml(element), context, "material", Material)
@@ -100,7 +100,7 @@ def _material(element: Element) -> Material | None:
 
 
 def _own_looks(visuals: list[_Annotated], shared: Mapping[str, Material]) -> dict[str, Look]:
-    """The material of the first visual with one of its own, for those that only name it."""
+    """The looks of materials that a visual defines itself, by name; the first visual counts."""
     found: dict[str, Look] = {}
     for one in visuals:
         if _is_own(one, shared):
@@ -124,14 +124,18 @@ def _look_of(material: Material) -> Look:
     return material.color, material.texture
 
 
-def _link(link: Link, defined: Mapping[str, Look], shared: Mapping[str, Material], sink: DiagnosticSink) -> Link:
-    return replace_fields(link, visuals=tuple(_visual(visual, defined, shared, sink) for visual in link.visuals))
+def _restore_in_link(
+    link: Link, defined: Mapping[str, Look], shared: Mapping[str, Material], sink: DiagnosticSink
+) -> Link:
+    return replace_fields(
+        link, visuals=tuple(_restore_in_visual(visual, defined, shared, sink) for visual in link.visuals)
+    )
 
 
-def _visual(
+def _restore_in_visual(
     visual: Visual, defined: Mapping[str, Look], shared: Mapping[str, Material], sink: DiagnosticSink
 ) -> Visual:
-    one = _annotated(visual)
+    one = _read_annotation(visual)
     if one is None:
         return visual
     name, own = one.name, _is_own(one, shared)

@@ -34,23 +34,23 @@ class RestoreShapes(ModelPass):
             return model
         found = find_annotation(model, UNNAMED)
         made = frozenset(line.strip() for line in (found.text or "").splitlines()) if found else frozenset[str]()
-        links = tuple(_link(link, made) for link in model.links)
+        links = tuple(_restore_link(link, made) for link in model.links)
         return without_annotation(model.copy(links=links), UNNAMED)
 
 
-def _link(link: Link, made: frozenset[str]) -> Link:
+def _restore_link(link: Link, made: frozenset[str]) -> Link:
     update: dict[str, object] = {}
     for field in ("visuals", "collisions"):
         shapes = getattr(link, field)
         usual = f"{link.name}_{field[:-1]}"
-        update[field] = tuple(_unnamed(shape, made, usual) for shape in shapes)
-    inertial = _as_written(link.inertial) if link.inertial else None
+        update[field] = tuple(_restore_name(shape, made, usual) for shape in shapes)
+    inertial = _restore_inertial(link.inertial) if link.inertial else None
     if inertial is not link.inertial or (inertial and _is_nothing(inertial)):
         update["inertial"] = None if inertial and _is_nothing(inertial) else inertial
     return replace_fields(link, **update)
 
 
-def _unnamed(shape: Shape, made: frozenset[str], usual: str) -> Shape:
+def _restore_name(shape: Shape, made: frozenset[str], usual: str) -> Shape:
     if shape.name in made and shape.name.startswith(usual):  # it is not in another link by now
         return shape.copy(name=None)
     found = find_annotation(shape, NAME)
@@ -60,8 +60,8 @@ def _unnamed(shape: Shape, made: frozenset[str], usual: str) -> Shape:
     return shape.copy(name=found.text or "") if found.get("instead_of") == shape.name else shape
 
 
-def _as_written(inertial: Inertial) -> Inertial:
-    """The inertial without a mass or moments of nothing that URDF left out."""
+def _restore_inertial(inertial: Inertial) -> Inertial:
+    """The inertial without the masses and moments that an annotation says URDF left out."""
     found = find_annotation(inertial, UNSAID)
     if found is None:
         return inertial
@@ -86,5 +86,5 @@ def _moments(inertial: Inertial) -> list[float | None]:
 
 
 def _is_nothing(inertial: Inertial) -> bool:
-    """Whether it has mass and inertia of nothing, and no more."""
+    """Whether an inertial has zero mass, zero inertia and nothing else."""
     return not inertial.mass and not any(_moments(inertial)) and inertial.pose is None and not inertial.opaque

@@ -31,14 +31,14 @@ class SelectModel(Pass):
         chosen = _choose(list(candidates(document)), self.model, document.location, sink)
         if chosen is None or document.format is Format.URDF:
             return document  # which is that model, and nothing else
-        alone = _alone(document, chosen, sink)
-        for part in _outside(document, chosen):
+        alone = _keep_only(document, chosen, sink)
+        for part in _parts_outside(document, chosen):
             part.drop(sink)
         return alone
 
 
 class Selector:
-    """Takes each model out of one file without counting the others every time, which `SelectModel` does."""
+    """Selects many models of one file without listing all models each time, as `SelectModel` does."""
 
     def __init__(self, document: Document) -> None:
         self.document = document
@@ -49,7 +49,7 @@ class Selector:
                 self._by_name[name].append(one)
 
     def select(self, name: str | None, sink: DiagnosticSink) -> Document:
-        """The document with the model of this name, or with the only one; the ledger has nothing of the others."""
+        """The document with one model; the ledger does not list the others."""
         # A world with thousands of models is taken apart model by model; looking each up among all
         # others takes quadratic time.
         called = self._by_name.get(name, [])
@@ -57,12 +57,12 @@ class Selector:
         chosen = _choose(among, name, self.document.location, sink)
         if chosen is None or self.document.format is Format.URDF:
             return self.document
-        return _alone(self.document, chosen, sink)
+        return _keep_only(self.document, chosen, sink)
 
 
-def _alone(document: Document, chosen: "_Chosen", sink: DiagnosticSink) -> Document:
-    """The document with this model, at its place in the world, and nothing else."""
-    model = chosen.model if chosen.world is None else _place(chosen.model, chosen.world, sink)
+def _keep_only(document: Document, chosen: "_Chosen", sink: DiagnosticSink) -> Document:
+    """The document with nothing but the chosen model, at its place in the world."""
+    model = chosen.model if chosen.world is None else _place_in_world(chosen.model, chosen.world, sink)
     return document.copy(models=(model,), worlds=(), lights=(), includes=(), opaque=())
 
 
@@ -86,7 +86,7 @@ class _CarriedPart:
 def _choose(among: list[ModelCandidate], name: str | None, where: Location, sink: DiagnosticSink) -> _Chosen | None:
     found = [one for one in among if one.answers_to(name)]
     if len(found) != 1:
-        _say_which(among, name, len(found), where, sink)
+        _report_choice(among, name, len(found), where, sink)
         return None
     model, world = found[0].model, found[0].world
     if isinstance(model, Include):
@@ -96,7 +96,7 @@ def _choose(among: list[ModelCandidate], name: str | None, where: Location, sink
     return _Chosen(model, world)
 
 
-def _say_which(
+def _report_choice(
     among: list[ModelCandidate], name: str | None, count: int, where: Location, sink: DiagnosticSink
 ) -> None:
     names, advice = ", ".join(one.full_name for one in among) or "none", None
@@ -105,18 +105,18 @@ def _say_which(
     elif name is None:
         message = f"there are {count} models, and a URDF file holds one robot; choose one of {names}"
         # The one with the most joints is probably the robot, and the others furniture.
-        advice = f"--model '{max(among, key=_joints).full_name}' takes that one"
+        advice = f"--model '{max(among, key=_count_joints).full_name}' takes that one"
     else:
         message = f"{count or 'no'} models are called {name!r}; there are {names}"
     related = tuple(one.model.location for one in among[:5])
     sink.report(rules.MODEL_NOT_CHOSEN, message, where, found=name, expected=names, help=advice, related=related)
 
 
-def _joints(one: ModelCandidate) -> int:
+def _count_joints(one: ModelCandidate) -> int:
     return len(one.model.joints) if isinstance(one.model, Model) else 0
 
 
-def _place(model: Model, world: World, sink: DiagnosticSink) -> Model:
+def _place_in_world(model: Model, world: World, sink: DiagnosticSink) -> Model:
     """The model with its pose in the world."""
     pose = model.pose
     if pose is None or not pose.relative_to:
@@ -131,7 +131,7 @@ def _place(model: Model, world: World, sink: DiagnosticSink) -> Model:
     return model.copy(pose=placed.to_pose())
 
 
-def _outside(document: Document, chosen: _Chosen) -> Iterator[_CarriedPart]:
+def _parts_outside(document: Document, chosen: _Chosen) -> Iterator[_CarriedPart]:
     yield from _opaque_parts(document)
     for field in ("models", "lights", "includes"):
         yield from _node_parts(getattr(document, field), field, chosen.model)
@@ -156,9 +156,9 @@ def _node_parts(nodes: tuple[Node, ...], field: str, chosen: Model) -> Iterator[
 
 def _opaque_parts(node: Node) -> Iterator[_CarriedPart]:
     for part in node.opaque:
-        yield _CarriedPart(_called(part), part.location_in(node), part.weight)
+        yield _CarriedPart(_describe(part), part.location_in(node), part.weight)
 
 
-def _called(part: Opaque) -> str:
+def _describe(part: Opaque) -> str:
     name = part.element.get("name") if part.element else None
     return f"{part.name} {name!r}" if name else part.name

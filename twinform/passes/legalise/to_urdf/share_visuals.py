@@ -35,7 +35,7 @@ class ShareVisuals(ToUrdfPass):
         links: list[Link] = []
         extensions = list(model.extensions)
         for link in model.links:
-            kept, content = _shared(link, self.urdf_version)
+            kept, content = _share_parts(link, self.urdf_version)
             links.append(kept)
             if content:
                 blob = Element.unchecked(name="visual", children=tuple(content))
@@ -43,8 +43,8 @@ class ShareVisuals(ToUrdfPass):
         return replace_fields(model, links=tuple(links), extensions=tuple(extensions))
 
 
-def _shared(link: Link, version: UrdfVersion) -> tuple[Link, list[Element]]:
-    """The link without what its visuals have alike, and that."""
+def _share_parts(link: Link, version: UrdfVersion) -> tuple[Link, list[Element]]:
+    """The link without the parts that all of its visuals share, and these parts."""
     look = look_of(link)
     link = without_annotation(link, LOOK)
     if not link.visuals:
@@ -63,19 +63,19 @@ def _shared(link: Link, version: UrdfVersion) -> tuple[Link, list[Element]]:
 
 
 def _shared_look(visuals: tuple[Visual, ...], look: tuple[str, ...]) -> Material | None:
-    """What the materials of all visuals have in common in these fields, which are of SDF."""
+    """The material that all visuals share in the fields of `look`; None where they differ."""
     if not look:
         return None
-    materials = [_only(visual.material, look) for visual in visuals]
+    materials = [_with_only(visual.material, look) for visual in visuals]
     return materials[0] if materials[0] != Material() and all(one == materials[0] for one in materials[1:]) else None
 
 
-def _only(material: Material | None, look: tuple[str, ...]) -> Material:
+def _with_only(material: Material | None, look: tuple[str, ...]) -> Material:
     return Material.model_validate({name: value for name, value in _written_fields(material) if name in look})
 
 
 def _without_look(visual: Visual, look: tuple[str, ...]) -> Visual:
-    """The visual without these fields; of its two colors, one stands for both again, as in URDF."""
+    """The visual without the fields of `look`; one color then counts for both, as in URDF."""
     rest = {name: value for name, value in _written_fields(visual.material) if name not in look}
     color = rest.get("diffuse") or rest.get("ambient")
     rest |= {name: color for name in _COLORS if color is not None and name in look}
@@ -84,15 +84,15 @@ def _without_look(visual: Visual, look: tuple[str, ...]) -> Visual:
 
 
 def _written_fields(material: Material | None) -> Iterator[tuple[str, object]]:
-    """The fields of SDF that a material has, and their values."""
+    """The names and values of the fields that are set in a material."""
     for name, value in field_values(material).items() if material else ():
         if value not in (None, ()):
             yield name, value
 
 
 def _parts_beside_material(visual: Visual, version: UrdfVersion) -> tuple[Element, ...]:
-    """What only SDF has, besides materials."""
-    if fits(visual, _fields(version)):
+    """The elements of a visual that URDF lacks, besides the material."""
+    if fits(visual, _fields_of_visual(version)):
         return ()
     bare = visual.copy(material=None, pose=None, geometry=None)
     _, pieces, _ = take_remainder(bare, "visual", urdf_fields(version, "link", "visual"))
@@ -103,13 +103,13 @@ def _parts_beside_material(visual: Visual, version: UrdfVersion) -> tuple[Elemen
 
 
 @cache
-def _fields(version: UrdfVersion) -> KnownFields:
-    """The fields of a visual, those among them whose content is not looked at."""
+def _fields_of_visual(version: UrdfVersion) -> KnownFields:
+    """The fields of a visual in URDF; the content of material, pose and geometry counts as known."""
     return KnownFields({**urdf_fields(version, "link", "visual"), **dict.fromkeys(("material", "pose", "geometry"))})
 
 
 def _is_special(element: Element) -> bool:
-    """Whether Gazebo or we would take it for something else in an extension."""
+    """Whether an element in an extension would be read as something else."""
     return element.name.startswith("{") or element.name in LINK_TAGS or element.name in _OF_MATERIALS | _IN_FRAMES
 
 

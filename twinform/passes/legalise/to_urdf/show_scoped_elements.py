@@ -23,10 +23,10 @@ class ShowScopedElements(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with these elements where they were."""
-        return rewrite(model, Node, _shown, having=_HAVING)
+        return rewrite(model, Node, _show_hidden, having=_HAVING)
 
 
-def _shown(node: Node) -> Node:
+def _show_hidden(node: Node) -> Node:
     return replace_fields(node, opaque=tuple(each for part in node.opaque for each in _pieces(part)))
 
 

@@ -35,9 +35,9 @@ class UrdfKeeper(Keeper):
         weight: int | None = None,
         about: Attributes = (),
     ) -> AnyNode:
-        """The node with the pieces in carriers, and an entry in the ledger; the weight is the pieces' by default.
+        """The node with the pieces in carriers, and a ledger entry that by default has the weight of the pieces.
 
-        `about` are more attributes of the carriers.
+        `about` are further attributes of the carriers.
         """
         listed = tuple(pieces)
         if not listed:
@@ -55,13 +55,13 @@ class UrdfKeeper(Keeper):
         attributes: Mapping[str, str | None] | None = None,
         always: bool = False,
     ) -> AnyNode:
-        """The node with an annotation on how SDF wrote it; if it came from URDF, only with what is more (`always`)."""
+        """The node with an annotation on how SDF wrote it; in a model that came from URDF only with `always`."""
         return with_annotation(node, kind, text, attributes) if self.carriers and (always or not self.back) else node
 
     def frame_of(self, link: str, joint: Joint | None) -> tuple[str, Kind]:
-        """The frame of SDF that URDF has a link in: that of the joint which holds it, unless the link has none.
+        """The frame that a link gets in URDF: that of the joint which holds it, or its own without a joint.
 
-        In a model that came from URDF a fixed joint goes to its link: all readers have links, and nothing turns there.
+        In a model that came from URDF, a link on a fixed joint keeps its frame, and the joint moves there.
         """
         # <origin> is what everybody reads in URDF; where a fixed joint itself is means nothing to
         # them.
@@ -71,15 +71,15 @@ class UrdfKeeper(Keeper):
 
 
 class ToUrdfPass(Pass):
-    """A pass over the one model that becomes the robot. After an error there is nothing left to do.
+    """A pass over the model that becomes the robot, which does nothing where an error has been reported before.
 
-    `carriers` is whether parts that URDF cannot express travel in carriers or only into the ledger.
+    With `carriers`, what URDF cannot express travels in carriers; without, the ledger lists it as dropped.
     """
 
     carriers: bool = True
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document with its model passed through."""
+        """The document with its model after the pass."""
         if sink.has_errors:
             return document
         keeper = UrdfKeeper(sink, self.carriers, any(came_from(model, Format.URDF) for model in document.models))

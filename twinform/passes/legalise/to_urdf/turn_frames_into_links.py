@@ -34,7 +34,7 @@ class TurnFramesIntoLinks(ToUrdfPass):
         for frame in model.frames:
             joint = reserve_name(f"{frame.name}_joint", taken)
             body = graph.body(frame.name, kind="frame")
-            links.append(_link(frame, body, keeper))
+            links.append(_make_link(frame, body, keeper))
             # a synthesized one stands for a nested model, and PlaceFreeLinks writes that of a floating joint as a frame
             if not is_synthesized(frame) and frame.name not in floating:
                 message = f"frame {frame.name!r} becomes a link without mass"
@@ -44,7 +44,7 @@ class TurnFramesIntoLinks(ToUrdfPass):
         return model.copy(links=tuple(links), joints=tuple(joints), frames=())
 
 
-def _link(frame: Frame, body: str, keeper: UrdfKeeper) -> Link:
+def _make_link(frame: Frame, body: str, keeper: UrdfKeeper) -> Link:
     pose = frame.pose or Pose()
     if not pose.relative_to:
         pose = pose.copy(relative_to=frame.attached_to or MODEL)

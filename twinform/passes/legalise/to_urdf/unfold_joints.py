@@ -29,25 +29,25 @@ _Z = Axis.unchecked(xyz=AXIS[Format.SDF])
 
 
 class ChainStep(NamedTuple):
-    """One joint of a chain."""
+    """The type and axis of one joint of a chain."""
 
     type: JointType
     axis: Axis
 
 
-def two_axes(joint: Joint) -> tuple[ChainStep, ...]:
-    """A universal or revolute2 joint: it turns about `axis`, which the parent holds, then about `axis2` of the child.
+def _two_axes(joint: Joint) -> tuple[ChainStep, ...]:
+    """The steps of a universal or revolute2 joint: a turn about `axis`, fixed in the parent, then about `axis2`.
 
-    A turn about an axis leaves the axis where it is, so `axis2` has one direction in the link between and in the child.
+    `axis2` has the same direction in the link between and in the child, since a turn leaves its own axis in place.
     """
     return (ChainStep("revolute", joint.axis or _Z), ChainStep("revolute", joint.axis2 or _Z))
 
 
-def ball(joint: Joint) -> tuple[ChainStep, ...]:
-    """A ball joint as turns about z, y and x: together Rz Ry Rx, the orientation that URDF writes as yaw, pitch, roll.
+def _ball(joint: Joint) -> tuple[ChainStep, ...]:
+    """The steps of a ball joint: turns about z, y and x, together Rz Ry Rx as in URDF's yaw, pitch and roll.
 
-    Damping acts on the angular velocity of a ball joint, and here on the three rates, which are its parts while the
-    angles are small.
+    Damping acts on the angular velocity of a ball joint, and here on the three rates, which are its components for
+    small angles.
     """
     written = joint.axis.dynamics if joint.axis else None
     damped = None
@@ -56,8 +56,8 @@ def ball(joint: Joint) -> tuple[ChainStep, ...]:
     return tuple(ChainStep("revolute", Axis(xyz=xyz, dynamics=damped)) for xyz in BALL_AXES)
 
 
-def screw(joint: Joint) -> tuple[ChainStep, ...]:
-    """A screw joint: it slides along its axis by `metres_per_radian` times the angle that it turns about it."""
+def _screw(joint: Joint) -> tuple[ChainStep, ...]:
+    """The steps of a screw joint: a slide along the axis that mimics the turn by `metres_per_radian`."""
     # SDF does not say whether the limits of a screw joint are angles or lengths. Drake and DART count
     # the angle, so the turning joint leads and has the limits in rad; the sliding one has them times
     # the pitch.
@@ -68,7 +68,7 @@ def screw(joint: Joint) -> tuple[ChainStep, ...]:
 
 
 def _slide_limit(limit: Limit | None, ratio: float) -> Limit:
-    """Limits that the turn keeps already: its own, times the ratio."""
+    """The limits of the slide: those of the turn times the ratio."""
     values = limit or Limit()
     ends = sorted((_scaled(values.lower, -UNLIMITED, ratio), _scaled(values.upper, UNLIMITED, ratio)))
     speed = values.velocity if values.velocity is not None and values.velocity >= 0 else UNLIMITED
@@ -81,7 +81,7 @@ def _scaled(value: float | None, unbounded: float, ratio: float) -> float:
     return value * ratio + 0.0
 
 
-_STEPS = {"universal": two_axes, "revolute2": two_axes, "ball": ball, "screw": screw}
+_STEPS = {"universal": _two_axes, "revolute2": _two_axes, "ball": _ball, "screw": _screw}
 _WORDS = {
     "universal": "two turning joints",
     "revolute2": "two turning joints",
@@ -114,7 +114,7 @@ class UnfoldJoints(ToUrdfPass):
         joints: list[Joint] = []
         for joint in model.joints:
             if joint.type not in CHAINS or _was_in_urdf(joint) or _lacks_pitch(joint, keeper):
-                joints.append(_as_in_urdf(joint))
+                joints.append(_restore_dialect_type(joint))
                 continue
             between, chain = _unfold(joint, taken, keeper)
             links[joint.child] = between
@@ -122,14 +122,14 @@ class UnfoldJoints(ToUrdfPass):
             if joint.type in TWO_AXES:
                 first[joint.name] = chain[0].name
         every = tuple(one for link in model.links for one in (*links.get(link.name, ()), link))
-        joints = [_follow(joint, first) for joint in joints] if first else joints
+        joints = [_follow_chain(joint, first) for joint in joints] if first else joints
         return model.copy(links=every, joints=tuple(joints))
 
 
 def _unfold(joint: Joint, taken: set[str], keeper: UrdfKeeper) -> tuple[tuple[Link, ...], list[Joint]]:
-    """The links between and the joints of the chain, from the parent's side."""
+    """The links and joints of a chain, in order from the parent."""
     *above, last = _STEPS[joint.type](joint)
-    kept = _account(joint, keeper)
+    kept = _account_for(joint, keeper)
     parts_of_first, opaque = split_axes(kept.opaque) if joint.type in TWO_AXES else ((), kept.opaque)
     # z, y and x of a ball's frame is the order of URDF's yaw, pitch and roll.
     links: list[Link] = []
@@ -139,18 +139,18 @@ def _unfold(joint: Joint, taken: set[str], keeper: UrdfKeeper) -> tuple[tuple[Li
         name = reserve_name(f"{joint.name}_{word}", taken)
         link = reserve_name(f"{name}_link", taken)
         made = Joint(name=name, type=step.type, parent=parent, child=link, axis=step.axis, source=joint.source)
-        joints.append(_part(made.copy(opaque=parts_of_first), joint, keeper))
-        links.append(_between(link, joint, keeper))
+        joints.append(_annotate_part(made.copy(opaque=parts_of_first), joint, keeper))
+        links.append(_make_link_between(link, joint, keeper))
         parent, parts_of_first = link, ()
     return tuple(links), [*joints, _make_last_joint(kept, parent, last, opaque, keeper)]
 
 
-def _part(made: Joint, joint: Joint, keeper: UrdfKeeper) -> Joint:
+def _annotate_part(made: Joint, joint: Joint, keeper: UrdfKeeper) -> Joint:
     return with_annotation(made, PART, attributes={"joint": joint.name}) if keeper.carriers else made
 
 
-def _between(name: str, joint: Joint, keeper: UrdfKeeper) -> Link:
-    """A link where the joint is, with a token of mass that Gazebo's reader of URDF and MuJoCo see."""
+def _make_link_between(name: str, joint: Joint, keeper: UrdfKeeper) -> Link:
+    """A link of the chain, with a token mass that is large enough for libsdformat and MuJoCo."""
     link = Link(name=name, pose=Pose(relative_to=joint.name), inertial=CHAIN_TOKEN, source=joint.source)
     return with_annotation(link, PART, attributes={"joint": joint.name}) if keeper.carriers else link
 
@@ -158,7 +158,7 @@ def _between(name: str, joint: Joint, keeper: UrdfKeeper) -> Link:
 def _make_last_joint(
     joint: Joint, parent: str | None, step: ChainStep, opaque: tuple[Opaque, ...], keeper: UrdfKeeper
 ) -> Joint:
-    """The joint that keeps the name, the child and the place."""
+    """The last joint of a chain, which keeps name, child and place of the original."""
     update: dict[str, object] = {"type": step.type, "parent": parent, "axis": step.axis, "opaque": opaque}
     said = PITCHES if joint.type == "screw" else ("axis2",)  # the second axis of a screw is one that nobody reads
     # The last joint keeps the name: a joint's frame moves with its child in SDF, and so does that
@@ -169,8 +169,8 @@ def _make_last_joint(
     return with_annotation(last, CHAIN, attributes={"type": joint.type}) if keeper.carriers else last
 
 
-def _account(joint: Joint, keeper: UrdfKeeper) -> Joint:
-    """Report what becomes of the joint; it carries what its chain cannot express."""
+def _account_for(joint: Joint, keeper: UrdfKeeper) -> Joint:
+    """Report that a joint becomes a chain; returns the joint with what the chain cannot express in carriers."""
     between = len(CHAINS[joint.type])
     message = (
         f"{joint.type} joint {joint.name!r} becomes {_WORDS[joint.type]} in URDF and links of {CHAIN_MASS:g} kg between"
@@ -192,7 +192,7 @@ def _account(joint: Joint, keeper: UrdfKeeper) -> Joint:
 
 
 def _keep_axis(joint: Joint, keeper: UrdfKeeper) -> Joint:
-    """A ball joint turns about any axis; what its own is good for is the damping."""
+    """The ball joint with its axes in carriers; of these only the damping has an effect."""
     for field in ("axis", "axis2"):
         axis: Axis | None = getattr(joint, field)
         if axis is not None:
@@ -203,8 +203,8 @@ def _keep_axis(joint: Joint, keeper: UrdfKeeper) -> Joint:
     return joint
 
 
-def _follow(joint: Joint, first: dict[str, str]) -> Joint:
-    """The joint with its mimic of one axis of a joint with two, now of the first or last joint of the chain."""
+def _follow_chain(joint: Joint, first: dict[str, str]) -> Joint:
+    """The joint with a mimic of an axis of a two-axis joint turned into a mimic of a joint of the chain."""
     axis = joint.axis
     mimic = axis.mimic if axis else None
     if axis is None or mimic is None or mimic.joint not in first:
@@ -226,8 +226,8 @@ def _was_in_urdf(joint: Joint) -> bool:
     return any(_type_in_urdf(part) for part in joint.opaque)
 
 
-def _as_in_urdf(joint: Joint) -> Joint:
-    """The joint with the type that a dialect of URDF gave it, if it came from one."""
+def _restore_dialect_type(joint: Joint) -> Joint:
+    """A ball joint with the type that a dialect of URDF gave it, such as `spherical`."""
     found = next((kind for part in joint.opaque if (kind := _type_in_urdf(part))), None)
     if found is None or joint.type != "ball":
         return joint

@@ -31,18 +31,18 @@ class UnpackUrdf(ModelPass):
         """The model without carriers of what URDF can express."""
         if sink.has_errors:
             return model
-        change = partial(_unpack, Standing(model), sink)
+        change = partial(_unpack_node, Standing(model), sink)
         model = map_children(model, lambda child: rewrite(child, Node, change, having=bits_of_ours("urdf")))
-        model = _unpacked(_with_world(model), partial(misfit, node=model, standing=Standing(model)), sink)
+        model = _unpack_parts(_restore_world(model), partial(misfit, node=model, standing=Standing(model)), sink)
         return _restore_overruled(model, sink)
 
 
-def _unpack(standing: Standing, sink: DiagnosticSink, node: Node) -> Node:
-    return _unpacked(node, lambda piece: misfit(piece, node, standing), sink)
+def _unpack_node(standing: Standing, sink: DiagnosticSink, node: Node) -> Node:
+    return _unpack_parts(node, lambda piece: misfit(piece, node, standing), sink)
 
 
-def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], sink: DiagnosticSink) -> AnyNode:
-    """The node with its opaque parts, those of URDF out of their carriers; `misfit`: why one cannot come out."""
+def _unpack_parts(node: AnyNode, misfit: Callable[[Opaque], str], sink: DiagnosticSink) -> AnyNode:
+    """The node with carriers of URDF unpacked, except for pieces that `misfit` gives a reason against."""
     if not any(map(_is_plain, node.opaque)):
         return node
     opaque: list[Opaque] = []
@@ -50,7 +50,7 @@ def _unpacked(node: AnyNode, misfit: Callable[[Opaque], str], sink: DiagnosticSi
         for piece in unpack(part) if _is_plain(part) else (part,):
             why = misfit(piece) if piece is not part and not is_dangling(part) else ""
             if why:
-                message = f"{piece.name} of {_called(node)} is not restored: {why}"
+                message = f"{piece.name} of {_describe(node)} is not restored: {why}"
                 sink.report(STALE_CARRIER, message, part.location_in(node), found=piece.name)
             else:
                 opaque.append(piece)
@@ -62,29 +62,29 @@ def _is_plain(part: Opaque) -> bool:
 
 
 def _restore_overruled(model: Model, sink: DiagnosticSink) -> Model:
-    """The model with tags of extensions in front of those that overrule them, if these are still there."""
+    """The model with overridden tags back in front of the tags that override them."""
     carriers = [part for part in model.opaque if is_carrier(part, "urdf") and is_overruled(part)]
     if not carriers:
         return model
     model = model.copy(opaque=tuple(part for part in model.opaque if part not in carriers))
     for part in carriers:
         for piece in unpack(part):
-            more = with_overruled(model, piece.element) if piece.element else None
+            more = _insert_overruled(model, piece.element) if piece.element else None
             if more is None:
-                message = f"{piece.name} of {_called(model)} is not restored: what overruled it is gone"
+                message = f"{piece.name} of {_describe(model)} is not restored: what overruled it is gone"
                 sink.report(STALE_CARRIER, message, part.location_in(model), found=piece.name)
             else:
                 model = more
     return model
 
 
-def _called(node: Node) -> str:
+def _describe(node: Node) -> str:
     name = getattr(node, "name", None)
     return f"{type(node).__name__.lower()} {name!r}" if name else f"an {type(node).__name__.lower()}"
 
 
-def _with_world(model: Model) -> Model:
-    """The model whose link `world`, if it has one, has the body that was carried."""
+def _restore_world(model: Model) -> Model:
+    """The model with the carried body of its link `world` back."""
     index = next((i for i, link in enumerate(model.links) if link.name == WORLD), None)
     bodies = {
         part: piece
@@ -107,24 +107,26 @@ def _with_world(model: Model) -> Model:
 
 _TAGS = MODEL_TAGS | JOINT_TAGS | LINK_TAGS
 _ELEMENTS = {"surface": "collision", "collision": "collision", "physics": "physics", "dynamics": "axis"}
-"""The SDF that does in an extension what tags of these targets do, and that counts after them."""
+"""The SDF element in an extension that overrides a tag, by the target of the tag."""
 
 
-def with_overruled(model: Model, extension: Element) -> Model | None:
-    """The model with the content of a `<gazebo>` back; None where nothing overrules it any more."""
+def _insert_overruled(model: Model, extension: Element) -> Model | None:
+    """The model with overridden content of a `<gazebo>` back; None where nothing overrides it any more."""
     reference = extension.get("reference")
     for element in extension.children:
-        if (found := _with_tag(model.extensions, reference, element)) is not None:
+        if (found := _insert_tag(model.extensions, reference, element)) is not None:
             model = model.copy(extensions=found)
-        elif (parts := _before_carried(model.opaque, extension, element)) is not None:
+        elif (parts := _insert_before_carried(model.opaque, extension, element)) is not None:
             model = model.copy(opaque=parts)
         else:
             return None
     return model
 
 
-def _before_carried(parts: tuple[Opaque, ...], extension: Element, element: Element) -> tuple[Opaque, ...] | None:
-    """The parts of a model, with a tag before the `<gazebo>` that overrules it and that traveled itself."""
+def _insert_before_carried(
+    parts: tuple[Opaque, ...], extension: Element, element: Element
+) -> tuple[Opaque, ...] | None:
+    """The opaque parts of a model with a tag before the carried `<gazebo>` that overrides it; None without one."""
     tag, place = _TAGS.get(element.name), (extension.name, extension.attributes)
     for index, part in enumerate(parts):
         if tag is None or part.element is None or (part.element.name, part.element.attributes) != place:
@@ -135,7 +137,7 @@ def _before_carried(parts: tuple[Opaque, ...], extension: Element, element: Elem
     return None
 
 
-def _with_tag(
+def _insert_tag(
     extensions: tuple[GazeboExtension, ...], reference: str | None, element: Element
 ) -> tuple[GazeboExtension, ...] | None:
     tag = _TAGS.get(element.name)
@@ -150,7 +152,7 @@ def _with_tag(
 
 
 def _overrules(other: Element, tag: Tag) -> bool:
-    """Whether another element of an extension sets the same field, and after the tag where it stands behind it."""
+    """Whether another element of an extension sets the field of a tag."""
     same = _TAGS.get(other.name)
     if same is not None and not other.children:
         return (same.target, same.field) == (tag.target, tag.field)
