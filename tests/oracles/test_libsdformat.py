@@ -10,6 +10,9 @@ import twinform
 from testbed.corpus.files import CorpusFile, Kind
 from testbed.corpus.there_and_back import SDF_VERSION
 from tests.corpus.portions import chunks
+from twinform.compiler.advising import assess_file
+from twinform.compiler.input.load_options import LoadOptions
+from twinform.profiles import parse
 from twinform.testing.oracles import libsdformat
 from twinform.testing.oracles.libsdformat import describe
 
@@ -143,3 +146,44 @@ def test_the_smallest_number_that_is_taken_in_sdf_is_taken_in_the_urdf_made_of_i
     refused.write_text(urdf.read_text().replace("2.3e-308", "2.2250738585072014e-308"), encoding="utf-8")
     verdicts = libsdformat.judge([sdf, urdf, refused])
     assert [verdicts[path].ok for path in (sdf, urdf, refused)] == [True, True, False]
+
+
+_TINY_PARTS = """\
+<sdf version="1.9">
+  <model name="m">
+    <link name="a">
+      <velocity_decay><linear>1e-310</linear></velocity_decay>
+      <collision name="c">
+        <geometry><sphere><radius>1</radius></sphere></geometry>
+        <surface><friction><ode><mu>1e-310</mu></ode></friction></surface></collision>
+      <visual name="v">
+        <geometry><sphere><radius>1</radius></sphere></geometry><transparency>1e-400</transparency></visual>
+      <sensor name="s" type="camera">
+        <camera><horizontal_fov>1</horizontal_fov><clip><near>1e-310</near></clip></camera></sensor>
+    </link>
+    <link name="b"/>
+    <joint name="j" type="revolute">
+      <parent>a</parent>
+      <child>b</child>
+      <axis><xyz>0 0 1</xyz></axis>
+      <physics><ode><limit><cfm>1e-310</cfm></limit></ode></physics>
+    </joint>
+  </model>
+</sdf>"""
+
+
+@pytest.mark.parametrize("text", [(CASES / "tiny_in_gazebo.urdf").read_text(), _TINY_PARTS], ids=["urdf", "sdf"])
+def test_tiny_numbers_without_a_field_are_taken_in_all_that_is_made_of_them(text: str, tmp_path: Path):
+    ways: tuple[Literal["sdf", "urdf"], ...] = ("urdf", "sdf") if "<sdf" in text else ("sdf", "urdf")
+    paths = [tmp_path / f"source.{ways[1]}", *(tmp_path / f"made.{to}" for to in ways)]
+    paths[0].write_text(text, encoding="utf-8")
+    for to, before, path in zip(ways, paths, paths[1:], strict=False):
+        path.write_text(twinform.convert(before, to=to, sdf_version=SDF_VERSION).text, encoding="utf-8")
+    verdicts = libsdformat.judge(paths)
+    assert [verdicts[path].ok for path in paths] == [False, True, True]
+    assert [_has_tiny_numbers(path) for path in paths] == [True, False, False]
+
+
+def _has_tiny_numbers(path: Path) -> bool:
+    (found,) = assess_file(path, parse("gazebo"), LoadOptions())
+    return "tiny-number" in {each.finding.rule.name for each in found.judgments}

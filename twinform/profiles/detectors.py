@@ -19,6 +19,7 @@ from twinform.diagnostics.rules import (
     RARE_JOINT_TYPE,
     RENAMED_COLLISION,
     THREADLESS_SCREW,
+    TINY_NUMBER,
     UNCERTAIN_INERTIA,
     UNTAGGED_SHAPE,
     UNUSABLE_AXIS,
@@ -31,7 +32,9 @@ from twinform.ir.verify.verify_bodies import inertia_matrix
 from twinform.passes import NO_ASSETS, AssetError, Assets
 from twinform.passes.appearance.drop_bare_scripts import is_bare
 from twinform.passes.inertia.physical_consistency import is_doubtful
+from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers, rounded_extension
 from twinform.passes.limits.order_limits import is_usable
+from twinform.passes.shared.gazebo_tags import NUMBER_TAGS
 from twinform.passes.shared.link_shapes import is_flat
 from twinform.passes.shared.moving_bodies import Body, moving_bodies
 from twinform.passes.structure.tag_shapes import wrongly_tagged
@@ -169,6 +172,22 @@ def find_lost_tags(subject: ProfiledFile, sink: DiagnosticSink) -> None:
             find_early_static(model, sink)
 
 
+def find_tiny_numbers(subject: ProfiledFile, sink: DiagnosticSink) -> None:
+    """Report numbers too small for libsdformat: in SDF, and in what it takes over into its SDF from `<gazebo>`.
+
+    Of tags such as `<mu1>`, on which it ends, the facts about its reading of URDF say so.
+    """
+    document, found = subject.document, DiagnosticSink()
+    if document is not None and document.format is Format.SDF:
+        RoundTinyNumbers.unchecked(to=Format.SDF).run(document, found)
+    elif document is not None:
+        for extension in (each for model in document.models for each in model.extensions):
+            content = tuple(each for each in extension.content if each.name not in NUMBER_TAGS)
+            rounded_extension(extension.copy(content=content), found)
+    for entry in found.entries:
+        sink.report(TINY_NUMBER, entry.message.partition(":")[0], entry.location, help="write 0")
+
+
 def _find_untagged_shapes(model: Model, field: str, sink: DiagnosticSink) -> None:
     for seen, found, name in wrongly_tagged(model, field):
         shape = f"{KINDS[field]} {seen.shape.name!r}" if seen.shape.name else f"a {KINDS[field]} without a name"
@@ -238,6 +257,7 @@ class Detector(NamedTuple):
 DETECTORS = (
     Detector(find_mesh_formats, (COLLADA_MESH,)),
     Detector(find_empty_attributes, (EMPTY_ATTRIBUTE,)),
+    Detector(find_tiny_numbers, (TINY_NUMBER,)),
     Detector(find_lost_tags, (EARLY_STATIC, RENAMED_COLLISION, UNTAGGED_SHAPE)),
     Detector(
         find_engine_faults,

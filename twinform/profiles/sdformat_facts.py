@@ -19,6 +19,8 @@ _WORDS = frozenset(
 _READ = _NUMBERS | _WHOLE | _WORDS | _LUMPING | {"turnGravityOff"}
 _NUMBER = re.compile(r"\s*[-+]?(?:0[xX](?:[0-9a-fA-F]|\.[0-9a-fA-F])|\d|\.\d|inf|nan)", re.ASCII | re.IGNORECASE)
 """The beginning of a number."""
+# std::stod throws below the smallest normal double, and of that Values2str writes too few digits for Param.cc.
+_LEAST = 2.3e-308
 _INTEGER = re.compile(r"\s*[-+]?\d{1,9}", re.ASCII)
 _DECIMAL = re.compile(r"\s*[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
 
@@ -88,7 +90,9 @@ def _begins_with_number(text: str) -> bool:
     if plain is None or "x" in text[:3].lower():
         return True
     number = float(plain[0])
-    return abs(number) != float("inf") and (number != 0 or not re.search(r"[1-9]", plain[0].lower().split("e")[0]))
+    if number == 0:
+        return not re.search(r"[1-9]", plain[0].lower().split("e")[0])
+    return _LEAST <= abs(number) != float("inf")
 
 
 def _reserved_names(root: RawNode) -> Fact:

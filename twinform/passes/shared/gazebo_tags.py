@@ -90,6 +90,8 @@ JOINT_TAGS = {
     "disableFixedJointLumping": Tag("ignored", "", str),
 }
 """The tags of joints. Fixed joints are never lumped here, so the two tags that prevent it are ignored."""
+NUMBER_TAGS = frozenset(name for name, tag in (LINK_TAGS | JOINT_TAGS).items() if tag.read in {_number, _vector})
+"""The tags whose values are numbers or vectors."""
 MODEL_TAGS = {"static": Tag("model", "static", _truth)}
 TRUTHS = frozenset({_truth, _gravity})
 """The functions that read a value as true or false."""
