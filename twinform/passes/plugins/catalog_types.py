@@ -8,8 +8,9 @@
 
 A block begins with `system` (of gz-sim) or `plugin` (of Gazebo Classic) and the name; a row is the name of a parameter,
 its count, its type, and options: `default=`, `unit=` (`rad|m` where it is for what turns and for what slides),
-`enum=a|b`, `since=`, `until=` and `except=` releases, `needed=` releases `a|b` that do not work without, `any` for
-content that is not known (in the first line: for more parameters). Rows that are indented further stand inside. `>`
+`enum=a|b`, `since=`, `until=` and `except=` releases, `needed=` releases `a|b` that do not work without, `beside=`
+the flag with which it has to be written, `any` for content that is not known (in the first line: for more parameters).
+Rows that are indented further stand inside. `>`
 and `<` are topics that the plugin reads and writes: the parameter that sets it or `-`, the message, the default;
 `alt=PARAMETER[+PARAMETER]:TOPIC[:MESSAGE]` where these are written, `unless=` and `when=` with such
 `PARAMETER[+PARAMETER]`, separated by `|`, `each=PATH/OF/PARAMETER` for one topic a value, the spelling (`or-default`,
@@ -60,8 +61,8 @@ class PluginParameter:
     """An element or attribute that a plugin reads. Names such as `[xyz][UVW]` stand for all names that match them.
 
     `free` means that any content is allowed. `releases` are those whose plugin reads it, `needed` those that do not
-    work without it if only some do not. `unit` is the unit of its numbers, or two units if it is for revolute and for
-    prismatic joints.
+    work without it if only some do not. `beside` is the flag with which it has to be written. `unit` is the unit of its
+    numbers, or two units if it is for revolute and for prismatic joints.
     """
 
     name: str
@@ -75,6 +76,7 @@ class PluginParameter:
     children: tuple["PluginParameter", ...]
     unit: str | None = None
     needed: frozenset[str] = frozenset()
+    beside: str | None = None
 
     @property
     def is_required(self) -> bool:
@@ -288,6 +290,7 @@ def _read_parameter(
         children=_read_parameters(inside, depth, own, releases),
         unit=options.get("unit"),
         needed=own & frozenset(options.get("needed", "").split("|")),
+        beside=options.get("beside"),
     )
 
 

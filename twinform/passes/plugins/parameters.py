@@ -9,6 +9,7 @@ from twinform.ir import Element, Model, Plugin
 from twinform.ir.scopes import scoped_models
 from twinform.passes.plugins.catalog import suggestion
 from twinform.passes.plugins.catalog_types import PluginKind, PluginParameter
+from twinform.passes.shared.gazebo_tags import TRUE
 from twinform.schemas import parse_value
 
 # Characters that gz-transport accepts in no topic.
@@ -77,10 +78,10 @@ def _check_elements(
             message = f"<{element.name}> occurs twice; {_short_name(context.kind)} reads the first"
             context.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, at, found=element.name)
         _check_element(element, row, context, at)
-    present = {*counts}
+    present, on = {*counts}, {each.name for each in elements if (each.text or "").strip().lower() in TRUE}
     for row in rows:
         if (
-            row.is_required_in(context.release)
+            (row.is_required_in(context.release) or row.beside in on)
             and not row.is_attribute
             and not any(row.matches(name) for name in present)
         ):

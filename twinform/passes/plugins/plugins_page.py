@@ -112,6 +112,8 @@ def _option_row(option: str, path: tuple[str, ...], row: PluginParameter, kind: 
 def _describe_needed(row: PluginParameter) -> str:
     """The releases that do not work without a parameter."""
     listed = ", ".join(each for each in releases() if each in row.needed)
+    if row.beside is not None:
+        return f"needed with `{row.beside}`"
     return f"needed in {listed}" if listed else ""
 
 

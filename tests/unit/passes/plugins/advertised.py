@@ -355,10 +355,12 @@ def _(s: Sdf) -> Iterator[Row]:
 @system(
     "linear-battery",
     "battery_plugin/LinearBatteryPlugin.cc",
-    "battery_name:name! enable_recharge:bool charging_time:int! recharge_by_topic:bool",
+    "battery_name:name! enable_recharge:bool charging_time:int recharge_by_topic:bool",
 )
 def _(s: Sdf) -> Iterator[Row]:
     above = f"/model/{s.model}/battery/{s.get('battery_name')}"
+    if s.true("enable_recharge") and not s.has("charging_time"):
+        return
     yield "<", "BatteryState", valid(f"{above}/state")
     if s.true("enable_recharge") and s.has("recharge_by_topic"):
         yield ">", "Boolean", valid(f"{above}/recharge/start")
