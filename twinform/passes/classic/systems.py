@@ -1,6 +1,6 @@
 """Gazebo Classic plugins replaced by systems of gz-sim, with the parameters that their version for ROS 1 or 2 reads."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 
 from twinform.ir import Element, Plugin
 from twinform.passes.classic.moving import DroppedParameter, Moved, add_child, truth_of
@@ -12,6 +12,8 @@ from twinform.passes.plugins.sites import PluginSite
 
 _ON, _OFF = "{=/tf}", "=odom_transform"
 """The topics for transforms that are on and off in ROS: the bridge takes only the first for `/tf`."""
+_UNHEARD = "=odom_unheard"
+"""The topic for odometry that is off in ROS."""
 _UNREAD = "the plugin of Gazebo Classic does not read it either"
 _UNREAD_BY_ROS2 = "the plugin for ROS 2 does not read it either"
 # The element with the settings of a node, which only plugins for ROS 2 have.
@@ -37,6 +39,7 @@ def make_systems(
             moved.element = add_child(moved.element, each)
         content = [*moved.element.children]
         content += [Element(name=path, text=names.topic(pattern)) for path, pattern in row.topics.items()]
+        content = [_rename_if_off(each, row, read, names) for each in content]
         content += _transform_topic(row, read, names)
         # The tables hold places for the newest release; an older one may not read a parameter,
         # which is then reported instead of written in vain.
@@ -92,15 +95,27 @@ def _transform_topic(row: SystemRow, plugin: Plugin, names: RosNames) -> Iterato
     """The topic for the transforms of odometry; no system has an option to publish none."""
     if row.transforms is None:
         return
-    on = dict(row.transforms)
+    # Transforms that were off in Gazebo Classic go to a topic that the bridge does not take for
+    # /tf; otherwise the tree of ROS would get a second parent for the base.
+    yield Element(name="tf_topic", text="/" + names.topic(_ON if _is_on(row.transforms, plugin, names) else _OFF))
+
+
+def _rename_if_off(element: Element, row: SystemRow, plugin: Plugin, names: RosNames) -> Element:
+    """Give odometry that was off another topic; no system has an option to publish none."""
+    # Another program, such as a filter, may publish on the topic that the plugin left alone.
+    is_off = element.name == "odom_topic" and row.odometry is not None and not _is_on(row.odometry, plugin, names)
+    return element.copy(text=names.topic(_UNHEARD)) if is_off else element
+
+
+def _is_on(switches: Mapping[str, bool], plugin: Plugin, names: RosNames) -> bool:
+    """Whether all switches are on; each has the value that it has where it is not written."""
+    on = dict(switches)
     for parameter in plugin.content:
         truth = truth_of(parameter.text or "")
         if parameter.name in on and truth is not None:
             on[parameter.name] = truth
             names.used.add(parameter.name)
-    # Transforms that were off in Gazebo Classic go to a topic that the bridge does not take for
-    # /tf; otherwise the tree of ROS would get a second parent for the base.
-    yield Element(name="tf_topic", text="/" + names.topic(_ON if all(on.values()) else _OFF))
+    return all(on.values())
 
 
 def _split_by_release(kind: PluginKind, content: list[Element], release: str) -> tuple[list[Element], set[str]]:

@@ -89,7 +89,8 @@ class SystemRow(_TableRow):
     `sets` is what is written where no parameter sets it: mostly what went without saying in the plugin and does not in
     the system. `$model` is the name of the model. What is `measured` are the sizes that the plugin took from the model.
     `transforms` are the parameters that switch the transforms of the odometry on, each with what it is where it is not
-    written; they go to `/tf` where all are true, and elsewhere otherwise. Without it there is nothing to switch.
+    written; they go to `/tf` where all are true, and elsewhere otherwise. `odometry` are those that switch the odometry
+    itself on. Without either there is nothing to switch.
     """
 
     system: str
@@ -97,6 +98,7 @@ class SystemRow(_TableRow):
     scope: str | None = None
     measured: bool = False
     sets: Mapping[str, str] = Field(default_factory=dict[str, str])
+    odometry: Mapping[str, bool] | None = None
     transforms: Mapping[str, bool] | None = None
     moves: Moves = Field(default_factory=dict[str, Move])
     topics: Mapping[str, str] = Field(default_factory=dict[str, str])
@@ -161,7 +163,7 @@ class Migration(_TableRow):
             more = (*self.sensor.topics_of.values(), *self.sensor.topics_where.values())
             patterns += [pattern for topics in (self.sensor.topics, *more) for pattern in topics.values()]
         named = {name for pattern in patterns for name in parameters_in(pattern)}
-        switches = {name for row in self.systems for name in row.transforms or ()}
+        switches = {name for row in self.systems for name in {**(row.odometry or {}), **(row.transforms or {})}}
         makers = set(self.make.of if self.make else ())
         return frozenset({name for table in tables for name in table} | named | switches | makers)
 
