@@ -1,7 +1,7 @@
 """The expander of xacro by itself: what it asks the compiler, and what it answers."""
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -48,10 +48,15 @@ class Compiler:
 Expand = Callable[..., dict[str, Any]]
 
 
+def _loaded() -> list[str]:
+    """The modules of xacro that were imported."""
+    return [name for name in sys.modules if name.split(".")[0] == "xacro"]
+
+
 @pytest.fixture
-def expand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Expand:
+def expand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Expand]:
     """Expand a body in a fresh xacro, in this process, which is confined to nothing."""
-    for name in [name for name in sys.modules if name.split(".")[0] == "xacro"]:
+    for name in _loaded():
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setattr(sys, "stdout", sys.stdout)
     monkeypatch.setattr(sys, "stderr", sys.stderr)
@@ -61,7 +66,9 @@ def expand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Expand:
         path.write_text(f"{_HEAD}\n{body}\n</robot>", encoding="utf-8")
         return run(Compiler(path, arguments, known or {}), confine=list)
 
-    return expand
+    yield expand
+    for name in _loaded():  # it is not the xacro that other tests look at
+        del sys.modules[name]
 
 
 def _places(outcome: dict[str, Any]) -> list[tuple[str, int]]:
