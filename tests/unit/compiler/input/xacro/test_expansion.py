@@ -140,7 +140,7 @@ def test_printing_and_reading_do_not_disturb_the_conversation(tmp_path: Path) ->
 
 
 def test_an_expansion_without_an_end_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(importlib.import_module("twinform.compiler.input.xacro.conversation"), "_SECONDS", 0.5)
+    monkeypatch.setattr(importlib.import_module("twinform.compiler.input.xacro.expansion"), "_SECONDS", 0.5)
     path = _write(tmp_path, f"<xacro:macro name='m' params='a:={'b' * 60}\"'/>")
     assert "did not end" in twinform.check(path).diagnostics[0].message
 
@@ -157,7 +157,7 @@ def test_the_process_has_no_variables_of_the_environment(tmp_path: Path, monkeyp
         document = read(path, LoadOptions(variables=given)).document
         assert document
         assert document.models[0].links[0].name == side
-    passed_on = importlib.import_module("twinform.compiler.input.xacro.conversation").environment()
+    passed_on = importlib.import_module("twinform.compiler.input.xacro.expansion").environment()
     assert "SIDE" not in passed_on
 
 
@@ -172,7 +172,7 @@ def test_a_process_that_talks_nonsense_is_an_error(
 ) -> None:
     worker = tmp_path / "worker.py"
     worker.write_text(f"print({answer!r})")
-    monkeypatch.setattr(importlib.import_module("twinform.compiler.input.xacro.conversation"), "_WORKER", worker)
+    monkeypatch.setattr(importlib.import_module("twinform.compiler.input.xacro.expansion"), "_WORKER", worker)
     assert "the expansion died" in twinform.check(_write(tmp_path, "")).diagnostics[0].message
 
 
@@ -194,7 +194,7 @@ def test_the_process_has_the_folders_of_libraries_and_not_the_current_one(
 def test_where_the_libraries_are_not_known_python_looks_for_them(
     folders: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    conversation = importlib.import_module("twinform.compiler.input.xacro.conversation")
+    conversation = importlib.import_module("twinform.compiler.input.xacro.expansion")
     monkeypatch.setattr(conversation, "_library_folders", lambda: folders)
     assert twinform.check(_write(tmp_path, "")).accepted
 
@@ -209,7 +209,7 @@ def test_data_that_only_an_included_file_reads_is_read(tmp_path: Path) -> None:
 
 
 def test_most_files_are_expanded_without_the_yaml_library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    conversation = importlib.import_module("twinform.compiler.input.xacro.conversation")
+    conversation = importlib.import_module("twinform.compiler.input.xacro.expansion")
     tasks: list[Mapping[str, object]] = []
     ask = conversation._ask
 

@@ -183,3 +183,10 @@ def test_escapes_by_syntax_or_name_fail_whatever_the_names_mean(name: str) -> No
 
 def test_a_tree_is_looked_at_once() -> None:
     assert parse("a + 1") is parse("a + 1")
+
+
+@pytest.mark.parametrize(
+    "expression", ["'{text} {budget} {value}'.format(text=1, budget=2, value=3)", "dict(values=1, budget=2)"]
+)
+def test_a_named_argument_may_have_any_name(expression: str) -> None:
+    assert _is_same(evaluate(expression), _by_python(expression))

@@ -7,6 +7,7 @@ import ast
 import operator
 import re
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import Any
 
 from twinform.compiler.input.xacro.worker.budget import Budget, ExcessError, require_bits, require_items, require_length
@@ -27,6 +28,13 @@ from twinform.compiler.input.xacro.worker.expression_values import (
     text_of,
     weigh,
 )
+
+Method = Callable[..., Value]
+"""Takes the value before the dot, the budget, and the arguments."""
+# Characters that `strip` looks for: it compares each of them with each of the text.
+_LONGEST_SET = 1000
+_FIELD = re.compile(r"\{\{|\}\}|\{(\w*)\}|[{}]")
+_NAMES_OF_DICT = frozenset(dir(dict))
 
 
 def binary(node: ast.operator, left: Value, right: Value, budget: Budget) -> Value:
@@ -127,29 +135,27 @@ _COMPARE: Mapping[type[ast.cmpop], Callable[[Value, Value], bool]] = {
 }
 
 
-Method = Callable[..., Value]
-"""Takes the value before the dot, the budget, and the arguments."""
-# Characters that `strip` looks for: it compares each of them with each of the text.
-_LONGEST_SET = 1000
-_FIELD = re.compile(r"\{\{|\}\}|\{(\w*)\}|[{}]")
+def paying(python: Callable[..., Any], budget: Budget) -> Callable[..., Value]:
+    """A function that looks at no more than what it is given."""
 
-
-def _plain(kind: type[Any], *names: str) -> dict[str, Method]:
-    """Methods that make nothing larger of what they are given, and take as long as that is large."""
-    return {name: _weighing(getattr(kind, name)) for name in names}
-
-
-def _weighing(python: Callable[..., Value]) -> Method:
-
-    def call(value: Value, budget: Budget, *args: Value, **named: Value) -> Value:
-        for each in (value, *args, *named.values()):
-            if type(each) not in SCALARS:
-                weigh(each, budget)
-        result = python(value, *args, **named)
+    def call(*args: Value, **named: Value) -> Value:
+        for value in (*args, *named.values()):
+            if type(value) not in SCALARS:
+                weigh(value, budget)
+        result = python(*args, **named)
         budget.pay(result)
         return result
 
     return call
+
+
+def _plain(kind: type[Any], *names: str) -> dict[str, Method]:
+    """Methods that make nothing larger of what they are given, and take as long as that is large."""
+    return {name: partial(_pay, getattr(kind, name)) for name in names}
+
+
+def _pay(python: Callable[..., Value], value: Value, budget: Budget, /, *args: Value, **named: Value) -> Value:
+    return paying(python, budget)(value, *args, **named)
 
 
 def _strip(python: Callable[..., str]) -> Method:
@@ -180,7 +186,7 @@ def _join(text: str, budget: Budget, parts: Value) -> str:
     return result
 
 
-def _format(text: str, budget: Budget, *args: Value, **named: Value) -> str:
+def _format(text: str, budget: Budget, /, *args: Value, **named: Value) -> str:
     """What `str.format` makes of fields that are a name, a number or nothing; others lead to attributes."""
     # `str.format` itself is never called: its fields reach attributes and items of any value.
     fields = [match[1] for match in _FIELD.finditer(text) if match[1] is not None]
@@ -262,9 +268,6 @@ METHODS: Mapping[type[Any], Mapping[str, Method]] = {
 }
 
 
-_NAMES_OF_DICT = frozenset(dir(dict))
-
-
 def member(value: Value, name: str, scope: type | None) -> Value:
     """A member of a namespace, of an included file (whose names have the type `scope`), or of a dictionary.
 
@@ -299,8 +302,7 @@ def callable_member(value: Value, name: str, scope: type | None, budget: Budget)
     if name not in methods:
         offered = ", ".join(sorted(methods))
         raise ExpressionRefusedError(f"an expression must not use {name!r} of {_kind(value)}, only {offered}")
-    method = methods[name]
-    return lambda *args, **named: method(value, budget, *args, **named)
+    return partial(methods[name], value, budget)
 
 
 def _named(members: Value, name: str) -> Value:

@@ -18,6 +18,19 @@ from twinform.confinement.resources import limits, set_limit
 
 _LONGEST = 1000
 """Characters of a message, which repeats the expressions that it is about."""
+MEMORY = 2**29
+# Of 386 xacro files in the corpus one, a pendulum of 1,201 links, takes 9.3 s and is right; all
+# others take less than 0.4 s.
+SECONDS = 10
+"""Of processor time. The slowest real file that we know takes from one to nine, as machines are."""
+# Seconds of processor time to report where the time went.
+_GRACE = 2
+# Frames of Python. xacro takes about ten for each macro inside a macro.
+_DEEPEST = 4000
+_MOST_REMARKS = 1000
+# Python imports these when it meets certain characters, and could not do so once the process is
+# confined.
+_NEEDED_LATER = ("unicodedata", "encodings.cp1252", "encodings.iso8859_15", "encodings.utf_16")
 
 
 class TimeUpError(Exception):
@@ -59,17 +72,6 @@ def _cause(error: BaseException) -> BaseException:
     return error
 
 
-MEMORY = 2**29
-# Of 386 xacro files in the corpus one, a pendulum of 1,201 links, takes 9.3 s and is right; all
-# others take less than 0.4 s.
-SECONDS = 10
-"""Of processor time. The slowest real file that we know takes from one to nine, as machines are."""
-# Seconds of processor time to report where the time went.
-_GRACE = 2
-# Frames of Python. xacro takes about ten for each macro inside a macro.
-_DEEPEST = 4000
-
-
 def limit() -> None:
     """Keep whatever takes long or grows from taking the machine with it."""
     sys.setrecursionlimit(_DEEPEST)
@@ -86,12 +88,6 @@ def limit() -> None:
 def _time_is_up(signum: int, frame: FrameType | None) -> None:
     del signum, frame
     raise TimeUpError(f"the expansion takes more than {SECONDS} seconds of the processor")
-
-
-_MOST_REMARKS = 1000
-# Python imports these when it meets certain characters, and could not do so once the process is
-# confined.
-_NEEDED_LATER = ("unicodedata", "encodings.cp1252", "encodings.iso8859_15", "encodings.utf_16")
 
 
 class _Arguments(dict[str, str]):

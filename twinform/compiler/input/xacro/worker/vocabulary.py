@@ -7,6 +7,7 @@ shows where it lies in memory (`type`, `vars`, `hash`, ...); of `math`, what mak
 
 import math
 from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any
 
 from twinform.compiler.input.xacro.worker.budget import Budget, require_items
@@ -22,9 +23,8 @@ from twinform.compiler.input.xacro.worker.expression_values import (
     items,
     kind_of,
     text_of,
-    weigh,
 )
-from twinform.compiler.input.xacro.worker.operations import add
+from twinform.compiler.input.xacro.worker.operations import add, paying
 
 # Decimal places before or behind the point; there are no floating point numbers beyond.
 _MOST_ROUNDED = 400
@@ -35,6 +35,8 @@ _NUMERIC = (
     "isclose", "isfinite", "isinf", "isnan", "isqrt", "ldexp", "lgamma", "log", "log10", "log1p", "log2", "modf",
     "nextafter", "pow", "radians", "remainder", "sin", "sinh", "sqrt", "tan", "tanh", "trunc", "ulp",
 )  # fmt: skip
+_DEPRECATED = {"sorted": "python", "range": "python", "load_yaml": "xacro", "abs_filename": "xacro", "dotify": "xacro"}
+"""Names that xacro still has outside of their namespaces."""
 
 
 def math_functions(budget: Budget) -> dict[str, Function]:
@@ -45,7 +47,7 @@ def math_functions(budget: Budget) -> dict[str, Function]:
 def python_functions(budget: Budget) -> dict[str, Function]:
     """The functions of Python, which keep to a budget."""
     plain = {name: Function(name, paying(call, budget), kind) for name, (call, kind) in _PLAIN.items()}
-    careful = {name: Function(name, _bound(call, budget), kind) for name, (call, kind) in _CAREFUL.items()}
+    careful = {name: Function(name, partial(call, budget), kind) for name, (call, kind) in _CAREFUL.items()}
     return plain | careful
 
 
@@ -56,24 +58,6 @@ def refused(name: str) -> Function:
         raise ExpressionRefusedError(f"an expression must not use {name!r}")
 
     return Function(name, call)
-
-
-def _bound(call: Callable[..., Value], budget: Budget) -> Callable[..., Value]:
-    return lambda *args, **named: call(budget, *args, **named)
-
-
-def paying(python: Callable[..., Any], budget: Budget) -> Callable[..., Value]:
-    """A function that looks at no more than what it is given."""
-
-    def call(*args: Value, **named: Value) -> Value:
-        for value in (*args, *named.values()):
-            if type(value) not in SCALARS:
-                weigh(value, budget)
-        result = python(*args, **named)
-        budget.pay(result)
-        return result
-
-    return call
 
 
 def _text(budget: Budget, value: Value = "") -> str:
@@ -92,7 +76,7 @@ def _set(budget: Budget, values: Value = ()) -> set[Value]:
     return set(items(values, budget))
 
 
-def _dict(budget: Budget, values: Value = (), **named: Value) -> dict[Value, Value]:
+def _dict(budget: Budget, values: Value = (), /, **named: Value) -> dict[Value, Value]:
     given: Value = values.items() if kind_of(values) in MAPPINGS else values
     pairs = [list(each(pair, budget)) for pair in each(given, budget)]
     return dict([(hashable(key, budget), value) for key, value in pairs], **named)
@@ -199,10 +183,6 @@ _CAREFUL: Mapping[str, tuple[Callable[..., Value], type | None]] = {
     "tuple": (_tuple, tuple),
     "zip": (_zip, None),
 }
-
-
-_DEPRECATED = {"sorted": "python", "range": "python", "load_yaml": "xacro", "abs_filename": "xacro", "dotify": "xacro"}
-"""Names that xacro still has outside of their namespaces."""
 
 
 def vocabulary(
