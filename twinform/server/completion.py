@@ -1,5 +1,6 @@
 """Completion: elements, attributes and values by the facts tables, and names of the document."""
 
+import re
 from collections.abc import Iterable, Iterator
 
 from lsprotocol import types
@@ -20,6 +21,7 @@ from twinform.server.tolerant_tree import TolerantNode
 
 _ITEM = types.CompletionItemKind
 _BOOLS = ("true", "false")
+_PLACE = re.compile(r"(?P<escaped>\\\$)|\$\{[^}$]*\}|\$.?", re.DOTALL)
 
 
 def complete(session: Session, document: TextDocument, offset: int) -> types.CompletionList:
@@ -57,19 +59,7 @@ def _completion_list(
 
 def plain(snippet: str) -> str:
     """Remove the places to fill in from a snippet."""
-    pieces: list[str] = []
-    rest = snippet
-    while (at := rest.find("$")) >= 0:
-        pieces.append(rest[:at])
-        if rest[at : at + 2] == "${":
-            end = rest.find("}", at)
-            rest = rest[end + 1 :]
-        elif rest[at - 1 : at] == "\\":
-            pieces[-1] = pieces[-1][:-1] + "$"
-            rest = rest[at + 1 :]
-        else:
-            rest = rest[at + 2 :]
-    return "".join((*pieces, rest))
+    return _PLACE.sub(lambda found: "$" if found["escaped"] else "", snippet)
 
 
 def _proposals(

@@ -28,12 +28,13 @@ from pygls.protocol import LanguageServerProtocol
 from pygls.protocol.json_rpc import RPCMessage
 from pygls.protocol.language_server import lsp_method
 
-Call = Generator[tuple[Any, tuple[Any], None], Any, None]
-"""A call that pygls is to make: a handler, its arguments, and no keywords."""
 Message = dict[str, Any]
 _LONGEST = 500
-# pygls would keep notebooks in memory, and nobody reads them.
-_NOTEBOOKS = (
+# Handlers of pygls that are removed, since it would keep documents of its own, and notebooks that nobody reads.
+_REMOVED = (
+    types.TEXT_DOCUMENT_DID_OPEN,
+    types.TEXT_DOCUMENT_DID_CHANGE,
+    types.TEXT_DOCUMENT_DID_CLOSE,
     types.NOTEBOOK_DOCUMENT_DID_OPEN,
     types.NOTEBOOK_DOCUMENT_DID_CHANGE,
     types.NOTEBOOK_DOCUMENT_DID_CLOSE,
@@ -41,13 +42,13 @@ _NOTEBOOKS = (
 
 
 class Protocol(LanguageServerProtocol):
-    """Answers messages, and passes notifications about documents to our handlers."""
+    """Answers messages, and leaves documents to our handlers."""
 
     def __init__(self, *args: Any) -> None:
         super().__init__(*args)
         self.exit_code: int | None = None
         """The exit code of the process; None until the editor sends `exit`."""
-        for method in _NOTEBOOKS:
+        for method in _REMOVED:
             del self.fm.builtin_features[method]
 
     def receive(self, data: bytes | None) -> None:
@@ -79,7 +80,7 @@ class Protocol(LanguageServerProtocol):
     @lsp_method(types.SHUTDOWN)
     def lsp_shutdown(self, *args: Any) -> Generator[Any, Any, None]:
         """Shut down the session, and cancel the requests that are not answered yet."""
-        yield self._handler(types.SHUTDOWN), args, None
+        yield self.fm.features[types.SHUTDOWN], args, None
         self._shutdown = True
         # a copy, since a cancelled request is answered and removed at once
         for id_, future in list(self._request_futures.items()):
@@ -92,21 +93,6 @@ class Protocol(LanguageServerProtocol):
         self.exit_code = 0 if self._shutdown else 1
         yield from ()
 
-    @lsp_method(types.TEXT_DOCUMENT_DID_OPEN)
-    def lsp_text_document__did_open(self, params: types.DidOpenTextDocumentParams) -> Call:
-        """Pass on that a document was opened."""
-        yield self._handler(types.TEXT_DOCUMENT_DID_OPEN), (params,), None
-
-    @lsp_method(types.TEXT_DOCUMENT_DID_CHANGE)
-    def lsp_text_document__did_change(self, params: types.DidChangeTextDocumentParams) -> Call:
-        """Pass on what was typed."""
-        yield self._handler(types.TEXT_DOCUMENT_DID_CHANGE), (params,), None
-
-    @lsp_method(types.TEXT_DOCUMENT_DID_CLOSE)
-    def lsp_text_document__did_close(self, params: types.DidCloseTextDocumentParams) -> Call:
-        """Pass on that a document was closed."""
-        yield self._handler(types.TEXT_DOCUMENT_DID_CLOSE), (params,), None
-
     @lsp_method(types.WORKSPACE_EXECUTE_COMMAND)
     async def lsp_workspace__execute_command(  # pyright: ignore[reportIncompatibleMethodOverride] - pygls takes both kinds
         self, params: types.ExecuteCommandParams
@@ -117,9 +103,6 @@ class Protocol(LanguageServerProtocol):
             raise JsonRpcInvalidParams(f"there is no command {params.command!r}"[:_LONGEST])
         # awaited here, so that it ends when the request is cancelled: pygls lets it go on and change the document
         return await handler(*(params.arguments or ()))
-
-    def _handler(self, method: str) -> Any:
-        return self.fm.features[method]
 
     def _check_state(self, method: object, *, is_request: bool) -> None:
         """Refuse messages before the session has begun or after it was shut down."""
