@@ -17,14 +17,14 @@ from twinform.schemas import Context, Version, XmlElement, element_xml, reader, 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 _REQUIRED = frozenset({"name", "type", "format", "version", "kind"})
-"""Fields that a node cannot be made without; where a piece sets them, its class has them here."""
+"""Fields that a node cannot be made without."""
 
 
 _UNCONDITIONAL = VersionCondition()
 
 
 class CarrierError(Exception):
-    """A carrier holds what cannot stand in its place, because somebody edited it."""
+    """A carrier, perhaps edited, holds something that cannot stand in its place."""
 
 
 def absorb(
@@ -48,7 +48,7 @@ def absorb(
 
 
 def is_already_there(node: Node, piece: Opaque, condition: VersionCondition) -> bool:
-    """Whether a mimic, which no older version has, was written by hand where one is carried."""
+    """Whether a mimic was written by hand where a carrier holds one."""
     if condition.without or condition.instead or piece.element is None or piece.element.name != "mimic":
         return False
     holder: object = node
@@ -67,7 +67,7 @@ def _blanked(node: AnyNode, path: list[str]) -> AnyNode:
 
 
 def _without_scope(model: Model, prefix: str) -> dict[str, object]:
-    """A model without what was flattened into it from a nested one, and without that one as it was put together."""
+    """The fields of a model without the parts of one scope, and without the nested model of that name."""
     own = prefix.removesuffix("::")
     return {
         field: tuple(each for each in getattr(model, field) if each.name != own and not each.name.startswith(prefix))
@@ -129,7 +129,7 @@ def _put_piece(piece: Opaque, holder: XmlElement) -> None:
 
 
 def _merged(node: AnyNode, data: Mapping[str, Any], index: int | None = None) -> AnyNode:
-    """The node with what was read: one of several is put in its place, a part of a part into that."""
+    """The node with the fields that were read: items go to their place in lists, inner nodes are merged."""
     required = {name: getattr(node, name) for name in fields_of(type(node)) if name in _REQUIRED}
     try:
         read = type(node).model_validate({**required, **data})

@@ -1,7 +1,6 @@
 """Annotations: elements of our namespace that record how the source wrote a part that the target writes differently.
 
-An annotation never repeats what the target states; it holds the rest, so that it stays true when the other part is
-edited:
+An annotation never repeats what the target states, so that it stays true when the target is edited:
 
     <tf:made/>                                   a conversion made this link, joint or frame up
     <tf:from format="sdf" version="1.9"/>        in a model: what it was converted from
@@ -92,7 +91,7 @@ OLD_NAME = "use_parent_model_frame"
 
 
 _SCOPES = (1, 8)
-"""Since this version `::` in a name means that it is in a nested model."""
+"""Since this version `::` in a name separates the scopes of nested models."""
 FROM = "from"
 """The annotation on a model with the format and the version that it was converted from."""
 _MIXED = "mixed"
@@ -106,7 +105,7 @@ def with_provenance(model: Model, document: Document) -> Model:
 
 
 def with_mixed_words(model: Model) -> Model:
-    """The model, annotated as one whose file uses syntax that its version does not have."""
+    """The model, annotated as one whose file uses syntax of other versions."""
     return with_annotation(model, _MIXED)
 
 
@@ -133,13 +132,13 @@ def may_write_scopes(version: str) -> bool:
 
 
 def has_mixed_words(document: Document) -> bool:
-    """Whether the file that the only model of a document was converted from has syntax of other versions too."""
+    """Whether the only model of a document came from a file with syntax of other versions."""
     found = find_annotation(document.models[0], FROM) if len(document.models) == 1 else None
     return found is not None and found.get("mixed") == "true"
 
 
 def source_version(document: Document, format_: Format) -> str | None:
-    """The version of a format that the only model of a document was converted from; None where it was not."""
+    """The version of a format that the only model of a document came from; None where it came from none."""
     if len(document.models) != 1 or not came_from(document.models[0], format_):
         return None
     found = find_annotation(document.models[0], FROM)

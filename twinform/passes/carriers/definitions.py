@@ -42,7 +42,7 @@ _DEFINITIONS: dict[type[Node], str] = {
 
 
 def definition_of(node: Node) -> str | None:
-    """The definition of a node; None for one that only a row of another definition describes, such as a limit."""
+    """The definition of a node; None for a node, such as a limit, that is a row of another definition."""
     kind = getattr(node, "kind", None)
     if kind is not None:
         return None if isinstance(node, Empty) else f"{kind}_shape"
@@ -50,7 +50,7 @@ def definition_of(node: Node) -> str | None:
 
 
 def is_repeated(part: Opaque, node: Node) -> bool:
-    """Whether a part repeats an element that may stand once, of which readers take the first."""
+    """Whether a part repeats an element that may stand once; readers take the first one."""
     element = part.element
     if element is None or part.at or not (element.children or element.attributes or element.text):
         return False
@@ -78,7 +78,7 @@ def inside(node: Node, at: str) -> Node | None:
 
 
 def has_first(node: Node, name: str) -> bool:
-    """Whether a node has the element that another one of this name repeats."""
+    """Whether a node has a first element of this name, in a field or as an opaque part."""
     definition = definition_of(node)
     places = _single(definition).get(name, ()) if definition else (name,)
     if any(field_value(node, place) is not None for place in places):

@@ -28,13 +28,13 @@ CHAINS: dict[JointType, tuple[str, ...]] = {
     "ball": ("z", "y"),
     "screw": ("slide",),
 }
-"""The suffixes that stand behind the name of the joint in those of the others, from the parent's side."""
+"""The suffixes of the other joints' names in a chain, in order from the parent."""
 
 BALL_AXES: tuple[Vector3, ...] = ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))
-"""What the joints of a ball turn about: Rz Ry Rx is the orientation that URDF writes as yaw, pitch and roll."""
+"""The axes of the joints of a ball: Rz Ry Rx is the orientation that URDF writes as yaw, pitch and roll."""
 
 PITCHES: tuple[str, ...] = ("screw_thread_pitch", "thread_pitch")
-"""The fields of a screw joint, and the elements, that say how it couples turning and sliding."""
+"""The fields and elements that give the pitch of a screw joint."""
 
 TWO_AXES: frozenset[JointType] = frozenset({"universal", "revolute2"})
 
@@ -52,7 +52,7 @@ def part_of(node: Joint | Link) -> str | None:
 
 
 def metres_per_radian(joint: Joint) -> float | None:
-    """How far a screw joint moves along its axis for each radian; None where the pitch is 0 rad/m.
+    """The distance in m that a screw joint moves along its axis per radian; None for a pitch of 0 rad/m.
 
     `screw_thread_pitch` is in m per turn and wins; `thread_pitch` is in rad/m with the sign of a left-handed thread.
     Without either, SDF's default is 1 m per turn: the SDF description of <joint>.
@@ -66,11 +66,11 @@ def metres_per_radian(joint: Joint) -> float | None:
 Parts = tuple[Opaque, ...]
 
 _FIRST, _SECOND = (f"{{{NAMESPACE}}}{field}" for field in ("axis", "axis2"))
-"""The annotations on how the two axes were written."""
+"""The annotations on the notation of the two axes."""
 
 
 def split_axes(parts: Iterable[Opaque]) -> tuple[Parts, Parts]:
-    """The parts about the first axis, and all others, in which the second axis is the only one."""
+    """Split the opaque parts of a two-axis joint: those of `axis`, and the rest with `axis2` called `axis`."""
     first: list[Opaque] = []
     rest: list[Opaque] = []
     for part in parts:
@@ -82,24 +82,24 @@ def split_axes(parts: Iterable[Opaque]) -> tuple[Parts, Parts]:
 
 
 def join_axes(first: Iterable[Opaque], rest: Iterable[Opaque]) -> Parts:
-    """The parts of a joint with two axes: the inverse of `split_axes`."""
+    """The opaque parts of a two-axis joint, joined again: the inverse of `split_axes`."""
     joined = [part for part in first if is_of_axis(_path(part)) or _is_called(part, _FIRST)]
     joined += (_with_name(_with_path(part, _moved(_path(part), "axis", "axis2")), _FIRST, _SECOND) for part in rest)
     return tuple(joined)
 
 
 def is_of_axis(path: str) -> bool:
-    """Whether a part at this path is one of the axis."""
+    """Whether a path leads to the axis or into it."""
     return path == "axis" or path.startswith("axis/")
 
 
 def _moved(path: str, step: str, to: str) -> str:
-    """The path with another first step, if that is its first step."""
+    """The path with its first step `step` replaced by `to`; other paths stay."""
     return to + path.removeprefix(step) if path == step or path.startswith(f"{step}/") else path
 
 
 def _path(part: Opaque) -> str:
-    """Where a part belongs, or where the piece in a carrier does."""
+    """The path of a part, or of the piece in a carrier."""
     if is_ours(part) and part.element:
         return part.element.get("at") or ""
     return part.at
@@ -119,7 +119,7 @@ def _is_called(part: Opaque, name: str) -> bool:
 
 
 def _with_name(part: Opaque, name: str, to: str) -> Opaque:
-    """The part with another name, if it is an element of this one."""
+    """The part renamed, if it is an element called `name`."""
     if part.element is None or part.element.name != name:
         return part
     return part.copy(element=part.element.copy(name=to))

@@ -18,7 +18,7 @@ _LUMPED = f"{{{NAMESPACE}}}lumped"
 
 
 class Followed(NamedTuple):
-    """A collision that a name means, and the link that it is on."""
+    """The name of a collision, and the link that it is on."""
 
     name: str
     link: str
@@ -31,7 +31,7 @@ def mentions_collisions(model: Model) -> bool:
 
 
 def followed(element: Element, names: Mapping[str, Followed], *, carriers: bool) -> Element:
-    """The element with every text in it that is one of these names changed, and annotated if wanted."""
+    """The element with each text that is a key of `names` replaced, and annotated with `carriers`."""
     children: list[Element] = []
     for child in element.children:
         found = names.get((child.text or "").strip())
@@ -50,10 +50,10 @@ def has_annotations(model: Model) -> bool:
 
 
 def restored(element: Element, names: Mapping[str, Followed], stale: list[Element]) -> Element:
-    """The element by the names that annotations in it give, where `names` has them mean what stands there now.
+    """The element with annotated old names restored, where `names` maps them to what stands there now.
 
-    A text that was edited since stays, and so does one whose old name means another collision by now, or none: these
-    annotations are added to `stale`.
+    A text that was edited since stays, as does one whose old name now means another collision or none; the annotations
+    of these are added to `stale`.
     """
     if not any(one.name == _LUMPED for one in element.walk()):
         return element

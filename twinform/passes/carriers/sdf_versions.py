@@ -24,10 +24,10 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 @dataclass(frozen=True, slots=True)
 class VersionCondition:
-    """Which versions have a part, and how it comes back.
+    """The versions that have a carried part, and how it comes back.
 
-    `index` is its place among its like, `without` the fields that go when it comes, `instead` the sibling that it
-    stands for.
+    `index` is its place in a list, `without` are fields that it removes when it comes back, `instead` is the sibling
+    that it replaces.
     """
 
     since: Version | None = None
@@ -41,7 +41,7 @@ class VersionCondition:
         return (self.since is not None and version >= self.since) or (self.until is not None and version <= self.until)
 
     def attributes(self) -> Attributes:
-        """What the carrier has as attributes."""
+        """The attributes of the carrier."""
         bounds = {
             "since": print_version(self.since) if self.since else "",
             "until": print_version(self.until) if self.until else "",
@@ -83,7 +83,7 @@ class VersionKeeper(Keeper):
 
 
 def version_carriers(pieces: list[Opaque], condition: VersionCondition) -> tuple[Opaque, ...]:
-    """The carriers of pieces, and one that only names what to remove: the last comes back first."""
+    """The carriers of pieces, and one that only names fields to remove; the last is unpacked first."""
     carriers = pack(pieces, DIALECT, replace(condition, without=()).attributes())
     if not condition.without:
         return carriers
@@ -96,12 +96,12 @@ def version_carriers(pieces: list[Opaque], condition: VersionCondition) -> tuple
 
 
 def is_version_carrier(part: Opaque) -> bool:
-    """Whether it carries a part of another version."""
+    """Whether an opaque part is a carrier of another version of SDF."""
     return is_carrier(part, DIALECT)
 
 
 def condition_of(part: Opaque) -> VersionCondition:
-    """The versions that a carrier names for its part; one that was edited into nonsense fits no version."""
+    """The condition of a carrier; one with invalid attributes fits no version."""
     bounds = dict(part.element.attributes) if part.element else {}
     try:
         return VersionCondition(
@@ -116,7 +116,7 @@ def condition_of(part: Opaque) -> VersionCondition:
 
 
 def carried(part: Opaque) -> tuple[Opaque, ...]:
-    """The pieces in a carrier; none in one that only names what to remove."""
+    """The pieces in a carrier; none in one that only names fields to remove."""
     element = part.element
     if element is None or (not element.children and element.get("attribute") is None and element.get("text") is None):
         return ()

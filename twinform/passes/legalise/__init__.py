@@ -14,11 +14,11 @@ __all__ = ["Target", "legalisation"]
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """What a conversion is to make.
+    """The target of a conversion.
 
-    `carriers` is whether parts that the target cannot express travel along; `model` names the one of several models
-    that becomes a URDF; `mixed` means that the file may use syntax that its version does not have, as its source had,
-    and `mixed_source` that the file at hand is such a one.
+    With `carriers`, parts that the target cannot express travel along; `model` names the model that becomes a URDF.
+    `mixed` allows syntax of newer versions in the result, as the original source had; `mixed_source` means that the
+    source has such syntax.
     """
 
     format: Format
@@ -59,7 +59,7 @@ def legalisation(source: Format, version: str | None, target: Target) -> tuple[P
 
 @cache
 def legalisation_kinds() -> dict[str, type[Pass]]:
-    """Every pass that any target asks for, sorted by name."""
+    """All legalisation passes by name, for reproducers; they are not registered for pipelines of users."""
     return dict(sorted((each.name, type(each)) for way in _ways() for each in way))
 
 

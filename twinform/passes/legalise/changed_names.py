@@ -30,18 +30,18 @@ NAME = "name"
 SCOPED_NAME = "scoped-name"
 """The annotation on a link, joint or frame of URDF with the name, such as `arm::hand`, that it has in SDF."""
 Names = dict[tuple[Part, str], str]
-"""New names by the kind of what is renamed and its old name."""
+"""New names by the kind of part and its old name."""
 _FIELDS: dict[Part, str] = {"link": "links", "joint": "joints", "frame": "frames"}
 
 
 def renamed(model: Model, names: Names, format_: Format) -> Model:
-    """The model by new names, and all that names them by these."""
+    """The model with parts renamed, and all references to them."""
     scope = scope_of(model, lambda part, name: names.get((part, name), name), deep=False)
     return rename_model(model, scope, format_, DiagnosticSink())
 
 
 def with_old_names(model: Model, names: Names) -> Model:
-    """The model of URDF with annotations on what was renamed; it has the new names by now."""
+    """The renamed model of URDF with annotations that give the old names."""
     old = {(part, new): name for (part, name), new in names.items()}
 
     def annotated(part: Part, node: Link | Joint | Frame) -> Link | Joint | Frame:
@@ -53,7 +53,7 @@ def with_old_names(model: Model, names: Names) -> Model:
 
 
 def scoped_name(node: Link | Joint | Frame) -> str:
-    """What a link, joint or frame of URDF is called in SDF: its name, or the one in an annotation about that."""
+    """The name of a link, joint or frame of URDF in SDF: the annotated one, or else its own."""
     found = find_annotation(node, SCOPED_NAME)
     return found.text or "" if found and found.get("instead_of") == node.name else node.name
 
@@ -72,7 +72,7 @@ class RestoreNames(ModelPass):
     to: Format
     apart: bool = False
     unique: bool = False
-    """Whether no two parts may share a name, also in URDF: one of them is called as in SDF."""
+    """Whether no two parts may share a name, even in URDF; a joint that would keeps its name of SDF."""
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model by its old names."""
@@ -116,7 +116,7 @@ class RestoreNames(ModelPass):
 
 
 def _scopes(model: Model) -> set[str]:
-    """The names of the models that were in this one, as far as frames still stand for them."""
+    """The names of the nested models whose frames are still in the model."""
     own = [frame for frame in model.frames if find_annotation(frame, NESTED) is not None]
     annotations = [(find_annotation(frame, SCOPED_NAME), frame.name) for frame in own]
     return {(annotation.text or "") if annotation else name for annotation, name in annotations}
@@ -129,7 +129,7 @@ def scopes_in(name: str) -> set[str]:
 
 
 def _annotated(model: Model, kind: str) -> Iterator[tuple[Part, Link | Joint | Frame, str, str]]:
-    """What has an annotation: its kind, the node, the name at the time of renaming and the one to restore."""
+    """Each annotated part: its kind, the node, the name that the conversion gave it, and the one to restore."""
     for part, field in _FIELDS.items():
         for node in getattr(model, field):
             found = find_annotation(node, kind)
@@ -144,7 +144,7 @@ def _old_name(found: Element) -> str:
 
 
 def with_old_name(node: AnyNode, name: str) -> AnyNode:
-    """The node with its name in an annotation, since it will be renamed; a text would lose blanks."""
+    """The node with an annotation of its name, before it is renamed; blanks need an attribute."""
     old: Any = getattr(node, "name", None)
     is_plain = old == old.strip()
     return with_annotation(
@@ -153,7 +153,7 @@ def with_old_name(node: AnyNode, name: str) -> AnyNode:
 
 
 def _model_by_its_name(model: Model) -> Model:
-    """The model by the name that it had, unless it has another one by now."""
+    """The model with its annotated name restored, unless it was renamed since."""
     found = find_annotation(model, NAME)
     if found is None:
         return model

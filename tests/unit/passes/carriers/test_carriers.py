@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 import twinform
 from twinform.ir import Element, Opaque
-from twinform.passes.carriers.carriers import NAMESPACE, pack, unpack
+from twinform.passes.carriers.carriers import NAMESPACE, pack, unpack, without_bodies_for_gazebo, without_ours
 
 BLANKS = st.text(alphabet=" \t\n\r\u00a0\u2003", max_size=4)
 VALUES = st.one_of(BLANKS, st.text(alphabet="ab \u00a0", max_size=4))
@@ -42,3 +42,39 @@ def test_a_blank_attribute_comes_back() -> None:
     assert 'name=" "' not in there
     back = twinform.convert(there.encode(), name="r.sdf", to="urdf").text
     assert '<foo name=" " k="&#9;"/>' in back
+
+
+_ROBOT = b"""<robot xmlns:tf="urn:twinform:1" name="r">
+  <link name="a"><tf:offset xyz="0 0 1"/><visual><geometry><sphere radius="1"/></geometry><tf:sdf/></visual></link>
+  <gazebo><joint name="j"/><plugin name="p"><tf:version/><rate>5</rate></plugin></gazebo>
+  <gazebo><link name="b"/></gazebo>
+  <gazebo/>
+  <gazebo reference="a"><link>named so</link></gazebo>
+</robot>"""
+
+
+def test_nothing_of_ours_is_left_and_all_else_is():
+    text = without_ours(_document()).model_dump_json()
+    assert "urn:twinform:1}" not in text
+    assert '"rate"' in text
+
+
+def test_what_has_nothing_to_take_away_stays_the_same_object():
+    bare = without_bodies_for_gazebo(without_ours(_document()))
+    assert without_ours(bare) is bare
+    assert without_bodies_for_gazebo(bare) is bare
+
+
+def test_bodies_go_from_what_is_about_the_model():
+    extensions = without_bodies_for_gazebo(_document()).models[0].extensions
+    assert [(each.reference, [one.name for one in each.content]) for each in extensions] == [
+        (None, ["plugin"]),
+        (None, []),
+        ("a", ["link"]),
+    ]
+
+
+def _document() -> twinform.Document:
+    document = twinform.check(_ROBOT).document
+    assert document is not None
+    return document

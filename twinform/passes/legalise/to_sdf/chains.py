@@ -1,4 +1,4 @@
-"""Reverse conversion of chains of URDF joints: validating a chain, and the SDF joint that it represents."""
+"""Chains of URDF joints: checking that a chain is intact, and folding it into the SDF joint that it represents."""
 
 import math
 from dataclasses import dataclass
@@ -34,12 +34,12 @@ _CLOSE = 1e-9
 
 
 class StaleChainError(Exception):
-    """A chain that was edited so that it is not the joint any more."""
+    """A chain was edited so that it no longer represents the joint."""
 
 
 @dataclass(frozen=True, slots=True)
 class JointChain:
-    """The joints and links of a chain, from the parent's side; `kind` is the joint that it stands for."""
+    """The joints and links of a chain, in order from the parent; `kind` is the type of the joint it represents."""
 
     kind: JointType
     above: tuple[Joint, ...]
@@ -48,7 +48,7 @@ class JointChain:
 
 
 class ChainNeighbors(NamedTuple):
-    """The links of a model by name, joints by their children, names of joints by their parents, and those mimicked."""
+    """Links by name, joints by child, names of joints by parent, and names of joints that are mimicked."""
 
     links: dict[str, Link]
     above: dict[str | None, Joint]
@@ -57,7 +57,7 @@ class ChainNeighbors(NamedTuple):
 
     @classmethod
     def of(cls, model: Model) -> "ChainNeighbors":
-        """Look up the neighbors of all links of a model, once for all of its chains."""
+        """Collect the neighbors of all links of a model, once for all chains."""
         below: dict[str | None, list[str]] = {}
         for joint in model.joints:
             below.setdefault(joint.parent, []).append(joint.name)
@@ -76,7 +76,7 @@ def find_chain(last: Joint, kind: str, around: ChainNeighbors) -> JointChain:
     known = _KINDS.get(kind)
     if known is None:
         raise StaleChainError(f"there are no chains for {kind!r}")
-    chain = _walk(last, known, around)
+    chain = _collect_chain(last, known, around)
     _check_links(chain, around)
     for joint in (*chain.above[1:], last):
         # An offset inside of the chain moves its axes apart: then it is three joints, and no ball.
@@ -93,7 +93,7 @@ def find_chain(last: Joint, kind: str, around: ChainNeighbors) -> JointChain:
     return chain
 
 
-def _walk(last: Joint, kind: JointType, around: ChainNeighbors) -> JointChain:
+def _collect_chain(last: Joint, kind: JointType, around: ChainNeighbors) -> JointChain:
     joints: list[Joint] = []
     between: list[Link] = []
     joint = last
@@ -108,7 +108,7 @@ def _walk(last: Joint, kind: JointType, around: ChainNeighbors) -> JointChain:
 
 
 def _check_links(chain: JointChain, around: ChainNeighbors) -> None:
-    """The links between hold nothing but the chain."""
+    """Check that the links of a chain hold nothing but the chain."""
     inside = {joint.name for joint in (*chain.above, chain.last)}
     for link in chain.between:
         written = link.inertial
@@ -176,18 +176,18 @@ def folded(chain: JointChain) -> Joint:
     """
     first, last = chain.above[0], chain.last
     if chain.kind in TWO_AXES:
-        first, last = _referred(first), _referred(last)
+        first, last = _with_reference(first), _with_reference(last)
     own = without_annotation(last, CHAIN).opaque
     opaque = join_axes(first.opaque, own) if chain.kind in TWO_AXES else own
     update: dict[str, object] = {"type": chain.kind, "parent": first.parent, "pose": first.pose, "opaque": opaque}
     joint = last.copy(**update)
     if chain.kind in TWO_AXES:
-        return joint.copy(axis=_in_sdf(first), axis2=_in_sdf(last))
-    return _ball(joint, last) if chain.kind == "ball" else _screw(joint, chain)
+        return joint.copy(axis=_axis_in_sdf(first), axis2=_axis_in_sdf(last))
+    return _fold_ball(joint, last) if chain.kind == "ball" else _fold_screw(joint, chain)
 
 
-def _in_sdf(joint: Joint) -> Axis:
-    """The axis of a joint of URDF with what URDF means where nothing is written."""
+def _axis_in_sdf(joint: Joint) -> Axis:
+    """The axis of a URDF joint with the defaults of URDF written out."""
     axis = joint.axis or Axis()
     limit = axis.limit
     if limit is not None and joint.type == "continuous":
@@ -198,16 +198,16 @@ def _in_sdf(joint: Joint) -> Axis:
     return axis.copy(xyz=direction(axis, Format.URDF), limit=limit)
 
 
-def _referred(joint: Joint) -> Joint:
+def _with_reference(joint: Joint) -> Joint:
     made = restore_reference(joint)
     if made is None:
         raise StaleChainError(f"joint {joint.name!r} no longer mimics as it did")
     return made
 
 
-def _ball(joint: Joint, last: Joint) -> Joint:
-    """A ball joint has the axis that it carries, with the damping of the chain."""
-    joint = _unpacked(joint.copy(axis=None), ("axis", "axis2"))
+def _fold_ball(joint: Joint, last: Joint) -> Joint:
+    """The ball joint with the axis that it carries and the damping of the chain."""
+    joint = _unpack_elements(joint.copy(axis=None), ("axis", "axis2"))
     damping, friction = _damping(last)
     axis = joint.axis or Axis()
     dynamics = (axis.dynamics or Dynamics()).copy(damping=damping, friction=friction)
@@ -216,12 +216,12 @@ def _ball(joint: Joint, last: Joint) -> Joint:
     return joint.copy(axis=axis.copy(dynamics=dynamics))
 
 
-def _screw(joint: Joint, chain: JointChain) -> Joint:
-    """A screw joint has the pitch that it carries, or the one that its chain has now if that is another."""
+def _fold_screw(joint: Joint, chain: JointChain) -> Joint:
+    """The screw joint with the pitch that it carries, or the pitch of the chain if that was edited."""
     axis = chain.above[0].axis
     mimic = axis.mimic if axis else None
     ratio = multiplier(mimic)
-    joint = _unpacked(joint.copy(axis=_in_sdf(chain.last)), PITCHES)
+    joint = _unpack_elements(joint.copy(axis=_axis_in_sdf(chain.last)), PITCHES)
     written = metres_per_radian(joint)
     # The pitch as it was written, in its own element and unit, unless the ratio of the chain was
     # edited.
@@ -230,12 +230,12 @@ def _screw(joint: Joint, chain: JointChain) -> Joint:
     return joint.copy(screw_thread_pitch=ratio * math.tau, thread_pitch=None)
 
 
-def _unpacked(joint: Joint, names: tuple[str, ...]) -> Joint:
+def _unpack_elements(joint: Joint, names: tuple[str, ...]) -> Joint:
     """The joint with the elements of these names out of their carriers."""
     opaque: list[Opaque] = []
     pieces: Parts = ()
     for part in joint.opaque:
-        if any(name in _names(part) for name in names):
+        if any(name in _element_names(part) for name in names):
             pieces += unpack(part)
         else:
             opaque.append(part)
@@ -245,7 +245,7 @@ def _unpacked(joint: Joint, names: tuple[str, ...]) -> Joint:
         raise StaleChainError(str(error)) from error
 
 
-def _names(part: Opaque) -> tuple[str, ...]:
+def _element_names(part: Opaque) -> tuple[str, ...]:
     """The elements in a carrier of SDF that belong into the joint itself."""
     pieces = unpack(part) if is_carrier(part, "sdf") else (part,)
     return tuple(piece.element.name for piece in pieces if piece.element and not piece.at)

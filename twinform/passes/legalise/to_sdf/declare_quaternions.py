@@ -21,10 +21,10 @@ class DeclareQuaternions(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with quaternions that declare their format."""
-        return rewrite(model, Pose, _declared, having=bits_of(Pose, _QUATERNION))
+        return rewrite(model, Pose, _declare_format, having=bits_of(Pose, _QUATERNION))
 
 
-def _declared(pose: Pose) -> Pose:
+def _declare_format(pose: Pose) -> Pose:
     if pose.quat_xyzw is None or pose.rotation_format is not None:
         return pose
     return pose.copy(rotation_format=_QUATERNION, rpy=None)

@@ -35,23 +35,25 @@ class FoldJoints(ModelPass):
         made: dict[str, Joint] = {}
         first: dict[str, str] = {}
         gone: set[str] = set()
-        for chain, joint in _chains(model, sink):
+        for chain, joint in _fold_chains(model, sink):
             made[joint.name] = joint
             gone |= {part.name for part in (*chain.above, *chain.between)}
             if joint.type in TWO_AXES:
                 first[chain.above[0].name] = chain.last.name
         names = {joint.name for joint in model.joints}
         joints = (
-            made.get(joint.name) or _unmarked(_alone(joint, names)) for joint in model.joints if joint.name not in gone
+            made.get(joint.name) or _without_marks(_without_lost_mimic(joint, names))
+            for joint in model.joints
+            if joint.name not in gone
         )
-        links = (_unmarked(link) for link in model.links if link.name not in gone)
+        links = (_without_marks(link) for link in model.links if link.name not in gone)
         second = frozenset(first.values())
-        followed = tuple(_follow(joint, first, second) for joint in joints)
+        followed = tuple(_follow_axes(joint, first, second) for joint in joints)
         return model.copy(joints=followed, links=tuple(links))
 
 
-def _chains(model: Model, sink: DiagnosticSink) -> Iterator[tuple[JointChain, Joint]]:
-    """The chains that still are what they were made, with the joints that they are; the others are reported."""
+def _fold_chains(model: Model, sink: DiagnosticSink) -> Iterator[tuple[JointChain, Joint]]:
+    """The intact chains with the joints that they fold into; edited chains are reported."""
     around = ChainNeighbors.of(model)
     for joint in model.joints:
         kind = chain_type(joint)
@@ -69,7 +71,7 @@ def _chains(model: Model, sink: DiagnosticSink) -> Iterator[tuple[JointChain, Jo
 
 
 def _report_names(chain: JointChain, sink: DiagnosticSink) -> None:
-    """Report the parts that somebody has given a name: synthesized ones begin with that of their joint."""
+    """Report the parts of a chain that were renamed by hand, whose names get lost."""
     for part in (*chain.above, *chain.between):
         # A name that somebody gave to a part is one that controllers and plugins of the URDF may
         # know, and the one joint has no place for it.
@@ -82,27 +84,27 @@ def _is_annotated(node: Joint | Link) -> bool:
     return find_annotation(node, CHAIN) is not None or find_annotation(node, PART) is not None
 
 
-def _unmarked(node: AnyPart) -> AnyPart:
-    """A part of a chain that stays: it was synthesized, and stands for itself now."""
+def _without_marks(node: AnyPart) -> AnyPart:
+    """A part of a chain that is not folded, without its annotations."""
     return without_annotation(node, CHAIN, PART)
 
 
-def _alone(joint: Joint, names: Container[str]) -> Joint:
-    """The slide of a screw without the mimic that was synthesized for it, where what it mimics is gone."""
+def _without_lost_mimic(joint: Joint, names: Container[str]) -> Joint:
+    """The slide of a screw without its synthesized mimic, if the joint that it mimics is gone."""
     mimic = joint.axis.mimic if joint.axis and part_of(joint) else None
     if joint.axis is None or mimic is None or (mimic.joint or "") in names:
         return joint
     return joint.copy(axis=joint.axis.copy(mimic=None))
 
 
-def _follow(joint: Joint, first: dict[str, str], second: frozenset[str]) -> Joint:
-    update = {field: _follows(getattr(joint, field), first, second) for field in ("axis", "axis2")}
+def _follow_axes(joint: Joint, first: dict[str, str], second: frozenset[str]) -> Joint:
+    update = {field: _follow_axis(getattr(joint, field), first, second) for field in ("axis", "axis2")}
     changed = {field: axis for field, axis in update.items() if axis is not getattr(joint, field)}
     return joint.copy(**changed) if changed else joint
 
 
-def _follows(axis: Axis | None, first: dict[str, str], second: frozenset[str]) -> Axis | None:
-    """The axis with its mimic of a joint in a chain of two, now of one of the two axes of one joint."""
+def _follow_axis(axis: Axis | None, first: dict[str, str], second: frozenset[str]) -> Axis | None:
+    """The axis with a mimic of a chain joint turned into a mimic of an axis of the folded joint."""
     mimic = axis.mimic if axis else None
     if axis is None or mimic is None:
         return axis

@@ -65,13 +65,13 @@ class FrameLinks(ModelPass):
         guests: dict[str, list[Link]] = {}
         anchors: dict[str, str] = {}
         for name in moved:
-            guests.setdefault(_anchor(name, moved, anchors), []).append(links[name])
+            guests.setdefault(_find_anchor(name, moved, anchors), []).append(links[name])
         frames = [frame for joint in moved.values() for frame in self._frames(joint, links[joint.child or ""], sink)]
         model = self._keep_physics(model, [(joint, links[joint.child or ""]) for joint in moved.values()], sink)
         model = self._keep_flags(model, [links[name] for name in moved if name], sink)
         made = model.copy(
             links=tuple(
-                _host(link, guests.get(link.name, []), sink, carriers=self.carriers)
+                _host_guests(link, guests.get(link.name, []), sink, carriers=self.carriers)
                 for link in model.links
                 if link.name not in moved
             ),
@@ -83,7 +83,7 @@ class FrameLinks(ModelPass):
         parents = {
             name: joint.parent or "" for name, joint in moved.items() if find_annotation(links[name or ""], FRAME)
         }
-        placed = _attached(made, parents, sink) if parents else made
+        placed = _attach_frames(made, parents, sink) if parents else made
         return placed.copy(canonical_link=model.canonical_link)
 
     def _frames(self, joint: Joint, link: Link, sink: DiagnosticSink) -> tuple[Frame, ...]:
@@ -119,7 +119,7 @@ class FrameLinks(ModelPass):
         return self._keep(frame, rest, f"the axis of the fixed joint {joint.name!r} has no effect", sink)
 
     def _keep_physics(self, model: Model, joints: list[tuple[Joint, Link]], sink: DiagnosticSink) -> Model:
-        """What `<gazebo>` sets for the physics of a joint that becomes a frame: it is carried in such an element."""
+        """Carry the physics that `<gazebo>` sets for joints that become frames."""
         kept: list[Opaque] = []
         for joint, link in joints:
             parts = [part.element for part in joint.opaque if part.element and part not in _carriers(joint)]
@@ -133,7 +133,7 @@ class FrameLinks(ModelPass):
         return self._in_front(model, kept)
 
     def _keep_flags(self, model: Model, links: list[Link], sink: DiagnosticSink) -> Model:
-        """What `<gazebo>` sets for a link that becomes a frame, and that has no body to act on."""
+        """Carry the flags that `<gazebo>` sets for links that become frames and have no body."""
         kept: list[Opaque] = []
         for link in links:
             written = {field: getattr(link, field) for field in _FLAGS}
@@ -150,7 +150,7 @@ class FrameLinks(ModelPass):
         return self._in_front(model, kept)
 
     def _in_front(self, model: Model, kept: list[Opaque]) -> Model:
-        """The model with what it is to carry before what it does, which lost against it."""
+        """The model with new carriers before its own, which count less."""
         return model.copy(opaque=(*pack(kept, "urdf"), *model.opaque)) if self.carriers else model
 
     def _rest_of_link(self, frame: Frame, link: Link, sink: DiagnosticSink) -> Frame:
@@ -167,13 +167,13 @@ class FrameLinks(ModelPass):
 
 
 def _name_in_urdf(joint: Joint, link: Link) -> str:
-    """What a joint is called in the URDF that is made next: SDF has no name for one that fixes a frame."""
+    """The name of a joint after a conversion back to URDF; a joint that fixes a frame has no name in SDF."""
     is_made = is_synthesized(joint) and find_annotation(link, FRAME) is not None
     return f"{link.name}_joint" if is_made else joint.name
 
 
-def _attached(model: Model, parents: dict[str, str], sink: DiagnosticSink) -> Model:
-    """The model with every frame attached to the link that its joint had as the parent, if that is another one."""
+def _attach_frames(model: Model, parents: dict[str, str], sink: DiagnosticSink) -> Model:
+    """The model with frames attached to the parents of their joints, where the annotated holder is elsewhere."""
     graph = FrameGraph(without_reversals(model))  # a frame on a joint moves with its child in SDF
     frames: list[Frame] = []
     for frame in model.frames:
@@ -187,7 +187,7 @@ def _attached(model: Model, parents: dict[str, str], sink: DiagnosticSink) -> Mo
 
 
 def _root(model: Model) -> str | None:
-    """The link that no joint holds, which the frame of the model moves with."""
+    """The root link, which the frame of the model moves with."""
     children = {joint.child for joint in model.joints}
     return next((link.name for link in model.links if link.name not in children), None)
 
@@ -200,7 +200,7 @@ def _moves_with(graph: FrameGraph, holder: str, parent: str) -> bool:
 
 
 def frame_as_before(joint: Joint, link: Link, annotation: Element, pose: Pose | None) -> Frame:
-    """The one frame of SDF that a link and its joint were made of; it is still where they are."""
+    """The frame of SDF from which a link and its joint were made, at their present place."""
     holder = annotation.get("attached_to")
     if holder is not None:
         pose = (pose or Pose()).copy(relative_to=joint.parent)
@@ -214,8 +214,8 @@ def is_massless(link: Link) -> bool:
     return link.inertial is None or (not link.inertial.auto and (link.inertial.mass or 0.0) <= 0.0)
 
 
-def _anchor(name: str, moved: dict[str, Joint], known: dict[str, str]) -> str:
-    """The nearest link above that stays a link; what is `known` of other links is used, and added to."""
+def _find_anchor(name: str, moved: dict[str, Joint], known: dict[str, str]) -> str:
+    """The nearest link above that stays a link; `known` caches the answers."""
     way: list[str] = []
     while name in moved and name not in known:
         way.append(name)
@@ -226,31 +226,33 @@ def _anchor(name: str, moved: dict[str, Joint], known: dict[str, str]) -> str:
 
 
 def _carriers(node: Link | Joint) -> tuple[Opaque, ...]:
-    """What a frame can hold of a node's opaque parts: those that only our own reader understands."""
+    """The opaque parts of a node that a frame can hold: elements with a namespace."""
     return tuple(part for part in node.opaque if part.element is not None and part.element.name.startswith("{"))
 
 
 def _is_native(part: Opaque) -> bool:
-    """Whether it is SDF's own: carriers stay with the frame, and annotations are about the link that is gone."""
+    """Whether an opaque part is SDF's own, which moves to the host link."""
     return not is_ours(part) and not (part.element is not None and part.element.name.startswith("{"))
 
 
-def _host(link: Link, guests: list[Link], sink: DiagnosticSink, *, carriers: bool) -> Link:
+def _host_guests(link: Link, guests: list[Link], sink: DiagnosticSink, *, carriers: bool) -> Link:
     if not guests:
         return link
-    visuals = (*link.visuals, *(_placed(visual, guest.name) for guest in guests for visual in guest.visuals))
-    collisions = (*link.collisions, *(_placed(one, guest.name) for guest in guests for one in guest.collisions))
-    plain = tuple(_placed_element(part, guest.name) for guest in guests for part in guest.opaque if _is_native(part))
+    visuals = (*link.visuals, *(_pose_in_frame(visual, guest.name) for guest in guests for visual in guest.visuals))
+    collisions = (*link.collisions, *(_pose_in_frame(one, guest.name) for guest in guests for one in guest.collisions))
+    plain = tuple(
+        _pose_element_in_frame(part, guest.name) for guest in guests for part in guest.opaque if _is_native(part)
+    )
     return link.copy(
         visuals=name_all(visuals, f"{link.name}_visual", sink, carriers=carriers),
         collisions=name_all(collisions, f"{link.name}_collision", sink, carriers=carriers),
-        sensors=(*link.sensors, *(_placed(one, guest.name) for guest in guests for one in guest.sensors)),
-        lights=(*link.lights, *(_placed(one, guest.name) for guest in guests for one in guest.lights)),
+        sensors=(*link.sensors, *(_pose_in_frame(one, guest.name) for guest in guests for one in guest.sensors)),
+        lights=(*link.lights, *(_pose_in_frame(one, guest.name) for guest in guests for one in guest.lights)),
         opaque=(*link.opaque, *plain),
     )
 
 
-def _placed(node: Placed, frame: str) -> Placed:
+def _pose_in_frame(node: Placed, frame: str) -> Placed:
     """The node posed in a frame of that name, unless its pose names another one already."""
     pose = node.pose or Pose()
     if pose.relative_to is not None:
@@ -258,7 +260,7 @@ def _placed(node: Placed, frame: str) -> Placed:
     return node.copy(pose=pose.copy(relative_to=frame))
 
 
-def _placed_element(part: Opaque, frame: str) -> Opaque:
+def _pose_element_in_frame(part: Opaque, frame: str) -> Opaque:
     """Say in the pose of an untyped element, such as a projector, which frame it is relative to."""
     element = part.element
     if element is None:

@@ -10,7 +10,7 @@ from twinform.passes.legalise.changed_names import scoped_name
 from twinform.passes.shared.pose_notation import NESTED
 
 _CLOSE = 1e-9
-"""How far numbers may be apart that were written from one."""
+"""The relative tolerance for numbers that were written from the same value."""
 
 
 def links_in_static_models(model: Model) -> frozenset[str]:
@@ -27,14 +27,14 @@ def links_in_static_models(model: Model) -> frozenset[str]:
 
 
 def needs_no_joint(joint: Joint, held: frozenset[str]) -> bool:
-    """Whether SDF has no joint here; `held` are the links that are where they are, fixed to the world or not."""
+    """Whether a joint is left out in SDF; `held` are the links of static models."""
     if joint.type == "floating":
         return True
     return joint.type == "fixed" and joint.parent == WORLD and joint.child in held and is_synthesized(joint)
 
 
 def placing_frames(model: Model, joints: Iterable[Joint]) -> Mapping[str, Frame]:
-    """A frame in `<gazebo>` for each floating joint of URDF, by their names; none where the links are in no tree.
+    """A frame in `<gazebo>` for each floating joint of URDF, by its name; none where the links form no tree.
 
     libsdformat writes no such joint, and still poses the link relative to it, so that it refuses the file without a
     frame of that name: parser_urdf.cc, CreateLink.
@@ -50,7 +50,7 @@ def placing_frames(model: Model, joints: Iterable[Joint]) -> Mapping[str, Frame]
 
 
 def are_at_one_place(frame: Frame, other: Frame) -> bool:
-    """Whether the poses of two frames are the same, as far as files write them."""
+    """Whether the poses of two frames are equal within the precision of files."""
     one, two = (Transform.from_pose(each.pose) for each in (frame, other))
     numbers = zip((*one.translation, *one.rotation), (*two.translation, *two.rotation), strict=True)
     return all(abs(a - b) <= _CLOSE * max(1.0, abs(a)) for a, b in numbers)

@@ -54,11 +54,11 @@ def _free_models(model: Model, static: AbstractSet[str]) -> AbstractSet[str]:
 
 
 def _without_static(link: Link) -> Link:
-    opaque = tuple(_moving(part) if is_annotation(part, NESTED) else part for part in link.opaque)
+    opaque = tuple(_without_static_element(part) if is_annotation(part, NESTED) else part for part in link.opaque)
     return link.copy(opaque=opaque)
 
 
-def _moving(part: Opaque) -> Opaque:
+def _without_static_element(part: Opaque) -> Opaque:
     element = part.element or Element(name="")
     children = tuple(child for child in element.children if child.name != "static")
     return part.copy(element=element.copy(children=children))

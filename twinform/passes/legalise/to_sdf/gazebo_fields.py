@@ -1,4 +1,4 @@
-"""Assigning the values of `<gazebo>` tags to the SDF fields that they set."""
+"""Fields that `<gazebo>` elements set: by tags, and by SDF content that is read and merged into links and joints."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace

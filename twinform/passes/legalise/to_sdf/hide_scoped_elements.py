@@ -24,9 +24,9 @@ class HideScopedElements(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without such elements but in carriers."""
-        return rewrite(model, Node, lambda node: self._hidden(node, sink), having=PLAIN)
+        return rewrite(model, Node, lambda node: self._hide(node, sink), having=PLAIN)
 
-    def _hidden(self, node: Node, sink: DiagnosticSink) -> Node:
+    def _hide(self, node: Node, sink: DiagnosticSink) -> Node:
         scoped = scoped_parts(node)
         if not scoped:
             return node

@@ -1,4 +1,4 @@
-"""Conversion of URDF joint types, axes and limits to SDF."""
+"""Conversion of URDF joint types, axes and limits to SDF, and of planar joints to chains."""
 
 from collections.abc import Mapping
 from typing import ClassVar, NamedTuple, TypeVar
@@ -18,7 +18,7 @@ from twinform.passes.shared.nodes import reserve_name
 from twinform.schemas import format_value
 
 FLOATING = "floating"
-"""The annotation on a link of SDF that a floating joint of URDF leaves free, with what else the joint has."""
+"""The annotation on a link of SDF with the floating joint of URDF that leaves it free."""
 _BESIDE_AXIS = OF_AN_AXIS - {"axis"}
 Made = TypeVar("Made", Link, Joint)
 
@@ -57,7 +57,7 @@ class UrdfJoints(ModelPass):
         return self._unfold(model, sink) if any(joint.type == "planar" for joint in joints) else model
 
     def _without_useless_mimics(self, model: Model, sink: DiagnosticSink) -> tuple[Joint, ...]:
-        """The joints of the model without mimics that libsdformat refuses since SDF 1.11; SDF keeps its own."""
+        """The joints without mimics that libsdformat refuses since SDF 1.11; those that came from SDF stay."""
         if came_from(model, Format.SDF):
             return model.joints
         known = {joint.name: joint for joint in model.joints}
@@ -74,7 +74,7 @@ class UrdfJoints(ModelPass):
         return self._keep(bare, [Opaque.unchecked(element=each) for each in pieces], message, sink)
 
     def _unfold(self, model: Model, sink: DiagnosticSink) -> Model:
-        """The model with a chain in the place of each planar joint."""
+        """The model with each planar joint replaced by a chain."""
         taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
         links: dict[str | None, tuple[Link, ...]] = {}
         joints: list[Joint] = []
@@ -133,7 +133,7 @@ class UrdfJoints(ModelPass):
                 return joint
 
     def _ball(self, joint: Joint, sink: DiagnosticSink) -> Joint:
-        """Any axis of a ball joint stays: its damping is that of the joint. SDF has none of length zero."""
+        """The ball joint with its axis, whose damping counts, but without a zero direction, which SDF forbids."""
         if joint.axis is not None and joint.axis.xyz is not None and not any(joint.axis.xyz):
             written = " ".join(format_value(each) for each in joint.axis.xyz)
             joint = joint.copy(axis=joint.axis.copy(xyz=None))
@@ -184,7 +184,7 @@ _HIGHER = ("acceleration", "deceleration", "jerk")
 
 
 def _limit(joint: Joint, limit: Limit | None) -> tuple[Limit | None, list[Opaque]]:
-    """The limit in SDF, and the attributes of URDF's that it has no place for."""
+    """The limit in SDF, and the attributes of the URDF limit that SDF lacks."""
     if limit is None:
         return None, []
     unsaid = (*_HIGHER, "lower", "upper") if joint.type == "continuous" else _HIGHER
@@ -197,25 +197,25 @@ def _mimic_of(joint: Joint) -> Mimic | None:
 
 
 def _without(limit: Limit, names: tuple[str, ...]) -> tuple[Limit, list[Opaque]]:
-    """The limit without what it has by these names, and that as attributes of URDF."""
+    """The limit without the named fields, and these as attributes of URDF."""
     written = [(name, getattr(limit, name)) for name in names if getattr(limit, name) is not None]
     rest = [Opaque.unchecked(at="limit", attribute=(name, format_value(value))) for name, value in written]
     return (limit.copy(**{name: None for name, _ in written}) if written else limit), rest
 
 
 Names = tuple[str, str, str, str]
-"""Those of the sliding joints and their links, in turns."""
+"""The names of the first sliding joint and its link, and of the second ones."""
 
 
 class PlanarChain(NamedTuple):
-    """Two sliding joints, each with the link that it moves, and the turning one, which keeps name and child."""
+    """Two sliding joints with the links that they move, and the turning joint, which keeps name and child."""
 
     links: tuple[Link, Link]
     joints: tuple[Joint, Joint, Joint]
 
 
 def planar_names(joint: str, taken: set[str]) -> Names:
-    """The names in the chain of a planar joint, each with a number if it is taken; they are from then on."""
+    """The names in the chain of a planar joint, made unique and added to the taken ones."""
     return (
         reserve_name(f"{joint}_x", taken),
         reserve_name(f"{joint}_x_link", taken),
@@ -227,8 +227,8 @@ def planar_names(joint: str, taken: set[str]) -> Names:
 def planar_chain(joint: Joint, names: Names) -> PlanarChain:
     """The chain of a planar joint of URDF.
 
-    All three axes are in the joint's frame, whose x and y span the plane where its normal is z. The links between have
-    a token of mass, so that engines move them and the robot weighs what it weighed.
+    All axes are in the frame of the joint, whose x and y span the plane if its normal is z. The links between have a
+    token mass, so that engines can move them and the robot keeps its mass.
     """
     normal = direction(joint.axis, Format.URDF)
     along, across = plane_across(normal)

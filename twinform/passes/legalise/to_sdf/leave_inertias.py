@@ -20,7 +20,7 @@ from twinform.schemas import parse_version
 _SINCE = (1, 11)
 _FIELDS = ("mass", "pose", "inertia")
 _CLOSE = 1e-9
-"""How far numbers may be apart that were computed from one shape, relative to the largest of their kind."""
+"""The tolerance for numbers computed from the same shape, relative to the largest of their kind."""
 
 
 class LeaveInertias(ModelPass, AssetPass):
@@ -42,7 +42,9 @@ class LeaveInertias(ModelPass, AssetPass):
             return model
         graph = FrameGraph(model)
         meshes = Meshes(self._assets)
-        links = tuple(_leave(link, graph, meshes, sink) if _was_automatic(link) else link for link in model.links)
+        links = tuple(
+            _leave_to_reader(link, graph, meshes, sink) if _was_automatic(link) else link for link in model.links
+        )
         return model.copy(links=links)
 
 
@@ -55,24 +57,24 @@ def _is_auto(part: Opaque) -> bool:
     return any(piece.attribute and piece.attribute[0] == "auto" and not piece.at for piece in pieces)
 
 
-def _leave(link: Link, graph: FrameGraph, meshes: Meshes, sink: DiagnosticSink) -> Link:
+def _leave_to_reader(link: Link, graph: FrameGraph, meshes: Meshes, sink: DiagnosticSink) -> Link:
     inertial = link.inertial or Inertial()
     computed = _FIELDS if find_annotation(inertial, COMPUTED_MASS) else _FIELDS[1:]
     left = without_annotation(inertial.copy(**dict.fromkeys(computed)), COMPUTED_MASS)
     try:
-        left = _unpacked(left)
+        left = _unpack_carriers(left)
         found = automatic(link, left, link.collisions, graph, meshes)
     except (CarrierError, NoSolidError, FrameError) as error:
-        return _stale(link, inertial, str(error), sink)
+        return _keep_numbers(link, inertial, str(error), sink)
     # Numbers and shapes can both be edited in URDF. The inertia is automatic again only where the
     # shapes still give the numbers; otherwise the numbers count.
     if not _is_the_same(found, inertial):
-        return _stale(link, inertial, "its numbers or its collisions were edited", sink)
+        return _keep_numbers(link, inertial, "its numbers or its collisions were edited", sink)
     return link.copy(inertial=left)
 
 
-def _unpacked(inertial: Inertial) -> Inertial:
-    """The inertial with all that it carries of SDF."""
+def _unpack_carriers(inertial: Inertial) -> Inertial:
+    """The inertial with its carriers of SDF unpacked."""
     pieces = tuple(piece for part in inertial.opaque if is_carrier(part, "sdf") for piece in unpack(part))
     kept = tuple(part for part in inertial.opaque if not is_carrier(part, "sdf"))
     return absorb(inertial.copy(opaque=kept), pieces)
@@ -94,7 +96,7 @@ def _are_close(some: Iterable[float], others: Iterable[float], scale: float) -> 
     return all(abs(one - other) <= _CLOSE * scale for one, other in zip(some, others, strict=True))
 
 
-def _stale(link: Link, inertial: Inertial, why: str, sink: DiagnosticSink) -> Link:
+def _keep_numbers(link: Link, inertial: Inertial, why: str, sink: DiagnosticSink) -> Link:
     message = f"the inertia of link {link.name!r} is no longer computed from its collisions: {why}"
     sink.report(rules.STALE_CARRIER, message, inertial.location, found=link.name)
     kept = tuple(part for part in inertial.opaque if not _is_auto(part))

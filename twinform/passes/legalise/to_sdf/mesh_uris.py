@@ -27,11 +27,11 @@ class MeshUris(ModelPass):
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with URIs that Gazebo resolves."""
         annotations = self.carriers and not came_from(model, Format.SDF)
-        return model.copy(links=tuple([_Links(sink, annotations).link(link) for link in model.links]))
+        return model.copy(links=tuple([_UriWriter(sink, annotations).link(link) for link in model.links]))
 
 
 @dataclass(frozen=True, slots=True)
-class _Links:
+class _UriWriter:
     """One run over the links; `annotations`: whether the scheme of a URI is to be annotated."""
 
     sink: DiagnosticSink

@@ -62,9 +62,9 @@ def name_all(shapes: tuple[Shape, ...], base: str, sink: DiagnosticSink, *, carr
     for shape in shapes:
         name = _own_name(shape)
         if not name or name in seen:
-            name = _free(name or base, taken, seen, numbers)
+            name = _free_name(name or base, taken, seen, numbers)
             if shape.name:
-                message = f"{shape.name!r} {_why(shape)} is called {name!r} in SDF"
+                message = f"{shape.name!r} {_fault_of(shape)} is called {name!r} in SDF"
                 Keeper(sink, carriers).account(rules.SHAPE_NAME, message, shape.location)
                 if carriers:
                     shape = with_annotation(shape, NAME, shape.name, {"instead_of": name})  # noqa: PLW2901 - the same shape
@@ -74,16 +74,16 @@ def name_all(shapes: tuple[Shape, ...], base: str, sink: DiagnosticSink, *, carr
 
 
 def _own_name(shape: Visual | Collision) -> str:
-    """The name that it has; empty where it has none, or one made of blanks."""
+    """The name of a shape; empty where it has none, or one made of blanks."""
     return shape.name if shape.name and shape.name.strip() else ""
 
 
-def _why(shape: Visual | Collision) -> str:
+def _fault_of(shape: Visual | Collision) -> str:
     return "is used twice; the second one" if _own_name(shape) else "is not a valid name; it"
 
 
-def _free(base: str, taken: set[str], seen: set[str], numbers: Mapping[str, "count[int]"]) -> str:
-    """The base, or the base with the next number that gives a new name; numbers that were tried are not tried again."""
+def _free_name(base: str, taken: set[str], seen: set[str], numbers: Mapping[str, "count[int]"]) -> str:
+    """The base, or the base with the next number that makes it unique; `numbers` remembers the last number tried."""
     name = base
     while name in taken or name in seen:
         # A counter for each base: starting at 1 every time takes quadratic time with thousands of

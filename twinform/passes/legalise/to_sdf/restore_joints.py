@@ -44,11 +44,11 @@ class RestoreJoints(ModelPass):
 
 
 def _restore_joint(joint: Joint, sink: DiagnosticSink) -> Joint:
-    joint = _with_reference(without_annotation(joint, SYNTHESIZED), sink)
+    joint = _restore_mimic(without_annotation(joint, SYNTHESIZED), sink)
     axes = {name: axis for name in _AXES if (axis := getattr(joint, name)) is not None and axis.limit is not None}
     if axes:
         joint = joint.copy(**{name: _without_infinities(axis) for name, axis in axes.items()})
-    return _continuous(joint, sink)
+    return _restore_continuous(joint, sink)
 
 
 def _without_infinities(axis: Axis) -> Axis:
@@ -59,11 +59,11 @@ def _without_infinities(axis: Axis) -> Axis:
 
 
 def _sign(name: str) -> int:
-    """On which side a number that limits nothing is: of a lower limit far below."""
+    """The sign of a number that limits nothing: a lower limit is then far below zero."""
     return -1 if name == "lower" else 1
 
 
-def _continuous(joint: Joint, sink: DiagnosticSink) -> Joint:
+def _restore_continuous(joint: Joint, sink: DiagnosticSink) -> Joint:
     if find_annotation(joint, CONTINUOUS) is None:
         return joint
     joint = without_annotation(joint, CONTINUOUS)
@@ -77,7 +77,7 @@ def _continuous(joint: Joint, sink: DiagnosticSink) -> Joint:
     return joint
 
 
-def _with_reference(joint: Joint, sink: DiagnosticSink) -> Joint:
+def _restore_mimic(joint: Joint, sink: DiagnosticSink) -> Joint:
     made = restore_reference(joint)
     if made is not None:
         return made
@@ -88,7 +88,7 @@ def _with_reference(joint: Joint, sink: DiagnosticSink) -> Joint:
 
 
 def without_reversals(model: Model) -> Model:
-    """The model with the joints that an annotation calls reversed the right way round."""
+    """The model with joints reversed back that the conversion to URDF reversed."""
     turned = [joint for joint in model.joints if find_annotation(joint, REVERSED) and joint.type in REVERSIBLE]
     if not turned:
         return model
@@ -99,7 +99,7 @@ def without_reversals(model: Model) -> Model:
 
 
 def restore_reference(joint: Joint) -> Joint | None:
-    """The joint whose mimic has the annotated `reference`; None where there is no mimic, or the text is no number.
+    """The joint with the annotated `reference` of its mimic; None without a mimic or with an invalid number.
 
     multiplier (leader - reference) + offset is what URDF writes as multiplier leader + offset.
     """

@@ -30,15 +30,15 @@ class RestoreShapeNames(ModelPass):
         if not came_from(model, Format.SDF):
             return model
         restored = replace_fields(model, links=tuple(map(_restore_names, model.links)))
-        return _sensing(model, restored, sink) if mentions_collisions(model) else restored
+        return _rename_sensed(model, restored, sink) if mentions_collisions(model) else restored
 
 
 def _restore_names(link: Link) -> Link:
-    visuals, collisions = tuple(map(_by_its_name, link.visuals)), tuple(map(_by_its_name, link.collisions))
+    visuals, collisions = tuple(map(_restore_name, link.visuals)), tuple(map(_restore_name, link.collisions))
     return replace_fields(link, visuals=visuals, collisions=collisions)
 
 
-def _by_its_name(shape: Shape) -> Shape:
+def _restore_name(shape: Shape) -> Shape:
     found = find_annotation(shape, NAME)
     if found is None:
         return shape
@@ -48,7 +48,7 @@ def _by_its_name(shape: Shape) -> Shape:
     return without_annotation(shape, NAME).copy(name=name)
 
 
-def _sensing(before: Model, after: Model, sink: DiagnosticSink) -> Model:
+def _rename_sensed(before: Model, after: Model, sink: DiagnosticSink) -> Model:
     """The model with the own names of collisions in place of those that libsdformat gives them."""
     own = {
         id(old): Followed(new.name or "", one.name)

@@ -34,9 +34,9 @@ class ShareInertias(ModelPass):
         found = shared_inertias(model)
         if not found:
             return model
-        return model.copy(links=tuple(self._shared(link, found, sink) for link in model.links))
+        return model.copy(links=tuple(self._share(link, found, sink) for link in model.links))
 
-    def _shared(self, link: Link, found: dict[str, Solid], sink: DiagnosticSink) -> Link:
+    def _share(self, link: Link, found: dict[str, Solid], sink: DiagnosticSink) -> Link:
         written = link.inertial
         if written is None or link.name not in found:
             return link

@@ -13,7 +13,7 @@ from twinform.passes.structure.rename_parts import follow_references, scope_of
 
 Named = TypeVar("Named", Link, Joint, Model)
 _NO_NAME = "robot"
-"""What a robot is called that has no name, which SDF asks for."""
+"""The name of a robot without one, since SDF requires a name."""
 
 
 class UniqueNames(ModelPass):
@@ -37,10 +37,10 @@ class UniqueNames(ModelPass):
             model = self._rename(model, _NO_NAME, sink)
         names = {link.name for link in model.links}
         taken = names | {joint.name for joint in model.joints}
-        links = {name: reserve_name(_new(name, "link"), taken) for name in sorted(names) if _reserved(name)}
+        links = {name: reserve_name(_legal_name(name, "link"), taken) for name in sorted(names) if _is_reserved(name)}
         kept = (joint.name for joint in model.joints if joint.type != "floating")  # SDF has no joint there
-        clashes = [name for name in kept if name in names or _reserved(name)]
-        joints = {name: reserve_name(_new(name, "joint", names), taken) for name in clashes}
+        clashes = [name for name in kept if name in names or _is_reserved(name)]
+        joints = {name: reserve_name(_legal_name(name, "joint", names), taken) for name in clashes}
         if not links and not joints:
             return model
         new: dict[str, dict[str, str]] = {"link": links, "joint": joints}
@@ -49,12 +49,12 @@ class UniqueNames(ModelPass):
         scope = scope_of(model, lambda part, name: new.get(part, {}).get(name, name), deep=False)
         followed = follow_references(followed, scope, Format.URDF, sink)
         update = {
-            "links": tuple(self._renamed(link, links, sink) for link in followed.links),
-            "joints": tuple(self._renamed(joint, joints, sink) for joint in followed.joints),
+            "links": tuple(self._rename_if_new(link, links, sink) for link in followed.links),
+            "joints": tuple(self._rename_if_new(joint, joints, sink) for joint in followed.joints),
         }
         return followed.copy(**update)
 
-    def _renamed(self, node: Named, names: dict[str, str], sink: DiagnosticSink) -> Named:
+    def _rename_if_new(self, node: Named, names: dict[str, str], sink: DiagnosticSink) -> Named:
         return self._rename(node, names[node.name], sink) if node.name in names else node
 
     def _rename(self, node: Named, name: str, sink: DiagnosticSink) -> Named:
@@ -67,13 +67,13 @@ class UniqueNames(ModelPass):
         return node.copy(name=name)
 
 
-def _reserved(name: str) -> bool:
+def _is_reserved(name: str) -> bool:
     return name == "world" or (name.startswith("__") and name.endswith("__")) or name != name.strip()
 
 
-def _new(name: str, kind: str, links: Collection[str] = ()) -> str:
-    """The name to take instead of one that is reserved, or that a link has."""
+def _legal_name(name: str, kind: str, links: Collection[str] = ()) -> str:
+    """The name to take instead of one that is reserved or that a link has."""
     bare = name.strip()
     # libsdformat drops blanks around names where it reads them, so a link "a " would lose the
     # joints that name it.
-    return f"{bare.strip('_')}_{kind}" if bare == name or bare in links or _reserved(bare) else bare
+    return f"{bare.strip('_')}_{kind}" if bare == name or bare in links or _is_reserved(bare) else bare

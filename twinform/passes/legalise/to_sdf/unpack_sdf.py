@@ -39,7 +39,7 @@ _ENDS = frozenset({"lower", "upper"})
 _IDENTITY = Pose.unchecked(xyz=(0.0, 0.0, 0.0), rpy=(0.0, 0.0, 0.0))
 """As it is written: without it the pose behind it would be the one that counts."""
 _ABOUT = NOT_CONTENT | {"opaque"}
-"""Fields in which a node has nothing of its own, or one thing beside others."""
+"""Fields that are not compared: they are not content, or take any number of parts."""
 
 
 class UnpackSdf(ModelPass):
@@ -86,7 +86,7 @@ def _without_carriers(node: AnyNode) -> AnyNode:
             continue
         # What the file says counts. A carrier adds only where the file leaves something open; a
         # carrier that overruled an edit would undo it silently.
-        more = None if is_memory(carrier) or _is_overruled(carrier, node) else _with(node, carrier)
+        more = None if is_memory(carrier) or _is_overruled(carrier, node) else _absorb_carrier(node, carrier)
         node = node.copy(opaque=(*node.opaque, carrier)) if more is None else more
     return node
 
@@ -108,7 +108,7 @@ def _is_repeated_pose(part: Opaque) -> bool:
 
 
 def _is_blank_pose(carrier: Opaque) -> bool:
-    """Whether it is an empty pose, which the link has by now."""
+    """Whether a carrier holds nothing but an empty pose, which the link has anyway."""
     return all(
         piece.element is not None and piece.element == Element.unchecked(name="pose") for piece in unpack(carrier)
     )
@@ -133,7 +133,7 @@ def _is_overruled(carrier: Opaque, node: Node) -> bool:
 
 
 def _is_second(node: Node, carrier: Opaque) -> bool:
-    """Whether what is in a carrier repeats something of the node."""
+    """Whether the content of a carrier repeats an element of the node."""
     has_index = carrier.element is not None and carrier.element.get("index") is not None
     return has_index and any(is_repeated(piece, node) for piece in unpack(carrier))
 
@@ -159,7 +159,7 @@ def _with_colors(visual: Visual, sink: DiagnosticSink) -> Visual:
         return visual
     visual = without_annotation(visual, COLORS)
     try:
-        of, ambient, diffuse = (_color(found.get(name)) for name in ("of", "ambient", "diffuse"))
+        of, ambient, diffuse = (_read_color(found.get(name)) for name in ("of", "ambient", "diffuse"))
     except ValueError as error:
         of = ambient = diffuse = None
         sink.report(STALE_CARRIER, f"the kept colors of visual {visual.name!r} are invalid: {error}", visual.location)
@@ -189,14 +189,14 @@ def _with_scripts(visual: Visual, sink: DiagnosticSink) -> Visual:
     return visual.copy(material=visual.material.copy(script=script))
 
 
-def _color(text: str | None) -> Color | None:
-    """The color in an annotation; empty for one that is not written, None where it is the usual one."""
+def _read_color(text: str | None) -> Color | None:
+    """The color in an annotation: empty for a color that SDF did not write, None without the attribute."""
     if text is None:
         return None
     return tuple(float(part) for part in text.split())
 
 
-def _absorbed(node: AnyNode, carriers: Iterable[Opaque]) -> AnyNode:
+def _absorb_all(node: AnyNode, carriers: Iterable[Opaque]) -> AnyNode:
     """The node with what is in the carriers.
 
     Raises:
@@ -209,14 +209,14 @@ def _absorbed(node: AnyNode, carriers: Iterable[Opaque]) -> AnyNode:
     return node
 
 
-def _with(node: AnyNode, carrier: Opaque) -> AnyNode | None:
-    """The node with what is in a carrier; None where it has that already, or cannot have it."""
+def _absorb_carrier(node: AnyNode, carrier: Opaque) -> AnyNode | None:
+    """The node with the content of a carrier; None where the node states it already, or cannot hold it."""
     try:
         if carrier.element and carrier.element.get("at") and carrier.element.get("index") is not None:
-            return _absorbed(node, [carrier])
-        other = _absorbed(node.copy(**_defaults(node)), [carrier])
+            return _absorb_all(node, [carrier])
+        other = _absorb_all(node.copy(**_defaults(node)), [carrier])
         has_pose = getattr(other, "pose", None) is not None
-        return _absorbed(node, [carrier]) if not has_pose and _is_new(other, node) else None
+        return _absorb_all(node, [carrier]) if not has_pose and _is_new(other, node) else None
     except CarrierError:
         return None
 
@@ -228,7 +228,7 @@ def _defaults(node: Node) -> dict[str, object]:
 
 
 def _is_new(other: Node, node: Node) -> bool:
-    """Whether a node has no other value where another one of its kind has one."""
+    """Whether no field of a node contradicts the same field of another node."""
     return all(
         _goes_with(getattr(other, name), getattr(node, name), default) for name, default in _defaults(node).items()
     )
@@ -241,5 +241,5 @@ def _goes_with(other: object, here: object, default: object) -> bool:
 
 
 def _are_nodes(value: object) -> bool:
-    """Whether it is a list of nodes, to which more can be added."""
+    """Whether a value is a list of nodes, to which more can be added."""
     return isinstance(value, tuple) and bool(value) and isinstance(value[0], Node)  # pyright: ignore[reportUnknownArgumentType] - any

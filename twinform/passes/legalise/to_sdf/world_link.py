@@ -35,7 +35,7 @@ class WorldLink(ModelPass):
         ):
             return model
         links = tuple(link for link in model.links if link is not world)
-        joints = tuple(_on_model(joint) for joint in model.joints)
+        joints = tuple(_pose_in_model(joint) for joint in model.joints)
         model = model.copy(links=links, joints=joints)
         held = links_in_static_models(model)
         if not any(joint.parent == "world" and not needs_no_joint(joint, held) for joint in joints):
@@ -54,7 +54,7 @@ class WorldLink(ModelPass):
         return carry(model, [Opaque.unchecked(element=to_element(world, "link", "urdf"))], "urdf")
 
 
-def _on_model(joint: Joint) -> Joint:
+def _pose_in_model(joint: Joint) -> Joint:
     if joint.parent != "world" or joint.pose is None:
         return joint
     # A robot that hangs from the world stands at the world's origin, so its frame and the model's
