@@ -140,16 +140,8 @@ def _convert_document(
     instrumentation: PassInstrumentation | None,
 ) -> Conversion:
     """Run the passes on a document that was read, and write it."""
-    kept = [each for each in loaded.diagnostics if not each.is_error]
-    sink = DiagnosticSink(
-        loaded.path,
-        load_options.strict,
-        kept,
-        list(loaded.entries),
-        origins=dict(loaded.origins),
-        allows=loaded.allowances and loaded.allowances.in_conversion,
-        allowed=list(loaded.allowed),
-    )
+    kept = tuple(each for each in loaded.diagnostics if not each.is_error)
+    sink = replace(loaded, diagnostics=kept).sink(strict=load_options.strict)
     passes = _user_passes(request, load_options, loaded.path)
     # The document is verified between the user's passes. Legalisation leaves it half in one format
     # and half in the other, so there the check comes at the end.

@@ -57,7 +57,9 @@ def expand(
     document = loaded.document
     if document is None or not loaded.accepted or document.format is not Format.SDF or not has_includes(document):
         return loaded
-    sink = _sink_after(loaded, load_options)
+    sink = loaded.sink(strict=load_options.strict)
+    if loaded.allowances:
+        loaded.allowances.origins = sink.origins
     reader = _IncludeExpander(load_options, sink, carriers)
     whole = reader.expand_document(document, Path(loaded.path), (), wanted)
     # Each file may be within the limits and the sum of them not.
@@ -75,20 +77,6 @@ def expand(
         entries=tuple(sink.entries),
         included=whole.size,
         mixed=True,
-    )
-
-
-def _sink_after(loaded: LoadResult, load_options: LoadOptions) -> DiagnosticSink:
-    origins = dict(loaded.origins)
-    if loaded.allowances:
-        loaded.allowances.origins = origins
-    return DiagnosticSink(
-        loaded.path,
-        load_options.strict,
-        list(loaded.diagnostics),
-        origins=origins,
-        allows=loaded.allowances and loaded.allowances.in_conversion,
-        allowed=list(loaded.allowed),
     )
 
 

@@ -93,14 +93,7 @@ def split(
             checked = whole if whole.accepted else checked  # a model with includes in it stays SDF
         if checked.document is None or not checked.accepted:
             raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
-        sink = DiagnosticSink(
-            checked.path,
-            load_options.strict,
-            list(checked.diagnostics),
-            list(checked.entries),
-            origins=dict(checked.origins),
-            allows=checked.allowances and checked.allowances.in_conversion,
-        )
+        sink = checked.sink(strict=load_options.strict)
         assets = LocalAssets(load_options.search, Path(checked.path))
         request = replace(request, assets=assets, mixed=has_mixed_words(checked))
         passes = request.passes.with_files(request.assets, OtherDocuments(load_options, checked.path).read)

@@ -56,13 +56,12 @@ def _unnormalized_axis(site: FindingSite) -> Fix | None:
     element = site.element if site.file.format == "urdf" else site.element.find("xyz")
     if element is None:
         return None
-    text = element.get("xyz") if site.file.format == "urdf" else element.text
-    numbers = numbers_of(text)
+    numbers = numbers_of(site.read(element, "xyz"))
     length = math.hypot(*numbers)
     if len(numbers) != 3 or not length:
         return None
     value = text_of_numbers([each / length for each in numbers])
-    return safe(f"Write the axis with length one, {value}", *_write_axis(site, element, value))
+    return safe(f"Write the axis with length one, {value}", *site.write(element, "xyz", value))
 
 
 def _zero_axis(site: FindingSite) -> Fix | None:
@@ -70,14 +69,7 @@ def _zero_axis(site: FindingSite) -> Fix | None:
     if element is None:
         return None
     value = _DEFAULT_AXIS[site.file.format]
-    return unsafe(f"Write the axis that is the default, {value}", *_write_axis(site, element, value))
-
-
-def _write_axis(site: FindingSite, element: XmlElement, value: str) -> tuple[TextEdit, ...]:
-    """Write the direction of an axis, which is an attribute in URDF and a text in SDF."""
-    if site.file.format == "urdf":
-        return (site.edit.set_attribute(element, "xyz", value),)
-    return site.edit.set_text(element, value)
+    return unsafe(f"Write the axis that is the default, {value}", *site.write(element, "xyz", value))
 
 
 def _unused_limit(site: FindingSite) -> Fix | None:

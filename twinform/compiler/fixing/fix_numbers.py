@@ -157,15 +157,13 @@ def _radians(angles: Sequence[float]) -> str:
 
 
 def _unnormalized_quaternion(site: FindingSite) -> Fix | None:
-    name = "quat_xyzw" if site.file.format == "urdf" else None
-    numbers = numbers_of(site.element.get(name) if name else site.element.text)
+    numbers = numbers_of(site.read(site.element, "quat_xyzw"))
     turn = numbers[-4:]
     length = math.hypot(*turn)
     if len(turn) != 4 or not length:
         return None
     value = text_of_numbers((*numbers[:-4], *(each / length for each in turn)))
-    edits = (site.edit.set_attribute(site.element, name, value),) if name else site.edit.set_text(site.element, value)
-    return unsafe("Write the quaternion with length one", *edits)
+    return unsafe("Write the quaternion with length one", *site.write(site.element, "quat_xyzw", value))
 
 
 def _split_value(site: FindingSite) -> Fix | None:
@@ -183,17 +181,12 @@ def _negative_mass(site: FindingSite) -> Fix | None:
     element = site.element if site.element.tag == "mass" else site.element.find("mass")
     if element is None:
         return None
-    text = (element.get("value") if site.file.format == "urdf" else element.text) or ""
+    text = site.read(element, "value")
     numbers = numbers_of(text)
     if len(numbers) != 1 or numbers[0] >= 0:
         return None
     value = text.strip().removeprefix("-")
-    edits = (
-        (site.edit.set_attribute(element, "value", value),)
-        if site.file.format == "urdf"
-        else site.edit.set_text(element, value)
-    )
-    return unsafe("Write the mass without its minus", *edits)
+    return unsafe("Write the mass without its minus", *site.write(element, "value", value))
 
 
 _DIGITS = 15

@@ -8,15 +8,15 @@ from functools import cached_property
 from typing import Any
 
 from twinform.compiler.input.finding_lines import PartFinder
+from twinform.compiler.input.front_ends import ROOTS, declared_version
 from twinform.compiler.input.loading import LoadResult, read_tree_again
 from twinform.compiler.input.parsing import UnreadableError
-from twinform.diagnostics import Diagnostic, Fix, Location, Safety, TextEdit
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Fix, Location, Safety, TextEdit
 from twinform.schemas import Fact, Version, XmlElement, rows_by_name, table
 from twinform.text import Editor, Lines, SourceText, TextSurroundings, UndecodableError, UnplacedError, masked, spans
 
 _EXPRESSION = re.compile(r"\$[{(]")
 _BETWEEN_WORDS = re.compile(r"\s+|::|,")
-_FORMATS = {"robot": "urdf", "sdf": "sdf"}
 
 
 @dataclass(frozen=True)
@@ -95,17 +95,12 @@ class FixableFile:
     @cached_property
     def format(self) -> str:
         """`urdf` or `sdf`."""
-        return _FORMATS[str(self.root.tag)]
+        return ROOTS[str(self.root.tag)][0]
 
     @cached_property
     def version(self) -> Version:
         """The version by which the document was read."""
-        found = table(self.format)
-        declared = self.root.get("version")
-        if declared in found.versions:
-            major, minor = declared.split(".")
-            return int(major), int(minor)
-        return (1, 0) if self.format == "urdf" and declared is None else found.newest
+        return declared_version(self.root, self.format, DiagnosticSink())
 
     def row_of(self, element: XmlElement) -> Fact | None:
         """Return the row of the facts table by which an element is read, with the rows of its content."""
@@ -147,6 +142,16 @@ class FindingSite:
         if self.attribute:
             return (self.edit.set_attribute(self.element, self.attribute, value),)
         return self.edit.set_text(self.element, value)
+
+    def read(self, element: XmlElement, name: str) -> str:
+        """Return the value of an element, which is an attribute in URDF and its text in SDF."""
+        return (element.get(name) if self.file.format == "urdf" else element.text) or ""
+
+    def write(self, element: XmlElement, name: str, value: str) -> tuple[TextEdit, ...]:
+        """Write the value of an element, which is an attribute in URDF and its text in SDF."""
+        if self.file.format == "urdf":
+            return (self.edit.set_attribute(element, name, value),)
+        return self.edit.set_text(element, value)
 
     def part(self, where: Location) -> XmlElement | None:
         """Return the element that another location leads to."""

@@ -10,7 +10,7 @@ from twinform.compiler.input.size_limits import LARGEST, MOST_TAGS, USUAL_LIMITS
 from twinform.compiler.option import Option, given
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.search.resolve_uris import SearchPath
-from twinform.diagnostics import Diagnostic, LedgerEntry, LineOrigins
+from twinform.diagnostics import Diagnostic, DiagnosticSink, LedgerEntry, LineOrigins
 from twinform.ir import Document, count_parts
 from twinform.schemas import DEFAULT_SDF_VERSION, Engine, XmlElement
 
@@ -196,6 +196,18 @@ class LoadResult:
         if self.tree is not None:
             return self.included + parts_of(self.tree)
         return count_parts(self.document) if self.document else 0
+
+    def sink(self, *, strict: bool) -> DiagnosticSink:
+        """Make a sink with what was found so far, to which a conversion adds."""
+        return DiagnosticSink(
+            self.path,
+            strict,
+            list(self.diagnostics),
+            list(self.entries),
+            origins=dict(self.origins),
+            allows=self.allowances and self.allowances.in_conversion,
+            allowed=list(self.allowed),
+        )
 
     @property
     def accepted(self) -> bool:

@@ -10,7 +10,7 @@ from posixpath import dirname as folder_of
 from urllib.parse import unquote
 
 from twinform.compiler.packaging.layout import FileKind, PackageLayout, PackagePlaces, kind_of, suffix_of
-from twinform.compiler.packaging.package import Content
+from twinform.compiler.packaging.package import Content, digest_of
 from twinform.compiler.search.resolve_uris import LocalAssets
 from twinform.diagnostics import Rule
 from twinform.diagnostics.rules import UNPACKAGED_FILE, URI_LEAVES_FOLDER
@@ -163,7 +163,7 @@ class Collection:
         content = self._checked(found, origins)
         format_ = FORMATS.get(suffix_of(found))
         if format_ is None or content.stat().st_size > _LARGEST_READ:
-            return self._place_of(found, kind, content, (_digest(content),), origins)
+            return self._place_of(found, kind, content, (digest_of(content),), origins)
         data = origins.assets.readable.read(found)
         named = self._places_of_references(found, kind, data, format_, origins)
         key = (hashlib.sha256(data).hexdigest(), *sorted(named.items()))
@@ -282,8 +282,3 @@ def _advice_for_missing(name: str) -> str | None:
 def _name_in_file(target: str, place: str, format_: ReferenceFormat) -> str:
     """Return the name of a file of the package in another one."""
     return basename(target) if format_.by_name else relpath(target, folder_of(place))
-
-
-def _digest(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()

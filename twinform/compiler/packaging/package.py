@@ -111,7 +111,7 @@ def _move_files(moves: Transaction, package: Package, target: Path, old: set[str
     for path, content in package.files.items():
         with named_after(target / path):
             _write_content(content, new / path)
-    rows = {path: _digest(new / path) for path in package.files}
+    rows = {path: digest_of(new / path) for path in package.files}
     (new / MARK).write_bytes(_mark_bytes(rows.items()))
     sync_files((new / path, target / path) for path in (*package.files, MARK))
     if is_new:
@@ -171,7 +171,7 @@ def _unchanged_files(folder: Path) -> Iterator[str]:
     """
     for path, digest in _read_mark(folder / MARK):
         at = folder / path
-        if not at.is_symlink() and not _through_link(at, folder) and at.is_file() and _digest(at) == digest:
+        if not at.is_symlink() and not _through_link(at, folder) and at.is_file() and digest_of(at) == digest:
             yield path
 
 
@@ -191,7 +191,8 @@ def _mark_bytes(rows: Iterable[tuple[str, str]]) -> bytes:
     return (_HEAD + "".join(f"{digest}  {path}\n" for path, digest in rows)).encode()
 
 
-def _digest(path: Path) -> str:
+def digest_of(path: Path) -> str:
+    """Return the SHA-256 of a file."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
