@@ -11,7 +11,7 @@ from twinform.diagnostics import Fix, TextEdit, nearest_name, rules
 from twinform.schemas import XmlElement
 
 _OF_AN_AXIS = frozenset({"limit", "dynamics"})
-"""What URDF writes beside an axis, and only joints that move have a use for."""
+"""Elements that URDF writes beside an axis, and that only moving joints use."""
 _RANGE = ("lower", "upper")
 _DEFAULT_AXIS = {"urdf": "1 0 0", "sdf": "0 0 1"}
 

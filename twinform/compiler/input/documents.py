@@ -16,8 +16,8 @@ from twinform.ir.verify import verify
 from twinform.schemas import XmlElement
 
 _ASIDE = frozenset({"$schema", "namespaces", "order", "spelling"})
-"""What is not compared: the version of the schema; prefixes, of which there may be more than were declared; and what
-is not about the robot."""
+"""Fields that are not compared: the version of the schema; prefixes, which a file may have more of; and fields that are
+not about the robot."""
 _NOT_IN_XML = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _NOWHERE = object()
 
@@ -70,7 +70,7 @@ def check_document(
 
 
 def compare_documents(document: Document, again: Document | None, sink: DiagnosticSink) -> None:
-    """Report what of a document its format cannot express: `again` is what its text is read as, if it can be."""
+    """Report what the format of a document cannot express: `again` is the document that its text is read as."""
     if again is None or sink.has_errors:
         return
     missed = first_difference(json_data(document), again)
@@ -79,12 +79,12 @@ def compare_documents(document: Document, again: Document | None, sink: Diagnost
 
 
 def first_difference(data: Data, document: Document) -> Missed | None:
-    """The first place where a document has something else than JSON data say; None where it has all of it."""
+    """Return the first place where a document differs from JSON data; None where it has all of the data."""
     return next(_differences(without_empty(data), without_empty(json_data(document)), ()), None)
 
 
 def unwritable_part(data: Data) -> tuple[JsonPath, str] | None:
-    """Where JSON data have what no file can begin to say, and a message: a text, or the number of robots in URDF."""
+    """Return the path of data that no file can express, with a message: a text, or the number of robots in URDF."""
     count = len(data.get("models", ()))
     if data["format"] == Format.URDF and count != 1:
         return ("models",), f"models: has {count} items; expected 1"
@@ -121,7 +121,7 @@ def _nearest(node: Node, path: JsonPath) -> Node:
 
 
 def without_empty(data: Any) -> Any:
-    """The data without objects and arrays that hold nothing, and without null, which all say that nothing was written.
+    """Return the data without empty objects, empty arrays and null, which all mean that nothing was written.
 
     Calls itself once for each level, so that what is as deep as XML may be can be read.
     """
@@ -134,7 +134,7 @@ def without_empty(data: Any) -> Any:
 
 
 def _differences(mine: Any, theirs: Any, path: JsonPath) -> Iterator[Missed]:
-    """The places where two documents differ."""
+    """Yield the places where two documents differ."""
     if is_object(mine) and is_object(theirs):
         for name in [*mine, *(name for name in theirs if name not in mine)]:
             if name == "opaque":
@@ -151,7 +151,7 @@ def _differences(mine: Any, theirs: Any, path: JsonPath) -> Iterator[Missed]:
 
 
 def _parts(opaque: Iterable[Data]) -> dict[str, tuple[list[Any], list[Any], list[str]]]:
-    """Parts without a field by the element that they stand in; one has elements in order, attributes and a text."""
+    """Group parts without a field by the element that they stand in: its elements, attributes and words."""
     found: dict[str, tuple[list[Any], list[Any], list[str]]] = {}
     for part in opaque:
         elements, attributes, words = found.setdefault(part.get("at", ""), ([], [], []))
@@ -162,6 +162,6 @@ def _parts(opaque: Iterable[Data]) -> dict[str, tuple[list[Any], list[Any], list
 
 
 def shown(value: Any) -> str:
-    """A value as JSON has it, shortened."""
+    """Return a value as shortened JSON."""
     text = json.dumps(value)
     return text if len(text) <= 60 else text[:57] + "..."

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from twinform.profiles import Profile
 
 Input = str | Path | bytes | Document
-"""What is read: the path of a file, the bytes of one, or a document that was read or made."""
+"""The path of a file, the bytes of one, or a document."""
 
 
 class FileOptions(TypedDict, total=False):

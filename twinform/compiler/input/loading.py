@@ -70,7 +70,7 @@ XACRO = ".xacro"
 """The ending of the names of files that are expanded before they are read."""
 _OLD_ROOT = "gazebo"
 _OLD_ROOT_VERSIONS = frozenset({"1.2"})
-"""What the root of SDF was called, and the versions of these that are known; 1.0 is another language."""
+"""The old name of SDF's root, and the known versions of files that have it; 1.0 is another language."""
 
 
 def read(source: Input | LoadResult, load_options: LoadOptions, *, name: str = "") -> LoadResult:

@@ -16,7 +16,7 @@ IDENTIFIER = "urn:twinform:document:1"
 _ROOTS: dict[Format, type[Node]] = {Format.URDF: Model, Format.SDF: Document}
 """The type of node that the root element of a format makes."""
 _FIELD = re.compile(r"^    (\w+): (.*(?:\n {5,}.*)*)", re.MULTILINE)
-"""A field in the docstring of a class, and what stands there about it."""
+"""A field and its description in the docstring of a class."""
 _ORDER = (
     "In which order the parts of several kinds stand in the file: the name of an array for each part. Without it they "
     "stand kind after kind. It changes nothing but the order."
@@ -24,17 +24,17 @@ _ORDER = (
 
 
 def is_object(value: object) -> TypeGuard[Data]:
-    """Whether it is an object of JSON."""
+    """Whether a value is an object of JSON."""
     return isinstance(value, dict)
 
 
 def is_array(value: object) -> TypeGuard[list[Any]]:
-    """Whether it is an array of JSON."""
+    """Whether a value is an array of JSON."""
     return isinstance(value, list)
 
 
 def json_text(document: Document) -> str:
-    """The JSON text of a document."""
+    """Return the JSON text of a document."""
     data = {"$schema": IDENTIFIER, **json_data(document)}
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
 

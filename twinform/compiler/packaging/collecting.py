@@ -57,7 +57,7 @@ _LARGEST_READ = 2**28
 _BEGINNING = 64
 _MOST_IN_FOLDER = 2000
 _TEXTURE_FOLDERS = ("", "../materials/textures", "../textures", "../../materials/textures")
-"""Where an image may lie that is named without a folder, seen from the file that names it, as Gazebo looks."""
+"""The folders in which Gazebo looks for an image named without a folder, relative to the file that names it."""
 # A package is given away, so its rules are stricter than those of reading: a document may name
 # files of the folders around it, but only meshes, images, sounds, and scripts go in, and what a
 # mesh names must lie in its own package, in that of the document, or in a folder that was named.

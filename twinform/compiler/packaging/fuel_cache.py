@@ -17,7 +17,7 @@ from twinform.storage.transaction import named_after, transaction
 from twinform.storage.writing import sync_files
 
 _PART = re.compile(r"[^./\\\x00-\x1f][^/\\\x00-\x1f]*")
-"""A name that is one folder, and no hidden one."""
+"""The name of a single folder that is not hidden."""
 _WORLDS = ("*.sdf", "*.world")
 
 

@@ -15,7 +15,7 @@ from twinform.passes.plugins.wheels import NotMeasuredError, Wheel, radius_of, s
 from twinform.passes.plugins.yaml_text import Value, yaml_text
 
 _RATE = 100
-"""How often controllers run, in Hz, where nobody has said it."""
+"""The rate of controllers, in Hz, where none is given."""
 _STRANGE = re.compile(r"[^A-Za-z0-9_]+")
 _LONGEST = 100
 _FORWARDED = ("velocity", "effort")
@@ -31,7 +31,7 @@ _BROADCASTERS: Mapping[str, str] = {
     "force.": "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
     "torque.": "force_torque_sensor_broadcaster/ForceTorqueSensorBroadcaster",
 }
-"""What publishes the values of a sensor, by how the names of its interfaces begin."""
+"""The broadcaster for the values of a sensor, by the beginning of the names of its interfaces."""
 
 _HEAD = """\
 # Controllers for the interfaces in the <ros2_control> of the robot.
