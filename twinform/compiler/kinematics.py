@@ -77,19 +77,27 @@ class Kinematics(Generic[AnyJoint]):
     def poses(self, positions: Positions) -> dict[str, Transform]:
         """Return the frame of each link, in the frame that the joints are placed in."""
         moved: dict[str, Transform] = {}
-        return {name: self._find_motion(name, positions, moved).compose(pose) for name, pose in self.at_zero.items()}
+        known: dict[tuple[str, int], float] = {}
+        return {
+            name: self._find_motion(name, positions, moved, known).compose(pose) for name, pose in self.at_zero.items()
+        }
 
-    def position(self, joint: str, degree: int, positions: Positions) -> float:
-        """Return the position of a joint: the given one, or what it mimics; zero if mimics go in a circle."""
-        followed: list[tuple[str, int]] = []
+    def position(
+        self, joint: str, degree: int, positions: Positions, known: dict[tuple[str, int], float] | None = None
+    ) -> float:
+        """Return the position of a joint: the given one, or what it mimics; zero if mimics go in a circle.
+
+        `known` remembers the positions on the way, for the next call with the same `positions`.
+        """
+        known = {} if known is None else known
+        followed: dict[tuple[str, int], Leader] = {}
         key = (joint, degree)
-        while (leader := self._find_leader(key)) is not None and key not in followed:
-            followed.append(key)
+        while key not in known and key not in followed and (leader := self._find_leader(key)) is not None:
+            followed[key] = leader
             key = (leader.joint, leader.degree)
-        value = 0.0 if key in followed else positions.get(key, 0.0)
-        for each in reversed(followed):
-            leader = self._find_leader(each)
-            value = leader.followed(value) if leader else value
+        value = known[key] if key in known else 0.0 if key in followed else positions.get(key, 0.0)
+        for each, leader in reversed(followed.items()):
+            value = known[each] = leader.followed(value)
         return value
 
     def _find_leader(self, key: tuple[str, int]) -> Leader | None:
@@ -97,7 +105,13 @@ class Kinematics(Generic[AnyJoint]):
         joint = self.joints.get(name)
         return joint.degrees[degree].leader if joint and degree < len(joint.degrees) else None
 
-    def _find_motion(self, link: str, positions: Positions, moved: dict[str, Transform]) -> Transform:
+    def _find_motion(
+        self,
+        link: str,
+        positions: Positions,
+        moved: dict[str, Transform],
+        known: dict[tuple[str, int], float],
+    ) -> Transform:
         """Return how a link has moved from its frame with every joint at zero."""
         path: list[str] = []
         while link not in moved and link in self.hung:
@@ -105,13 +119,15 @@ class Kinematics(Generic[AnyJoint]):
             link = self.hung[link].parent
         motion = moved.get(link, _STILL)
         for each in reversed(path):
-            motion = moved[each] = motion.compose(self._compose_motion(self.hung[each], positions))
+            motion = moved[each] = motion.compose(self._compose_motion(self.hung[each], positions, known))
         return motion
 
-    def _compose_motion(self, joint: PlacedJoint, positions: Positions) -> Transform:
+    def _compose_motion(
+        self, joint: PlacedJoint, positions: Positions, known: dict[tuple[str, int], float]
+    ) -> Transform:
         motion = _STILL
         for number, degree in enumerate(joint.degrees):
-            position = self.position(joint.name, number, positions)
+            position = self.position(joint.name, number, positions, known)
             if position == 0.0:
                 continue
             if degree.slides:
