@@ -106,16 +106,19 @@ def _misfit_of_mimic(element: Element, joint: Joint, standing: Standing) -> str:
 
 def _would_act(element: Element, reference: str, standing: Standing) -> bool:
     """Whether an element of `<gazebo>`, which traveled because it set nothing, would set something by now."""
+    link, joint = standing.links.get(reference), standing.joints.get(reference)
+    # what comes back stands behind what is there, and of several such tags the last one counts
+    if link is not None and _would_act_on_shapes(element, link):
+        return True
+    if reference and link is None:
+        moves = joint is not None and joint.type not in {"fixed", "floating"}  # in SDF, others may be no joints at all
+        tag = JOINT_TAGS.get(element.name)
+        return moves and element.name not in LINK_TAGS | MODEL_TAGS and not (tag and tag.target == "ignored")
     if not standing.extensions.get(reference, frozenset()).isdisjoint({element.name, LINK_FIELDS.get(element.name)}):
         return False
-    if not reference:
-        return element.name not in LINK_TAGS | JOINT_TAGS
-    if (link := standing.links.get(reference)) is not None:
-        return _would_act_on_flags(element, link) or _would_act_on_shapes(element, link)
-    joint = standing.joints.get(reference)
-    moves = joint is not None and joint.type not in {"fixed", "floating"}  # in SDF, others may be no joints at all
-    tag = JOINT_TAGS.get(element.name)
-    return moves and element.name not in LINK_TAGS | MODEL_TAGS and not (tag and tag.target == "ignored")
+    if link is not None:
+        return _would_act_on_flags(element, link)
+    return element.name not in LINK_TAGS | JOINT_TAGS
 
 
 def _would_act_on_flags(element: Element, link: Link) -> bool:
