@@ -2,6 +2,8 @@
 
 import click
 
+from twinform.cli.command import LazyGroup
+
 COMMANDS = {
     "convert": "Compile every model.",
     "check": "Find everything that is wrong with the models.",
@@ -12,26 +14,13 @@ COMMANDS = {
 """Every command and its summary."""
 
 
-class _BatchGroup(click.Group):
-    """Imports the commands, and with them the compiler, when one is called: the help needs only their summaries."""
+def _load() -> click.Group:
+    from twinform.cli.batch_commands import commands  # noqa: PLC0415 - with them comes the compiler
 
-    def list_commands(self, ctx: click.Context) -> list[str]:
-        """Return the names, in the order of the help."""
-        return list(COMMANDS)
-
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """Import a command."""
-        from twinform.cli.batch_commands import commands  # noqa: PLC0415 - see above
-
-        return commands.get_command(ctx, cmd_name)
-
-    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """Write the summaries, without importing a command."""
-        with formatter.section("Commands"):
-            formatter.write_dl(list(COMMANDS.items()))
+    return commands
 
 
-@click.command("batch", cls=_BatchGroup)
+@click.command("batch", cls=LazyGroup, summaries=COMMANDS, load=_load)
 def command() -> None:
     """Work on every model of a folder, on several processors or machines.
 

@@ -40,6 +40,27 @@ class Command(click.Command):
                 formatter.write(f"{'':{formatter.current_indent + 2}}{typed}\n")
 
 
+class LazyGroup(click.Group):
+    """A group whose help lists `summaries`; `load` imports the group with the commands when one is called."""
+
+    def __init__(self, *args: Any, summaries: Mapping[str, str], load: Callable[[], click.Group], **extra: Any) -> None:
+        super().__init__(*args, **extra)
+        self.summaries, self.load = summaries, load
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names in the order of the help."""
+        return list(self.summaries)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Import a command."""
+        return self.load().get_command(ctx, cmd_name)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Print the summaries, without importing any command."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(self.summaries.items()))
+
+
 def combine_options(*options: Decorator) -> Callable[[Decorated], Decorated]:
     """Combine options into one decorator, which gives them to a command in this order."""
 
