@@ -68,7 +68,7 @@ def test_a_pattern_that_goes_back_is_found(pattern: str, searched: bool) -> None
 
 def test_patterns_of_all_kinds_are_collected() -> None:
     places = {used.place.partition(":")[0] for used in patterns()}
-    assert {"text/tags.py", "compiler/fixing/fix_numbers.py", "compiler/input/syntax_places.py"} <= places
+    assert {"text/positions.py", "compiler/fixing/fix_numbers.py", "compiler/input/syntax_places.py"} <= places
     assert {"ir/element.py", "profiles/data", "schemas/xsd"} <= places
     assert sum(used.searched for used in patterns()) > 100
     assert sum(not used.searched for used in patterns()) > 50
