@@ -2,15 +2,13 @@
 
 from twinform.view.static_pages import (
     NotDrawn,
-    PortTakenError,
     StandaloneView,
-    ViewerMissingError,
-    ViewError,
     new_viewer,
     standalone_page,
     standalone_view,
 )
 from twinform.view.subject import ViewSubject, read_subject
+from twinform.view.view_errors import PortTakenError, ViewerMissingError, ViewError
 
 __all__ = [
     "NotDrawn",

@@ -10,27 +10,10 @@ from twinform.compiler.scene import build_scene
 from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.ir import Document
 from twinform.view.subject import ViewSubject
+from twinform.view.view_errors import ViewerMissingError
 
 if TYPE_CHECKING:
     from twinform.view.viewer import Viewer
-
-
-class ViewError(Exception):
-    """A view cannot be shown."""
-
-
-class ViewerMissingError(ViewError):
-    """A library that draws the view is not installed."""
-
-    def __init__(self, library: str) -> None:
-        super().__init__(f"the 3D view needs {library}: run pip install 'twinform[view]'")
-
-
-class PortTakenError(ViewError):
-    """Another program listens at the port."""
-
-    def __init__(self, port: int) -> None:
-        super().__init__(f"port {port} of this machine is taken: choose another one, or leave --port out")
 
 
 class NotDrawn(NamedTuple):

@@ -20,9 +20,9 @@ from twinform.view.access import Access
 from twinform.view.figure import Figure, Handle, Look
 from twinform.view.joint_controls import Choices
 from twinform.view.panel import Panel
-from twinform.view.static_pages import PortTakenError
 from twinform.view.subject import ViewSubject
 from twinform.view.triangles import MeshDrawings
+from twinform.view.view_errors import PortTakenError
 
 np: Any = importlib.import_module("numpy")
 viser: Any = importlib.import_module("viser")
