@@ -2,7 +2,8 @@
 
 import click
 
-from twinform.cli.command import FINDINGS, UNUSABLE, Command, files
+from twinform.cli.command import FINDINGS, UNUSABLE, Command
+from twinform.cli.completion import files
 from twinform.cli.inputs import file_options, inputs, load_options_of
 from twinform.cli.printing import print_report, show
 from twinform.compiler import CompileError

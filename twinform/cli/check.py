@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 import click
 
 from twinform.cli.check_report import CheckReport, baseline_of, baseline_options
-from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable, files, pipelines
+from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
+from twinform.cli.completion import files, pipelines
 from twinform.cli.config.config_defaults import RuleSettings
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, read_model, reading_options
 from twinform.cli.printing import all_option, notes_option

@@ -1,11 +1,9 @@
-"""What the commands are made of: a class with examples, options, completion for shells, exit codes, and one error."""
+"""What the commands are made of: a class with examples, options, exit codes, and one error."""
 
-import os
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 import click
-from click.shell_completion import CompletionItem
 
 FINDINGS = 1
 """Exit code: the files could be read, and there are errors in them."""
@@ -70,42 +68,3 @@ def combine_options(*options: Decorator) -> Callable[[Decorated], Decorated]:
         return command
 
     return give
-
-
-def files(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete files, which the shell knows."""
-    return [CompletionItem(incomplete, type="file")]
-
-
-def rule_names(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete rules, with what they find."""
-    from twinform.diagnostics.rule_registry import rules  # noqa: PLC0415 - it reads entry points
-
-    known = {name: each.rule.finds for name, each in rules().items() if name.startswith(incomplete)}
-    return [CompletionItem(name, help=finds.partition(". ")[0]) for name, finds in known.items()]
-
-
-def pass_names(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete passes."""
-    from twinform.passes import registered_passes  # noqa: PLC0415 - it reads entry points
-
-    return [CompletionItem(name) for name in registered_passes() if name.startswith(incomplete)]
-
-
-def pipelines(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete the last pass of a pipeline, or a pipeline that the configuration names."""
-    from twinform.cli.config import settings_of  # noqa: PLC0415 - few calls complete a pipeline
-
-    before, comma, last = incomplete.rpartition(",")
-    if comma and os.environ.get("_TWINFORM_COMPLETE") == "fish_complete":
-        return []  # click's script for fish ends a word at a comma
-    named = [f"@{name}" for name in settings_of(ctx).pipelines if f"@{name}".startswith(last)]
-    names = [*(str(each.value) for each in pass_names(ctx, parameter, last)), *named]
-    return [CompletionItem(before + comma + name) for name in names]
-
-
-def sdf_versions(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete versions of SDF."""
-    from twinform.schemas import versions_of  # noqa: PLC0415 - it reads the tables
-
-    return [CompletionItem(each) for each in versions_of("sdf") if each.startswith(incomplete)]

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import click
 from click.core import ParameterSource
 
-from twinform.cli.command import Command, files
+from twinform.cli.command import Command
+from twinform.cli.completion import files
 from twinform.cli.config import settings_of
 from twinform.cli.config.config_defaults import RuleSettings
 from twinform.cli.conversion_targets import TARGETS, ConversionJob, Target, jobs, jobs_in_place

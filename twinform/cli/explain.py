@@ -4,7 +4,8 @@ from collections.abc import Iterable, Mapping
 
 import click
 
-from twinform.cli.command import Command, Unusable, rule_names
+from twinform.cli.command import Command, Unusable
+from twinform.cli.completion import rule_names
 from twinform.cli.printing import print_text, styled
 from twinform.diagnostics import Rule
 from twinform.diagnostics.rule_registry import OWN, RegisteredRule, RuleRegistryError, find_rule, rules

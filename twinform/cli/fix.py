@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 import click
 
-from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable, files, pipelines
+from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
+from twinform.cli.completion import files, pipelines
 from twinform.cli.config.config_defaults import RuleSettings
 from twinform.cli.fixing import Fixing, fix_source
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, file_options, load_options_of, model_inputs

@@ -7,7 +7,7 @@ from typing import Literal
 import click
 
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
-from twinform.cli.command import files as files_of
+from twinform.cli.completion import files as files_of
 from twinform.cli.config import config_options
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, size_option
 from twinform.cli.model_discovery import is_text

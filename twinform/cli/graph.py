@@ -4,7 +4,8 @@ from pathlib import Path
 
 import click
 
-from twinform.cli.command import FINDINGS, UNUSABLE, Command, files
+from twinform.cli.command import FINDINGS, UNUSABLE, Command
+from twinform.cli.completion import files
 from twinform.cli.inputs import inputs, load_options_of, read_model, reading_options
 from twinform.cli.outputs import Outputs, output_option
 from twinform.cli.printing import show

@@ -6,7 +6,8 @@ from typing import Literal
 
 import click
 
-from twinform.cli.command import Command, Unusable, pass_names, pipelines
+from twinform.cli.command import Command, Unusable
+from twinform.cli.completion import pass_names, pipelines
 from twinform.cli.config import config_options, settings_of
 from twinform.cli.config.config_defaults import Project
 from twinform.cli.printing import print_document, print_text, styled

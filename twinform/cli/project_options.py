@@ -9,7 +9,8 @@ import click
 from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
-from twinform.cli.command import Unusable, rule_names
+from twinform.cli.command import Unusable
+from twinform.cli.completion import rule_names
 from twinform.cli.config import ConfigError, Project, settings_of
 from twinform.cli.config.config_defaults import NO_OWN_SETTINGS, OwnSettings, RuleSettings
 from twinform.cli.flags import group

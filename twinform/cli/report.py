@@ -4,7 +4,8 @@ from pathlib import Path
 
 import click
 
-from twinform.cli.command import FINDINGS, UNUSABLE, Command, files
+from twinform.cli.command import FINDINGS, UNUSABLE, Command
+from twinform.cli.completion import files
 from twinform.cli.diff import comparison_options
 from twinform.cli.inputs import file_options, inputs, load_options_of
 from twinform.cli.outputs import Outputs, output_option

@@ -4,7 +4,8 @@ from typing import TYPE_CHECKING, Unpack, cast
 
 import click
 
-from twinform.cli.command import combine_options, pipelines, sdf_versions
+from twinform.cli.command import combine_options
+from twinform.cli.completion import pipelines, sdf_versions
 from twinform.cli.flags import flags_of, group
 from twinform.cli.project_options import pipeline_option
 from twinform.compiler.input.load_options import ReadingOptions

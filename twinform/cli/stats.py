@@ -2,7 +2,8 @@
 
 import click
 
-from twinform.cli.command import FINDINGS, UNUSABLE, Command, files
+from twinform.cli.command import FINDINGS, UNUSABLE, Command
+from twinform.cli.completion import files
 from twinform.cli.inputs import inputs, load_options_of, read_model, reading_options
 from twinform.cli.printing import print_report, show
 from twinform.compiler.input.load_options import ReadingOptions

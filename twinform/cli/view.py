@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from twinform.cli.command import UNUSABLE, Command, Unusable, files
+from twinform.cli.command import UNUSABLE, Command, Unusable
+from twinform.cli.completion import files
 from twinform.cli.inputs import InputSource, file_options, inputs, load_options_of
 from twinform.cli.printing import print_line, show
 from twinform.compiler import CompileError, LoadOptions
