@@ -18,7 +18,7 @@ from testbed.fixed_files import fixed_file
 from twinform.cli.check import command as check_command
 from twinform.cli.command import UNUSABLE
 from twinform.cli.format import command as format_command
-from twinform.cli.model_discovery import PatternError
+from twinform.cli.model_files import PatternError
 from twinform.cli.path_patterns import PathPatterns
 from twinform.compiler import check
 from twinform.compiler.batch.archives import LEAST_BYTES, MOST_TIMES, unpacked

@@ -10,7 +10,7 @@ from twinform.cli.config.config_defaults import RuleSettings
 from twinform.cli.fixing import Fixing, fix_source
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, file_options, load_options_of, model_inputs
 from twinform.cli.mesh_progress import mesh_progress
-from twinform.cli.model_discovery import is_plain
+from twinform.cli.model_files import is_plain
 from twinform.cli.printing import notes_option, plural, print_line, show
 from twinform.cli.project_options import pipeline_option, policy_of, policy_options
 from twinform.cli.rewriting import Rewrite, show_differences, write_back

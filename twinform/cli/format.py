@@ -10,7 +10,7 @@ from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
 from twinform.cli.completion import files as files_of
 from twinform.cli.config import config_options
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, size_option
-from twinform.cli.model_discovery import is_text
+from twinform.cli.model_files import is_text
 from twinform.cli.printing import plural, print_document, print_line, print_text, show
 from twinform.cli.rewriting import Rewrite, write_back
 from twinform.compiler import CompileError

@@ -12,15 +12,8 @@ import click
 from twinform.cli.command import combine_options
 from twinform.cli.config import config_options, settings_of
 from twinform.cli.flags import flag, flags_of, group
-from twinform.cli.model_discovery import (
-    DEFAULT_EXCLUDE,
-    Exclusion,
-    FileKind,
-    NothingFoundError,
-    PatternError,
-    discover,
-    is_model,
-)
+from twinform.cli.model_discovery import NothingFoundError, discover
+from twinform.cli.model_files import DEFAULT_EXCLUDE, Exclusion, FileKind, PatternError, is_model
 from twinform.compiler import LoadOptions, LoadResult, read
 from twinform.compiler.input.load_options import FileOptions, ReadingOptions
 from twinform.compiler.input.size_limits import LARGEST

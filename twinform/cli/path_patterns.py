@@ -11,7 +11,7 @@ from typing import AnyStr, Self
 from pathspec import GitIgnoreSpec
 from pathspec.patterns.gitignore.spec import GitIgnoreSpecPattern
 
-from twinform.cli.model_discovery import Exclusion, FileKind, PatternError, is_model
+from twinform.cli.model_files import Exclusion, FileKind, PatternError, is_model
 from twinform.file_access import REPOSITORY, has_any, read_regular
 
 LONGEST = 4096
