@@ -1,7 +1,7 @@
 """Selecting the model that becomes the robot."""
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -31,7 +31,7 @@ class SelectModel(Pass):
         chosen = _choose(list(candidates(document)), self.model, document.location, sink)
         if chosen is None or document.format is Format.URDF:
             return document  # which is that model, and nothing else
-        alone = _keep_only(document, chosen, sink)
+        alone = _keep_only(document, chosen, FrameGraph, sink)
         for part in _parts_outside(document, chosen):
             part.drop(sink)
         return alone
@@ -43,6 +43,8 @@ class Selector:
     def __init__(self, document: Document) -> None:
         self.document = document
         self.among = list(candidates(document))
+        # the frames of a world are resolved once, not for each of its models
+        self._graphs: dict[int, FrameGraph] = {}
         self._by_name: defaultdict[str | None, list[ModelCandidate]] = defaultdict(list)
         for one in self.among:
             for name in {one.model.name, one.full_name}:
@@ -57,12 +59,19 @@ class Selector:
         chosen = _choose(among, name, self.document.location, sink)
         if chosen is None or self.document.format is Format.URDF:
             return self.document
-        return _keep_only(self.document, chosen, sink)
+        return _keep_only(self.document, chosen, self._graph_of, sink)
+
+    def _graph_of(self, world: World) -> FrameGraph:
+        if id(world) not in self._graphs:
+            self._graphs[id(world)] = FrameGraph(world)
+        return self._graphs[id(world)]
 
 
-def _keep_only(document: Document, chosen: "_Chosen", sink: DiagnosticSink) -> Document:
+def _keep_only(
+    document: Document, chosen: "_Chosen", graph_of: Callable[[World], FrameGraph], sink: DiagnosticSink
+) -> Document:
     """The document with nothing but the chosen model, at its place in the world."""
-    model = chosen.model if chosen.world is None else _place_in_world(chosen.model, chosen.world, sink)
+    model = chosen.model if chosen.world is None else _place_in_world(chosen.model, chosen.world, graph_of, sink)
     return document.copy(models=(model,), worlds=(), lights=(), includes=(), opaque=())
 
 
@@ -116,13 +125,13 @@ def _count_joints(one: ModelCandidate) -> int:
     return len(one.model.joints) if isinstance(one.model, Model) else 0
 
 
-def _place_in_world(model: Model, world: World, sink: DiagnosticSink) -> Model:
+def _place_in_world(model: Model, world: World, graph_of: Callable[[World], FrameGraph], sink: DiagnosticSink) -> Model:
     """The model with its pose in the world."""
     pose = model.pose
     if pose is None or not pose.relative_to:
         return model
     try:
-        placed = FrameGraph(world).resolve(pose, WORLD, WORLD)
+        placed = graph_of(world).resolve(pose, WORLD, WORLD)
     except FrameError as error:
         error.report(sink)
         return model
