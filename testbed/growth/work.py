@@ -52,6 +52,15 @@ def _calls(command: str, format: str, path: Path) -> int:
         "REPORT": path.with_name("report.md"),
     }
     arguments = [str(places.get(each, each)) for each in COMMANDS[command]]
+    return count_calls(*arguments)
+
+
+def count_calls(*arguments: str) -> int:
+    """Run a command line and count the calls of functions.
+
+    Raises:
+        Exception: the command failed with it.
+    """
     profile = Profile()
     profile.enable()
     try:

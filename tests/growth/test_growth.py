@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from testbed.growth.documents import GrowingDocument, growing_documents
-from testbed.growth.work import COMMANDS, growth
+from testbed.growth.work import COMMANDS, count_calls, growth
 from tests.profile import DEEP
 
 _STEEPEST = 1.15
@@ -33,3 +33,21 @@ def _name(tried: tuple[GrowingDocument, str, str]) -> str:
 def test_work_is_linear(tried: tuple[GrowingDocument, str, str], tmp_path: Path):
     document, command, layout = tried
     assert growth(command, document, tmp_path, _LINE_ENDS[layout]) <= _STEEPEST
+
+
+def test_work_of_a_folder_is_linear(tmp_path: Path):
+    calls = [_calls_for_folder(tmp_path / str(size), size) for size in (10, 40, 160)]
+    assert calls[2] / calls[1] <= (160 / 40) ** _STEEPEST
+
+
+def _calls_for_folder(folder: Path, size: int) -> int:
+    """Count the calls of a check of files whose meshes, of a package and of the folder, are not there."""
+    folder.mkdir()
+    for number in range(size):
+        meshes = "".join(
+            f'<visual><geometry><mesh filename="{place}/part{number}.stl"/></geometry></visual>'
+            for place in ("package://near", "meshes", ".")
+        )
+        text = f'<robot name="r"><link name="a">{meshes}</link></robot>'
+        (folder / f"robot{number}.urdf").write_text(text, encoding="utf-8")
+    return count_calls("check", str(folder))

@@ -1,16 +1,14 @@
 """Missing files that a model names: meshes, textures and includes, and paths that only Windows reads."""
 
-import os
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
-from itertools import islice
 from pathlib import Path
 from posixpath import normpath
 from typing import NamedTuple
 from urllib.parse import unquote
 
 from twinform.compiler.input.finding_lines import PartFinder, line_of_text
-from twinform.compiler.search.packages import MODEL_CONFIG, package_name
+from twinform.compiler.search.packages import MODEL_CONFIG
 from twinform.compiler.search.resolve_uris import SearchPath, UriError, exists
 from twinform.diagnostics import DiagnosticSink, Location, nearest_name, rules
 from twinform.file_access import Readable, folders_around
@@ -124,8 +122,6 @@ def _place(use: _Use, parts: PartFinder | None) -> Location:
     return use.where._replace(line=line or use.where.line)
 
 
-_MOST_ENTRIES = 2000
-"""Entries of a folder that are looked at."""
 # Models and packages are often not on this machine at all, so only a very similar name is taken for
 # the intended one.
 _ALIKE = 0.75
@@ -154,13 +150,13 @@ def near_file(uri: str, search: SearchPath, beside: Path) -> str | None:
         return f"{near}://" if near and _is_typo(scheme, near) else None
     path = normpath(unquote(rest)) if separator else normpath(uri)
     if scheme not in _NAMED or not separator:
-        return _near_below(beside.parent, path, beside)
+        return _near_below(beside.parent, path, search, beside)
     name, _, inner = path.partition("/")
     folder = _package_folder(name, search, beside)
     if folder is None:
         near = nearest_name(name, _known_names(scheme, search, beside), _ALIKE)
         return near if near and _is_typo(name, near) else None
-    return _near_below(folder, inner, beside)
+    return _near_below(folder, inner, search, beside)
 
 
 def _is_typo(name: str, near: str) -> bool:
@@ -179,12 +175,12 @@ def _package_folder(name: str, search: SearchPath, beside: Path) -> Path | None:
         return None
 
 
-def _near_below(folder: Path, path: str, beside: Path) -> str | None:
+def _near_below(folder: Path, path: str, search: SearchPath, beside: Path) -> str | None:
     """Return the name of a file that is similar to the first part of a path that is not there."""
     for part in path.split("/"):
         if not exists(folder / part):
             suffix = Path(part).suffix.lower()
-            alike = (each.name for each in _entries(folder) if Path(each.name).suffix.lower() == suffix)
+            alike = search.index.listing(folder).by_suffix.get(suffix, ())
             # a file from elsewhere must learn of no names but those around it
             return nearest_name(part, alike) if Readable.of(beside).allows(folder) else None
         folder = folder / part
@@ -194,22 +190,11 @@ def _near_below(folder: Path, path: str, beside: Path) -> str | None:
 def _known_names(scheme: str, search: SearchPath, beside: Path) -> Iterator[str]:
     """Yield the names of the packages or models around a file, and in the folders that were named."""
     around = folders_around(beside)
+    index = search.index
     if scheme == "package":
         for folder in (*search.own, *around):
-            yield from filter(None, (package_name(folder), *(package_name(folder / name) for name in _folders(folder))))
+            inside = (folder / name for name in index.listing(folder).folders)
+            yield from filter(None, map(index.name_of, (folder, *inside)))
         return
     for folder in (*search.own, *search.models, *around, *(each / "models" for each in around)):
-        yield from (name for name in _folders(folder) if exists(folder / name / MODEL_CONFIG))
-
-
-def _folders(folder: Path) -> list[str]:
-    # a thousand files beside each other would be opened for each of them, as if they were folders
-    return [entry.name for entry in _entries(folder) if entry.is_dir()]
-
-
-def _entries(folder: Path) -> list[os.DirEntry[str]]:
-    try:
-        with os.scandir(folder) as entries:
-            return [entry for entry in islice(entries, _MOST_ENTRIES) if not entry.name.startswith(".")]
-    except OSError:
-        return []
+        yield from (name for name in index.listing(folder).folders if exists(folder / name / MODEL_CONFIG))

@@ -1,10 +1,12 @@
 """ROS packages: folders with a package.xml that has their name."""
 
 import os
-from collections.abc import Iterator
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
+from typing import NamedTuple
 
 from lxml import etree
 
@@ -42,19 +44,33 @@ def read_manifest(file: Path) -> XmlElement | None:
         return None
 
 
+class FolderListing(NamedTuple):
+    """The names in a folder that are not hidden: of its folders, and of everything by its suffix in lower case."""
+
+    folders: tuple[str, ...]
+    by_suffix: Mapping[str, Sequence[str]]
+
+
 @dataclass(frozen=True, slots=True)
 class PackageIndex:
-    """The packages below some folders, which are looked for once and on demand."""
+    """The packages below some folders, and what is in folders: looked for once and on demand."""
 
     found: dict[Path, dict[str, Path]] = field(default_factory=dict[Path, dict[str, Path]])
     inside: dict[Path, dict[str, Path]] = field(default_factory=dict[Path, dict[str, Path]])
     names: dict[Path, str | None] = field(default_factory=dict[Path, str | None])
+    listings: dict[Path, FolderListing] = field(default_factory=dict[Path, FolderListing])
 
     def name_of(self, folder: Path) -> str | None:
         """Return the name of the package in a folder; None where there is none."""
         if folder not in self.names:
             self.names[folder] = package_name(folder)
         return self.names[folder]
+
+    def listing(self, folder: Path) -> FolderListing:
+        """Return what is in a folder; nothing of one that cannot be listed."""
+        if folder not in self.listings:
+            self.listings[folder] = _list_folder(folder)
+        return self.listings[folder]
 
     def named(self, name: str, root: Path) -> Iterator[Path]:
         """Yield the package of a name below a folder, if there is one."""
@@ -69,6 +85,21 @@ class PackageIndex:
             self.inside[folder] = {called: each for each in _folders(folder) if (called := package_name(each))}
         if name in self.inside[folder]:
             yield self.inside[folder][name]
+
+
+def _list_folder(folder: Path) -> FolderListing:
+    by_suffix = defaultdict[str, list[str]](list)
+    folders: list[str] = []
+    try:
+        with os.scandir(folder) as entries:
+            for entry in islice(entries, _MOST):
+                if not entry.name.startswith("."):
+                    by_suffix[os.path.splitext(entry.name)[1].lower()].append(entry.name)  # noqa: PTH122 - many
+                    # a thousand files beside each other would be opened for each of them, as if they were folders
+                    folders += [entry.name] if entry.is_dir() else []
+    except OSError:
+        pass
+    return FolderListing(tuple(folders), by_suffix)
 
 
 def _folders(folder: Path) -> Iterator[Path]:
