@@ -1,4 +1,4 @@
-"""How much work a command does: the calls of functions, of Python and of C, which no other program disturbs."""
+"""How much work a command does: the number of function calls in Python and C, which no other program disturbs."""
 
 from cProfile import Profile
 from math import log2
@@ -9,8 +9,8 @@ from click.testing import CliRunner
 from testbed.growth.documents import GrowingDocument
 from twinform.cli import main
 
-SIZE = 150
-"""The smallest number of parts; twice and four times as many are tried as well."""
+SIZES = (300, 600)
+"""The numbers of parts whose work is compared."""
 COMMANDS = {
     "check": ("check", "IN"),
     "check --for": ("check", "--for", "gazebo", "IN"),
@@ -29,20 +29,20 @@ COMMANDS = {
 
 def growth(command: str, document: GrowingDocument, folder: Path, line_end: str = "\n") -> float:
     """Return the exponent by which the work of a command grows when a document doubles: 1 is linear."""
-    _calls(command, document.format, _written(document, 1, folder, line_end))  # imports and caches
+    _count_calls_on(command, document.format, _write(document, 1, folder, line_end))  # imports and caches
     shorter, longer = (
-        _calls(command, document.format, _written(document, size, folder, line_end)) for size in (2 * SIZE, 4 * SIZE)
+        _count_calls_on(command, document.format, _write(document, size, folder, line_end)) for size in SIZES
     )
     return log2(longer / shorter)
 
 
-def _written(document: GrowingDocument, size: int, folder: Path, line_end: str) -> Path:
+def _write(document: GrowingDocument, size: int, folder: Path, line_end: str) -> Path:
     path = folder / f"in{size}.{document.format}"
     path.write_text(document.text(size, line_end), encoding="utf-8")
     return path
 
 
-def _calls(command: str, format: str, path: Path) -> int:
+def _count_calls_on(command: str, format: str, path: Path) -> int:
     other = "sdf" if format == "urdf" else "urdf"
     places = {
         "IN": path,

@@ -20,9 +20,9 @@ _WORDS = re.compile(
 USAGE = "write 'twinform: allow RULE, RULE - reason', or 'allow-file' for all of the file; the reason may be left out"
 
 _FEW = 20
-"""An entry of fewer lines is found by its lines."""
+"""A suppression that covers fewer lines is looked up by line; findings are held to all others."""
 MOST = 1000
-"""So many suppressions of a file count: every finding is held to all of them, and a hostile file has a million."""
+"""So many suppressions of a file count: a hostile file has a million."""
 
 
 class Suppression(NamedTuple):
@@ -54,7 +54,7 @@ class Suppressions:
     flaws: tuple[Flaw, ...] = ()
     used: set[tuple[int, str]] = field(default_factory=set[tuple[int, str]])
     _by_line: dict[int, list[int]] = field(init=False)
-    """The places of the entries that cover a line; 0 stands for those of many lines."""
+    """For each line, the places in `entries` of what covers it; 0 is the key of entries that cover many lines."""
 
     def __post_init__(self) -> None:
         self._by_line = defaultdict(list)

@@ -16,7 +16,7 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 
 def without_misplaced(node: AnyNode, sink: DiagnosticSink) -> AnyNode:
-    """The node without misplaced carriers and annotations, on it and in it; there is a warning for each."""
+    """Remove the misplaced carriers and annotations of a node and of all nodes in it, with a warning for each."""
     return rewrite(node, Node, partial(_without_misplaced, sink), having=OPAQUE)
 
 
@@ -34,10 +34,10 @@ def _without_misplaced(sink: DiagnosticSink, node: Node) -> Node:
 
 
 def is_misplaced(part: Opaque, node: Node) -> bool:
-    """Whether an opaque part of a node is a carrier or annotation that can say nothing there.
+    """Tell whether an opaque part of a node is a carrier or annotation that means nothing there.
 
-    There are none inside an element that is a value of the node, such as `<izz>`, and none in a pose. What a carrier is
-    about is an element that its format has in that of the node; of another version, it is something that SDF has there.
+    No conversion puts one into an element that is a value of the node, such as `<izz>`, or into a pose. Everywhere else
+    its path has to lead to something that the format, for carriers of versions some version of SDF, has in the node.
     """
     if not is_ours(part) or part.element is None or is_memory(part):
         return False
@@ -54,14 +54,14 @@ def is_misplaced(part: Opaque, node: Node) -> bool:
 
 
 def _is_of_sdf(part: Opaque, fact: Fact | None, at: str) -> bool:
-    """Whether some version of SDF has all that is in a carrier at a path in an element."""
+    """Tell whether some version of SDF has everything that a carrier holds at its path in an element."""
     holder = _row("sdf", fact, at) if fact else None
     names = {f"@{piece.attribute[0]}" if piece.attribute else piece.name.strip("<>") for piece in carried(part)}
     return holder is not None and (holder.any or names <= {row.name for row in table("sdf").resolve(holder).rows})
 
 
 def _row(format: str, fact: Fact, path: str) -> Fact | None:
-    """The row of the element at a path in another one; that one itself for an empty path."""
+    """Find the row of the element at a path inside another; an empty path leads to the outer one."""
     found: Fact | None = fact
     for step in filter(None, path.split("/")):
         rows = table(format).resolve(found).children if found else ()
@@ -71,7 +71,7 @@ def _row(format: str, fact: Fact, path: str) -> Fact | None:
 
 @cache
 def _urdf_facts() -> dict[type[Node], Fact]:
-    """What URDF has in the elements of nodes, by the classes of these."""
+    """Map each class of nodes to the fact that lists what URDF has in its element."""
     facts = table("urdf")
     found: dict[type[Node], Fact] = {}
     for kind, fact in _classes_in(Model, facts.definitions[facts.root]):

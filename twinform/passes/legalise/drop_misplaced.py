@@ -11,9 +11,9 @@ from twinform.passes.framework.pass_base import ModelPass
 class DropMisplaced(ModelPass):
     """Drop the carriers and annotations that stand where no conversion puts them.
 
-    Changes: a carrier in a number or a pose goes, and one about an element that there is not in the one around it.
-    Somebody copied it there, and unpacked it would be content that nobody wrote.
-    Never touches: all others; whether these still match the file is for the passes that unpack them.
+    Changes: a carrier inside a number or a pose goes, and so does one about an element that cannot be where it stands.
+    An edit copied it there; unpacked, it would become content that nobody wrote.
+    Never touches: other carriers. The passes that unpack them find out whether they still match the file.
     Diagnostics: `stale-carrier` for each.
     """
 

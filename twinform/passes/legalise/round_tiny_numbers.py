@@ -3,6 +3,7 @@
 import math
 import sys
 from functools import cache
+from operator import is_not
 from typing import Any, ClassVar, get_args
 
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
@@ -11,7 +12,6 @@ from twinform.ir.record import fields_of
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.tiny_elements import (
     Least,
-    is_rounded,
     rounded_block,
     rounded_content,
     rounded_part,
@@ -50,7 +50,7 @@ def rounded_extension(extension: GazeboExtension, sink: DiagnosticSink) -> Gazeb
     content = tuple(rounded_content(each, _LEAST[Format.URDF]) for each in extension.content)
     for old, new in zip(extension.content, content, strict=True):
         _account_inside(old, new, old.location if old.source else extension.location, sink)
-    return extension.copy(content=content) if any(map(is_rounded, extension.content, content)) else extension
+    return extension.copy(content=content) if any(map(is_not, extension.content, content)) else extension
 
 
 def _with_rounded_parts(node: Node, to: Format, sink: DiagnosticSink) -> Node:
@@ -62,11 +62,11 @@ def _with_rounded_parts(node: Node, to: Format, sink: DiagnosticSink) -> Node:
     for old, new in zip(node.opaque, parts, strict=True):
         if old.element is not None and new.element is not None:
             _account_inside(old.element, new.element, old.location_in(node), sink)
-    return node.copy(opaque=parts) if any(map(is_rounded, node.opaque, parts)) else node
+    return node.copy(opaque=parts) if any(map(is_not, node.opaque, parts)) else node
 
 
 def _account_inside(old: Element, new: Element, where: Location, sink: DiagnosticSink) -> None:
-    for path in rounded_paths(old, new) if is_rounded(old, new) else ():
+    for path in rounded_paths(old, new) if old is not new else ():
         _account(path.rpartition("/")[2] or old.name, where.at(path) if path else where, sink)
 
 

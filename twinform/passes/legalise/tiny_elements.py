@@ -4,6 +4,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from functools import cache
+from operator import is_not
 from typing import NamedTuple
 
 from twinform.ir import Axis, Dynamics, Element, Limit, Mimic, Node, Opaque
@@ -26,41 +27,36 @@ class Least(NamedTuple):
     color: float
 
 
-def is_rounded(old: object, new: object) -> bool:
-    """Whether something else was made of a part."""
-    return old is not new
-
-
 def rounded_paths(old: Element, new: Element, path: str = "") -> Iterator[str]:
-    """The paths, below an element, of those in it that have other values now; the empty one is its own."""
+    """Yield the paths of the elements whose numbers were changed, below an element; the empty path is its own."""
     if (old.text, old.attributes) != (new.text, new.attributes):
         yield path
     for one, other in zip(old.children, new.children, strict=True):
-        if is_rounded(one, other):
+        if one is not other:
             yield from rounded_paths(one, other, f"{path}/{one.name}" if path else one.name)
 
 
 def rounded_content(element: Element, least: Least) -> Element:
-    """An element of a `<gazebo>`, without numbers below the least; the same one where there are none."""
+    """Return an element of a `<gazebo>` with its tiny numbers rounded; itself if it has none."""
     if not _may_be_tiny(element):
         return element
     if element.name in NUMBER_TAGS and not element.children:
         pairs = tuple((name, _rounded_text(text, least.number)) for name, text in element.attributes)
-        return _changed(element, element.text and _rounded_text(element.text, least.number), pairs, ())
+        return _copy_if_changed(element, element.text and _rounded_text(element.text, least.number), pairs, ())
     return _rounded(element, _rows_in_gazebo().get(element.name), least)
 
 
 def rounded_block(part: Opaque, least: Least) -> Opaque:
-    """A `<gazebo>` that came out of a carrier, without numbers below the least; the same one where there are none."""
+    """Return a `<gazebo>` that came out of a carrier with its tiny numbers rounded; itself if it has none."""
     if part.element is None or part.element.name != "gazebo" or not _may_be_tiny(part.element):
         return part
     children = tuple(rounded_content(child, least) for child in part.element.children)
-    element = _changed(part.element, part.element.text, part.element.attributes, children)
+    element = _copy_if_changed(part.element, part.element.text, part.element.attributes, children)
     return part if element is part.element else part.copy(element=element)
 
 
 def rounded_part(part: Opaque, node: Node, least: Least) -> Opaque:
-    """A part of a node of SDF, without numbers below the least; the same one where there are none."""
+    """Return an untyped part of an SDF node with its tiny numbers rounded; itself if it has none."""
     if part.element is None or not _may_be_tiny(part.element):
         return part
     definition = "joint" if type(node) in _BELOW_JOINT else definition_of(node)
@@ -101,15 +97,15 @@ def _rounded(element: Element, row: Fact | None, least: Least) -> Element:
         for name, value in element.attributes
     )
     children = tuple(_rounded(child, rows.get(child.name), least) for child in element.children)
-    return _changed(element, text, pairs, children)
+    return _copy_if_changed(element, text, pairs, children)
 
 
-def _changed(
+def _copy_if_changed(
     element: Element, text: str | None, attributes: tuple[tuple[str, str], ...], children: tuple[Element, ...]
 ) -> Element:
-    """The element with other content; the same one where it is the same."""
+    """Return the element with other content, or the element itself if nothing in it is new."""
     is_same = (text, attributes) == (element.text, element.attributes) and not any(
-        map(is_rounded, element.children, children)
+        map(is_not, element.children, children)
     )
     return element if is_same else element.copy(text=text, attributes=attributes, children=children)
 
