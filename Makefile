@@ -11,8 +11,9 @@ NAME ?=
 ARGS ?=
 # of `make fuzz`, which NAME is for too
 SECONDS ?= 600
-# of `make bench`: the folder of an older checkout
+# of `make bench`: the folder of an older checkout, and then one of robots beside those of the corpus
 BEFORE ?=
+MORE ?=
 BIN := .venv/bin
 # what .venv was made from; a change of the project file makes it again
 SYNCED := .venv/.synced
@@ -146,8 +147,8 @@ $(PEERS): $(SYNCED)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[bench]' || echo "not all peers are here"
 	touch $@
 
-bench: $(PEERS) ## how fast it is, beside its peers; writes a section of docs/evidence/speed.md: BEFORE=../older ARGS="--every 40"
-	$(BIN)/python -m reports performance $(BEFORE) $(ARGS)
+bench: $(PEERS) ## how fast it is, beside its peers; writes a section of docs/evidence/speed.md: BEFORE=../older MORE=../robots
+	$(BIN)/python -m reports performance $(BEFORE) $(MORE) $(ARGS)
 
 latency: $(SYNCED) ## how long an editor waits for an answer; writes a section of docs/evidence/speed.md
 	$(BIN)/python -m reports editor

@@ -17,11 +17,22 @@ from typing import NamedTuple
 from testbed import robots
 from testbed.corpus.files import ROOT
 from testbed.markdown import table
+from twinform.text import SourceText
+from twinform.text.formatting import FormatOptions, format_text
 
 LINKS, RUNS = 30, 15
 _TWINFORM = ("-c", "from twinform import cli; getattr(cli, 'program', cli.main)()")  # older ones have `main` alone
 _XACRO = ("-c", "import sys; from xacro import main; sys.exit(main())")
-_BARE = "python -c pass"
+BARE = "python -c pass"
+LIMITS = (
+    (f"twinform check, {LINKS} links", BARE, 140),
+    (f"twinform convert, {LINKS} links", BARE, 190),
+    (f"twinform format --check, {LINKS} links", BARE, 110),
+    (f"twinform diff, {LINKS} links", BARE, 230),
+    (f"twinform check, {LINKS} links of xacro", "xacro", 90),
+    ("import twinform", BARE, 25),
+)
+"""What a command may take, in ms over another one."""
 
 
 class Command(NamedTuple):
@@ -47,7 +58,7 @@ def main() -> int:
 
 def page(found: Mapping[Command, float], checkouts: Sequence[Path]) -> str:
     """The table: a row for each command, a column for each checkout."""
-    bare = next(ms for command, ms in found.items() if command.name == _BARE)
+    bare = next(ms for command, ms in found.items() if command.name == BARE)
     head = ["CPU ms, and over bare Python", *(path.name for path in checkouts)]
     names = dict.fromkeys(command.name for command in found)
     rows = [[name, *(_cell(found, name, checkout, bare) for checkout in checkouts)] for name in names]
@@ -78,11 +89,17 @@ def commands(folder: Path, checkouts: Sequence[Path]) -> list[Command]:
     robot.write_text(text, encoding="utf-8")
     declared = text.replace("<robot ", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" ')
     xacro.write_text(declared.replace("0.5 0.5 0.5 1", "${1 / 2} 0.5 0.5 1"), encoding="utf-8")
-    common = [Command(_BARE, ("-c", "pass"), ROOT), Command("xacro", (*_XACRO, xacro.name), ROOT)]
+    common = [Command(BARE, ("-c", "pass"), ROOT), Command("xacro", (*_XACRO, xacro.name), ROOT)]
+    common += [Command("import twinform", ("-c", "import twinform"), checkout) for checkout in checkouts]
+    tidy, other = folder / "tidy.urdf", folder / "other.urdf"
+    tidy.write_text(format_text(SourceText(text), FormatOptions()).text, encoding="utf-8")
+    other.write_text(text + "<!-- the same robot -->", encoding="utf-8")
     ours = {
         "twinform --version": ["--version"],
         f"twinform check, {LINKS} links": ["check", robot.name],
         f"twinform convert, {LINKS} links": ["convert", robot.name, "--to", "sdf", "-o", "robot.sdf"],
+        f"twinform format --check, {LINKS} links": ["format", "--check", tidy.name],
+        f"twinform diff, {LINKS} links": ["diff", robot.name, other.name],
         f"twinform check, {LINKS} links of xacro": ["check", xacro.name],
         f"twinform convert, {LINKS} links of xacro": ["convert", xacro.name, "--to", "sdf", "-o", "expanded.sdf"],
     }

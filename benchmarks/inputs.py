@@ -37,6 +37,12 @@ def generated(shape: str, links: int) -> Robot:
     return Robot(f"{shape} of {links:,}", path, links, shape)
 
 
+def robots_in(folder: Path | None) -> Sequence[Robot]:
+    """The URDF files of a folder, by name."""
+    found = sorted(folder.glob("*.urdf")) if folder is not None else []
+    return [Robot(path.stem, path, path.read_bytes().count(b"<link ")) for path in found]
+
+
 def known() -> Iterator[Robot]:
     """The well-known robots, where the corpus is here."""
     for name, place in KNOWN.items():

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks import commands, converters, inputs, real_files, scale, sizes, stages
+from benchmarks import commands, comments, converters, inputs, real_files, scale, sizes, stages
 from benchmarks.engines import PEERS
 from benchmarks.inputs import Robot, generated
 from benchmarks.targets import Part, at_most
@@ -16,8 +16,6 @@ from testbed.corpus.files import ROOT, Kind
 from testbed.markdown import subsection, table
 
 PROFILED = 1_000
-BARE = "python -c pass"
-COMMAND_LIMITS = {"check": 120, "convert": 180}
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,13 +35,14 @@ class Extent:
 QUICK = Extent((10, 100, 1_000), (1_000,), (10, 100), (1_000, 10_000), 3, 3, 5, 40)
 
 
-def measured_parts(extent: Extent, before: Path | None) -> Iterator[Part]:
-    """Each part of the page, once it is measured."""
+def measured_parts(extent: Extent, before: Path | None, others: Path | None) -> Iterator[Part]:
+    """Each part of the page, once it is measured; an older checkout and a folder of other robots may be given."""
     trees, chains = ([generated(shape, links) for links in some] for shape, some in _shapes(extent))
     yield _said(sizes.measure([*trees, *chains, *inputs.known()], extent.rounds))
     corpus = [Robot(file.name, file.path, 0) for file in inputs.corpus(extent.every, Kind.URDF)]
     made = [generated(shape, links) for shape in ("tree", "chain") for links in extent.converted]
-    yield _said(converters.measure(corpus, made, extent.corpus_rounds))
+    yield _said(converters.measure(corpus, inputs.robots_in(others), made, extent.corpus_rounds))
+    yield _said(comments.measure([robot.path for robot in corpus], extent.corpus_rounds))
     yield _said(real_files.measure(before, extent.every, extent.corpus_rounds))
     yield _said(_commands(extent.runs))
     yield _said(scale.measure(extent.scale))
@@ -63,15 +62,16 @@ def _commands(runs: int) -> Part:
     with tempfile.TemporaryDirectory() as folder:
         found = commands.measured(Path(folder), [ROOT], runs)
     milliseconds = {command.name: ms for command, ms in found.items()}
-    bare = milliseconds[BARE]
+    bare = milliseconds[commands.BARE]
     targets = [
-        at_most(f"{name}, over `{BARE}`", limit, [milliseconds[name] - bare], " ms")
-        for verb, limit in COMMAND_LIMITS.items()
-        for name in [f"twinform {verb}, {commands.LINKS} links"]
+        at_most(f"{name}, over `{base}`", limit, [milliseconds[name] - milliseconds[base]], " ms")
+        for name, base, limit in commands.LIMITS
     ]
     about = f"From start to exit, the median of {runs} runs; the robot is a tree."
     rows = ((name, f"{ms:.0f}", f"{ms - bare:.0f}") for name, ms in milliseconds.items())
-    return Part(subsection("Whole commands", about, table(["command", "CPU ms", f"over `{BARE}`"], rows)), targets)
+    return Part(
+        subsection("Whole commands", about, table(["command", "CPU ms", f"over `{commands.BARE}`"], rows)), targets
+    )
 
 
 def _profiles(every: int) -> dict[str, Mapping[str, float]]:

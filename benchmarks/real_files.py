@@ -9,7 +9,7 @@ from benchmarks.targets import Part, Target, at_most
 from testbed.corpus.files import CorpusFile, Kind
 from testbed.markdown import subsection
 
-LOAD_LIMIT, CONVERT_LIMIT = 0.6, 0.5
+LOAD_LIMIT, CONVERT_LIMIT = 0.6, 0.6
 _LOADS = {Kind.URDF: "load URDF", Kind.SDF: "load SDF"}
 _CONVERSIONS = {Kind.URDF: "URDF to SDF", Kind.SDF: "SDF to URDF"}
 _LEFT_OUT = """\

@@ -11,9 +11,9 @@ from benchmarks.turns import Times, cell, in_turns, milliseconds, ratio
 from testbed.markdown import subsection, table
 
 SDF_FLOOR = replace(FLOOR, name="floor of the SDF")
-LOAD_LIMIT = 7
-SDF_LIMITS = {100: 14, 1_000: 17, 10_000: 17}
-URDF_LIMIT = 20
+LOAD_LIMIT = 6
+SDF_LIMITS = {100: 11, 1_000: 11, 10_000: 11}
+URDF_LIMIT = 15
 _ABOUT = """\
 *Floor* is what lxml needs to parse the bytes of the input and to serialize them again. *Load* is `twinform.load`:
 parsing, XSD and facts tables, the IR and its verification. A conversion is `twinform.convert` with default options:

@@ -1,6 +1,7 @@
 """How fast is it, for robots of every size, beside its peers and an older tree?
 
-An older checkout may be given: `make bench BEFORE=../older`. Nothing fails: the page says which targets are met.
+An older checkout and a folder of other robots may be given: `make bench BEFORE=../older MORE=../robots`. Nothing
+fails: the page says which targets are met.
 """
 
 from dataclasses import replace
@@ -24,7 +25,8 @@ tree, and one in a chain."""
 def measure(sample: Sample) -> Findings:
     """Measure all of it, or small robots and one of so many files."""
     extent = replace(QUICK, every=sample.every) if sample.every > 1 else Extent()
-    parts = list(measured_parts(extent, Path(sample.inputs[0]) if sample.inputs else None))
+    before, others = [*map(Path, sample.inputs), None, None][:2]
+    parts = list(measured_parts(extent, before, others))
     targets = target_table(parts)
     return Findings([targets, machine(), *(part.section for part in parts)], targets)
 
