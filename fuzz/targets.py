@@ -27,7 +27,7 @@ from twinform.compiler.input.load_options import LoadResult
 from twinform.compiler.output.emitting import emit
 from twinform.compiler.output.json import json_text
 from twinform.compiler.reproducers import Reproducer
-from twinform.compiler.search.resolve_uris import SearchPath, UriError
+from twinform.compiler.resolve_uris import SearchPath, UriError
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.baseline import Baseline, BaselineError
 from twinform.diagnostics.suppressions import parse_suppressions

@@ -12,11 +12,11 @@ from typing import Any, cast
 from lxml import etree
 
 from twinform.compiler import CompileError
+from twinform.compiler.build_normal_form import extension_rows
 from twinform.compiler.compare import diff
 from twinform.compiler.compare.not_compared_page import NOT_COMPARED
 from twinform.compiler.input.front_ends import declared_version
 from twinform.compiler.input.loading import LoadOptions, read
-from twinform.compiler.normal_form.build_normal_form import extension_rows
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir.defaults import UNLIMITED
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX

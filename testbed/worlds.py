@@ -17,7 +17,7 @@ from lxml import etree
 import twinform
 from testbed.corpus.examine import rules_of
 from twinform.compiler import ConversionRequest, Language, LoadOptions, split
-from twinform.compiler.search.resolve_uris import SearchPath
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.file_access import folders_around
 from twinform.ir import Document
 from twinform.testing.oracles import libsdformat

@@ -13,10 +13,10 @@ from typing import Any
 
 from testbed.corpus.files import CORPUS, CorpusFile
 from testbed.corpus.plain_xacro import users_of_xacro
-from twinform.compiler.input.xacro.worker.budget import Budget
-from twinform.compiler.input.xacro.worker.expression_values import DotDict
-from twinform.compiler.input.xacro.worker.interpreter import Interpreter
-from twinform.compiler.input.xacro.worker.vocabulary import vocabulary
+from twinform.compiler.input.xacro.budget import Budget
+from twinform.compiler.input.xacro.expression_values import DotDict
+from twinform.compiler.input.xacro.interpreter import Interpreter
+from twinform.compiler.input.xacro.vocabulary import vocabulary
 
 _XACRO: Any = import_module("xacro")
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)

@@ -15,10 +15,10 @@ from pathlib import Path
 from lxml import etree
 
 from testbed.corpus.files import CORPUS, CorpusFile, Kind, corpus_files
+from twinform.compiler.input.expand_xacro import expand
 from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.input.parsing import UnreadableError
-from twinform.compiler.input.xacro.expansion import expand
-from twinform.compiler.search.resolve_uris import SearchPath, UriError
+from twinform.compiler.resolve_uris import SearchPath, UriError
 from twinform.diagnostics import DiagnosticSink
 
 _RUN = Path(__file__).with_name("plain_xacro_run.py")

@@ -23,7 +23,7 @@ from twinform.compiler.batch import Batch, Convert, batch, of_folder
 from twinform.compiler.batch.entries import Shard
 from twinform.compiler.batch.manifest import Manifest
 from twinform.compiler.batch.recording import merge
-from twinform.compiler.search.resolve_uris import SearchPath
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.compiler.workers import Runner, process_runner
 from twinform.storage.staging import PREFIX
 

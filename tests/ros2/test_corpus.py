@@ -8,10 +8,10 @@ import twinform
 from testbed.corpus.files import Kind, corpus_files
 from testbed.ros2.judges import yaml_problems
 from twinform.compiler.input.loading import LoadOptions
+from twinform.compiler.packaging.controllers import Controller, controllers_of
+from twinform.compiler.packaging.gazebo_control import systems_of
 from twinform.compiler.packaging.kinds import build
 from twinform.compiler.packaging.order import Order, PackageDetails
-from twinform.compiler.packaging.ros2.controllers import Controller, controllers_of
-from twinform.compiler.packaging.ros2.gazebo_control import systems_of
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document

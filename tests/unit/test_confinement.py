@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from twinform.compiler.input.xacro.worker.process import limit
+from twinform.compiler.input.xacro.process import limit
 from twinform.confinement import confine, resources, seccomp
 
 _ROOT = Path(__file__).parents[2]
@@ -179,7 +179,7 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> dict[str, tuple[int, int]]:
 
     found: dict[str, tuple[int, int]] = {}
     monkeypatch.setattr(resources, "limits", Resource)
-    monkeypatch.setattr("twinform.compiler.input.xacro.worker.process.limits", Resource)
+    monkeypatch.setattr("twinform.compiler.input.xacro.process.limits", Resource)
     monkeypatch.setattr(sys, "setrecursionlimit", _do_nothing)
     monkeypatch.setattr("signal.signal", _do_nothing)
     return found

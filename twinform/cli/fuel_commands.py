@@ -9,8 +9,8 @@ import click
 
 from twinform.cli.command import Command, Unusable
 from twinform.cli.printing import print_line
+from twinform.compiler.fuel_addresses import SERVER, caches
 from twinform.compiler.packaging.fuel_cache import FuelError, add, listed, resources
-from twinform.compiler.search.fuel import SERVER, caches
 
 _FOLDER = click.Path(file_okay=False, path_type=Path)
 

@@ -13,7 +13,7 @@ from twinform.compiler import LoadOptions
 from twinform.compiler.expand_includes import OtherDocuments
 from twinform.compiler.output.same_files import is_below
 from twinform.compiler.reproducers import Reproducer, read_reproducer
-from twinform.compiler.search.resolve_uris import LocalAssets, SearchPath
+from twinform.compiler.resolve_uris import LocalAssets, SearchPath
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.reporters import FileFindings, concise
 from twinform.passes import PassError, PipelineError, RegistryError

@@ -7,7 +7,8 @@ from twinform.cli.completion import files
 from twinform.cli.inputs import inputs, load_options_of, read_model, reading_options
 from twinform.cli.printing import print_report, show
 from twinform.compiler.input.load_options import ReadingOptions
-from twinform.compiler.statistics import REPORTERS, FileStatistics, measure
+from twinform.compiler.statistics import FileStatistics, measure
+from twinform.compiler.statistics_reporters import REPORTERS
 from twinform.diagnostics.reporters import FileFindings
 
 EXAMPLES = {

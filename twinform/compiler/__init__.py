@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from twinform.compiler.inspection import inspect
     from twinform.compiler.request import ConversionRequest
     from twinform.compiler.request_options import URDF_VERSIONS, Language, UrdfVersion
-    from twinform.compiler.search.resolve_uris import SearchPath, UriError
+    from twinform.compiler.resolve_uris import SearchPath, UriError
     from twinform.compiler.split_world import SplitWorld, split
     from twinform.schemas import DEFAULT_SDF_VERSION
     from twinform.storage.writing import write_all_atomically, write_atomically
@@ -35,7 +35,7 @@ else:
             "twinform.storage.writing": "write_all_atomically write_atomically",
             "twinform.compiler.request": "ConversionRequest",
             "twinform.compiler.request_options": "URDF_VERSIONS Language UrdfVersion",
-            "twinform.compiler.search.resolve_uris": "SearchPath UriError",
+            "twinform.compiler.resolve_uris": "SearchPath UriError",
             "twinform.compiler.split_world": "SplitWorld split",
         },
     )

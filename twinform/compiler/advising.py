@@ -14,14 +14,14 @@ from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
 from twinform.compiler.input.load_options import Input, LoadOptions, LoadResult
 from twinform.compiler.input.loading import XACRO, read
+from twinform.compiler.inspect_for_consumers import subject_of
 from twinform.compiler.inspection import inspect
-from twinform.compiler.inspection.inspect_for_consumers import subject_of
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.request_options import Language
 from twinform.diagnostics import Diagnostic, Fate, LedgerEntry, rules
 from twinform.diagnostics.rules import MODEL_NOT_CHOSEN
 from twinform.ir import Document, Format, Joint, walk
-from twinform.passes.control.carried_elements import urdf_elements
+from twinform.passes.joints.carried_elements import urdf_elements
 from twinform.passes.shared.candidates import candidates
 from twinform.profiles import Assessment, Effect, Profile, assess
 

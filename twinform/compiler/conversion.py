@@ -20,7 +20,7 @@ from twinform.compiler.input.take_comments import comments_of
 from twinform.compiler.output.emitting import document_tree, emit, emit_legal
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest
-from twinform.compiler.search.resolve_uris import LocalAssets
+from twinform.compiler.resolve_uris import LocalAssets
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile
 from twinform.diagnostics.rules import MISSING_ATTRIBUTE, MISSING_LIMIT, OUTSIDE_VERSION
 from twinform.ir import Document, Format, Include

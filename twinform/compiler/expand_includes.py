@@ -13,7 +13,7 @@ from typing import NamedTuple
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.input.size_limits import LIFTED_BY_TAGS, excess_of_names
 from twinform.compiler.model_config import manifest, model_file, newest_read
-from twinform.compiler.search.resolve_uris import UriError
+from twinform.compiler.resolve_uris import UriError
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.diagnostics.rules import UNREAD_DOCUMENT
 from twinform.ir import Document, Format, Include

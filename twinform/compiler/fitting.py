@@ -12,8 +12,8 @@ from twinform.compiler.conversion import Conversion, convert_once
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.input.load_options import Input, LoadOptions, LoadResult
 from twinform.compiler.input.loading import read
+from twinform.compiler.inspect_for_consumers import subject_of, unread
 from twinform.compiler.inspection import inspect
-from twinform.compiler.inspection.inspect_for_consumers import subject_of, unread
 from twinform.compiler.output.emitting import located
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import Diagnostic, LedgerEntry, Location, PhysicsChange, Severity

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Literal
 from urllib.parse import quote, unquote
 
-from twinform.compiler.search.resolve_uris import LocalAssets, exists
+from twinform.compiler.resolve_uris import LocalAssets, exists
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import MISSING_FILE
 from twinform.file_access import Readable

@@ -19,7 +19,7 @@ from twinform.compiler.moved_paths import moved
 from twinform.compiler.output.emitting import emit_legal
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest
-from twinform.compiler.search.resolve_uris import LocalAssets
+from twinform.compiler.resolve_uris import LocalAssets
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile, rules
 from twinform.diagnostics.rules import UNSAYABLE_SHAPE
 from twinform.ir import Document, Format, Include, Model, Pose, World

@@ -32,8 +32,8 @@ from twinform.ir.verify.verify_bodies import inertia_matrix
 from twinform.passes import NO_ASSETS, AssetError, Assets
 from twinform.passes.appearance.drop_bare_scripts import is_bare
 from twinform.passes.inertia.physical_consistency import is_doubtful
+from twinform.passes.joints.order_limits import is_usable
 from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers, rounded_extension
-from twinform.passes.limits.order_limits import is_usable
 from twinform.passes.shared.gazebo_tags import NUMBER_TAGS
 from twinform.passes.shared.link_shapes import is_flat
 from twinform.passes.shared.moving_bodies import Body, moving_bodies

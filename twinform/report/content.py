@@ -15,8 +15,8 @@ from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.inspection import inspect
 from twinform.compiler.request import ConversionRequest
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.compiler.scene import Scene, build_scene
-from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.compiler.statistics import FileStatistics, MeshCost, ModelStatistics, measure
 from twinform.diagnostics import Diagnostic, Ledger, Severity
 from twinform.diagnostics.reporters import FileFindings

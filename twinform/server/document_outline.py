@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from lsprotocol import types
 
-from twinform.compiler.search.resolve_uris import SearchPath
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.diagnostics import Span
 from twinform.server.document_names import names_of
 from twinform.server.documents import TextDocument

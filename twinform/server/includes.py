@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
-from twinform.compiler.search.resolve_uris import SearchPath
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.diagnostics import Span
 from twinform.passes import AssetError
 from twinform.server.documents import DocumentFiles, TextDocument

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from twinform.compiler.search.resolve_uris import SearchPath
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.diagnostics import Span
 from twinform.server.document_names import defined, name_at, names_of, resolve_in, surroundings
 from twinform.server.documents import TextDocument

@@ -14,7 +14,7 @@ from twinform.compiler.expand_includes import expand
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.normal_form import normal_form
 from twinform.compiler.output.emitting import emit
-from twinform.compiler.search.resolve_uris import SearchPath
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.diagnostics.reporters import REPORTERS, FileFindings
 from twinform.ir import Document, Format

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from twinform.compiler.compare.comparison import Comparison
 from twinform.compiler.input.load_options import unexpanded_name
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.compiler.scene import build_scene
-from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.ir import Document
 from twinform.view.subject import ViewSubject
 from twinform.view.view_errors import ViewerMissingError

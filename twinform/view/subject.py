@@ -11,8 +11,8 @@ from twinform.compiler.driver import convert
 from twinform.compiler.expand_includes import expand
 from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
 from twinform.compiler.inspection import inspect
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.compiler.scene import Scene, build_scene
-from twinform.compiler.search.resolve_uris import SearchPath
 from twinform.diagnostics import Diagnostic, Location
 from twinform.diagnostics.ledger import LedgerEntry
 from twinform.ir import Document, Format, Model

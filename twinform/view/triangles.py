@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from twinform.compiler.search.resolve_uris import LocalAssets, SearchPath
+from twinform.compiler.resolve_uris import LocalAssets, SearchPath
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Mesh, Plane, Sphere
 from twinform.ir.defaults import sizes

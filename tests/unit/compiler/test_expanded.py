@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from twinform.compiler import LoadResult, check
-from twinform.compiler.input.xacro import expansion
-from twinform.compiler.input.xacro.expansion import Expansion
+from twinform.compiler.input import expand_xacro
+from twinform.compiler.input.expand_xacro import Expansion
 from twinform.diagnostics import LineOrigins, Location
 
 TEXT = b"""<robot name="r"><link name="a"/>
@@ -21,7 +21,7 @@ def read(monkeypatch: pytest.MonkeyPatch, *, strict: bool, text: bytes = TEXT) -
         assert path == Path("arm.xacro")
         return Expansion(text, origins)
 
-    monkeypatch.setattr(expansion, "expand", expand)
+    monkeypatch.setattr(expand_xacro, "expand", expand)
     return check(Path("arm.xacro"), strict=strict)
 
 
@@ -56,7 +56,7 @@ def test_what_is_expanded_may_be_no_model_at_all(monkeypatch: pytest.MonkeyPatch
 
 
 def test_where_it_is_refused_nothing_is_expanded(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(expansion, "expand", None)
+    monkeypatch.setattr(expand_xacro, "expand", None)
     loaded = check(Path("arm.xacro"), xacro=False)
     assert [(each.rule.name, each.location, each.message) for each in loaded.diagnostics] == [
         ("xacro-refused", Location("arm.xacro", 1), "this is a xacro file, and xacro is refused here")

@@ -6,7 +6,7 @@ import pytest
 from lxml import etree
 
 from twinform.compiler import ConversionRequest, LoadOptions, SplitWorld, split
-from twinform.compiler.search.resolve_uris import SearchPath
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.diagnostics import Severity
 
 TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"

@@ -13,7 +13,7 @@ from tests.chains import chain
 from twinform.cli import main
 from twinform.compiler import LoadOptions, check
 from twinform.compiler.compare import Comparison
-from twinform.compiler.search.resolve_uris import SearchPath
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.diagnostics import Fate
 from twinform.ir import Document
 from twinform.report import build_report, html

@@ -10,7 +10,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import FILLED_LIMIT
 from twinform.ir import Document, map_children
 from twinform.passes import Pass
-from twinform.passes.limits.fill_limits import FillLimits
+from twinform.passes.joints.fill_limits import FillLimits
 from twinform.testing import assert_pass_contract, assert_round_trip, assert_same_robot, assert_valid
 from twinform.testing.properties import ANOTHER_ROBOT, RoundTrip
 

@@ -9,7 +9,7 @@ from twinform.cli.config.settings import ProjectSettings, parse_settings
 from twinform.cli.config.trust import require_inside
 from twinform.cli.project_options import override_policy
 from twinform.compiler.input.load_options import profiles_of
-from twinform.compiler.search.resolve_uris import SearchPath
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.diagnostics import Policy
 from twinform.profiles import Profile
 from twinform.server.checking import EditorSettings

@@ -20,7 +20,7 @@ from twinform.compiler.batch.record import ModelRecord, Outcome, Row
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.observing import observed
 from twinform.compiler.reproducers import write_reproducer
-from twinform.compiler.search.resolve_uris import SearchPath
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.passes import PassError
 
 # Versions of Python and lxml may differ between machines: they change the wording of some messages and no result that

@@ -33,7 +33,7 @@ from twinform.compiler.input.loading import (
     read,
 )
 from twinform.compiler.option import require_options
-from twinform.compiler.search.resolve_uris import LocalAssets
+from twinform.compiler.resolve_uris import LocalAssets
 from twinform.diagnostics import DiagnosticSink, LineOrigins
 from twinform.ir import Document, Format, Model
 from twinform.ir.frames import FrameError

@@ -182,7 +182,7 @@ def _read_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> 
     Raises:
         UnreadableError: the file cannot be expanded, or must not be.
     """
-    from twinform.compiler.input.xacro.expansion import expand  # noqa: PLC0415 - few files need it
+    from twinform.compiler.input.expand_xacro import expand  # noqa: PLC0415 - few files need it
 
     if load_options.xacro is False:
         message = "this is a xacro file, and xacro is refused here"

@@ -15,7 +15,7 @@ from pydantic import PrivateAttr
 
 from twinform.compiler.packaging.collecting import Collection, UncollectedError
 from twinform.compiler.packaging.layout import FileKind, suffix_of
-from twinform.compiler.search.resolve_uris import LocalAssets
+from twinform.compiler.resolve_uris import LocalAssets
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity, SideFile
 from twinform.diagnostics.rules import UNPACKAGED_FILE, UNPACKAGED_INCLUDE, UNPACKAGED_PARAMETER
 from twinform.ir import Document, Element, Format, Plugin, rewrite

@@ -11,7 +11,7 @@ from urllib.parse import unquote
 
 from twinform.compiler.packaging.layout import FileKind, PackageLayout, PackagePlaces, kind_of, suffix_of
 from twinform.compiler.packaging.package import Content, digest_of
-from twinform.compiler.search.resolve_uris import LocalAssets
+from twinform.compiler.resolve_uris import LocalAssets
 from twinform.diagnostics import Rule
 from twinform.diagnostics.rules import UNPACKAGED_FILE, URI_LEAVES_FOLDER
 from twinform.file_access import OutsideError

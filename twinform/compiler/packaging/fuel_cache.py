@@ -10,8 +10,8 @@ from pathlib import Path
 
 from lxml import etree
 
+from twinform.compiler.fuel_addresses import FuelName, Kind, name_of, newest_first
 from twinform.compiler.model_config import manifest
-from twinform.compiler.search.fuel import FuelName, Kind, name_of, newest_first
 from twinform.file_access import Readable
 from twinform.storage.transaction import named_after, transaction
 from twinform.storage.writing import sync_files

@@ -21,8 +21,8 @@ from twinform.compiler.packaging.layout import PackageLayout
 from twinform.compiler.packaging.order import Built, Order, PackageDetails
 from twinform.compiler.packaging.package import Content, Package
 from twinform.compiler.packaging.thumbnail import thumbnail
-from twinform.compiler.search.packages import MODEL_CONFIG
-from twinform.compiler.search.resolve_uris import LocalAssets
+from twinform.compiler.resolve_uris import LocalAssets
+from twinform.compiler.ros_packages import MODEL_CONFIG
 from twinform.compiler.split_world import Placement, split
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger
 from twinform.diagnostics.rules import UNPACKAGED_INCLUDE

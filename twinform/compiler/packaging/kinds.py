@@ -8,7 +8,7 @@ from twinform.compiler.packaging.gazebo_models import build as build_gazebo_mode
 from twinform.compiler.packaging.kind_names import REQUIRED
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
-from twinform.compiler.packaging.ros2.packages import build as build_ros2
+from twinform.compiler.packaging.ros2_packages import build as build_ros2
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.diagnostics.rules import PLACEHOLDER
 

@@ -18,7 +18,7 @@ from twinform.compiler.packaging.layout import PackageLayout
 from twinform.compiler.packaging.package import Package
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.request_options import Language
-from twinform.compiler.search.packages import MANIFEST, MODEL_CONFIG, read_manifest
+from twinform.compiler.ros_packages import MANIFEST, MODEL_CONFIG, read_manifest
 from twinform.diagnostics import Diagnostic, Ledger, Location, Severity
 from twinform.diagnostics.rules import UNPACKAGED_FILE
 from twinform.passes import PassInstrumentation, Pipeline

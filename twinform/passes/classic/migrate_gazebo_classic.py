@@ -19,9 +19,9 @@ from twinform.passes.classic.document_edits import (
 from twinform.passes.classic.migrate_sensors import SensorMigration
 from twinform.passes.classic.plugins import PluginMigration
 from twinform.passes.classic.reporting import accept_trial, trial_sink
-from twinform.passes.control.carried_elements import declare_carriers
-from twinform.passes.control.ros2_control_from_transmissions import Ros2ControlFromTransmissions
 from twinform.passes.framework.pass_base import Pass
+from twinform.passes.joints.carried_elements import declare_carriers
+from twinform.passes.joints.ros2_control_from_transmissions import Ros2ControlFromTransmissions
 from twinform.passes.plugins.catalog import release
 from twinform.passes.plugins.catalog_types import Release
 from twinform.passes.plugins.release_names import ReleaseName

@@ -11,7 +11,7 @@ import pytest
 from twinform.compiler import ConversionRequest, LoadOptions
 from twinform.compiler.batch import Batch, Convert, ModelResult, UnfitWorkerError, batch, of_folder
 from twinform.compiler.batch import task as tasks
-from twinform.compiler.search.resolve_uris import SearchPath
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.compiler.workers import Runner
 
 _MODEL = '<robot name="r"><link name="a"/></robot>'

@@ -6,10 +6,10 @@ from typing import Any
 import pytest
 import yaml
 
-from twinform.compiler.input.xacro.worker import data_files
-from twinform.compiler.input.xacro.worker.budget import ExcessError
-from twinform.compiler.input.xacro.worker.data_files import DataFiles
-from twinform.compiler.input.xacro.worker.expression_values import DotDict, DotList
+from twinform.compiler.input.xacro import data_files
+from twinform.compiler.input.xacro.budget import ExcessError
+from twinform.compiler.input.xacro.data_files import DataFiles
+from twinform.compiler.input.xacro.expression_values import DotDict, DotList
 
 
 def _load(text: str) -> Any:

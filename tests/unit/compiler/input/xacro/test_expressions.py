@@ -13,15 +13,15 @@ from hypothesis import strategies as st
 
 from tests.hostile.xacro_escapes import ESCAPES
 from tests.profile import examples
-from twinform.compiler.input.xacro.worker.budget import Budget, ExcessError
-from twinform.compiler.input.xacro.worker.expression_values import (
+from twinform.compiler.input.xacro.budget import Budget, ExcessError
+from twinform.compiler.input.xacro.expression_values import (
     DotDict,
     DotList,
     ExpressionRefusedError,
     weigh,
 )
-from twinform.compiler.input.xacro.worker.interpreter import Interpreter, parse
-from twinform.compiler.input.xacro.worker.vocabulary import math_functions, python_functions
+from twinform.compiler.input.xacro.interpreter import Interpreter, parse
+from twinform.compiler.input.xacro.vocabulary import math_functions, python_functions
 
 _VALUES: dict[str, Any] = {"i": 3, "x": 0.25, "s": "a b", "b": True, "l": [1, 2.5, "c"], "d": {"k": 1, "n": 0}}
 _EVALUATE: Callable[..., Any] = vars(import_module("builtins"))["eval"]

@@ -5,10 +5,10 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from twinform.compiler.input.xacro.worker import budget, data_files, interpreter
-from twinform.compiler.input.xacro.worker.budget import Budget
-from twinform.compiler.input.xacro.worker.operations import METHODS
-from twinform.compiler.input.xacro.worker.vocabulary import math_functions, python_functions
+from twinform.compiler.input.xacro import budget, data_files, interpreter
+from twinform.compiler.input.xacro.budget import Budget
+from twinform.compiler.input.xacro.operations import METHODS
+from twinform.compiler.input.xacro.vocabulary import math_functions, python_functions
 
 _PAGE = Path(__file__).parents[5] / "docs" / "how-to" / "xacro.md"
 _NAME = re.compile(r"`(\w+)`")

@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from twinform.compiler.input.xacro.worker import places
-from twinform.compiler.input.xacro.worker.channel import MissingFileError, NotFoundError
-from twinform.compiler.input.xacro.worker.process import run
+from twinform.compiler.input.xacro import places
+from twinform.compiler.input.xacro.channel import MissingFileError, NotFoundError
+from twinform.compiler.input.xacro.process import run
 
 _HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">'
 _VARIABLES = {"SIDE": "left"}

@@ -1,0 +1,201 @@
+"""xacro, with every function replaced by which it reads files, evaluates expressions, or leaves its own process."""
+
+import re
+import sys
+from collections.abc import Callable, Mapping
+from functools import partial
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+from typing import TYPE_CHECKING, Any
+from xml.dom import minidom
+
+from twinform.compiler.input.xacro.budget import Budget
+from twinform.compiler.input.xacro.channel import Compiler, MissingFileError
+from twinform.compiler.input.xacro.expression_values import DotDict, ExpressionRefusedError, Value, text_of
+from twinform.compiler.input.xacro.interpreter import Interpreter
+from twinform.compiler.input.xacro.places import FileLine, parse, place_of
+from twinform.compiler.input.xacro.texts import Substitutions, TextEvaluator
+from twinform.compiler.input.xacro.vocabulary import vocabulary
+
+if TYPE_CHECKING:
+    from twinform.compiler.input.xacro.data_files import DataFiles
+
+# Functions of xacro whose first argument is the element that they work on: from them errors get
+# their place.
+_WATCHED = ("eval_all", "check_attrs", "grab_property", "grab_macro", "process_include", "handle_macro_call")
+# Taken away from xacro's modules, so that a use of them that is not replaced fails instead of
+# running.
+_BARRED = ("compile", "eval", "exec", "open")
+
+
+class Expander:
+    """Expands one file, and is what the functions of its expressions know of it.
+
+    The YAML library takes longer to import than all else. Without `yaml`, a file that reads data makes
+    `lacks_yaml` true, and its expansion fails.
+    """
+
+    def __init__(self, compiler: Compiler, file: str, *, yaml: bool = True) -> None:
+        self.xacro: Any = import_module("xacro")
+        self.module: Any = import_module("xacro.substitution_args")
+        self.compiler = compiler
+        self.file = file
+        self.node: Any = None
+        self.budget = Budget()
+        self.interpreter = Interpreter(self.budget, self.xacro.NameSpace)
+        self.substitutions = Substitutions(
+            self.module, self.interpreter, self._package, compiler.environment, self.xacro.warning
+        )
+        self.texts = TextEvaluator(self.interpreter.evaluate, self._substitute, self.xacro.XacroException, self.budget)
+        theirs: Mapping[str, Any] = getattr(self.xacro, "_global_symbols", {})
+        self.names = vocabulary(theirs, self._functions(), self.budget, self.xacro.warning)
+        self.data_files = self._data_files() if yaml else None
+        self.lacks_yaml = False
+        self.beside: Callable[[str], str] = self.xacro.abs_filename_spec
+        self.print_location: Callable[[], None] = self.xacro.print_location
+        self._replace()
+
+    def expand(self, arguments: dict[str, str]) -> minidom.Document:
+        """The tree that the file expands to."""
+        return self.xacro.process_file(self.file, mappings=arguments, verbosity=0)
+
+    def place(self) -> FileLine:
+        """Where the element was written that was looked at last."""
+        return place_of(self.node) or (self.file, 1)
+
+    def argument(self, name: str) -> str:
+        """An argument of the file, as text."""
+        return self.xacro.substitution_args_context["arg"][name]
+
+    def path(self, name: str) -> str:
+        """What a file name means in the file that is being read."""
+        return self._find(name) if name.startswith("package://") else self.beside(name)
+
+    def data(self, name: str) -> Value:
+        """The content of a data file."""
+        path = self.path(name)
+        if self.data_files is None:
+            self.lacks_yaml = True
+            raise ExpressionRefusedError("this process cannot read data files")
+        return self.data_files.load(self.compiler.read(path), path)
+
+    def _functions(self) -> dict[str, Callable[..., Value]]:
+        """Every function that xacro documents; what they are given has been weighed."""
+        return {
+            "abs_filename": self.path,
+            "arg": self.argument,
+            "dotify": DotDict,
+            "error": partial(self._say, "error: "),
+            "fatal": self._fatal,
+            "load_yaml": self.data,
+            "message": partial(self._say, ""),
+            "print_location": self._locate,
+            "tokenize": _tokenize,
+            "warning": partial(self._say, "warning: "),
+        }
+
+    def _say(self, start: str, /, *args: Value, alt_text: str | None = None, **_: Value) -> str:
+        """Have something reported: what is printed is noted with its place."""
+        print(f"{start if alt_text is None else alt_text}{self._joined(args)}", file=sys.stderr)  # noqa: T201 - see above
+        return ""
+
+    def _fatal(self, *args: Value) -> Value:
+        raise self.xacro.XacroException(self._joined(args))
+
+    def _joined(self, args: tuple[Value, ...]) -> str:
+        return self.budget.write(" ".join(text_of(each, self.budget) for each in args))
+
+    def _locate(self) -> str:
+        """Have it reported which macros and files are being expanded."""
+        self.print_location()
+        return ""
+
+    def _data_files(self) -> "DataFiles":
+        from twinform.compiler.input.xacro.data_files import DataFiles  # noqa: PLC0415 - see above
+
+        units = {unit.value.tag: unit.value.conversion_constant for unit in self.xacro.ConstructUnits}
+        return DataFiles(units, lambda expression: self.interpreter.evaluate(expression, self.names))
+
+    def _replace(self) -> None:
+        _replace(
+            self.xacro,
+            {
+                "_global_symbols": self.names,
+                "abs_filename_spec": self.path,
+                "eval_extension": self._substitute,
+                "eval_text": self.texts.value,
+                "glob": SimpleNamespace(glob=self.compiler.match),
+                "load_yaml": self.data,
+                "parse": self._parse,
+                "print_location": lambda: None,  # every remark has its place already
+                "root_dir": _working_folder(),
+                # xacro hands expressions to Python's `eval` behind a list of forbidden names, which
+                # `python.vars(python.type(f))['__get__']` left.
+                "safe_eval": self.interpreter.evaluate,
+                **{name: self._watched(getattr(self.xacro, name, None)) for name in _WATCHED},
+            },
+        )
+        _replace(self.module, self.substitutions.replacements())
+        for module in (self.xacro, self.module):
+            for name in _BARRED:
+                setattr(module, name, _refuse)
+
+    def _watched(self, function: Any) -> Callable[..., Any]:
+        def call(node: Any, *rest: Any) -> Any:
+            self.node = node
+            self.budget.spend()
+            return function(node, *rest)
+
+        return call
+
+    def _substitute(self, text: str) -> str:
+        if text == "$(cwd)":
+            return self.xacro.root_dir
+        try:
+            return self.module.resolve_args(text, context=self.xacro.substitution_args_context)
+        except self.module.ArgException as error:
+            raise self.xacro.XacroException("Undefined substitution argument", exc=error) from error
+        except Exception as error:
+            raise self.xacro.XacroException(exc=error, suffix=f"when evaluating '{text}'") from error
+
+    def _package(self, name: str) -> str:
+        return self._find(f"package://{name}")
+
+    def _find(self, uri: str) -> str:
+        return self.compiler.find(uri, (self.xacro.filestack or [None])[-1] or self.file)
+
+    def _parse(self, _: object, filename: str) -> minidom.Document:
+        """What xacro's own function does, with lines."""
+        try:
+            return parse(self.compiler.read(filename), filename)
+        except MissingFileError as error:
+            self.xacro.filestack.pop()
+            raise self.xacro.XacroException(exc=error) from error
+
+
+def _replace(module: ModuleType, replacements: Mapping[str, Any]) -> None:
+    for name, value in replacements.items():
+        # A newer xacro that renames a function would otherwise run its own version of it,
+        # unconfined.
+        if not hasattr(module, name):
+            raise ImportError(f"this version of xacro is not known: {module.__name__} has no {name}")
+        setattr(module, name, value)
+
+
+def _refuse(*_: object, **__: object) -> Any:
+    raise ExpressionRefusedError("xacro must not evaluate or open anything by itself")
+
+
+def _working_folder() -> str:
+    try:
+        return str(Path.cwd())
+    except OSError:  # it was deleted
+        return "."
+
+
+def _tokenize(text: str, sep: str = ",; ", skip_empty: bool = True) -> list[str]:
+    if "]" in sep:
+        raise ExpressionRefusedError("the separators of 'tokenize' must not have ']' among them")
+    found = re.split(f"[{sep}]", text)
+    return [each for each in found if each] if skip_empty else found

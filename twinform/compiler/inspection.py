@@ -1,0 +1,182 @@
+"""Checks of `twinform check` beyond validity: named files, driven joints, mass of moving links, read-only passes.
+
+A conversion does without them; its passes report what becomes of such parts.
+"""
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from twinform.compiler.input.allowances import report_unused
+from twinform.compiler.input.finding_lines import with_exact_lines
+from twinform.compiler.input.loading import LoadOptions, LoadResult
+from twinform.compiler.named_files import report_named_files
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Severity, did_you_mean, rules
+from twinform.diagnostics.rules import MISSING_INERTIAL, UNKNOWN_COLLISION
+from twinform.ir import Document, Element, Format, Model
+from twinform.passes.carriers.annotations import find_annotation, is_synthesized
+from twinform.passes.carriers.joint_chains import PART
+from twinform.passes.carriers.lumped_names import mentions_collisions
+from twinform.passes.joints.carried_elements import urdf_elements
+from twinform.passes.shared.moving_bodies import moving_bodies, neighbors
+
+if TYPE_CHECKING:
+    from twinform.passes import Pipeline
+
+
+def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | None" = None) -> LoadResult:
+    """Add the findings of all inspections to a result of reading, and those of `passes` if there is no error.
+
+    Raises:
+        ReadOnlyPassError: a pass would change the document.
+        PassError: a pass is at fault.
+    """
+    document = loaded.document
+    if document is None:
+        return loaded
+    file = loaded.text_name
+    sink = DiagnosticSink(file, load_options.strict)
+    report_driven_joints(document, sink)
+    # These checks take a fifth of the time of `check` where the files are there.
+    if loaded.accepted:
+        report_massless(document, sink)
+        report_contact_sensors(document, sink)
+    report_named_files(document, Path(loaded.path), load_options.search, loaded.tree, sink)
+    whole = DiagnosticSink(loaded.path, load_options.strict, list(loaded.diagnostics), origins=dict(loaded.origins))
+    whole.allows, whole.allowed = loaded.allowances, list(loaded.allowed)
+    whole.extend_new(_with_lines(sink, loaded))
+    if passes and loaded.accepted:
+        from twinform.compiler.read_only_passes import run_read_only  # noqa: PLC0415 - few runs have passes
+
+        found = DiagnosticSink(file, load_options.strict)
+        run_read_only(document, passes, found, Path(loaded.path), load_options)
+        whole.extend_new(_with_lines(found, loaded))
+    if load_options.profiles:
+        # few files are for certain consumers
+        from twinform.compiler.inspect_for_consumers import report_for_consumers  # noqa: PLC0415 - see above
+
+        report_for_consumers(loaded, load_options, whole)
+    if loaded.allowances:
+        loaded.allowances.checked = True
+        loaded.allowances.settle(whole)
+        # Errors keep other findings from being looked for, so a suppression of one of these would
+        # seem unused.
+        if not whole.has_errors:
+            report_unused(loaded.allowances, whole)
+    ordered = sorted(whole.diagnostics, key=lambda each: each.location.line)
+    return replace(loaded, diagnostics=tuple(ordered), allowed=tuple(whole.allowed))
+
+
+def _with_lines(sink: DiagnosticSink, loaded: LoadResult) -> list[Diagnostic]:
+    """Return the findings of a sink, with exact lines where there is a text."""
+    found = sink.diagnostics
+    return found if loaded.tree is None else list(with_exact_lines(found, loaded.tree, sink.file))
+
+
+_DEFAULT_COLLISION = "__default__"
+"""The name in SDF of a collision that is not written."""
+
+
+def report_contact_sensors(document: Document, sink: DiagnosticSink) -> None:
+    """Report contact sensors in `<gazebo>` that name no collision, as we or libsdformat call it.
+
+    In SDF, references to collisions are verified when the file is read.
+    """
+    for model in document.models if document.format is Format.URDF else ():
+        if mentions_collisions(model):
+            _report_unknown_collisions(model, sink)
+
+
+def _report_unknown_collisions(model: Model, sink: DiagnosticSink) -> None:
+    from twinform.passes.legalise.to_sdf.follow_lumped_names import (  # noqa: PLC0415 - few robots have such sensors
+        names_of_libsdformat,
+        own_collisions,
+    )
+
+    own = {each.name for each in own_collisions(model).values()}
+    known = own | names_of_libsdformat(model).keys() | {_DEFAULT_COLLISION}
+    for sensor in (one for each in model.extensions for part in each.content for one in part.walk()):
+        contact = sensor.find("contact") if sensor.name == "sensor" and sensor.get("type") == "contact" else None
+        for collision in contact.children if contact is not None else ():
+            name = (collision.text or "").strip()
+            if collision.name == "collision" and name and name.rpartition("::")[2] not in known and "$" not in name:
+                _report_unknown_collision(sensor, collision, name, own, sink)
+
+
+def _report_unknown_collision(
+    sensor: Element, collision: Element, name: str, own: set[str], sink: DiagnosticSink
+) -> None:
+    message = f"contact sensor {sensor.get('name')!r} names the collision {name!r}, which does not exist"
+    hint = did_you_mean(name.rpartition("::")[2], own)
+    sink.report(UNKNOWN_COLLISION, message, collision.location, found=name, help=hint)
+
+
+_HOLDERS = ("transmission", "ros2_control")
+_JOINTS = ("joint", "passive_joint")
+# Elements of a transmission that name the joint that it drives; the last four are those of the PR2.
+_WITH_JOINT = frozenset({*_JOINTS, "gap_joint", "simulated_actuated_joint", "flexJoint", "rollJoint"})
+
+
+def report_driven_joints(document: Document, sink: DiagnosticSink) -> None:
+    """Report transmissions and `<ros2_control>` that name a joint which is not there, or no joint at all."""
+    for model in document.models:
+        _report_unknown_joints(model, document, sink)
+
+
+def _report_unknown_joints(model: Model, document: Document, sink: DiagnosticSink) -> None:
+    joints = {joint.name for joint in model.joints}
+    for holder in _HOLDERS:
+        for part, element in urdf_elements(model, document.format, holder):
+            called = element.get("name") or ""
+            if holder == "transmission" and not any(child.name in _WITH_JOINT for child in element.children):
+                message = f"transmission {called!r} has no <joint>: it drives nothing"
+                sink.report(rules.TRANSMISSION_WITHOUT_JOINT, message, part.location, expected="<joint name='...'>")
+            for name, where in _named_joints(element, part.location):
+                if name not in joints and "$" not in name:
+                    message = f"<{holder}> {called!r} names the joint {name!r}, which the robot does not have"
+                    hint = did_you_mean(name, joints)
+                    sink.report(rules.UNKNOWN_DRIVEN_JOINT, message, where, found=name, help=hint)
+
+
+def _named_joints(element: Element, place: Location) -> Iterator[tuple[str, Location]]:
+    """Yield the joints that an element names, and where."""
+    counts: Counter[str] = Counter()
+    for child in element.children:
+        counts[child.name] += 1
+        name = child.get("name")
+        if child.name in _JOINTS and name:
+            yield name, place.at(f"{child.name}[@name='{name}']")
+
+
+_ADD_INERTIAL = "write one, or compute it from the shapes: --passes fill-inertia{density=...}"
+
+
+def report_massless(document: Document, sink: DiagnosticSink) -> None:
+    """Report links that move and have no mass; in SDF, where they have 1 kg, as an info."""
+    if document.format is Format.SDF:
+        for link in (link for body in moving_bodies(document) for link in body if link.inertial is None):
+            # In SDF the default is often meant. In URDF, Gazebo drops such a link.
+            message = f"link {link.name!r} moves but has no <inertial>; simulators take 1 kg and 1 kg m^2"
+            sink.report(
+                MISSING_INERTIAL,
+                message,
+                link.location,
+                expected="<inertial>",
+                help=_ADD_INERTIAL,
+                severity=Severity.INFO,
+            )
+        return
+    for each in neighbors(document):
+        if any(link.inertial for link in each.child):
+            continue
+        moved = next(link for link in each.child if link.name == each.joint.child)
+        if is_synthesized(moved) or find_annotation(moved, PART):  # synthesized for a joint that URDF does not have
+            continue
+        others = tuple(link.location for link in each.child if link is not moved)
+        joined = f", nor has any of the {len(others)} fixed to it" if others else ""
+        message = f"joint {each.joint.name!r} moves link {moved.name!r}, which has no <inertial>{joined}"
+        sink.report(
+            MISSING_INERTIAL, message, moved.location, expected="<inertial>", help=_ADD_INERTIAL, related=others
+        )

@@ -1,0 +1,200 @@
+"""Missing files that a model names: meshes, textures and includes, and paths that only Windows reads."""
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from posixpath import normpath
+from typing import NamedTuple
+from urllib.parse import unquote
+
+from twinform.compiler.input.finding_lines import PartFinder, line_of_text
+from twinform.compiler.resolve_uris import SearchPath, UriError, exists
+from twinform.compiler.ros_packages import MODEL_CONFIG
+from twinform.diagnostics import DiagnosticSink, Location, nearest_name, rules
+from twinform.file_access import Readable, folders_around
+from twinform.ir import Document
+from twinform.passes.shared.document_uris import Kind, map_uris
+from twinform.schemas import XmlElement
+
+# Different URIs that are looked for; a hostile file may have a million.
+_MOST = 1000
+# The most missing files for which similar names are looked for.
+_MOST_NEAR = 50
+_WORDS: dict[Kind, str] = {"mesh": "mesh", "texture": "file", "include": "included model"}
+
+
+class _Use(NamedTuple):
+    """A URI, and where it stands first."""
+
+    uri: str
+    kind: Kind
+    where: Location
+
+
+class _Missing(NamedTuple):
+    """A URI that leads nowhere, a similar name, and where was looked."""
+
+    use: _Use
+    near: str | None
+    looked: str | None
+
+
+def report_named_files(
+    document: Document, path: Path, search: SearchPath, tree: XmlElement | None, sink: DiagnosticSink
+) -> None:
+    """Report each missing file once, where it is named first, and paths with backslashes.
+
+    If nothing of a package, or nothing that is named by a path, is there, it is one finding. For a text that came from
+    no file, only backslashes are reported.
+    """
+    uses = _uris_of(document)
+    parts = None if tree is None else PartFinder(tree)
+    wrong = [use for use in uses if "\\" in use.uri]
+    for use in wrong:
+        message = f"backslashes in the path of a file, '{use.uri}', are no separators"
+        hint = f"write '{use.uri.replace(chr(92), '/')}'"
+        sink.report(rules.BACKSLASH_IN_PATH, message, _place(use, parts), found=use.uri, help=hint)
+    if not exists(path):
+        return
+    found: set[str] = set()
+    missing: defaultdict[str, list[_Missing]] = defaultdict(list)
+    gone_before = 0
+    for use in (use for use in uses if "\\" not in use.uri and "$" not in use.uri):
+        gone = _look_for(use, path, search, asks=gone_before < _MOST_NEAR)
+        gone_before += gone is not None
+        if gone is None:
+            found.add(_holder(use.uri))
+        elif gone.near is not None:
+            _report_missing((gone,), parts, sink)
+        # Packages and models that are not on this machine may be installed where the robot is. Of
+        # 1,489 corpus files, whose meshes were mostly left behind, 698 had 4,589 missing files: a
+        # finding for each would have hidden everything else, so a package of which nothing is there
+        # is one finding (777 in all).
+        elif not is_elsewhere(use.uri, search, path):
+            missing[_holder(use.uri)].append(gone)
+    for holder, gone in missing.items():
+        for group in ((each,) for each in gone) if holder in found else (gone,):
+            _report_missing(group, parts, sink)
+
+
+def _uris_of(document: Document) -> list[_Use]:
+    """Return the URIs of a document."""
+    found: dict[str, _Use] = {}
+
+    def note(uri: str, kind: Kind, where: Location) -> str:
+        if len(found) < _MOST:
+            found.setdefault(uri.strip(), _Use(uri.strip(), kind, where))
+        return uri
+
+    map_uris(document, note)
+    return list(found.values())
+
+
+def _holder(uri: str) -> str:
+    """Return the package or model of a URI; empty for a path."""
+    scheme, separator, rest = uri.partition("://")
+    return f"{scheme}://{rest.partition('/')[0]}" if separator else ""
+
+
+def _look_for(use: _Use, path: Path, search: SearchPath, *, asks: bool) -> _Missing | None:
+    """Return a URI as missing; None for a file that is there, even where it must not be read."""
+    try:
+        search.find(use.uri, path)
+    except UriError as error:
+        if error.rule is rules.UNRESOLVED_URI:
+            return _Missing(use, near_file(use.uri, search, path) if asks else None, error.help)
+    return None
+
+
+def _report_missing(missing: Iterable[_Missing], parts: PartFinder | None, sink: DiagnosticSink) -> None:
+    first, *others = missing
+    use = first.use
+    message = f"the {_WORDS[use.kind]} {use.uri!r} is not there"
+    if others:
+        message += f", nor is anything else of {_holder(use.uri) or 'what is named by a path'}: {len(others)} more"
+    hint = f"did you mean {first.near!r}?" if first.near else first.looked
+    related = tuple(each.use.where for each in others)
+    sink.report(rules.MISSING_FILE, message, _place(use, parts), found=use.uri, help=hint, related=related)
+
+
+def _place(use: _Use, parts: PartFinder | None) -> Location:
+    line = line_of_text(parts, use.where, use.uri) if parts else 0
+    return use.where._replace(line=line or use.where.line)
+
+
+# Models and packages are often not on this machine at all, so only a very similar name is taken for
+# the intended one.
+_ALIKE = 0.75
+_FEW = 3
+"""Letters that are in one of two names and not in the other."""
+_NAMED = frozenset({"model", "package"})
+_SCHEMES = ("file", "http", "https", "model", "package")
+
+
+def is_elsewhere(uri: str, search: SearchPath, beside: Path) -> bool:
+    """Whether a URI leads to something that is not on this machine: an unknown package or model, or the network."""
+    scheme, separator, rest = uri.partition("://")
+    if not separator:
+        return False
+    if scheme not in _NAMED:
+        return scheme != "file" or rest.startswith("media/")  # Gazebo Classic has its own media
+    name = normpath(unquote(rest)).partition("/")[0]
+    return _package_folder(name, search, beside) is None
+
+
+def near_file(uri: str, search: SearchPath, beside: Path) -> str | None:
+    """Return what was probably meant by the first part of a URI that is not there."""
+    scheme, separator, rest = uri.partition("://")
+    if separator and scheme not in _SCHEMES:
+        near = nearest_name(scheme, _SCHEMES, _ALIKE)
+        return f"{near}://" if near and _is_typo(scheme, near) else None
+    path = normpath(unquote(rest)) if separator else normpath(uri)
+    if scheme not in _NAMED or not separator:
+        return _near_below(beside.parent, path, search, beside)
+    name, _, inner = path.partition("/")
+    folder = _package_folder(name, search, beside)
+    if folder is None:
+        near = nearest_name(name, _known_names(scheme, search, beside), _ALIKE)
+        return near if near and _is_typo(name, near) else None
+    return _near_below(folder, inner, search, beside)
+
+
+def _is_typo(name: str, near: str) -> bool:
+    """Whether only a letter or two differ: a longer name is mostly another model of the same family."""
+    from difflib import SequenceMatcher  # noqa: PLC0415 - few files are missing
+
+    same = sum(block.size for block in SequenceMatcher(None, name, near, autojunk=False).get_matching_blocks())
+    # `ball_valve_wall` is another model and not a misspelt `ball_valve`.
+    return len(name) + len(near) - 2 * same <= _FEW
+
+
+def _package_folder(name: str, search: SearchPath, beside: Path) -> Path | None:
+    try:
+        return search.package(name, beside)
+    except UriError:
+        return None
+
+
+def _near_below(folder: Path, path: str, search: SearchPath, beside: Path) -> str | None:
+    """Return the name of a file that is similar to the first part of a path that is not there."""
+    for part in path.split("/"):
+        if not exists(folder / part):
+            suffix = Path(part).suffix.lower()
+            alike = search.index.listing(folder).by_suffix.get(suffix, ())
+            # a file from elsewhere must learn of no names but those around it
+            return nearest_name(part, alike) if Readable.of(beside).allows(folder) else None
+        folder = folder / part
+    return None
+
+
+def _known_names(scheme: str, search: SearchPath, beside: Path) -> Iterator[str]:
+    """Yield the names of the packages or models around a file, and in the folders that were named."""
+    around = folders_around(beside)
+    index = search.index
+    if scheme == "package":
+        for folder in (*search.own, *around):
+            inside = (folder / name for name in index.listing(folder).folders)
+            yield from filter(None, map(index.name_of, (folder, *inside)))
+        return
+    for folder in (*search.own, *search.models, *around, *(each / "models" for each in around)):
+        yield from (name for name in index.listing(folder).folders if exists(folder / name / MODEL_CONFIG))

@@ -1,1 +1,0 @@
-"""Passes on joint limits: checking, filling and tightening them, and soft limits."""
