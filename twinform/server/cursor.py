@@ -47,7 +47,7 @@ def cursor_at(document: TextDocument, offset: int) -> Cursor | None:
     node = tree.at(offset)
     if node is None:
         return Cursor(CursorKind.TEXT, None, Span(offset, offset))
-    if node.start_tag.start < offset <= _inside_end(node):
+    if node.start < offset <= _inside_end(node):
         return _in_start_tag(node, offset, document.text)
     if node.end_tag is not None and node.end_tag.start < offset:
         return Cursor(CursorKind.END_TAG, node, Span(node.end_tag.start + 2, node.end_tag.start + 2 + len(node.tag)))

@@ -65,7 +65,7 @@ def span_of(where: Location, document: TextDocument) -> Span:
 
 def _find_part(where: Location, tree: Tree, line: Span) -> Span | None:
     """Find the element or attribute of a path on a line; None if no element begins on the line."""
-    here = [node for node in tree.nodes if line.start <= node.start_tag.start < line.end]
+    here = [node for node in tree.nodes if line.start <= node.start < line.end]
     path, _, attribute = where.path.partition("/@")
     tag = path.rpartition("/")[2].partition("[")[0]
     node = next((each for each in here if each.tag == tag), here[0] if here else None)

@@ -17,7 +17,7 @@ from twinform.passes.structure.reference_words import kind_of_attribute, kind_of
 from twinform.server.documents import TextDocument
 from twinform.server.mapping import FormatName, MappingRow, field_of
 from twinform.server.names import XACRO_KINDS, Name, xacro_names
-from twinform.server.schema import is_of_xacro
+from twinform.server.schema import SchemaPlace, is_of_xacro
 from twinform.server.tolerant_tree import TolerantNode
 
 Key = TypeVar("Key")
@@ -59,11 +59,13 @@ def _all_surroundings(document: TextDocument) -> dict[TolerantNode | None, NameS
     found: dict[TolerantNode | None, NameSurroundings] = {None: _NOWHERE}
     for node in document.tree.nodes:
         outer, parent = found[node.parent], node.parent
-        found[node] = NameSurroundings(
-            scope=node if node.tag in _SCOPES else outer.scope,
-            macro=node if node.tag == _MACRO else outer.macro,
-            in_state=outer.in_state or (parent is not None and parent.tag == "state"),
-        )
+        if node.tag in _SCOPES:
+            outer = outer._replace(scope=node)
+        elif node.tag == _MACRO:
+            outer = outer._replace(macro=node)
+        if parent is not None and parent.tag == "state" and not outer.in_state:
+            outer = outer._replace(in_state=True)
+        found[node] = outer
     return found
 
 
@@ -104,9 +106,27 @@ def name_at(document: TextDocument, offset: int) -> Name | None:
 
 def _model_names(document: TextDocument) -> Iterator[Name]:
     for node in document.tree.nodes:
-        if node.tag and not is_of_xacro(node.tag) and len(node.attributes) <= MOST_ATTRIBUTES:
+        if node.tag and not is_of_xacro(node.tag) and _may_name(document, node):
             yield from _names_in_attributes(document, node)
             yield from _names_in_text(document, node)
+
+
+def _may_name(document: TextDocument, node: TolerantNode) -> bool:
+    """Whether there can be a name in an element, which most elements at most places do not have."""
+    place = document.schema.place(node)
+    if place is not None and place.row is not None and place.row.fact.place is not None:
+        return _has_names(place) and len(node.attributes) <= MOST_ATTRIBUTES
+    return len(node.attributes) <= MOST_ATTRIBUTES
+
+
+@cache
+def _has_names(place: SchemaPlace) -> bool:
+    """Whether elements with a field in the IR define a name or refer to one."""
+    tag = place.row.fact.name if place.row is not None else ""
+    if tag in DEFINED or tag in _STATES or tag == "name":
+        return True
+    kept = [row for name, row in place.rows.items() if name.startswith("@")] + ([place.row] if place.row else [])
+    return any(_kind_of_row(row) is not None for row in kept)
 
 
 def _names_in_attributes(document: TextDocument, node: TolerantNode) -> Iterator[Name]:
@@ -178,7 +198,7 @@ def kind_at(document: TextDocument, node: TolerantNode, attribute: str | None) -
     """Return the kind of thing that an attribute refers to or, without one, the text of an element."""
     row = document.schema.row(node, attribute)
     if row is not None and row.fact.place is not None and row.fact.place != ".":
-        return _FIELDS.get(_field(row))
+        return _kind_of_row(row)
     if _is_typed(document, node):
         return None
     element = Element.unchecked(name=node.tag, attributes=tuple(node.values.items()))
@@ -196,9 +216,9 @@ def _is_typed(document: TextDocument, node: TolerantNode) -> bool:
 
 
 @cache
-def _field(row: MappingRow) -> str:
-    """Return the field of the IR that a row fills, without the kind of a union."""
-    return field_of(row).partition(":")[0]
+def _kind_of_row(row: MappingRow) -> ReferenceKind | None:
+    """Return the kind of thing that the field names which a row fills, whatever the kind of a union."""
+    return _FIELDS.get(field_of(row).partition(":")[0])
 
 
 def scope_of_reference(document: TextDocument, node: TolerantNode) -> TolerantNode | None:

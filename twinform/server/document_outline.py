@@ -47,7 +47,7 @@ def outline(document: TextDocument) -> list[types.DocumentSymbol]:
     found: list[types.DocumentSymbol] = []
     holders: list[tuple[TolerantNode, list[types.DocumentSymbol]]] = []
     for node in document.tree.nodes:
-        while holders and holders[-1][0].end <= node.start_tag.start:
+        while holders and holders[-1][0].end <= node.start:
             holders.pop()
         if node.tag in _KINDS and len(holders) < _DEEPEST:
             inside: list[types.DocumentSymbol] = []
@@ -91,8 +91,8 @@ def folds(document: TextDocument) -> list[types.FoldingRange]:
     comments = ((aside, False, types.FoldingRangeKind.Comment) for aside in document.tree.asides)
     found: list[types.FoldingRange] = []
     for span, has_end_tag, kind in (*elements, *comments):
-        first = document.positions.position(span.start).line
-        last = document.positions.position(max(span.start, span.end - 1)).line - has_end_tag
+        first = document.positions.line(span.start)
+        last = document.positions.line(max(span.start, span.end - 1)) - has_end_tag
         if last > first:
             found.append(types.FoldingRange(first, last, kind=kind))
     return found
@@ -117,7 +117,7 @@ def links(document: TextDocument, search: SearchPath) -> list[types.DocumentLink
 
 def _uris(document: TextDocument) -> Iterator[tuple[Span, str]]:
     for node in document.tree.nodes:
-        if "filename" in node.attributes and node.tag != "plugin":
+        if node.mentions("filename") and "filename" in node.attributes and node.tag != "plugin":
             yield node.attributes["filename"].value, node.values["filename"]
         elif node.tag in _TEXTS and not node.children and node.closed and not node.empty:
             span = document.tree.text_of(node)

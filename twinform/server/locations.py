@@ -7,6 +7,7 @@ import os
 import re
 from bisect import bisect_right
 from dataclasses import dataclass
+from itertools import accumulate
 from pathlib import Path
 from urllib.parse import unquote_to_bytes, urlsplit
 
@@ -32,7 +33,10 @@ class Positions:
     @classmethod
     def of(cls, text: str, encoding: PositionEncodingKind = PositionEncodingKind.Utf16) -> "Positions":
         """Find the lines of a text."""
-        return cls(text, (0, *(found.end() for found in _LINE_END.finditer(text))), encoding)
+        if "\r" in text:
+            return cls(text, (0, *(found.end() for found in _LINE_END.finditer(text))), encoding)
+        lengths = map(len, text.split("\n"))
+        return cls(text, tuple(accumulate(lengths, lambda start, length: start + length + 1, initial=0))[:-1], encoding)
 
     def offset(self, position: Position) -> int:
         """Return the offset of a position; beyond the end of a line, the end of the line."""
@@ -44,8 +48,12 @@ class Positions:
     def position(self, offset: int) -> Position:
         """Return the position of an offset."""
         offset = max(0, min(offset, len(self.text)))
-        line = bisect_right(self.starts, offset) - 1
+        line = self.line(offset)
         return Position(line, _units(self.text[self.starts[line] : offset], self.encoding))
+
+    def line(self, offset: int) -> int:
+        """Return the line of an offset."""
+        return bisect_right(self.starts, offset) - 1
 
     def span(self, where: Range) -> Span:
         """Return the span of a range, even if its ends are the wrong way round."""

@@ -144,7 +144,7 @@ def xacro_attributes(
 def _is_in_macro_of(parameter: Name, document: TextDocument, offset: int) -> bool:
     """Whether an offset is in the macro of a parameter."""
     macro = parameter.node
-    return macro in document.tree.nodes and macro.start_tag.start <= offset <= macro.end
+    return macro in document.tree.nodes and macro.start <= offset <= macro.end
 
 
 def _propose_name(name: Name) -> Proposal:

@@ -4,6 +4,7 @@ Elements of xacro that only hold others, such as `<xacro:if>`, count as the elem
 """
 
 from dataclasses import dataclass
+from functools import cache, cached_property
 
 from twinform.passes.plugins.catalog import (
     classic_plugins_of_file,
@@ -42,14 +43,11 @@ def format_of(tree: Tree, name: str, language: str = "") -> FormatName | None:
     return promised[0] if promised else _LANGUAGES.get(language)
 
 
-_ROWS: dict[tuple[str, str, str, Version], dict[str, MappingRow]] = {}
-
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)  # no slots: what is derived from it is kept in the dictionary
 class SchemaPlace:
     """The place of an element in a table: its `row`, None for a root, and the fact `inside` with the rows below.
 
-    The steps of the rows below begin with `around`, from the `definition` on.
+    The steps of the rows below begin with `around`, from the `definition` on. Elements at one place share one object.
     """
 
     format: FormatName
@@ -61,19 +59,33 @@ class SchemaPlace:
 
     def below(self, name: str) -> MappingRow | None:
         """Return the row of a child or an `@attribute`; the row of another version, if this one has none."""
-        return self._rows.get(name)
+        return self.rows.get(name)
 
-    @property
-    def _rows(self) -> dict[str, MappingRow]:
-        """The rows below by name, in this version or else in another, made once for each place and version."""
-        key = (self.format, self.definition, self.around, self.version)
-        if key not in _ROWS:
-            best = rows_by_name(self.inside.rows, self.version)
-            _ROWS[key] = {
-                name: MappingRow(self.format, self.definition, f"{self.around}{name}", fact.since, fact)
-                for name, fact in best.items()
-            }
-        return _ROWS[key]
+    @cached_property
+    def rows(self) -> dict[str, MappingRow]:
+        """The rows below by name, in this version or else in another."""
+        best = rows_by_name(self.inside.rows, self.version)
+        return {
+            name: MappingRow(self.format, self.definition, f"{self.around}{name}", fact.since, fact)
+            for name, fact in best.items()
+        }
+
+    def child(self, tag: str) -> "SchemaPlace | None":
+        """Return the place of a child; None if the table does not have it."""
+        # A file has thousands of elements, and a few dozen places.
+        if tag not in self._children:
+            self._children[tag] = self._find_child(tag)
+        return self._children[tag]
+
+    @cached_property
+    def _children(self) -> "dict[str, SchemaPlace | None]":
+        return {}
+
+    def _find_child(self, tag: str) -> "SchemaPlace | None":
+        row = self.below(tag)
+        if row is None:
+            return _extension(tag, self) if self.definition == "gazebo" else None
+        return inside(row, self.version)
 
     def known(self) -> list[Fact]:
         """Return the rows below that this version, or a dialect of it, has."""
@@ -111,21 +123,22 @@ class Schema:
         """Return the place of the root."""
         if self.table is None or self.format is None:
             return None
-        root = self.table.definitions[self.table.root]
-        return SchemaPlace(self.format, self.version, None, root, self.table.root, "")
+        return _root_place(self.format, self.version)
 
     def _find_place(self, node: TolerantNode) -> SchemaPlace | None:
         if node.parent is None:
             return self.start() if node.tag in _ROOTS or is_of_xacro(node.tag) else None
         around = self._places[node.parent]
-        if around is None or is_of_xacro(node.tag):
-            return around
-        row = around.below(node.tag)
-        if row is None:
-            return _extension(node, around) if around.definition == "gazebo" else None
-        return inside(row, around.version)
+        return around if around is None or is_of_xacro(node.tag) else around.child(node.tag)
 
 
+@cache
+def _root_place(format: FormatName, version: Version) -> SchemaPlace:
+    facts = table(format)
+    return SchemaPlace(format, version, None, facts.definitions[facts.root], facts.root, "")
+
+
+@cache
 def inside(row: MappingRow, version: Version | None = None) -> SchemaPlace:
     """Return the place of an element with a row, in a version of the format or else in the newest."""
     fact, facts = row.fact, table(row.format)
@@ -135,12 +148,12 @@ def inside(row: MappingRow, version: Version | None = None) -> SchemaPlace:
     return SchemaPlace(row.format, version, row, facts.definitions[fact.reference], fact.reference, "")
 
 
-def _extension(node: TolerantNode, around: SchemaPlace) -> SchemaPlace | None:
+def _extension(tag: str, around: SchemaPlace) -> SchemaPlace | None:
     """Return the place of an element of SDF in `<gazebo>`."""
     facts = table("sdf")
     for definition in _IN_GAZEBO if around.format == "urdf" else ():
         holder = SchemaPlace(FORMATS[1], facts.newest, None, facts.definitions[definition], definition, "")
-        row = holder.below(node.tag)
+        row = holder.below(tag)
         if row is not None:
             return inside(row)
     return None
