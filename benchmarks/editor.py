@@ -17,7 +17,7 @@ from lsprotocol import types
 import twinform
 from testbed.editor.client import Editor, editor
 from testbed.robots import ELEMENTS_PER_LINK, urdf
-from twinform.server.scheduling import PAUSE
+from twinform.server.session import PAUSE
 
 _TIMES = 15
 _MARK = '<parent link="'

@@ -12,7 +12,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from testbed.corpus.files import ROOT
-from twinform.testing.oracles.programs import Program
+from twinform.testing.oracles.libsdformat import Program
 
 LEAST = 0.05
 """So many seconds of CPU are measured in a turn, or one call where it takes longer."""

@@ -7,8 +7,8 @@ from io import BytesIO
 from queue import Empty, Queue
 from typing import Any, ParamSpec, TypeVar, cast
 
-from twinform.server.scheduling import TaskError, Worker
 from twinform.server.serving import talk
+from twinform.server.session import TaskError, Worker
 from twinform.server.wiring import make_server
 
 Arguments = ParamSpec("Arguments")

@@ -3,7 +3,7 @@
 import subprocess
 from pathlib import Path
 
-from twinform.testing.oracles.programs import Program
+from twinform.testing.oracles.libsdformat import Program
 
 _PRINT = Program(Path(__file__).with_name("sdf_print.cpp"), ("sdformat12",))
 _SECONDS = 20

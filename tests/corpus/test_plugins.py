@@ -15,7 +15,7 @@ from twinform.ir.frames import WORLD
 from twinform.passes import Pass, Pipeline
 from twinform.passes.plugins.add_plugin import AddPlugin
 from twinform.passes.plugins.add_sensor import AddSensor
-from twinform.passes.plugins.bridge import bridges
+from twinform.passes.plugins.bridge_config import bridges
 from twinform.passes.plugins.catalog import systems_of_file
 from twinform.passes.plugins.check_plugins import CheckPlugins
 from twinform.passes.plugins.sites import plugins_of, sensors_of

@@ -15,7 +15,7 @@ import pytest
 
 from testbed.engines.readers import LOADERS, Loader
 from tests.profile import DEEP
-from twinform.profiles.reading import read_as
+from twinform.profiles.walking import read_as
 
 FOLDER = Path(__file__).with_name("probes")
 PROFILES = (

@@ -1,25 +1,121 @@
-"""`twinform fix`."""
+"""`twinform fix`, and the fixes of `check --fix`: their options, and the messages about them."""
 
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
 
 import click
 
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
 from twinform.cli.completion import files, pipelines
 from twinform.cli.config.config_defaults import RuleSettings
-from twinform.cli.fixing import Fixing, fix_source
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, file_options, load_options_of, model_inputs
 from twinform.cli.mesh_progress import mesh_progress
 from twinform.cli.model_files import is_plain
 from twinform.cli.printing import notes_option, plural, print_line, show
 from twinform.cli.project_options import pipeline_option, policy_of, policy_options
 from twinform.cli.rewriting import Rewrite, show_differences, write_back
-from twinform.compiler import CompileError, ConversionRequest, Language, LoadResult, inspect, read
+from twinform.compiler import CompileError, ConversionRequest, Language, LoadOptions, LoadResult, inspect, read
+from twinform.compiler.fixing import FixResult, apply_fixes_by
 from twinform.compiler.in_place import convert_in_place
 from twinform.compiler.input.load_options import FileOptions
-from twinform.diagnostics import Diagnostic
+from twinform.compiler.input.loading import XACRO
+from twinform.compiler.input.parsing import UnreadableError, read_bytes
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Policy, Severity
 from twinform.diagnostics.reporters import FileFindings
 from twinform.passes import PassError, Pipeline, SideFilePass
+
+Look = Callable[[str | bytes, str], LoadResult]
+"""Checks a file, or the bytes of one under its name."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fixing:
+    """How files are fixed; with `diff` nothing is written, and notes are fixed only with `notes`."""
+
+    look: Look
+    load_options: LoadOptions
+    policy: Policy
+    unsafe: bool = False
+    diff: bool = False
+    notes: bool = False
+
+    def wants(self, finding: Diagnostic) -> bool:
+        """Whether a finding is shown, and so may be fixed."""
+        # A command that changes a file for a reason that it does not print would surprise.
+        return bool(self.policy.apply([finding])) and (self.notes or finding.severity > Severity.INFO)
+
+
+class FixedSource(NamedTuple):
+    """A fixed file: its findings now, its new text, messages about the fixes, and their number."""
+
+    loaded: LoadResult
+    rewrite: Rewrite | None
+    news: list[str]
+    number: int
+
+
+def run_fixes(sources: Sequence[InputSource], fixing: Callable[[InputSource], Fixing]) -> tuple[list[LoadResult], int]:
+    """Fix files, and write them or print what would change; return their findings then, and the number of fixes.
+
+    Raises:
+        Unusable: a file cannot be written.
+    """
+    ways = [fixing(each) for each in sources]
+    done = [fix_source(each, way) for each, way in zip(sources, ways, strict=True)]
+    rewrites = [each.rewrite for each in done if each.rewrite]
+    if any(way.diff for way in ways):
+        show_differences(rewrites)
+    else:
+        write_back(rewrites)
+    for line in (line for each in done for line in each.news):
+        print_line(line, err=True)
+    return [each.loaded for each in done], sum(each.number for each in done)
+
+
+def fix_source(source: InputSource, fixing: Fixing) -> FixedSource:
+    """Fix a file without writing it; a file that cannot be fixed, such as xacro, is only checked."""
+    sink = DiagnosticSink(source.name)
+    try:
+        data = _read_fixable(source, sink, fixing.load_options)
+    except UnreadableError:
+        return FixedSource(LoadResult(source.name, None, tuple(sink.diagnostics), unreadable=True), None, [], 0)
+    if data is None:
+        return FixedSource(fixing.look(source.content, source.name), None, [], 0)
+    found = apply_fixes_by(lambda text: fixing.look(text, source.name), data, unsafe=fixing.unsafe, wanted=fixing.wants)
+    rewrite = Rewrite(source, data, found.data)
+    return FixedSource(
+        found.left, rewrite, _describe(source.name, found, "would fix" if fixing.diff else "fixed"), len(found.applied)
+    )
+
+
+def _read_fixable(source: InputSource, sink: DiagnosticSink, load_options: LoadOptions) -> bytes | None:
+    """Read a file that can be fixed; None for xacro, whose findings are about the expanded text.
+
+    Raises:
+        UnreadableError: it cannot be read.
+    """
+    if isinstance(source.content, bytes):
+        return source.content
+    if load_options.xacro or Path(source.name).suffix.lower() == XACRO:
+        return None
+    path = Path(source.content)
+    return read_bytes(path, sink, load_options.limits, load_options.search.readable(path))
+
+
+def _describe(name: str, found: FixResult, verb: str) -> list[str]:
+    """Say how many findings were fixed in a file, by rule, and how many fixes were taken back."""
+    counts = Counter(each.rule.name for each in found.applied)
+    shown = ", ".join(f"{count} x {rule}" for rule, count in counts.most_common())
+    lines = [f"{name}: {verb} {shown}"] if counts else []
+    if found.refused:
+        words = "fix was" if len(found.refused) == 1 else "fixes were"
+        rules = ", ".join(dict.fromkeys(each.finding.rule.name for each in found.refused))
+        lines.append(f"{name}: {len(found.refused)} {words} taken back for what would be found then: {rules}")
+    return lines
+
 
 Report = Callable[[str, tuple[Diagnostic, ...]], None]
 """Prints the findings of a file."""

@@ -35,7 +35,7 @@ from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.ir.solids import Solid, placed, written_solid
 from twinform.ir.transform import Transform
 from twinform.passes import Pass, Pipeline
-from twinform.passes.appearance.classic_materials import classic_materials
+from twinform.passes.appearance.materials import classic_materials
 from twinform.passes.shared.flattening import flatten
 from twinform.passes.shared.sensor_costs import image_size, samples
 

@@ -9,7 +9,7 @@ from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Severity,
 from twinform.ir import Format
 from twinform.profiles.detectors import DETECTORS, ProfiledFile
 from twinform.profiles.profile import Effect, Profile, ProfileRow
-from twinform.profiles.reading import Shortfall, read_as
+from twinform.profiles.walking import Shortfall, read_as
 
 _SHORTFALLS = {
     "value": rules.UNREAD_VALUE,

@@ -1,20 +1,210 @@
-"""The report as one page of HTML, which opens from disk and loads nothing; its sections in order."""
+"""The report as one page of HTML, which opens from disk and loads nothing: its sections in order.
 
-from collections.abc import Callable, Iterator
+The sections with the 3D view and the kinematic tree are made here; the others have modules of their own.
+"""
+
+import hashlib
+from base64 import b64encode
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import NamedTuple
 
 import twinform
 from twinform.compiler.compare.comparison_reporters import summary
-from twinform.diagnostics import Severity
+from twinform.compiler.graph import Graph, GraphJoint, GraphNode
+from twinform.compiler.graph.layout import depth_first
+from twinform.compiler.graph.svg import svg
+from twinform.diagnostics import Diagnostic, Severity
+from twinform.ir.motion import spanning_tree
 from twinform.package_files import package_files
-from twinform.report.content import Converted, ModelReport
+from twinform.report.content import WORDS, Converted, ModelReport, ReportSubject
 from twinform.report.difference_sections import conversion, differences
-from twinform.report.findings_section import findings
-from twinform.report.markup import Markup, breakable, count, element, fates, join
+from twinform.report.findings_section import anchors, findings
+from twinform.report.markup import Markup, Part, breakable, count, element, fates, folded, image, join, table
 from twinform.report.number_sections import masses, meshes, reach, statistics
-from twinform.report.tree_section import tree
-from twinform.report.view_section import framed, policy, view
+
+# Browsers flatten elements nested deeper than about 500, and a chain of 1,000 links is nothing
+# unusual in tests. Below this level the rest is one list.
+_DEEPEST = 40
+_OPEN = 300
+"""Larger trees begin folded."""
+_DRAWN = 400
+"""Larger trees have no drawing."""
+
+
+def tree(report: ModelReport) -> Markup | None:
+    """List the tree of the first file, with a folded drawing."""
+    graph = report.first.graph
+    if graph is None or not graph.nodes:
+        return None
+    listed = element("ul", *_list_tree(report.first, graph), class_="tree")
+    return join((element("p", graph.summary()), listed, _drawing(graph)))
+
+
+def _drawing(graph: Graph) -> Markup | None:
+    if len(graph.nodes) > _DRAWN:
+        return None
+    picture = image(svg(graph), alt=f"{graph.title}: {graph.summary()}")
+    scroller = element("div", picture, class_="scroller", tabindex="0", role="region", aria_label="Drawing of the tree")
+    return folded("Drawing", scroller)
+
+
+def _list_tree(subject: ReportSubject, graph: Graph) -> Iterator[Markup]:
+    """Yield an item for each root, made from the leaves up so that nothing recurses."""
+    held = spanning_tree(joint for joint in graph.joints if joint.type != "gearbox")
+    across: dict[str, list[GraphJoint]] = defaultdict(list)
+    children: dict[str, list[str]] = defaultdict(list)
+    for joint in graph.joints:
+        if held.get(joint.child) is not joint:
+            across[joint.parent].append(joint)
+    for node in graph.nodes:
+        if node.id in held:
+            children[held[node.id].parent].append(node.id)
+    nodes = {node.id: node for node in graph.nodes}
+    about, places = _findings_by_node(subject, graph), anchors(subject)
+    masses = {link.name: link.mass.mass for link in (subject.scene.links if subject.scene else ()) if link.mass}
+    order = depth_first([node.id for node in graph.nodes if node.id not in held], children)
+    is_open = len(graph.nodes) <= _OPEN
+    made: dict[str, list[Markup]] = {}
+    for name, level in reversed(order):
+        node = nodes[name]
+        loops = (f"{each.name} ({each.type}) closes a loop to {nodes[each.child].name}" for each in across[name])
+        words = _words(node, held.get(node.id), masses.get(node.name), _badge(about[node.id], places), loops)
+        below = [item for child in children[node.id] for item in made.pop(child)]
+        if not below or level >= _DEEPEST:
+            own = element(
+                "li", *words, element("span", f" level {level}", class_="quiet") if level > _DEEPEST else None
+            )
+            made[node.id] = [own, *below]
+        else:
+            made[node.id] = [element("li", folded(join(words), element("ul", *below), open_=is_open))]
+    for name, level in order:
+        if level == 0:
+            yield from made[name]
+
+
+def _words(
+    node: GraphNode, joint: GraphJoint | None, mass: float | None, badge: Markup | None, loops: Iterator[str]
+) -> list[Part]:
+    words: list[Part] = [element("b", node.name, class_=node.kind)]
+    if node.kind != "link":
+        words.append(f" ({node.kind})")
+    if joint:
+        words.append(element("span", f" {joint.name}: {', '.join((joint.type, *joint.details))}", class_="quiet"))
+    if mass is not None:
+        words.append(element("span", f" {mass:.4g} kg", class_="quiet"))
+    if badge:
+        words += [" ", badge]
+    words += [element("span", f" {each}", class_="quiet") for each in loops]
+    return words
+
+
+def _badge(about: Sequence[Diagnostic], places: Mapping[int, str]) -> Markup | None:
+    """Say how many findings there are about a node, with a link to the first of the worst."""
+    if not about:
+        return None
+    first = max(about, key=lambda each: each.severity)
+    href = f"#{places.get(id(first), 'findings')}"
+    return element("a", count(len(about), "finding"), href=href, class_=f"badge {WORDS[first.severity]}")
+
+
+def _findings_by_node(subject: ReportSubject, graph: Graph) -> Mapping[str, list[Diagnostic]]:
+    """Collect the findings about each node; those about a joint count for its child."""
+    parts = {node.where.path: node.id for node in graph.nodes} | {each.where.path: each.child for each in graph.joints}
+    parts.pop("", None)
+    found: dict[str, list[Diagnostic]] = defaultdict(list)
+    for each in subject.findings.diagnostics:
+        path = each.location.path
+        while path and path not in parts:
+            path = path.rpartition("/")[0]
+        if path:
+            found[parts[path]].append(each)
+    return found
+
+
+# viser's client puts its program into a script element that it makes itself, and evaluates strings.
+# Without a view, the policy of a report has no `unsafe` word at all.
+_MAKES_SCRIPTS = (
+    "(()=>{const make=document.createElement.bind(document);document.createElement=(name,...more)=>{"
+    "const made=make(name,...more);if(String(name).toLowerCase()==='script')made.nonce='%s';return made}})()"
+)
+
+_REST = "base-uri 'none'; form-action 'none'"
+
+
+def view(report: ModelReport) -> Markup | None:
+    """Show the page of the 3D view in a frame without rights, or say why there is none."""
+    if report.view:
+        both = " and ".join(each.name for each in report.subjects)
+        frame = element(
+            "iframe",
+            srcdoc=framed(report.view).page,
+            sandbox="allow-scripts",
+            loading="lazy",
+            title=f"3D view of {both}",
+            aria_describedby="view-in-words",
+        )
+        return join((frame, _list_missing_shapes(report), _describe_view(report)))
+    return element("p", f"There is no 3D view: {report.without_view}.")
+
+
+def _list_missing_shapes(report: ModelReport) -> Markup | None:
+    """List the shapes that a box stands for in the view, which would otherwise be taken for the robot."""
+    missing = report.not_drawn
+    if not missing:
+        return None
+    words = f"Wire boxes stand for {count(len(missing), 'shape')} that could not be drawn:"
+    rows = ((each.link, f"{each.role} {each.name}".rstrip(), each.problem) for each in missing)
+    listed = table("Shapes that are not drawn", ("Link", "Shape", "Reason"), rows)
+    return join((element("p", words, class_="warning"), listed))
+
+
+def _describe_view(report: ModelReport) -> Markup:
+    graph = report.first.graph
+    summary = f"It shows {graph.summary()}, with every joint at zero. " if graph else ""
+    if report.comparison and not report.comparison.same:
+        summary = "The second robot is blue over the first one, and what differs is red, with every joint at zero. "
+    return element(
+        "p",
+        f"{summary}Drag to turn, scroll to come nearer. The same parts are listed under ",
+        element("a", "links and joints", href="#tree"),
+        " and ",
+        element("a", "masses and inertias", href="#masses"),
+        ".",
+        id="view-in-words",
+        class_="quiet",
+    )
+
+
+class Framed(NamedTuple):
+    """A page with nonces, and the nonce."""
+
+    page: str
+    nonce: str
+
+
+def framed(page: str) -> Framed:
+    """Give the scripts of a page a nonce, which they need to run in the frame."""
+    nonce = b64encode(hashlib.sha256(page.encode()).digest(), b"-_").decode().rstrip("=")
+    first = f'<script nonce="{nonce}">{_MAKES_SCRIPTS % nonce}</script>'
+    return Framed(page.replace("<script", f'<script nonce="{nonce}"').replace("<head>", f"<head>{first}", 1), nonce)
+
+
+def policy(style: str, script: str, nonce: str | None) -> str:
+    """Return the Content-Security-Policy of a report: it loads nothing from elsewhere and runs no other script."""
+    own = f"'sha256-{_hash(script)}'"
+    if nonce is None:
+        return f"default-src 'none'; img-src data:; style-src 'sha256-{_hash(style)}'; script-src {own}; {_REST}"
+    # the client of the view evaluates strings, computes in WebAssembly and in workers, and sets styles
+    return (
+        f"default-src 'none'; img-src data: blob:; font-src data:; connect-src data: blob:; worker-src blob:; "
+        f"style-src 'unsafe-inline'; script-src {own} 'nonce-{nonce}' 'unsafe-eval'; {_REST}"
+    )
+
+
+def _hash(text: str) -> str:
+    return b64encode(hashlib.sha256(text.encode()).digest()).decode()
 
 
 class Section(NamedTuple):

@@ -19,12 +19,18 @@ from twinform.server.document_outline import folds, links, outline, search
 from twinform.server.documents import TextDocument
 from twinform.server.hover import hover, warm_up
 from twinform.server.locations import file_of
-from twinform.server.navigation import DocumentPlace, definitions, references, search_of
+from twinform.server.navigation import (
+    DocumentPlace,
+    RenameRefusedError,
+    definitions,
+    prepare,
+    references,
+    rename,
+    search_of,
+)
 from twinform.server.protocol import Protocol
-from twinform.server.rename_symbol import RenameRefusedError, prepare, rename
 from twinform.server.rewrite_document import Rewritten, format_document, run_passes
-from twinform.server.scheduling import TaskError, Worker
-from twinform.server.session import Session
+from twinform.server.session import Session, TaskError, Worker
 
 Answer = TypeVar("Answer")
 # Shared by all servers of a process: a converter takes longer to make than a session takes to begin, and the code

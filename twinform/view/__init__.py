@@ -7,8 +7,7 @@ from twinform.view.static_pages import (
     standalone_page,
     standalone_view,
 )
-from twinform.view.subject import ViewSubject, read_subject
-from twinform.view.view_errors import PortTakenError, ViewerMissingError, ViewError
+from twinform.view.subject import PortTakenError, ViewerMissingError, ViewError, ViewSubject, read_subject
 
 __all__ = [
     "NotDrawn",

@@ -17,7 +17,7 @@ from twinform.view.figure import MARK, Figure, Handle, Rgb
 from twinform.view.joint_controls import Choices, JointControls, slider_range
 from twinform.view.layers import LAYERS, SKELETON, Layer
 from twinform.view.subject import ViewSubject
-from twinform.view.tree_rows import Mark, tree
+from twinform.view.words import Mark, tree
 
 _MOST_ROWS = 100
 """So many findings or differences have controls of their own; the page says how many more there are."""

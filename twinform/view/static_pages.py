@@ -9,8 +9,7 @@ from twinform.compiler.input.load_options import unexpanded_name
 from twinform.compiler.resolve_uris import SearchPath
 from twinform.compiler.scene import build_scene
 from twinform.ir import Document
-from twinform.view.subject import ViewSubject
-from twinform.view.view_errors import ViewerMissingError
+from twinform.view.subject import ViewerMissingError, ViewSubject
 
 if TYPE_CHECKING:
     from twinform.view.viewer import Viewer

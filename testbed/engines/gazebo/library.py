@@ -11,7 +11,7 @@ from pathlib import Path
 from testbed.engines.gazebo.reading import simulation
 from testbed.engines.gazebo.results import Simulation
 from testbed.engines.gazebo.settings import Settings
-from twinform.testing.oracles.programs import Program
+from twinform.testing.oracles.libsdformat import Program
 
 MISSING = "gz-physics 5 is not here: it needs libignition-physics-dev with its engines, pkg-config and g++"
 

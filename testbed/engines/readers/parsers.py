@@ -9,8 +9,7 @@ from typing import Any
 
 from testbed.engines.readers.answers import Answer, Kept, kept
 from twinform.testing.oracles import libsdformat
-from twinform.testing.oracles.libsdformat import models_of
-from twinform.testing.oracles.programs import Program
+from twinform.testing.oracles.libsdformat import Program, models_of
 
 URDF_LOADER = Path(__file__).with_name("urdf_loader.mjs")
 NODE_MODULES = "TWINFORM_NODE_MODULES"

@@ -3,7 +3,7 @@
 import pytest
 
 from twinform.profiles import Effect
-from twinform.profiles.reading import read_as
+from twinform.profiles.walking import read_as
 
 _MASS = '<inertial><mass value="{}"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 _HEAVY, _LIGHT = _MASS.format(1), _MASS.format(0)

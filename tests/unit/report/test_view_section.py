@@ -1,6 +1,6 @@
 """The frame of the view: nonces that names cannot know."""
 
-from twinform.report.view_section import framed, policy
+from twinform.report.report_page import framed, policy
 
 from .models import PAGE
 

@@ -11,8 +11,7 @@ from twinform.server.checking import no_settings
 from twinform.server.document_outline import outline, search
 from twinform.server.documents import TextDocument
 from twinform.server.hover import hover
-from twinform.server.navigation import references
-from twinform.server.rename_symbol import RenameRefusedError, rename
+from twinform.server.navigation import RenameRefusedError, references, rename
 from twinform.server.session import Session
 
 pytestmark = pytest.mark.slow

@@ -19,8 +19,7 @@ from twinform.server.completion import complete
 from twinform.server.document_outline import folds, links, outline
 from twinform.server.documents import TextDocument
 from twinform.server.hover import hover
-from twinform.server.navigation import definitions, references, search_of
-from twinform.server.rename_symbol import RenameRefusedError, prepare, rename
+from twinform.server.navigation import RenameRefusedError, definitions, prepare, references, rename, search_of
 from twinform.server.session import Session
 
 pytestmark = pytest.mark.slow

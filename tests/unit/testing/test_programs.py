@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from twinform.testing.oracles.programs import sources
+from twinform.testing.oracles.libsdformat import sources
 
 ORACLES = Path(__file__).parents[3] / "twinform" / "testing" / "oracles"
 

@@ -19,7 +19,7 @@ from twinform.ir.geometry import ShapeNode
 from twinform.ir.solids import Solid
 from twinform.view.figure import Figure
 from twinform.view.joint_controls import slider_range
-from twinform.view.marks import inertia_box
+from twinform.view.layers import inertia_box
 from twinform.view.triangles import STAND_IN, MeshDrawings, triangles_of
 
 _SHAPES = [

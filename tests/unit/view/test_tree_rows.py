@@ -9,7 +9,7 @@ from tests.chains import chain
 from twinform.compiler import LoadOptions
 from twinform.compiler.scene import Scene
 from twinform.view import read_subject
-from twinform.view.tree_rows import Mark, tree
+from twinform.view.words import Mark, tree
 
 from .test_words import LOOP
 

@@ -9,8 +9,7 @@ from twinform.compiler.graph.graph import shortened
 from twinform.diagnostics import Location
 from twinform.diagnostics.ledger import LedgerEntry
 from twinform.view import ViewSubject, read_subject
-from twinform.view.tree_rows import Mark, tree
-from twinform.view.words import part, verdict
+from twinform.view.words import Mark, part, tree, verdict
 
 LOOP = """<sdf version="1.11"><model name="loop"><link name="a"/><link name="b"/><link name="c"/>
   <joint name="ab" type="fixed"><parent>a</parent><child>b</child></joint>

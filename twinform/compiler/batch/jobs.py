@@ -1,14 +1,20 @@
-"""What a batch does with each model: convert, check, compare or measure it."""
+"""What a batch does with each model: convert, check, compare or measure it.
+
+The files of a model folder of Gazebo come with the newest model that its model.config names: meshes, textures and all
+others, without hidden files, other models, and links that lead elsewhere. The copied model.config names the results.
+"""
 
 import json
-from collections.abc import Iterable
+import os
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass, field, fields, is_dataclass, replace
 from importlib.metadata import version
 from pathlib import Path, PurePosixPath
 from typing import cast
 
-from twinform.compiler.batch.entries import stem
-from twinform.compiler.batch.model_folders import FolderTooLargeError, folder_files
+from lxml import etree
+
+from twinform.compiler.batch.entries import PATTERNS, stem
 from twinform.compiler.batch.places import LEDGER
 from twinform.compiler.batch.record import Outcome, Row
 from twinform.compiler.batch.task import Done, Task
@@ -21,11 +27,13 @@ from twinform.compiler.input.finding_spans import with_columns
 from twinform.compiler.input.loading import XACRO, LoadResult, read
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.inspection import inspect
+from twinform.compiler.model_config import MANIFESTS, manifest, model_file
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.split_world import split
 from twinform.compiler.statistics import measure
-from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy, Severity, SideFile
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Fate, Ledger, Policy, Severity, SideFile
 from twinform.diagnostics.reporters.json import row
+from twinform.file_access import Readable
 from twinform.passes import FilesPass, Pipeline, registered_passes
 
 
@@ -191,3 +199,79 @@ def describe_options(value: object) -> object:
         options = (describe_options(getattr(value, each.name)) for each in fields(value) if each.compare)
         return [type(value).__name__, *options]
     return value if value is None or isinstance(value, bool | int | float) else str(value)
+
+
+_LARGEST = 2**28
+"""Bytes of all files that are copied along with a model."""
+
+
+class FolderTooLargeError(Exception):
+    """The files beside a model are too large."""
+
+
+def folder_files(model: Path, output: str, request: ConversionRequest, version: str | None) -> dict[str, bytes]:
+    """Return the files to copy along with a model, by their paths among the results; none if it has no model folder.
+
+    `output` is the path of the model among the results, and `version` its SDF version there.
+
+    Raises:
+        FolderTooLargeError: there is too much.
+        OSError: a file cannot be read.
+    """
+    config = manifest(model.parent)
+    if config is None or not _is_named(config, model):
+        return {}
+    place = PurePosixPath(output).parent
+    files: dict[str, bytes] = {}
+    size, readable = 0, Readable.of(model)
+    for path in _find_files(model.parent):
+        data = readable.read(path, _LARGEST)
+        size += len(data)
+        if size > _LARGEST:
+            raise FolderTooLargeError(f"what lies beside it is larger than {_LARGEST >> 20} MiB")
+        files[str(place / path.relative_to(model.parent).as_posix())] = data
+    files[str(place / config.name)] = _adapt_config(config, PurePosixPath(output).name, model.name, request, version)
+    return files
+
+
+def _is_named(config: Path, model: Path) -> bool:
+    """Return whether a model.config names this model as the newest one."""
+    named = model_file(config, None, DiagnosticSink())
+    # One of the versions has to bring the rest along, so that no two results have one place: the
+    # one that a reader would take.
+    return named is not None and named.resolve() == model.resolve()
+
+
+def _find_files(folder: Path) -> Iterator[Path]:
+    """Yield the files of a folder, sorted, without models and model folders in it."""
+    readable = Readable((os.path.realpath(folder),))
+    for place, folders, files in os.walk(folder):
+        here = Path(place)
+        folders[:] = sorted(name for name in folders if not name.startswith(".") and manifest(here / name) is None)
+        for name in sorted(files):
+            path = here / name
+            is_model = any(path.match(pattern) for pattern in PATTERNS)
+            if is_model or name.startswith(".") or (here == folder and name in MANIFESTS):
+                continue
+            if path.is_file() and readable.allows(path):
+                yield path
+
+
+def _adapt_config(config: Path, output: str, model: str, request: ConversionRequest, version: str | None) -> bytes:
+    """Return the model.config with the names of results; only the newest model if all get the same SDF version."""
+    data = Readable.of(config).read(config)
+    try:
+        tree = etree.fromstring(data, etree.XMLParser(resolve_entities=False, no_network=True)).getroottree()
+    except etree.XMLSyntaxError:
+        return data
+    for named in list(tree.getroot().iterchildren("sdf")):
+        name = PurePosixPath((named.text or "").strip())
+        if name.name == model:
+            named.text = output
+            if request.to == "sdf" and version:
+                named.set("version", version)
+        elif request.to == "sdf" and request.sdf_version is not None:
+            tree.getroot().remove(named)
+        elif name.suffix.lower() in {".sdf", ".urdf"}:
+            named.text = f"{stem(str(name))}.{request.to}"
+    return etree.tostring(tree, xml_declaration=True, encoding="UTF-8") + b"\n"

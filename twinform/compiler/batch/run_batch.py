@@ -14,9 +14,8 @@ from twinform.compiler.batch.entries import FolderError, ModelEntry, Shard
 from twinform.compiler.batch.jobs import Convert, Diff, describe_options
 from twinform.compiler.batch.manifest import Manifest
 from twinform.compiler.batch.places import ResultPlaces, outputs, require_apart
-from twinform.compiler.batch.planning import BatchPlan
 from twinform.compiler.batch.record import ModelRecord, ModelResult, Outcome
-from twinform.compiler.batch.recording import Recorder
+from twinform.compiler.batch.recording import BatchPlan, Recorder
 from twinform.compiler.batch.task import (
     READERS,
     BatchJob,

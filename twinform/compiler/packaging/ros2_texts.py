@@ -10,7 +10,7 @@ from twinform.compiler.packaging.controllers import Controller, controllers_yaml
 from twinform.compiler.packaging.gazebo_control import CONTROLLERS, control_package
 from twinform.compiler.packaging.order import PackageDetails
 from twinform.ir import Document, Model
-from twinform.passes.plugins.bridge import Bridge, bridge_yaml
+from twinform.passes.plugins.bridge_config import Bridge, bridge_yaml
 from twinform.passes.plugins.ground_clearance import base_link, lowest_point
 from twinform.passes.plugins.yaml_text import Value, yaml_text
 

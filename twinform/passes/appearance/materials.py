@@ -1,17 +1,76 @@
-"""Convert Gazebo Classic materials of visuals to the materials of newer Gazebo."""
+"""Convert Gazebo Classic materials of visuals to the materials of newer Gazebo, and their colors by name."""
 
 import math
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
 from typing import ClassVar
 
 from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import PBR_TOO_OLD, TEXTURED_SCRIPT, UNKNOWN_SCRIPT
-from twinform.ir import Document, Element, Format, GazeboExtension, Link, Material, Opaque, replace_fields, rewrite
-from twinform.passes.appearance.classic_materials import ClassicMaterial, classic_materials
+from twinform.ir import (
+    Color,
+    Document,
+    Element,
+    Format,
+    GazeboExtension,
+    Link,
+    Material,
+    Opaque,
+    replace_fields,
+    rewrite,
+)
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 from twinform.schemas import format_value, parse_version, versions_of
+
+_DATA = "data/classic_materials.toml"
+# OGRE's default for an ambient or diffuse color that a material script does not set.
+_WHITE = (1.0, 1.0, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class ClassicMaterial:
+    """The colors of a material; `shininess` is the exponent of the highlight, `textures` are file names."""
+
+    ambient: Color
+    diffuse: Color
+    specular: Color | None
+    emissive: Color | None
+    shininess: float | None
+    textures: tuple[str, ...]
+
+
+@cache
+def classic_materials() -> dict[str, ClassicMaterial]:
+    """The materials of Gazebo Classic that have colors or images, by name."""
+    text = files("twinform.passes.appearance").joinpath(_DATA).read_text(encoding="utf-8")
+    rows: dict[str, dict[str, list[float] | list[str] | float]] = tomllib.loads(text)
+    return {name: _read_material(row) for name, row in rows.items() if row}
+
+
+def _read_material(row: dict[str, list[float] | list[str] | float]) -> ClassicMaterial:
+    shininess, textures = row.get("shininess"), row.get("textures")
+    return ClassicMaterial(
+        ambient=_opaque_color(row.get("ambient")) or (*_WHITE, 1.0),
+        diffuse=_opaque_color(row.get("diffuse")) or (*_WHITE, 1.0),
+        specular=_opaque_color(row.get("specular")),
+        emissive=_opaque_color(row.get("emissive")),
+        shininess=float(shininess) if isinstance(shininess, int | float) else None,
+        textures=tuple(map(str, textures)) if isinstance(textures, list) else (),
+    )
+
+
+def _opaque_color(value: object) -> Color | None:
+    """Red, green, blue, and an alpha of one."""
+    if not isinstance(value, list):
+        return None
+    parts: list[object] = value  # pyright: ignore[reportUnknownVariableType] - TOML promises no more than a list
+    return (*(float(str(part)) for part in parts), 1.0)
+
 
 _PBR = "pbr/metal"
 _PBR_SINCE = (1, 6)

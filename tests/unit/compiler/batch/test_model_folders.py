@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from tests.unit.compiler.packaging.robots import PNG, STL, write
-from twinform.compiler.batch import model_folders
-from twinform.compiler.batch.model_folders import FolderTooLargeError, folder_files
+from twinform.compiler.batch import jobs
+from twinform.compiler.batch.jobs import FolderTooLargeError, folder_files
 from twinform.compiler.request import ConversionRequest
 
 CONFIG = b"""<?xml version="1.0"?>
@@ -84,6 +84,6 @@ def test_links_that_lead_elsewhere_stay_behind(crate: Path, tmp_path: Path) -> N
 
 
 def test_too_much_is_not_copied(crate: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(model_folders, "_LARGEST", 100)
+    monkeypatch.setattr(jobs, "_LARGEST", 100)
     with pytest.raises(FolderTooLargeError):
         folder_files(crate / "model.sdf", "crate/model.sdf", TO_SDF, "1.6")

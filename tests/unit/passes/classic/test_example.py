@@ -9,7 +9,7 @@ import twinform
 from twinform.cli import main
 from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.passes import parse_pipeline
-from twinform.passes.plugins.bridge import bridges
+from twinform.passes.plugins.bridge_config import bridges
 from twinform.passes.plugins.check_plugins import CheckPlugins
 
 ROVER = Path(__file__).parents[4] / "examples/classic_rover.urdf"

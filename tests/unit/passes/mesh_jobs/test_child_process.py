@@ -16,7 +16,7 @@ from twinform.passes.mesh_jobs.child import do_job
 from twinform.passes.mesh_jobs.child_process import MeshProcess
 from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult, Options
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError, content_of
-from twinform.passes.meshes.results_cache import VARIABLE, ResultsCache
+from twinform.passes.meshes.mesh_pass import VARIABLE, ResultsCache
 
 pytestmark = pytest.mark.slow
 
@@ -127,7 +127,7 @@ def test_nothing_is_kept_where_the_versions_cannot_be_read(monkeypatch: pytest.M
     def fail(name: str) -> str:
         raise OSError(errno.EIO, os.strerror(errno.EIO), name)
 
-    monkeypatch.setattr("twinform.passes.meshes.results_cache.version", fail)
+    monkeypatch.setattr("twinform.passes.meshes.mesh_pass.version", fail)
     cache = ResultsCache(tmp_path)
     cache.put(job(), MeshResult({"error": 1.0}))
     assert cache.get(job()) is None

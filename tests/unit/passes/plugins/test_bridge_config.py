@@ -9,8 +9,7 @@ import yaml
 import twinform
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
-from twinform.passes.plugins.bridge import Bridge, bridge_yaml, bridges
-from twinform.passes.plugins.bridge_config import BridgeConfig
+from twinform.passes.plugins.bridge_config import Bridge, BridgeConfig, bridge_yaml, bridges
 from twinform.passes.plugins.catalog import system, systems
 from twinform.passes.plugins.topics import topics_of
 

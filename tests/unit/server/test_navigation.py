@@ -13,7 +13,7 @@ from twinform.passes.structure.rename_parts import RESERVED
 from twinform.server.checking import no_settings
 from twinform.server.document_names import names_of
 from twinform.server.documents import TextDocument
-from twinform.server.rename_symbol import RenameRefusedError, rename
+from twinform.server.navigation import RenameRefusedError, rename
 from twinform.server.session import Session
 from twinform.text import apply
 
