@@ -14,8 +14,8 @@ from twinform.diagnostics import Span
 from twinform.ir import Element
 from twinform.ir.references import REFERENCES, ReferenceKind
 from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text
-from twinform.server.documents import TextDocument
 from twinform.server.mapping import FormatName, MappingRow, field_of
+from twinform.server.model_text import ModelText
 from twinform.server.names import XACRO_KINDS, Name, xacro_names
 from twinform.server.schema import SchemaPlace, is_of_xacro
 from twinform.server.tolerant_tree import TolerantNode
@@ -33,7 +33,7 @@ _FIELDS: dict[str, ReferenceKind] = {
 }
 
 
-def names_of(document: TextDocument) -> tuple[Name, ...]:
+def names_of(document: ModelText) -> tuple[Name, ...]:
     """Return all names in a document: those of models in the order of the text, then those of xacro."""
     return document.once(_collect_names)
 
@@ -49,12 +49,12 @@ class NameSurroundings(NamedTuple):
 _NOWHERE = NameSurroundings(None, None, in_state=False)
 
 
-def surroundings(document: TextDocument, node: TolerantNode | None) -> NameSurroundings:
+def surroundings(document: ModelText, node: TolerantNode | None) -> NameSurroundings:
     """Return the surroundings of an element; empty ones if the element is of another document."""
     return document.once(_all_surroundings).get(node, _NOWHERE)
 
 
-def _all_surroundings(document: TextDocument) -> dict[TolerantNode | None, NameSurroundings]:
+def _all_surroundings(document: ModelText) -> dict[TolerantNode | None, NameSurroundings]:
     """Return the surroundings of all elements, each made from its parent's: climbing up from each takes minutes."""
     found: dict[TolerantNode | None, NameSurroundings] = {None: _NOWHERE}
     for node in document.tree.nodes:
@@ -69,25 +69,25 @@ def _all_surroundings(document: TextDocument) -> dict[TolerantNode | None, NameS
     return found
 
 
-def defined(document: TextDocument, text: str, kind: str, scope: TolerantNode | None) -> list[Name]:
+def defined(document: ModelText, text: str, kind: str, scope: TolerantNode | None) -> list[Name]:
     """Return the definitions of a name of a kind in one scope."""
     return document.once(_by_scope).get((text, kind, scope), [])
 
 
-def defined_anywhere(document: TextDocument, text: str, kind: str) -> list[Name]:
+def defined_anywhere(document: ModelText, text: str, kind: str) -> list[Name]:
     """Return the definitions of a name of a kind in any scope."""
     return document.once(_by_kind).get((text, kind), [])
 
 
-def _collect_names(document: TextDocument) -> tuple[Name, ...]:
+def _collect_names(document: ModelText) -> tuple[Name, ...]:
     return (*_model_names(document), *xacro_names(document))
 
 
-def _by_scope(document: TextDocument) -> dict[tuple[str, str, TolerantNode | None], list[Name]]:
+def _by_scope(document: ModelText) -> dict[tuple[str, str, TolerantNode | None], list[Name]]:
     return _group(((each.text, each.kind, each.scope), each) for each in names_of(document) if each.defines)
 
 
-def _by_kind(document: TextDocument) -> dict[tuple[str, str], list[Name]]:
+def _by_kind(document: ModelText) -> dict[tuple[str, str], list[Name]]:
     return _group(((each.text, each.kind), each) for each in names_of(document) if each.defines)
 
 
@@ -98,20 +98,20 @@ def _group(pairs: Iterable[tuple[Key, Name]]) -> dict[Key, list[Name]]:
     return found
 
 
-def name_at(document: TextDocument, offset: int) -> Name | None:
+def name_at(document: ModelText, offset: int) -> Name | None:
     """Return the name at an offset; the innermost, if an expression with names is part of a name."""
     around = [each for each in names_of(document) if each.span.start <= offset <= each.span.end]
     return min(around, key=lambda each: each.span.end - each.span.start, default=None)
 
 
-def _model_names(document: TextDocument) -> Iterator[Name]:
+def _model_names(document: ModelText) -> Iterator[Name]:
     for node in document.tree.nodes:
         if node.tag and not is_of_xacro(node.tag) and _may_name(document, node):
             yield from _names_in_attributes(document, node)
             yield from _names_in_text(document, node)
 
 
-def _may_name(document: TextDocument, node: TolerantNode) -> bool:
+def _may_name(document: ModelText, node: TolerantNode) -> bool:
     """Whether there can be a name in an element, which most elements at most places do not have."""
     place = document.schema.place(node)
     if place is not None and place.row is not None and place.row.fact.place is not None:
@@ -129,7 +129,7 @@ def _has_names(place: SchemaPlace) -> bool:
     return any(_kind_of_row(row) is not None for row in kept)
 
 
-def _names_in_attributes(document: TextDocument, node: TolerantNode) -> Iterator[Name]:
+def _names_in_attributes(document: ModelText, node: TolerantNode) -> Iterator[Name]:
     for attribute, span in node.attributes.items():
         value = node.values[attribute]
         if not value:
@@ -148,7 +148,7 @@ def _names_in_attributes(document: TextDocument, node: TolerantNode) -> Iterator
             yield from _split_reference(document, value, span.value, node, kind)
 
 
-def _split_reference(document: TextDocument, text: str, span: Span, node: TolerantNode, kind: str) -> Iterator[Name]:
+def _split_reference(document: ModelText, text: str, span: Span, node: TolerantNode, kind: str) -> Iterator[Name]:
     """Yield a name for each step of a reference such as `model::part`, with all steps before it in its text."""
     if text.count("::") >= _MOST_STEPS:
         return
@@ -162,7 +162,7 @@ def _split_reference(document: TextDocument, text: str, span: Span, node: Tolera
         start = end + len("::")
 
 
-def _names_in_text(document: TextDocument, node: TolerantNode) -> Iterator[Name]:
+def _names_in_text(document: ModelText, node: TolerantNode) -> Iterator[Name]:
     if node.children or node.empty or not node.closed:
         return
     kind = kind_at(document, node, None)
@@ -177,7 +177,7 @@ def _names_in_text(document: TextDocument, node: TolerantNode) -> Iterator[Name]
         yield from _split_reference(document, text, span, node, kind)
 
 
-def _defines(document: TextDocument, node: TolerantNode) -> bool:
+def _defines(document: ModelText, node: TolerantNode) -> bool:
     """Whether the attribute `name` of an element defines a name, and does not refer to one."""
     if node.tag not in DEFINED or (node.tag == "model" and surroundings(document, node).in_state):
         return False
@@ -189,12 +189,12 @@ def _defines(document: TextDocument, node: TolerantNode) -> bool:
     return row.fact.place is not None or row.fact.reference in DEFINED
 
 
-def _is_misplaced(document: TextDocument, node: TolerantNode) -> bool:
+def _is_misplaced(document: ModelText, node: TolerantNode) -> bool:
     """Whether an element with children has no place there because an element before it is not closed yet."""
     return not document.tree.whole and any(child.tag for child in node.children)
 
 
-def kind_at(document: TextDocument, node: TolerantNode, attribute: str | None) -> ReferenceKind | None:
+def kind_at(document: ModelText, node: TolerantNode, attribute: str | None) -> ReferenceKind | None:
     """Return the kind of thing that an attribute refers to or, without one, the text of an element."""
     row = document.schema.row(node, attribute)
     if row is not None and row.fact.place is not None and row.fact.place != ".":
@@ -209,7 +209,7 @@ def kind_at(document: TextDocument, node: TolerantNode, attribute: str | None) -
     return kind_of_attribute(element, attribute)
 
 
-def _is_typed(document: TextDocument, node: TolerantNode) -> bool:
+def _is_typed(document: ModelText, node: TolerantNode) -> bool:
     """Whether the IR has a field for the element, and so for all references in it."""
     row = document.schema.row(node)
     return row is not None and row.fact.place is not None
@@ -221,7 +221,7 @@ def _kind_of_row(row: MappingRow) -> ReferenceKind | None:
     return _FIELDS.get(field_of(row).partition(":")[0])
 
 
-def scope_of_reference(document: TextDocument, node: TolerantNode) -> TolerantNode | None:
+def scope_of_reference(document: ModelText, node: TolerantNode) -> TolerantNode | None:
     """Return the scope of the references in an element; the pose of a model refers to names around the model."""
     scope = surroundings(document, node).scope
     if scope is not None and node.tag == "pose" and node.parent is scope:
@@ -229,7 +229,7 @@ def scope_of_reference(document: TextDocument, node: TolerantNode) -> TolerantNo
     return scope
 
 
-def resolve_in(document: TextDocument, name: Name) -> list[Name]:
+def resolve_in(document: ModelText, name: Name) -> list[Name]:
     """Find the definitions that a name refers to in a document: of the first kind that has any, in its scope."""
     format: FormatName | None = document.schema.format
     if format == "sdf" and "::" in name.text:
@@ -244,7 +244,7 @@ def resolve_in(document: TextDocument, name: Name) -> list[Name]:
     return []
 
 
-def _resolve_parameter(document: TextDocument, name: Name) -> list[Name]:
+def _resolve_parameter(document: ModelText, name: Name) -> list[Name]:
     """Find the parameter of that name of the nearest macro around it that has one."""
     around = surroundings(document, name.node) if name.kind in {"property", "param"} else None
     while around is not None and around.macro is not None:
@@ -255,7 +255,7 @@ def _resolve_parameter(document: TextDocument, name: Name) -> list[Name]:
     return []
 
 
-def _model_of_state(document: TextDocument, scope: TolerantNode | None) -> TolerantNode | None:
+def _model_of_state(document: ModelText, scope: TolerantNode | None) -> TolerantNode | None:
     """Return the model that a scope in a `<state>` stands for; any other scope itself."""
     if scope is None or not surroundings(document, scope).in_state:
         return scope
@@ -263,7 +263,7 @@ def _model_of_state(document: TextDocument, scope: TolerantNode | None) -> Toler
     return models[0].node if models else scope
 
 
-def _resolve_scoped(document: TextDocument, name: Name) -> list[Name]:
+def _resolve_scoped(document: ModelText, name: Name) -> list[Name]:
     """Find what `outer::inner::name` refers to, through nested models."""
     *outer, last = name.text.split("::")
     scope = name.scope

@@ -1,37 +1,30 @@
 """The documents that are open in the editor, kept in step with what is typed, and the other files that they name."""
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any, TypeVar
 
 from lsprotocol.types import PositionEncodingKind, TextDocumentContentChangeEvent, TextDocumentContentChangePartial
 
 from twinform.file_access import Readable
 from twinform.server.checking import LARGEST, MOST_TAGS
 from twinform.server.locations import Positions, file_of, path_of, uri_of
-from twinform.server.schema import FormatName, Schema, format_of
-from twinform.server.tolerant_tree import Tree, parse
+from twinform.server.model_text import ModelText
 from twinform.text import SourceText, UndecodableError
 
-Made = TypeVar("Made")
 _DECLARED = re.compile(r"""\s*<\?xml[^>]{0,200}?\sencoding\s*=\s*["']([A-Za-z][\w.-]*)["']""")
 _LONE = re.compile("[\ud800-\udfff]")
 
 
 @dataclass(frozen=True)  # no slots: what is made of the text is kept in the dictionary
-class TextDocument:
+class TextDocument(ModelText):
     """One state of a document; each edit makes another one.
 
     `excess` says why a document is not followed; its text is empty then.
     """
 
-    uri: str
-    text: str
-    version: int | None = None
-    language: str = ""
     encoding: PositionEncodingKind = PositionEncodingKind.Utf16
     excess: str = ""
 
@@ -49,38 +42,6 @@ class TextDocument:
     def positions(self) -> Positions:
         """The positions of its lines."""
         return Positions.of(self.text, self.encoding)
-
-    @property
-    def is_parsed(self) -> bool:
-        """Whether its tree was made."""
-        return "tree" in self.__dict__
-
-    @cached_property
-    def tree(self) -> Tree:
-        """Its elements, even if it is not well-formed."""
-        return parse(self.text)
-
-    def once(self, make: "Callable[[TextDocument], Made]") -> "Made":
-        """Call a function with the document once, and return the same result every time."""
-        known: dict[object, Any] = self.__dict__.setdefault("made", {})
-        if make not in known:
-            known[make] = make(self)
-        return known[make]
-
-    def release(self) -> None:
-        """Release the tree, whose elements refer to each other: the garbage collector takes longer to find them."""
-        if self.is_parsed:
-            self.tree.release()
-
-    @cached_property
-    def schema(self) -> Schema:
-        """The rows of the facts tables for its elements."""
-        return Schema(self.tree, self.format)
-
-    @property
-    def format(self) -> FormatName | None:
-        """Its format, by the root element or else by the name."""
-        return format_of(self.tree, self.path.name, self.language)
 
     @property
     def is_xacro(self) -> bool:

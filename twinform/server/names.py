@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from twinform.diagnostics import Span
 from twinform.passes.structure.rename_parts import LOOKUP_ORDER
-from twinform.server.documents import TextDocument
+from twinform.server.model_text import ModelText
 from twinform.server.schema import PREFIX
 from twinform.server.tolerant_tree import TolerantNode
 
@@ -57,7 +57,7 @@ _PARAMETER = re.compile(r"(?<![*^|])[*^|]*+(?P<name>[A-Za-z_][\w.]*)(?:\s*:?=\s*
 _RESERVED = frozenset(["and", "or", "not", "if", "else", "for", "in", "is", "True", "False", "None", "lambda"])
 
 
-def xacro_names(document: TextDocument) -> Iterator[Name]:
+def xacro_names(document: ModelText) -> Iterator[Name]:
     """Yield all names of xacro in a document."""
     if "xacro" not in document.text:
         return

@@ -1,5 +1,6 @@
 """Which children of an element are which children of another state of it: the alignment of two lists of elements."""
 
+from bisect import bisect_left
 from collections import Counter, defaultdict
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
@@ -32,9 +33,11 @@ def spelled_alike(value: str) -> Hashable:
     pieces = tuple(value.split())
     try:
         # Python reads 1_000 as a number; no reader of robots does.
-        return tuple(map(float, pieces)) if "_" not in value else pieces
+        numbers = tuple(map(float, pieces))
     except ValueError:
         return pieces
+    # Not a number differs from itself.
+    return pieces if "_" in value or any(number != number for number in numbers) else numbers
 
 
 def same_value(one: str | None, other: str | None) -> bool:
@@ -94,7 +97,7 @@ def aligned(before: Sequence[XmlElement], after: Sequence[XmlElement], contents:
     known = {key for each in before if (key := known_by(each))[1]} & set(map(known_by, after))
     numbers = [contents.number(each) for each in before], [contents.number(each) for each in after]
     pairs: list[Pair] = []
-    for old, new, equal in _blocks(*numbers):
+    for old, new, equal in blocks(*numbers):
         if equal:
             pairs.extend(zip(old, new, strict=True))
         else:
@@ -120,6 +123,59 @@ def matched(before: Sequence[XmlElement], after: Sequence[XmlElement], contents:
     known = {known_by(before[i]) for i, _ in pairs}
     named = [i for i in here if known_by(before[i]) not in known], [j for j in there if known_by(after[j]) not in known]
     return pairs + list(_by_tag(before, after, *named))
+
+
+def matched_children(
+    before: Sequence[XmlElement], after: Sequence[XmlElement], contents: ElementContents
+) -> list[Pair]:
+    """Pair the elements of two lists of which one is another state of the other, in the order of the list before.
+
+    Where the name has changed, or the tag, most of what is inside has to be the same: of two parts that only resemble
+    each other, one would get the edits of the other.
+    """
+    pairs = sorted(
+        (i, j)
+        for i, j in matched(before, after, contents)
+        if known_by(before[i]) == known_by(after[j]) or _has_new_name(before[i], after[j], contents)
+    )
+    moved = set(moved_pairs(pairs))
+    in_order = [pair for pair in pairs if pair not in moved]
+    taken = {i for i, _ in moved}, {j for _, j in moved}
+    found = with_renamed(in_order, before, after, contents)
+    return sorted([*moved, *(pair for pair in found if pair[0] not in taken[0] and pair[1] not in taken[1])])
+
+
+def _has_new_name(old: XmlElement, new: XmlElement, contents: ElementContents) -> bool:
+    """Tell whether an element has only got another name, or another tag, by how many of its values it still has."""
+    if old.tag != new.tag:
+        return renamed(old, new, contents)
+    values = _values(old), _values(new)
+    return (values[0] & values[1]).total() >= max(1, _SHARE * max(each.total() for each in values))
+
+
+def _values(element: XmlElement) -> Counter[Hashable]:
+    """Count all attributes and texts in an element, except its own name."""
+    inside = [(each.tag, *pair) for each in element.iter("*") for pair in (*each.items(), ("", stripped(each.text)))]
+    return Counter(value for value in inside if value[2] and value != (element.tag, "name", element.get("name")))
+
+
+def moved_pairs(pairs: Sequence[Pair]) -> list[Pair]:
+    """Return the fewest pairs without which the others, given by their first places, are in order in both lists."""
+    ends: list[int] = []
+    """Of the runs of each length, the smallest last place, as in patience sorting."""
+    lengths: list[int] = []
+    for _, j in pairs:
+        length = bisect_left(ends, j)
+        ends[length : length + 1] = [j]
+        lengths.append(length)
+    moved: list[Pair] = []
+    wanted = len(ends) - 1
+    for pair, length in zip(reversed(pairs), reversed(lengths), strict=True):
+        if length == wanted:
+            wanted -= 1
+        else:
+            moved.append(pair)
+    return moved[::-1]
 
 
 def _left(before: Sequence[XmlElement], after: Sequence[XmlElement], pairs: Sequence[Pair]) -> tuple[Places, Places]:
@@ -177,7 +233,7 @@ def _by_name(
     before: Sequence[XmlElement], after: Sequence[XmlElement], old: range, new: range, known: AbstractSet[Hashable]
 ) -> Iterator[Pair]:
     keys = [known_by(before[i]) for i in old], [known_by(after[i]) for i in new]
-    for inner_old, inner_new, equal in _blocks(*keys):
+    for inner_old, inner_new, equal in blocks(*keys):
         here, there = [old[i] for i in inner_old], [new[i] for i in inner_new]
         if equal:
             yield from zip(here, there, strict=True)
@@ -209,7 +265,7 @@ def _by_tag(
             last = j
 
 
-def _blocks(before: Sequence[Hashable], after: Sequence[Hashable]) -> Iterator[tuple[range, range, bool]]:
+def blocks(before: Sequence[Hashable], after: Sequence[Hashable]) -> Iterator[tuple[range, range, bool]]:
     """Split both lists into ranges, each with whether the lists are equal there."""
     # Most lists differ in one place. What is equal at both ends costs linear time and leaves little
     # for difflib, which takes the square.

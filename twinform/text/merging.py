@@ -8,20 +8,22 @@ from collections import Counter, defaultdict
 from collections.abc import Hashable, Iterator, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, field
+from functools import cache
 from typing import NamedTuple
 
-from twinform.schemas import XmlElement
+from lxml import etree
+
+from twinform.schemas import Fact, XmlElement, table
 from twinform.text.alignment import (
     ElementContents,
-    aligned,
     elements,
     known_by,
-    matched,
+    matched_children,
+    moved_pairs,
     same_value,
     spelled_alike,
     stripped,
     texts,
-    with_renamed,
 )
 
 
@@ -99,7 +101,7 @@ class _Merging:
         if self.exact.number(before) == self.exact.number(after):
             return
         own = owns[0]
-        if before.tag != after.tag and own.tag != before.tag:
+        if before.tag != after.tag and own.tag not in (before.tag, after.tag) and not self.same:
             self._conflict(own, f"<{before.tag}> becomes <{after.tag}>")
             return
         for each in owns:
@@ -126,7 +128,7 @@ class _Merging:
             if old == new or same_value(new, here):
                 continue
             if not self._is(old, here):
-                self._conflict(own, f"{name} is {here!r} here and was {old!r}, and becomes {new!r}")
+                self._conflict(own, f"{name} of {_shown(own)} {_changes(old, new, here)}")
             elif new is None:
                 own.attrib.pop(name, None)
             else:
@@ -139,7 +141,7 @@ class _Merging:
         if self._is(old, here):
             own.text = new
         else:
-            self._conflict(own, f"the text is {here!r} here and was {old!r}, and becomes {new!r}")
+            self._conflict(own, f"the text of {_shown(own)} {_changes(old or None, new or None, here or None)}")
 
     def _mixed(self, before: XmlElement, after: XmlElement, own: XmlElement) -> None:
         """Replace a content that has text between its elements, as a whole."""
@@ -147,7 +149,7 @@ class _Merging:
         if inside[0] == inside[1] or inside[1] == inside[2]:
             return
         if not self.same and inside[0] != inside[2]:
-            self._conflict(own, "what is in it has changed here too")
+            self._conflict(own, f"what is in {_shown(own)} has changed here too")
             return
         own.text = after.text
         own[:] = [deepcopy(each) for each in elements(after)]
@@ -155,30 +157,71 @@ class _Merging:
     def _children(
         self, before: XmlElement, after: XmlElement, owns: Sequence[XmlElement]
     ) -> Iterator[tuple[XmlElement, XmlElement, Sequence[XmlElement]]]:
-        """Delete and insert children, and yield the ones that all three trees have."""
+        """Delete, move and insert children, and yield the ones that all three trees have."""
         old, new, mine = elements(before), elements(after), [each for own in owns for each in elements(own)]
-        kept = {j: i for i, j in with_renamed(aligned(old, new, self.exact), old, new, self.exact)}
-        here = {i: [mine[k], *self._like(mine, k)] for i, k in matched(old, mine, self.alike)}
-        stay = set(kept.values())
+        pairs = matched_children(old, new, self.exact)
+        kept = {j: i for i, j in pairs}
+        stay = {i for i, _ in pairs}
+        moved = {j for _, j in moved_pairs(pairs)}
+        here = {i: [mine[k], *self._like(mine, k)] for i, k in matched_children(old, mine, self.alike)}
         gone = [i for i in range(len(old)) if i not in stay]
         known = {id(each) for group in here.values() for each in group}
-        added = {self.alike.number(each) for each in mine if id(each) not in known}
-        moved = {self.exact.number(old[i]): here[i][0] for i in gone if i in here}
+        added = _Additions([each for each in mine if id(each) not in known], self.alike)
+        replaced = any(i not in here for i in gone)
         self._delete(old, [i for i in gone if i in here], here)
         behind: XmlElement | None = None
         for j, each in enumerate(new):
-            if j in kept and kept[j] in here:
-                yield old[kept[j]], each, here[kept[j]]
-                behind = here[kept[j]][-1]
-            elif j in kept:
-                if self.exact.number(old[kept[j]]) == self.exact.number(each):
-                    continue
+            own = here.get(kept[j]) if j in kept else None
+            if own is not None:
+                if j in moved:
+                    behind = self._move(own, owns[0], behind)
+                yield old[kept[j]], each, own
+                behind = own[-1]
+            elif j not in kept:
+                behind, twins = self._add(each, owns[0], added, behind, replaced=replaced)
+                yield from twins
+            elif self.exact.number(old[kept[j]]) != self.exact.number(each):
                 if self.same:
                     behind = self._insert(owns[0], deepcopy(each), behind)
                 else:
                     self._conflict(owns[0], f"{_shown(each)} has changed, and is not there")
-            elif self.alike.number(each) not in added:
-                behind = self._insert(owns[0], deepcopy(moved.get(self.exact.number(each), each)), behind)
+
+    def _add(
+        self, each: XmlElement, own: XmlElement, added: "_Additions", behind: XmlElement | None, *, replaced: bool
+    ) -> tuple[XmlElement | None, list[tuple[XmlElement, XmlElement, Sequence[XmlElement]]]]:
+        """Insert a new child, unless the person has added it too; return what the next one stands behind.
+
+        If the person has added another state of it, return both with an empty one, from which they come: what only one
+        of them says is in both then.
+        """
+        if self.alike.number(each) in added.numbers:
+            return behind, []
+        twin = added.twin(each)
+        if twin is not None:
+            return behind, [(etree.Element(each.tag), each, [twin])]
+        # Both have put something else in the place of what is gone, such as another shape.
+        rivals = added.unnamed if replaced and not known_by(each)[1] else []
+        if rivals and not self.same:
+            self._conflict(rivals[0], f"{_shown(rivals[0])} stands here for what becomes {_shown(each)}")
+            return behind, []
+        behind = added.last_behind(behind, own)
+        made = self._insert(own, deepcopy(each), behind)
+        for one in rivals:
+            own.remove(one)
+        rivals.clear()
+        return made, []
+
+    @staticmethod
+    def _move(own: Sequence[XmlElement], parent: XmlElement, behind: XmlElement | None) -> XmlElement | None:
+        """Move an element to where the change has moved it; the blanks around it stay."""
+        if len(own) > 1:
+            return behind
+        (moved,) = own
+        around = moved.getparent()
+        if around is not None:
+            _keep_tail(around, moved)
+            around.remove(moved)
+        return _Merging._insert(parent, moved, behind)
 
     def _like(self, mine: Sequence[XmlElement], k: int) -> Iterator[XmlElement]:
         """Yield the other elements that add up with one."""
@@ -198,6 +241,8 @@ class _Merging:
 
     def _differs(self, old: XmlElement, owns: Sequence[XmlElement]) -> bool:
         """Tell whether the person changed an element, or one that adds up with it."""
+        if any(_comments(own) - _comments(old) for own in owns):
+            return True
         if len(owns) == 1:
             return self.alike.number(old) != self.alike.number(owns[0])
         inside = Counter(self.alike.number(each) for own in owns for each in elements(own))
@@ -227,6 +272,57 @@ def _keep_tail(parent: XmlElement, child: XmlElement) -> None:
         previous.tail = (previous.tail or "") + tail
 
 
+def _comments(element: XmlElement) -> Counter[str]:
+    return Counter(stripped(comment.text) for comment in element.iter(etree.Comment))
+
+
+def _changes(old: str | None, new: str | None, here: str | None) -> str:
+    """Say what a value was, is here, and becomes."""
+    was, becomes, now = ("absent" if each is None else repr(each) for each in (old, new, here))
+    return f"was {was}, is {now} here, and becomes {becomes}"
+
+
 def _shown(element: XmlElement) -> str:
     name = element.get("name")
     return f"<{element.tag}> {name!r}" if name else f"<{element.tag}>"
+
+
+class _Additions:
+    """The children that the person has added to an element."""
+
+    def __init__(self, added: Sequence[XmlElement], alike: ElementContents) -> None:
+        self.numbers = {alike.number(each) for each in added}
+        self.unnamed = [each for each in added if not known_by(each)[1]]
+        self._by_name = {(each.tag, each.get("name")): each for each in reversed(added)}
+        self._all = set(added)
+
+    def twin(self, other: XmlElement) -> XmlElement | None:
+        """Return the addition that is another state of an element: it has its name, or only one of them can stand."""
+        found = self._by_name.get((other.tag, other.get("name")))
+        if found is None or other.get("name"):
+            return found
+        parent = found.getparent()
+        is_single = parent is not None and (str(parent.tag), str(found.tag)) in _single_parts()
+        return found if is_single else None
+
+    def last_behind(self, element: XmlElement | None, parent: XmlElement) -> XmlElement | None:
+        """Return the last of the additions that follow an element, or without one those that begin the parent."""
+        here = element.getnext() if element is not None else next(iter(parent), None)
+        while here is not None and (here in self._all or not isinstance(here.tag, str)):
+            element, here = here if isinstance(here.tag, str) else element, here.getnext()
+        return element
+
+
+@cache
+def _single_parts() -> frozenset[tuple[str, str]]:
+    """Return the elements that stand once in their parents in both formats, each behind its parent."""
+    found: dict[tuple[str, str], bool] = {}
+    tables = [table("urdf"), table("sdf")]
+    pending: list[tuple[str, Fact]] = [
+        (name, row) for each in tables for name, fact in each.definitions.items() for row in fact.children
+    ]
+    while pending:
+        around, row = pending.pop()
+        found[around, row.name] = found.get((around, row.name), True) and not row.repeats
+        pending.extend((row.name, inner) for inner in row.children)
+    return frozenset(pair for pair, single in found.items() if single)

@@ -4,12 +4,13 @@ Everything that the two trees have in common stays byte for byte: comments, the 
 spelling of numbers, indentation and line ends. Blanks around texts and between elements do not count as content.
 """
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from twinform.diagnostics import Span, TextEdit
 from twinform.schemas import XmlElement
-from twinform.text.alignment import BLANKS, ElementContents, aligned, elements, renamed, texts, with_renamed
+from twinform.text.alignment import BLANKS, ElementContents, aligned, elements, known_by, renamed, texts, with_renamed
 from twinform.text.positions import ElementSpan, spans
 from twinform.text.serializing import Prefixes, TextSurroundings, contents, serialized, text_of, value_of
 from twinform.text.source_text import SourceText, apply
@@ -228,6 +229,8 @@ class _Patching(Editor):
         gone = [each for i, each in enumerate(before) if i not in stay]
         # A part that moved takes its own text along, with its comments and spelling.
         moved = {self.contents.number(each): self.places[each].whole.of(self.text) for each in gone}
+        counts = Counter(map(known_by, gone))
+        single = {known_by(each): each for each in gone if counts[known_by(each)] == 1}
         for each in gone:
             self._replace(self.around.with_line(self.places[each].whole), "")
         layout, at = self.around.layout_inside(self.places[old]), self.around.behind(self.places[old].start_tag.end)
@@ -236,9 +239,20 @@ class _Patching(Editor):
                 at = self.around.behind(self.places[kept[j]].whole.end)
                 yield kept[j], each
                 continue
-            shown = moved.get(self.contents.number(each)) or serialized(each, layout, Prefixes.at(old))
+            shown = moved.get(self.contents.number(each))
+            if shown is None:
+                own = single.pop(known_by(each), None)
+                shown = serialized(each, layout, Prefixes.at(old)) if own is None else self._changed_text(own, each)
             self._replace(Span(at, at), layout.indent + shown)
         self._close(old)
+
+    def _changed_text(self, old: XmlElement, new: XmlElement) -> str:
+        """Return the text of an element that moves, with the edits that turn it into another one."""
+        inside = replace(self, edits=[])
+        inside.change(old, new)
+        start, end = self.places[old].whole
+        moved = [TextEdit(Span(span.start - start, span.end - start), new) for span, new in inside.edits]
+        return apply(self.text[start:end], moved)
 
     def _close(self, old: XmlElement) -> None:
         """Put the end tag of an element that had no children on a line of its own."""

@@ -99,7 +99,7 @@ def test_what_both_have_changed_is_a_conflict(run: Run, twins: Path) -> None:
     before = Path("r.urdf").read_text()
     done = run("convert", "r.sdf", "--into", "r.urdf", "--base", "old.sdf")
     assert (done.exit_code, Path("r.urdf").read_text()) == (1, before)
-    assert "r.urdf:8:45: error: cannot be changed in place: value is '3.50' here and was '1.5'" in done.stderr
+    assert "r.urdf:8:45: error: cannot be changed in place: value of <mass> was '1.5', is '3.50' here" in done.stderr
     assert "[edit-conflict]" in done.stderr
 
 

@@ -42,10 +42,10 @@ CASES = {
 }
 
 CONFLICTS = {
-    "a value": ('<a x="1"/>', '<a x="2"/>', '<a x="3"/>', "x is '3' here and was '1', and becomes '2'"),
-    "a value that is gone": ('<a x="1"/>', '<a x="2"/>', "<a/>", "x is None here and was '1', and becomes '2'"),
-    "a text": ("<a>1</a>", "<a>2</a>", "<a>3</a>", "the text is '3' here and was '1', and becomes '2'"),
-    "text between elements": ("<a>1<b/>2</a>", "<a>1<b/>3</a>", "<a>1<b/>4</a>", "what is in it has changed here too"),
+    "a value": ('<a x="1"/>', '<a x="2"/>', '<a x="3"/>', "x of <a> was '1', is '3' here, and becomes '2'"),
+    "a value that is gone": ('<a x="1"/>', '<a x="2"/>', "<a/>", "x of <a> was '1', is absent here, and becomes '2'"),
+    "a text": ("<a>1</a>", "<a>2</a>", "<a>3</a>", "the text of <a> was '1', is '3' here, and becomes '2'"),
+    "text between elements": ("<a>1<b/>2</a>", "<a>1<b/>3</a>", "<a>1<b/>4</a>", "what is in <a> has changed here too"),
     "deleted, and changed here": (
         '<a><b name="x"><c/></b></a>',
         "<a/>",

@@ -1,0 +1,112 @@
+"""`twinform merge`."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import click
+
+from twinform.cli.command import FINDINGS, Command, Unusable
+from twinform.cli.completion import files as files_of
+from twinform.cli.git_driver import install_driver
+from twinform.cli.outputs import Outputs, output_option
+from twinform.cli.printing import print_document, print_line, show
+from twinform.compiler import LoadOptions
+from twinform.compiler.input.loading import read
+from twinform.compiler.input.parsing import UnreadableError, read_bytes
+from twinform.compiler.merging import FileVersions, Problem, merge_files
+from twinform.diagnostics import DiagnosticSink, rules
+from twinform.diagnostics.reporters import FileFindings
+from twinform.server.model_text import ModelText
+from twinform.server.undefined_names import undefined_names
+from twinform.text import Lines, SourceText
+
+EXAMPLES = {
+    "Merge the edits of two people": "twinform merge base.urdf ours.urdf theirs.urdf -o robot.urdf",
+    "Have git merge models like this": "twinform merge --install",
+}
+_STRUCTURE = frozenset(
+    rule.name
+    for rule in (
+        rules.DUPLICATE_NAME,
+        rules.FRAME_CYCLE,
+        rules.KINEMATIC_LOOP,
+        rules.MIMIC_CYCLE,
+        rules.REPEATED_ELEMENT,
+        rules.SELF_JOINT,
+        rules.TWO_PARENTS,
+    )
+)
+"""What can be wrong in a merged robot although each value is that of one side."""
+
+
+@click.command("merge", cls=Command, examples=EXAMPLES)
+@click.argument("files", metavar="BASE OURS THEIRS [NAME]", nargs=-1, shell_complete=files_of)
+@output_option
+@click.option("--marker-size", metavar="N", default=7, help="The length of the markers around conflicts; by default 7.")
+@click.option(
+    "--install", is_flag=True, help="Set up git to merge and compare the models of this repository, in its .git/config"
+    " and .gitattributes.",
+)  # fmt: skip
+@click.pass_context
+def command(
+    ctx: click.Context, files: tuple[str, ...], *, output: Path | None, marker_size: int, install: bool
+) -> None:
+    """Merge the edits of two people in a model file.
+
+    BASE is the file that both started with. The result is OURS with the changes between BASE and THEIRS: URDF, SDF,
+    xacro or other XML, merged by elements and attributes and not by lines. With the NAME of the file in the repository,
+    as git gives it to a merge driver, the result is written into OURS. Exit code: 0 merged, 1 with conflicts, which
+    stand between the markers of git, 2 where a file could not be read or written.
+    """
+    if install:
+        if files or output:
+            raise click.UsageError("--install takes no files")
+        for line in install_driver(Path.cwd()):
+            print_line(line, err=True)
+        return
+    if len(files) not in {3, 4}:
+        raise click.UsageError("expected three files: BASE OURS THEIRS")
+    base, ours, theirs = map(Path, files[:3])
+    name = files[3] if len(files) > 3 else str(output or ours)
+    target = output or (ours if len(files) > 3 else None)
+    versions = FileVersions(_read(base), _read(ours), _read(theirs))
+    merged = merge_files(versions, lambda text: find_problems(text, name), marker_size=marker_size)
+    _write(merged.data, target, [base, ours, theirs])
+    for message in merged.notes:
+        print_line(f"{name}: {message}", err=True)
+    for message in merged.conflicts:
+        print_line(f"{name}: conflict: {message}", err=True)
+    ctx.exit(FINDINGS if merged.conflicts else 0)
+
+
+def _read(path: Path) -> bytes:
+    sink = DiagnosticSink(str(path))
+    try:
+        return read_bytes(path, sink)
+    except UnreadableError as error:
+        show(FileFindings(str(path), tuple(sink.diagnostics)), notes=False, on_stderr=True)
+        raise Unusable("nothing is merged") from error
+
+
+def _write(data: bytes, target: Path | None, read_files: list[Path]) -> None:
+    # The driver of git writes over ours, and -o may name any of the three.
+    outputs = Outputs(read_files, read_files)
+    if target is None or str(target) == "-":
+        print_document(data)
+        return
+    outputs.add("-o", target, data)
+    outputs.write()
+
+
+def find_problems(text: SourceText, name: str) -> Iterator[Problem]:
+    """Find names without a definition and what is wrong with the structure of a text."""
+    for each in undefined_names(ModelText(name, text.text)):
+        message = f"there is no {each.kind} {each.text!r} any more, and one side refers to it"
+        yield Problem((each.kind, each.text), message, each.span.start)
+    if name.endswith(".xacro") or "xmlns:xacro" in text.text:
+        return
+    lines = Lines(text.text)
+    for found in read(text.data, LoadOptions(), name=name).diagnostics:
+        if found.rule.name in _STRUCTURE:
+            line = min(max(1, found.location.line), len(lines))
+            yield Problem((found.rule.name, found.message), found.message, lines.start(line))
