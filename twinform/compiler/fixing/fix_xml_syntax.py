@@ -25,7 +25,7 @@ _BREAK = re.compile(r"[\t\r\n]")
 _NUMBERS = re.compile(r"[-+.\deE\s]+")
 _HYPHENS = re.compile(r"-{2,}")
 _LOST = re.compile(r"\s*(?=\?xml\s)")
-_PREFIX = re.compile(r"Namespace prefix (?P<prefix>[\w.-]+) ")
+_PREFIX = re.compile(r"the prefix '(?P<prefix>[\w.-]+)' of ")
 _TAG = re.compile(r"</?[A-Za-z_][\w.-]*::[A-Za-z_]")
 _ROOT = re.compile(r"<[A-Za-z_][\w:.-]*")
 _BARE_AMPERSAND = re.compile(r"&(?!#\d+;|#x[0-9A-Fa-f]+;|[A-Za-z_][\w.-]*;)")
@@ -174,7 +174,7 @@ _OF_REPAIRS: TextFixers = {
 
 
 class _Broken(NamedTuple):
-    """A text that is not well-formed, and the line on which libxml2 stopped reading."""
+    """A text that is not well-formed, the line on which libxml2 stopped reading, and its message."""
 
     text: str
     line: Span
@@ -189,18 +189,19 @@ def _not_well_formed(finding: Diagnostic, file: FixableFile) -> Fix | None:
         return None
     start = lines.start(number)
     end = lines.start(number + 1) if number < len(lines) else len(text)
-    broken = _Broken(text, Span(start, end), finding.message)
-    type_name = _type_of(file.source.data)
+    type_name, message = _first_break(file.source.data)
+    broken = _Broken(text, Span(start, end), message)
     way = _OF_BREAKS.get(type_name)
     return way(broken) if way else None
 
 
-def _type_of(data: bytes) -> str:
-    """Return libxml2's name for the first error that is not repaired."""
+def _first_break(data: bytes) -> tuple[str, str]:
+    """Return libxml2's name for the first error that is not repaired, and its message."""
     parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False, recover=True)
     with suppress(etree.XMLSyntaxError):
         etree.fromstring(data, parser)
-    return next((entry.type_name for entry in parser.error_log if entry.type_name not in REPAIRS), "")
+    entries = ((entry.type_name, entry.message) for entry in parser.error_log if entry.type_name not in REPAIRS)
+    return next(entries, ("", ""))
 
 
 def _on_line(pattern: re.Pattern[str], broken: _Broken) -> Iterator[re.Match[str]]:

@@ -150,17 +150,19 @@ def _recover(
         flaw = flaw or XmlError(error.position[0], error.position[1], error.msg or "not XML", None)
         if any(entry.type_name == "ERR_RESOURCE_LIMIT" for entry in log):
             refuse_excess(Excess(f"{LIMITS} (column {flaw.column})", Location(line=flaw.line, path="/")), sink)
-        where = SyntaxPlaces(text).location(flaw) if text == source else Location(line=flaw.line, path="/")
+        places = SyntaxPlaces(text)
+        where = places.location(flaw) if text == source else Location(line=flaw.line, path="/")
+        flaw = places.described(flaw)
         sink.report(rules.NOT_WELL_FORMED, f"not well-formed XML: {flaw.message}", where, help=flaw.help)
         raise UnreadableError from error
     refuse_excess(excess_of_tree(root, text, limits), sink)
-    places = SyntaxPlaces(source)
+    places, words = SyntaxPlaces(source), SyntaxPlaces(text)
     is_unchanged = text == source
     for number, flaw in enumerate((*flaws, *repaired(log))):
-        words = f"not well-formed XML, repaired: {flaw.message}"
+        message = f"not well-formed XML, repaired: {words.described(flaw).message}"
         is_placed = is_unchanged or (number < len(flaws) and whole is None)
         where = places.location(flaw) if is_placed else Location(line=flaw.line, path="/")
-        sink.report(rules.REPAIRED_XML, words, where, help=flaw.help)
+        sink.report(rules.REPAIRED_XML, message, where, help=flaw.help)
     _declare_prefixes(root)
     return root
 

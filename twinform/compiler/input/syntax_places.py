@@ -5,8 +5,9 @@ is never closed. Its name for the error tells which piece before that is meant.
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
+from twinform.compiler.input.syntax_words import described
 from twinform.compiler.input.xml_recovery import XmlError
 from twinform.diagnostics import Location, Span
 from twinform.text import Lines, SourceText
@@ -59,6 +60,11 @@ class SyntaxPlaces:
         span = self._find_piece(error, self._text)
         return self.at(span, path) if span else Location(line=error.line, path=path)
 
+    def described(self, error: XmlError) -> XmlError:
+        """Return the error with words for people who do not know the parser."""
+        offset = self._offset(error)
+        return error if offset is None or self._text is None else described(error, self._text, offset)
+
     def at(self, span: Span, path: str = "/") -> Location:
         """Return the location of a piece."""
         (line, column), (end_line, end_column) = self._lines.place(span.start), self._lines.place(span.end)
@@ -70,11 +76,11 @@ class SyntaxPlaces:
         return self.at(Span(*found.span("piece"))) if found else Location(line=1, path="/")
 
     def _find_piece(self, error: XmlError, text: str) -> Span | None:
-        if not 0 < error.line <= len(self._starts):
+        offset = self._offset(error)
+        if offset is None:
             return None
-        offset = self._starts[error.line - 1] + max(0, error.column - 1)
-        if offset > len(text):
-            return None
+        if error.kind == "ERR_TAG_NOT_FINISHED":
+            return _start_of_element(error, text, self._starts)
         if error.kind == "ERR_LT_IN_ATTRIBUTE":
             return _unclosed_value(text, offset)
         if error.kind == "ERR_NAME_REQUIRED":
@@ -89,6 +95,13 @@ class SyntaxPlaces:
             return _last_before(re.compile(pattern), text, offset)
         here = _HERE.match(text, offset)
         return Span(*here.span()) if here else Span(offset, offset)
+
+    def _offset(self, error: XmlError) -> int | None:
+        """Return the offset that libxml2 reports; None if there is none."""
+        if self._text is None or not 0 < error.line <= len(self._starts):
+            return None
+        offset = self._starts[error.line - 1] + max(0, error.column - 1)
+        return offset if offset <= len(self._text) else None
 
     def _first_undecodable(self, error: XmlError, path: str) -> Location:
         """Return the location of the first byte that is not UTF-8, where it is on the line of the error."""
@@ -123,6 +136,16 @@ def _pattern_of_piece(error: XmlError) -> str | None:
     if pattern is None or (found is None and error.kind in _WORDS):
         return None
     return pattern.replace("{word}", re.escape(found["word"])) if found else pattern
+
+
+def _start_of_element(error: XmlError, text: str, starts: Sequence[int]) -> Span | None:
+    """Return the name of an element that is never closed."""
+    found = re.search(r"tag (?P<tag>\S+) line (?P<line>\d+)$", error.message)
+    if found is None or not 0 < int(found["line"]) <= len(starts):
+        return None
+    # The line is that on which the start tag ends.
+    start = starts[int(found["line"])] if int(found["line"]) < len(starts) else len(text)
+    return _last_before(re.compile(rf"<(?P<piece>{re.escape(found['tag'])})(?=[\s/>])"), text, start)
 
 
 def _last_before(pattern: re.Pattern[str], text: str, end: int) -> Span | None:

@@ -95,8 +95,13 @@ def test_only_names_of_undeclared_prefixes_get_a_namespace() -> None:
     ]
     findings = [(each.rule.name, each.location.file, each.location.line, each.message) for each in sink.diagnostics]
     assert findings == [
-        ("repaired-xml", "r.urdf", line, f"not well-formed XML, repaired: Namespace prefix {what} is not defined")
-        for line, what in [(2, "y for z on link"), (2, "w on part"), (2, "y for name on part"), (3, "y on link")]
+        ("repaired-xml", "r.urdf", line, f"not well-formed XML, repaired: the prefix {what} is not declared")
+        for line, what in [
+            (2, "'y' of the attribute y:z"),
+            (2, "'w' of <w:part>"),
+            (2, "'y' of the attribute y:name"),
+            (3, "'y' of <y:link>"),
+        ]
     ]
 
 
