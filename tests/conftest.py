@@ -25,12 +25,16 @@ _QUICK = "not slow"
 
 
 @pytest.fixture(scope="session", autouse=True)
-def mesh_cache(tmp_path_factory: pytest.TempPathFactory) -> Generator[None]:
-    """Keep what passes make of meshes out of the cache of whoever runs the tests; their workers share one."""
+def own_caches(tmp_path_factory: pytest.TempPathFactory) -> Generator[None]:
+    """Keep what passes make of meshes, and results of `check`, out of the cache of whoever runs the tests.
+
+    Workers of the tests share one.
+    """
     base = tmp_path_factory.getbasetemp()
     shared = base.parent if base.name.startswith("popen-") else base
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("TWINFORM_MESH_CACHE", str(shared / "mesh-results"))
+        patch.setenv("TWINFORM_CACHE_DIR", str(shared / "results"))
         yield
 
 

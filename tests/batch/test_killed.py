@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from twinform.compiler.batch.dependencies import Dependency, DependencyKind
 from twinform.compiler.batch.manifest import Manifest, read_records, record_line
 from twinform.compiler.batch.record import ModelRecord, Outcome
+from twinform.compiler.dependencies import Dependency, DependencyKind
 
 from .conftest import SUMMARY, converting, finish, records, results, wait_for
 

@@ -14,7 +14,7 @@ RESULTS = "results of its own, in a folder that the user has named"
 NOWHERE = "the null device"
 OTHERS = {
     "cli/batch_run.py": "a report that the user has named",
-    "cli/fixing.py": "calls `read_bytes` of `compiler/input/parsing.py`",
+    "cli/fix.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "cli/format.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "cli/inputs.py": "streams that were named as such",
     "cli/process.py": NOWHERE,
@@ -38,12 +38,12 @@ OTHERS = {
     "diagnostics/generated_files.py": DATA,
     "diagnostics/rule_files.py": DATA,
     "file_access.py": "the one reader",
-    "passes/appearance/classic_materials.py": DATA,
+    "passes/appearance/materials.py": DATA,
     "passes/classic/tables.py": DATA,
     "passes/mesh_jobs/child.py": NOWHERE,
     "passes/mesh_jobs/job.py": "what the kernel says of this process",
     "passes/meshes/convert_meshes.py": DATA,
-    "passes/meshes/results_cache.py": "results of its own, in the cache of the user",
+    "passes/meshes/mesh_pass.py": "results of its own, in the cache of the user",
     "passes/plugins/catalog.py": DATA,
     "passes/plugins/sensor_settings.py": DATA,
     "profiles/profile.py": DATA,

@@ -2,31 +2,31 @@
 
 import os
 from collections import Counter
-from dataclasses import replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from twinform.cli.checked_file import CheckedFile, CheckTask, Reporting
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable, combine_options
 from twinform.cli.completion import files, pipelines
 from twinform.cli.config import settings_of
 from twinform.cli.config.config_defaults import RuleSettings
-from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, read_model, reading_options
-from twinform.cli.printing import all_option, locate, notes_option, plural, print_document, print_line, show
+from twinform.cli.file_runs import FileRun, RunOptions, open_file_run, run_options
+from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, reading_options
+from twinform.cli.printing import all_option, notes_option, plural, print_document, print_line, show
 from twinform.cli.project_options import OptionsByFile, consumers_option, pipeline_option, policy_options
-from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, inspect
+from twinform.compiler import LoadResult
 from twinform.compiler.input.load_options import ReadingOptions
 from twinform.diagnostics import Policy, Safety, Severity
 from twinform.diagnostics.reporters import REPORTERS, FileFindings
 from twinform.file_access import OutsideError, Readable
-from twinform.passes import PassError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from twinform.cli.fix import Fixing
-    from twinform.compiler.input.source_files import SourceFiles
     from twinform.diagnostics.baseline import Baseline
     from twinform.passes import Pipeline
     from twinform.profiles import Profile
@@ -46,6 +46,19 @@ baseline_options = combine_options(
 """Gives a command `--baseline FILE` and `--update-baseline`."""
 
 
+@dataclass(frozen=True, slots=True)
+class RelativeNames:
+    """Gives the names of files relative to the folder of a baseline."""
+
+    folder: str
+
+    def __call__(self, name: str, /) -> str:
+        """Return a name with `/` between its parts; that of a stream stays as it is."""
+        if name.startswith("<"):
+            return name
+        return os.path.relpath(os.path.abspath(name), self.folder).replace(os.sep, "/")  # noqa: PTH100 - links stay links
+
+
 class BaselineFile:
     """The baseline of a run, and its file."""
 
@@ -59,12 +72,7 @@ class BaselineFile:
 
         self.file, self.update = file, update
         self.folder = os.path.abspath(file.parent)  # noqa: PTH100 - links stay links
-        self.run = BaselineRun(_read_baseline(file, missing_ok=update), self._relative)
-
-    def _relative(self, name: str) -> str:
-        if name.startswith("<"):
-            return name  # not a file
-        return os.path.relpath(os.path.abspath(name), self.folder).replace(os.sep, "/")  # noqa: PTH100 - as above
+        self.run = BaselineRun(_read_baseline(file, missing_ok=update), RelativeNames(self.folder))
 
     def write(self, *, complete: bool) -> str:
         """Update the file, if that was asked for and all files were read; return a message.
@@ -152,35 +160,35 @@ class CheckReport:
         self.counts: Counter[Severity] = Counter()
         self.files = self.unreadable = self.unopened = self.allowed = self.known = 0
 
-    def add(self, loaded: LoadResult, policy: Policy) -> None:
+    def reporting(self, name: str, policy: Policy) -> Reporting:
+        """Return what is to be reported of the findings of a file."""
+        return Reporting(
+            policy,
+            fixed=Severity.INFO if self.notes else Severity.WARNING,
+            shown=Severity.INFO if self.notes or self.style not in _FOR_PEOPLE else Severity.WARNING,
+            baseline=self.baseline and self.baseline.run.of_file(name),
+            updates=bool(self.baseline and self.baseline.update),
+        )
+
+    def add(self, checked: CheckedFile) -> None:
         """Report on one file."""
-        seen = policy.apply(loaded.diagnostics)
-        self.allowed += len(loaded.allowed) + len(loaded.diagnostics) - len(seen)
-        # the baseline of a file that cannot be read stays as it is
-        new = self.baseline.run.unknown(loaded.path, seen) if self.baseline and not loaded.unreadable else seen
-        if self.baseline and self.baseline.update:
-            new = tuple(each for each in new if each.rule.fatal or each.severity is Severity.INFO)
-        self.known += len(seen) - len(new)
+        findings = checked.findings
+        self.allowed += checked.allowed
+        self.known += checked.known
         self.files += 1
-        self.unreadable += loaded.unreadable
-        self.unopened += loaded.unreadable and loaded.content is None
-        self.counts.update(each.severity for each in new)
-        least = Severity.INFO if self.notes else Severity.WARNING
-        if any(each.rule.fix and each.severity >= least for each in new):
-            from twinform.compiler.fixing import with_fixes  # noqa: PLC0415 - clean files need none
-
-            new = with_fixes(replace(loaded, diagnostics=new), lambda each: each.severity >= least)
-            self.fixes.update(each.fix.safety for each in new if each.fix)
-        self._print(FileFindings(loaded.path, new), _source_files(loaded) if new else None)
-
-    def _print(self, findings: FileFindings, files: "SourceFiles | None") -> None:
+        self.unreadable += checked.unreadable
+        self.unopened += not checked.opened
+        self.counts.update(each.severity for each in findings.diagnostics)
+        self.fixes.update(each.fix.safety for each in findings.diagnostics if each.fix)
+        if self.baseline and not checked.unreadable:
+            self.baseline.run.add(findings.path, checked.baselined)
         if self.style in _FOR_PEOPLE:
             short = self.style == "concise"
-            show(findings, notes=self.notes, on_stderr=self.on_stderr, every=self.every, short=short, files=files)
+            show(findings, notes=self.notes, on_stderr=self.on_stderr, every=self.every, short=short)
         elif self.style in _STREAMED:
-            print_document(REPORTERS[self.style]([locate(findings, files)]))
+            print_document(REPORTERS[self.style]([findings]))
         else:
-            self.kept.append(locate(findings, files))
+            self.kept.append(findings)
 
     def end(self) -> int:
         """Print the rest and the summary; return the exit code."""
@@ -215,13 +223,6 @@ class CheckReport:
         return f"; {unsafe} fixable with --fix --unsafe-fixes" if unsafe else ""
 
 
-def _source_files(loaded: LoadResult) -> "SourceFiles":
-    """Return the texts of a file and of its includes."""
-    from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - only findings have places
-
-    return SourceFiles.of(loaded)
-
-
 EXAMPLES = {
     "Find mistakes": "twinform check robot.urdf",
     "Also what is legal and yet worth knowing, for a program": "twinform check robot.sdf --notes --format json",
@@ -253,6 +254,7 @@ EXAMPLES = {
 @click.option("--unsafe-fixes", is_flag=True, help="Fix what is a guess too, or may make another robot of a file.")
 @click.option("--diff", is_flag=True, help="Print what --fix would change, and write nothing; exit code 1 if anything.")
 @click.option("--fix-only", is_flag=True, help="Fix, and report nothing of what is left.")
+@run_options
 @reading_options
 @click.pass_context
 def command(
@@ -274,6 +276,7 @@ def command(
     unsafe_fixes: bool,
     diff: bool,
     fix_only: bool,
+    run: RunOptions,
     reading: ReadingOptions,
 ) -> None:
     """Find everything that is wrong with robot models.
@@ -282,37 +285,44 @@ def command(
     are written NAME:=VALUE. Exit code: 0 without errors, 1 with errors, 2 where a file could not be read.
     """
     exclusion = exclusion_of(ctx, exclude, force=force_exclude)
-    sources, arguments = model_inputs(words, exclusion)
-    options = OptionsByFile(ctx, arguments, reading, rules, check_passes, "check_passes", profiles)
     fixes = fix or diff or fix_only
+    if watch and (style != "text" or update_baseline or fixes or "-" in words):
+        raise click.UsageError("--watch prints text, of files: leave --format, --update-baseline, --fix and - out")
+    file_run = FileRun() if watch or fixes else open_file_run("check", words, run)
+    sources, arguments = model_inputs(words, exclusion, remember=file_run.remember)
+    options = OptionsByFile(ctx, arguments, reading, rules, check_passes, "check_passes", profiles)
 
     def new_report() -> CheckReport:
         return CheckReport(style, notes=notes, every=every, baseline=baseline_of(ctx, baseline, update=update_baseline))
 
-    def look(content: str | bytes, name: str) -> LoadResult:
-        load_options, _, passes = options.of(name)
-        return _check(InputSource(content, name), load_options, passes, reading)
+    def task(source: InputSource, report: CheckReport) -> CheckTask:
+        load_options, policy, passes = options.of(source.name)
+        reporting = report.reporting(source.name, policy)
+        return CheckTask(source, load_options, passes, bool(reading.get("expand_includes")), reporting)
 
-    def check(source: InputSource, report: CheckReport) -> None:
-        report.add(look(*source), options.of(source.name).policy)
+    def look(content: str | bytes, name: str) -> LoadResult:
+        return task(InputSource(content, name), report).look()
 
     def fixing(source: InputSource) -> "Fixing":
-        from twinform.cli.fix import Fixing  # noqa: PLC0415 - see above
+        from twinform.cli.fix import Fixing  # noqa: PLC0415 - most runs only look
 
         load_options, policy, _ = options.of(source.name)
         return Fixing(look, load_options, policy, unsafe=unsafe_fixes, diff=diff, notes=notes)
 
     if watch:
-        if style != "text" or update_baseline or fixes or "-" in words:
-            raise click.UsageError("--watch prints text, of files: leave --format, --update-baseline, --fix and - out")
         from twinform.cli.watching import watch_models  # noqa: PLC0415 - it seldom happens
+
+        def check(source: InputSource, report: CheckReport) -> None:
+            report.add(task(source, report).do())
 
         ctx.exit(watch_models(lambda: model_inputs(words, exclusion)[0], new_report, check))
     report = new_report()
     if fixes:
         ctx.exit(_fix(sources, fixing, report, diff=diff, silent=diff or fix_only))
-    for source in sources:
-        check(source, report)
+    with file_run.on(CheckedFile, [task(source, report) for source in sources]) as results:
+        for each in results:
+            report.add(each)
+    file_run.end()
     ctx.exit(report.end())
 
 
@@ -334,16 +344,5 @@ def _fix(
     if silent:
         return UNUSABLE if any(each.unreadable for each in loaded) else FINDINGS if diff and report.fixed else 0
     for source, each in zip(sources, loaded, strict=True):
-        report.add(each, fixing(source).policy)
+        report.add(CheckedFile.of(each, report.reporting(source.name, fixing(source).policy)))
     return report.end()
-
-
-def _check(
-    source: InputSource, load_options: LoadOptions, passes: "Pipeline | None", reading: ReadingOptions
-) -> LoadResult:
-    try:
-        return inspect(read_model(source, load_options, reading), load_options, passes)
-    except ReadOnlyPassError as error:
-        raise click.UsageError(str(error)) from error
-    except PassError as error:
-        raise Unusable(str(error)) from error

@@ -1,14 +1,17 @@
 """`twinform format`."""
 
 from collections import Counter
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import click
 
+from twinform.cli.checked_file import diagnostic_of_row, row_of_diagnostic
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
 from twinform.cli.completion import files as files_of
 from twinform.cli.config import config_options
+from twinform.cli.file_runs import RunOptions, open_file_run, run_options
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, size_option
 from twinform.cli.model_files import is_text
 from twinform.cli.printing import plural, print_document, print_line, print_text, show
@@ -18,11 +21,87 @@ from twinform.compiler.formatting import formatted
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.compiler.input.size_limits import LARGEST, Limits
 from twinform.compiler.option import given
-from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Severity, rules
 from twinform.diagnostics.reporters import FileFindings
 from twinform.text import SourceText
 from twinform.text.formatting import FormatOptions
 from twinform.text.source_text import line_diff
+
+_BYTES = "latin-1"
+"""The encoding in which every byte is a character."""
+
+
+@dataclass(frozen=True, slots=True)
+class FormattedFile:
+    """The bytes of a file before and after, or the findings because of which there are none."""
+
+    before: bytes = b""
+    after: bytes = b""
+    findings: tuple[Diagnostic, ...] = ()
+
+    @classmethod
+    def failed(cls, path: str, why: str) -> "FormattedFile":
+        """Make the result for a file whose formatting has ended its process or did not come to an end."""
+        message = f"the file could not be formatted: {why}"
+        return cls(findings=(Diagnostic(rules.UNREADABLE_FILE, message, Location(path), Severity.ERROR),))
+
+    def to_json(self) -> list[Any]:
+        """Return the result as lists and texts."""
+        after = None if self.after == self.before else self.after.decode(_BYTES)
+        return [self.before.decode(_BYTES), after, [row_of_diagnostic(each) for each in self.findings]]
+
+    @classmethod
+    def from_json(cls, row: list[Any]) -> "FormattedFile":
+        """Make a result of what `to_json` has returned."""
+        before, after, findings = row
+        data = before.encode(_BYTES)
+        return cls(data, data if after is None else after.encode(_BYTES), tuple(map(diagnostic_of_row, findings)))
+
+
+@dataclass(frozen=True, slots=True)
+class FormatTask:
+    """The formatting of one file."""
+
+    source: InputSource
+    options: FormatOptions
+    limits: Limits
+
+    @property
+    def name(self) -> str:
+        """The path of the file."""
+        return self.source.name
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether the result depends on files, options and our code alone: always."""
+        return True
+
+    def sharing(self, _: dict[Any, Any]) -> "FormatTask":
+        """Return the task: it has nothing in common with others."""
+        return self
+
+    def do(self) -> FormattedFile:
+        """Format the file."""
+        try:
+            before = self._read()
+            return FormattedFile(before, formatted(before, self.name, self.options, self.limits))
+        except CompileError as error:
+            return FormattedFile(findings=error.diagnostics)
+
+    def _read(self) -> bytes:
+        """Read the file.
+
+        Raises:
+            CompileError: it cannot be read.
+        """
+        if isinstance(self.source.content, bytes):
+            return self.source.content
+        sink = DiagnosticSink(self.name)
+        try:
+            return read_bytes(Path(self.source.content), sink, self.limits)
+        except UnreadableError as error:
+            raise CompileError(tuple(sink.diagnostics), unreadable=True) from error
+
 
 _WIDEST = 16
 
@@ -65,6 +144,7 @@ EXAMPLES = {
 )
 @click.option("--sort-attributes/--no-sort-attributes", help="Put attributes into their usual order.")
 @exclude_options
+@run_options
 @size_option
 @config_options
 @click.pass_context
@@ -79,6 +159,7 @@ def command(
     sort_attributes: bool,
     exclude: tuple[str, ...],
     force_exclude: bool,
+    run: RunOptions,
     max_size: int | None,
 ) -> None:
     """Lay out the text of models, and change nothing else.
@@ -89,10 +170,15 @@ def command(
     or written, or is no XML.
     """
     options, limits = FormatOptions(indent, numbers, sort_attributes), Limits(given(max_size, LARGEST))
-    run = _FormatRun(options, limits, check=check, diff=diff)
-    sources, _ = model_inputs(files, exclusion_of(ctx, exclude, force=force_exclude), is_text)
-    found = Counter[Outcome](map(run.file, sources))
-    print_line(run.summary(found), err=True)
+    file_run = open_file_run("format", files, run)
+    sources, _ = model_inputs(files, exclusion_of(ctx, exclude, force=force_exclude), is_text, file_run.remember)
+    report = _FormatReport(check=check, diff=diff)
+    found = Counter[Outcome]()
+    with file_run.on(FormattedFile, [FormatTask(source, options, limits) for source in sources]) as results:
+        for source, made in zip(sources, results, strict=True):
+            found[report.file(source, made)] += 1
+    file_run.end()
+    print_line(report.summary(found), err=True)
     would_change = (check or diff) and found["changed"]
     ctx.exit(UNUSABLE if found["unusable"] else FINDINGS if would_change else 0)
 
@@ -100,20 +186,18 @@ def command(
 Outcome = Literal["changed", "same", "unusable"]
 
 
-class _FormatRun:
-    """One call of the command."""
+class _FormatReport:
+    """Writes what has changed, or prints it."""
 
-    def __init__(self, options: FormatOptions, limits: Limits, *, check: bool, diff: bool) -> None:
-        self.options, self.limits, self.check, self.diff = options, limits, check, diff
+    def __init__(self, *, check: bool, diff: bool) -> None:
+        self.check, self.diff = check, diff
 
-    def file(self, source: InputSource) -> Outcome:
-        """Format a file, or print what would change in it."""
-        try:
-            before = _read(source, self.limits)
-            after = formatted(before, source.name, self.options, self.limits)
-        except CompileError as error:
-            show(FileFindings(source.name, error.diagnostics), notes=False, on_stderr=True)
+    def file(self, source: InputSource, made: FormattedFile) -> Outcome:
+        """Write a formatted file, or print what would change in it."""
+        if made.findings:
+            show(FileFindings(source.name, made.findings), notes=False, on_stderr=True)
             return "unusable"
+        before, after = made.before, made.after
         if self.check or self.diff:
             self._print_changes(source, before, after)
         elif isinstance(source.content, bytes):
@@ -134,21 +218,6 @@ class _FormatRun:
         word = "would change" if self.check or self.diff else "formatted"
         parts = [f"{plural(found['changed'], 'file')} {word}", f"{found['same']} unchanged"]
         return ", ".join(parts) + (f", {found['unusable']} could not be formatted" if found["unusable"] else "")
-
-
-def _read(source: InputSource, limits: Limits) -> bytes:
-    """Read a file.
-
-    Raises:
-        CompileError: it cannot be read.
-    """
-    if isinstance(source.content, bytes):
-        return source.content
-    sink = DiagnosticSink(source.name)
-    try:
-        return read_bytes(Path(source.content), sink, limits)
-    except UnreadableError as error:
-        raise CompileError(tuple(sink.diagnostics), unreadable=True) from error
 
 
 def _write(rewrite: Rewrite) -> bool:

@@ -3,7 +3,7 @@
 import re
 import stat
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -37,6 +37,10 @@ _SKIPPED = ((b"<!--", b"-->"), (b"<?", b"?>"), (b"<!", b">"))
 _STDIN = "<stdin>"
 
 _NAME_END = b" \t\r\n/>"
+
+
+Remember = Callable[[object, Callable[[], list[str]]], list[str]]
+"""Returns what a function returns for a key, perhaps from an earlier run."""
 
 
 class InputSource(NamedTuple):
@@ -180,16 +184,20 @@ def inputs(words: Sequence[str]) -> tuple[list[InputSource], dict[str, str]]:
 
 
 def model_inputs(
-    words: Sequence[str], exclusion: Exclusion, kind: FileKind = is_model
+    words: Sequence[str], exclusion: Exclusion, kind: FileKind = is_model, remember: Remember = lambda _, make: make()
 ) -> tuple[list[InputSource], dict[str, str]]:
     """Open the model files that a command line names, also by folders and globs, without what is excluded.
+
+    `remember` may know from an earlier run which these are.
 
     Raises:
         click.UsageError: as `inputs`, or there is no model.
     """
     files, arguments = _split_words(words)
     try:
-        return _open_files(discover(files, exclusion, kind), arguments), arguments
+        key = ("files", files, exclusion, getattr(kind, "__name__", ""))
+        found = remember(key, lambda: discover(files, exclusion, kind))
+        return _open_files(found, arguments), arguments
     except (NothingFoundError, PatternError) as error:
         raise click.UsageError(str(error)) from error
 

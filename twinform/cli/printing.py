@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 from twinform.diagnostics import Severity
-from twinform.diagnostics.reporters import FileFindings, concise, printable, text
+from twinform.diagnostics.reporters import NO_TEXTS, FileFindings, concise, printable, text
 
 if TYPE_CHECKING:
     from twinform.compiler.input.source_files import SourceFiles
@@ -131,7 +131,7 @@ def show(
         worse = tuple(each for each in findings.diagnostics if each.severity > Severity.INFO)
         findings = findings._replace(diagnostics=worse)
     if findings.diagnostics:
-        found = [locate(findings, files)]
+        found = [locate(findings, files) if findings.texts is NO_TEXTS else findings]
         report = concise(found, paint) if short else text(found, paint, every=every)
         print_text(report, nl=False, err=on_stderr)
 

@@ -50,7 +50,8 @@ class _Watched:
     files: dict[str, Mapping[str, _Status | None]] = field(default_factory=dict[str, Mapping[str, "_Status | None"]])
 
     def note(self, name: str, seen: Observation) -> None:
-        every = {**seen.looked_at, **seen.read}
+        whole = seen.merged()
+        every = {**whole.looked_at, **whole.read}
         # The time of a folder changes with every file in it, such as an editor's swap file.
         files = {path: status for path, status in every.items() if status is None or not stat.S_ISDIR(status.st_mode)}
         self.files[name] = {path: _Status.of(status) for path, status in files.items()}

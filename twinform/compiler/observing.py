@@ -1,7 +1,8 @@
 """Records which files a task reads, lists or looks for, and which environment variables it reads.
 
 Files are opened by our readers, by passes of other packages, and by mesh libraries. So nothing has to report them: the
-interpreter raises an audit event for every `open` and listing. There is no event for `os.stat`, which is wrapped.
+interpreter raises an audit event for every `open` and listing. There is none for `os.stat`, `os.lstat` and
+`os.readlink`, which are wrapped.
 """
 
 import hashlib
@@ -10,14 +11,16 @@ import stat
 import sys
 import sysconfig
 import time
-from collections.abc import Generator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, Generic, TypeVar
 
+Key = TypeVar("Key")
+Value = TypeVar("Value")
 # Each place in the code could report what it reads, but passes and mesh readers of others would
 # not, and one that is forgotten gives a stale result that nobody notices.
 _WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT
@@ -40,19 +43,44 @@ _CODE = (".py", ".pyc", ".so", ".pyd")
 class Observation:
     """The files that were read, folders that were listed, and paths that were looked at, by absolute path.
 
-    Each has its status before it was read, or None where nothing was there. Files that are so `young` that their times
+    Each has its status before it was read, or None where nothing was there. `names` are paths at which was looked
+    without following a link there, and what stood at each (`describe_name`). Files that are so `young` that their times
     prove nothing also have the digest of their content. Variables have their values. The task has `failed` if it did so
-    for a reason that is in no file, and may end in another way the next time.
+    for a reason that is in no file, and may end in another way the next time. `parts` belong to values that were made
+    before and kept in a `Memo`.
     """
 
     read: dict[str, os.stat_result | None] = field(default_factory=dict[str, os.stat_result | None])
     listed: dict[str, os.stat_result | None] = field(default_factory=dict[str, os.stat_result | None])
     looked_at: dict[str, os.stat_result | None] = field(default_factory=dict[str, os.stat_result | None])
+    names: dict[str, str] = field(default_factory=dict[str, str])
     young: dict[str, str] = field(default_factory=dict[str, str])
     variables: dict[str, str | None] = field(default_factory=dict[str, str | None])
     failed: bool = False
+    parts: dict[int, "Observation"] = field(default_factory=dict[int, "Observation"])
+
+    def walk(self) -> "Iterator[Observation]":
+        """Yield the observation and all its parts, each once."""
+        found: dict[int, Observation] = {}
+        left: list[Observation] = [self]
+        while left:
+            here = left.pop()
+            if id(here) not in found:
+                found[id(here)] = here
+                left.extend(here.parts.values())
+                yield here
+
+    def merged(self) -> "Observation":
+        """Return one observation of all that was observed, also in the parts."""
+        whole = Observation()
+        for each in self.walk():
+            for table in _TABLES:
+                getattr(whole, table).update(getattr(each, table))
+            whole.failed |= each.failed
+        return whole
 
 
+_TABLES = ("read", "listed", "looked_at", "names", "young", "variables")
 _CURRENT: ContextVar[Observation | None] = ContextVar("observation", default=None)
 
 
@@ -66,6 +94,35 @@ def observed() -> Generator[Observation]:
         yield observation
     finally:
         _CURRENT.reset(token)
+
+
+class Memo(Generic[Key, Value]):
+    """Values that are made when they are first asked for, and kept.
+
+    Whoever is observed while asking for one depends on the files that it was made from, as if it were made again.
+    """
+
+    def __init__(self) -> None:
+        self._known: dict[Key, tuple[Value, Observation | None]] = {}
+
+    def get(self, key: Key, make: Callable[[], Value]) -> Value:
+        """Return the value for a key."""
+        asking = _CURRENT.get()
+        if key in self._known:
+            value, seen = self._known[key]
+            if asking is None:
+                return value
+            if seen is not None:
+                asking.parts[id(seen)] = seen
+                return value
+        if asking is None:
+            value, seen = make(), None
+        else:
+            with observed() as seen:
+                asking.parts[id(seen)] = seen
+                value = make()
+        self._known[key] = value, seen
+        return value
 
 
 def note_variable(name: str, value: str | None) -> None:
@@ -87,7 +144,7 @@ def note_look(path: str) -> None:
     _note("looked_at", path, _status(path))
 
 
-_STAT = os.stat
+_STAT, _LSTAT, _READLINK = os.stat, os.lstat, os.readlink
 _SECOND = 1_000_000_000
 # Nanoseconds: FAT counts in steps of two seconds, NFS and HFS in steps of one.
 _TICK = 2 * _SECOND
@@ -126,7 +183,7 @@ def _install() -> None:
     for able in (os.supports_dir_fd, os.supports_fd, os.supports_follow_symlinks, os.supports_effective_ids):
         if os.stat in able:
             able.add(_stat)
-    os.stat = _stat
+    os.stat, os.lstat, os.readlink = _stat, _lstat, _readlink
 
 
 def _hear(event: str, arguments: tuple[Any, ...]) -> None:
@@ -157,6 +214,35 @@ def _stat(path: Any, *, dir_fd: int | None = None, follow_symlinks: bool = True)
     return status
 
 
+def _lstat(path: Any, *, dir_fd: int | None = None) -> os.stat_result:
+    if dir_fd is None:
+        _note_name(path)
+    return _LSTAT(path, dir_fd=dir_fd)
+
+
+def _readlink(path: Any, *, dir_fd: int | None = None) -> Any:
+    if dir_fd is None:
+        _note_name(path)
+    return _READLINK(path, dir_fd=dir_fd)
+
+
+def _note_name(path: Any) -> None:
+    observation = _CURRENT.get()
+    if observation is not None and path not in observation.names:  # most are absolute, and asked for again and again
+        name = _absolute(path)
+        if name is not None and name not in observation.names and not _is_known_by_version(name):
+            observation.names[name] = describe_name(name)
+
+
+def describe_name(path: str) -> str:
+    """Return what stands at a path, without following a link there; empty where nothing does."""
+    try:
+        mode = _LSTAT(path).st_mode
+        return f"link {_READLINK(path)}" if stat.S_ISLNK(mode) else str(stat.S_IFMT(mode))
+    except (OSError, ValueError):
+        return ""
+
+
 def _note_young(path: Any) -> None:
     """Keep the digest of a file that may change while it is read without a trace in its time."""
     name, observation = _absolute(path), _CURRENT.get()
@@ -178,11 +264,15 @@ _ASK: Any = object()
 
 def _note(what: str, path: Any, status: Any = _ASK) -> None:
     observation, name = _CURRENT.get(), _absolute(path)
-    if observation is None or name is None or name.startswith(_KNOWN_BY_VERSION) or name.endswith(_CODE):
+    if observation is None or name is None or _is_known_by_version(name):
         return
     found: dict[str, os.stat_result | None] = getattr(observation, what)
     if name not in found:
         found[name] = _status(name) if status is _ASK else status
+
+
+def _is_known_by_version(name: str) -> bool:
+    return name.startswith(_KNOWN_BY_VERSION) or name.endswith(_CODE)
 
 
 def _absolute(path: Any) -> str | None:

@@ -9,6 +9,7 @@ from typing import Literal, NamedTuple, Self
 from urllib.parse import unquote, urlsplit
 
 from twinform.compiler import fuel_addresses
+from twinform.compiler.observing import Memo
 from twinform.compiler.ros_packages import MODEL_CONFIG, PackageIndex, package_name
 from twinform.diagnostics import rules
 from twinform.file_access import OutsideError, Readable, find_root, folders_around, neighborhood
@@ -47,8 +48,8 @@ class SearchPath:
     index: PackageIndex = field(default_factory=PackageIndex, compare=False, repr=False)
     seen: set[Path] = field(default_factory=set[Path], compare=False, repr=False)
     unsaved: Mapping[str, bytes] = field(default_factory=dict[str, bytes], compare=False, repr=False)
-    _readable: dict[Path, Readable] = field(default_factory=dict[Path, Readable], compare=False, repr=False)
-    _around: dict[Path, SearchFolders] = field(default_factory=dict[Path, SearchFolders], compare=False, repr=False)
+    _readable: Memo[Path, Readable] = field(default_factory=Memo[Path, Readable], compare=False, repr=False)
+    _around: Memo[Path, SearchFolders] = field(default_factory=Memo[Path, SearchFolders], compare=False, repr=False)
 
     @classmethod
     def of(cls, own: Iterable[str | Path] = (), environment: Mapping[str, str] = os.environ) -> Self:
@@ -88,15 +89,13 @@ class SearchPath:
 
     def readable(self, file: Path) -> Readable:
         """Return the files that may be read because `file` leads to them, and `file` itself."""
-        if file not in self._readable:
-            self._readable[file] = Readable.of(file, (*self._roots(), *self.fuel), self._environment_roots())
-        return self._readable[file]
+        return self._readable.get(
+            file, lambda: Readable.of(file, (*self._roots(), *self.fuel), self._environment_roots())
+        )
 
     def _surroundings(self, file: Path) -> SearchFolders:
         """Return the folders around a file; they are kept, since a world may have a URI in each of its lines."""
-        if file not in self._around:
-            self._around[file] = SearchFolders(folders_around(file), neighborhood(find_root(file)))
-        return self._around[file]
+        return self._around.get(file, lambda: SearchFolders(folders_around(file), neighborhood(find_root(file))))
 
     def unsaved_of(self, path: str | Path) -> bytes | None:
         """Return the content of a file that is open in an editor; None for other files."""

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from lxml import etree
 
+from twinform.compiler.observing import Memo
 from twinform.file_access import read_regular
 from twinform.schemas import XmlElement
 
@@ -55,36 +56,32 @@ class FolderListing(NamedTuple):
 class PackageIndex:
     """The packages below some folders, and what is in folders: looked for once and on demand."""
 
-    found: dict[Path, dict[str, Path]] = field(default_factory=dict[Path, dict[str, Path]])
-    inside: dict[Path, dict[str, Path]] = field(default_factory=dict[Path, dict[str, Path]])
-    names: dict[Path, str | None] = field(default_factory=dict[Path, str | None])
-    listings: dict[Path, FolderListing] = field(default_factory=dict[Path, FolderListing])
+    found: Memo[Path, dict[str, Path]] = field(default_factory=Memo[Path, dict[str, Path]])
+    inside: Memo[Path, dict[str, Path]] = field(default_factory=Memo[Path, dict[str, Path]])
+    names: Memo[Path, str | None] = field(default_factory=Memo[Path, str | None])
+    listings: Memo[Path, FolderListing] = field(default_factory=Memo[Path, FolderListing])
 
     def name_of(self, folder: Path) -> str | None:
         """Return the name of the package in a folder; None where there is none."""
-        if folder not in self.names:
-            self.names[folder] = package_name(folder)
-        return self.names[folder]
+        return self.names.get(folder, lambda: package_name(folder))
 
     def listing(self, folder: Path) -> FolderListing:
         """Return what is in a folder; nothing of one that cannot be listed."""
-        if folder not in self.listings:
-            self.listings[folder] = _list_folder(folder)
-        return self.listings[folder]
+        return self.listings.get(folder, lambda: _list_folder(folder))
 
     def named(self, name: str, root: Path) -> Iterator[Path]:
         """Yield the package of a name below a folder, if there is one."""
-        if root not in self.found:
-            self.found[root] = dict(_packages_below(root))
-        if name in self.found[root]:
-            yield self.found[root][name]
+        found = self.found.get(root, lambda: dict(_packages_below(root)))
+        if name in found:
+            yield found[name]
 
     def directly_in(self, name: str, folder: Path) -> Iterator[Path]:
         """Yield the package of a name directly in a folder, whatever the name of its own folder is."""
-        if folder not in self.inside:
-            self.inside[folder] = {called: each for each in _folders(folder) if (called := package_name(each))}
-        if name in self.inside[folder]:
-            yield self.inside[folder][name]
+        inside = self.inside.get(
+            folder, lambda: {called: each for each in _folders(folder) if (called := package_name(each))}
+        )
+        if name in inside:
+            yield inside[name]
 
 
 def _list_folder(folder: Path) -> FolderListing:

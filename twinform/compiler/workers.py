@@ -7,7 +7,7 @@ import sys
 import threading
 import traceback
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future
 from concurrent.futures import wait as wait_for_futures
 from contextlib import AbstractContextManager, nullcontext
@@ -90,7 +90,7 @@ class Runner:
 
 def run_on(
     runner: Runner, task: Callable[[Job], Result], jobs: Iterable[Job]
-) -> Iterator[tuple[Job, Result | Failure]]:
+) -> Generator[tuple[Job, Result | Failure]]:
     """Run a task on every job, and yield each job with its result, in any order. Without jobs no executor is opened.
 
     Raises:
@@ -111,7 +111,7 @@ class _Run(Generic[Job, Result]):
         """Jobs one of which broke the executor; each is tried again alone, to find out which."""
         self.breaks = 0
 
-    def results(self) -> Iterator[tuple[Job, Result | Failure]]:
+    def results(self) -> Generator[tuple[Job, Result | Failure]]:
         while self._is_left():
             alone = bool(self.suspects)
             runner = self.runner.for_jobs(1) if alone else self.runner

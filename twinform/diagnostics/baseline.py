@@ -9,6 +9,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, NamedTuple, cast
 
 from twinform.diagnostics.diagnostic import Diagnostic, Severity
@@ -44,11 +45,19 @@ Relative = Callable[[str], str]
 """Gives the name of a file relative to the folder of the baseline, with `/`."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)  # no slots: what is known of each file is kept in the dictionary
 class Baseline:
     """Known findings, and how often each occurs."""
 
     counts: Mapping[KnownFinding, int] = field(default_factory=dict[KnownFinding, int])
+
+    @cached_property
+    def by_file(self) -> Mapping[str, Mapping[KnownFinding, int]]:
+        """The counts of each file."""
+        found: dict[str, dict[KnownFinding, int]] = {}
+        for known, count in self.counts.items():
+            found.setdefault(known.file, {})[known] = count
+        return found
 
     @classmethod
     def of(cls, findings: Iterable[KnownFinding]) -> "Baseline":
@@ -104,6 +113,16 @@ class BaselineRun:
     relative: Relative
     files: set[str] = field(default_factory=set[str])
     found: Counter[KnownFinding] = field(default_factory=Counter[KnownFinding])
+
+    def of_file(self, path: str) -> "BaselineRun":
+        """Return a run for one file alone, whose result `add` takes."""
+        name = self.relative(path)
+        return BaselineRun(Baseline(self.baseline.by_file.get(name, {})), self.relative)
+
+    def add(self, path: str, found: Mapping[KnownFinding, int]) -> None:
+        """Add the findings of a file, which were compared with the baseline elsewhere."""
+        self.files.add(self.relative(path))
+        self.found.update(found)
 
     def unknown(self, path: str, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
         """Return the findings of a file that the baseline lacks; notes and fatal errors are never in one."""

@@ -51,7 +51,7 @@ class StagingFolder:
                 # The kernel releases the lock however the process ends. A process ID in the name
                 # would be wrong on a network file system, and an age wherever a clock was set back.
                 self._lock = _locked(self._outer)
-                inner = self._outer / _mark(self._outer.stat())
+                inner = self._outer / mark_of(self._outer.stat())
                 inner.mkdir()
                 return inner
         raise FileNotFoundError(errno.ENOENT, "folders disappear as soon as they are made", str(self._parent))
@@ -119,7 +119,7 @@ def _remove_if_left(path: Path) -> None:
         # unpacked archive or a copy does not contain the right mark.
         if status.st_uid == os.geteuid() and fcntl is not None:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)  # raises where the folder is in use
-            if os.listdir(lock) in ([], [_mark(status)]):  # noqa: PTH208 - of a descriptor
+            if os.listdir(lock) in ([], [mark_of(status)]):  # noqa: PTH208 - of a descriptor
                 shutil.rmtree(path)
     finally:
         os.close(lock)
@@ -144,7 +144,7 @@ def _locked(folder: Path) -> int | None:
     return lock
 
 
-def _mark(status: os.stat_result) -> str:
+def mark_of(status: os.stat_result) -> str:
     """Return the name of the single folder inside a staging folder: the inode number of the latter.
 
     Nobody knows that number before the folder is there. So no archive and no repository can bring along what passes for

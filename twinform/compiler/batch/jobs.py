@@ -7,10 +7,8 @@ others, without hidden files, other models, and links that lead elsewhere. The c
 import json
 import os
 from collections.abc import Iterable, Iterator
-from dataclasses import asdict, dataclass, field, fields, is_dataclass, replace
-from importlib.metadata import version
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path, PurePosixPath
-from typing import cast
 
 from lxml import etree
 
@@ -34,7 +32,7 @@ from twinform.compiler.statistics import measure
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Fate, Ledger, Policy, Severity, SideFile
 from twinform.diagnostics.reporters.json import row
 from twinform.file_access import Readable
-from twinform.passes import FilesPass, Pipeline, registered_passes
+from twinform.passes import FilesPass, Pipeline
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -186,19 +184,6 @@ def _refuse(error: CompileError, policy: Policy, name: str) -> Done:
     outcome = Outcome.UNREADABLE if error.unreadable else Outcome.REFUSED
     found = _report_findings(policy.apply(error.diagnostics), name)
     return Done(outcome=outcome, message=str(error), diagnostics=found)
-
-
-def describe_options(value: object) -> object:
-    """Return a job or one of its options as JSON, so that results are redone when any of them changes."""
-    if isinstance(value, Pipeline):
-        owners = {registered_passes()[step.name].owner for step in value if step.name in registered_passes()}
-        return [str(value), sorted(f"{owner} {version(owner)}" for owner in owners if owner)]
-    if isinstance(value, frozenset):
-        return sorted(map(str, cast("frozenset[object]", value)))
-    if is_dataclass(value):
-        options = (describe_options(getattr(value, each.name)) for each in fields(value) if each.compare)
-        return [type(value).__name__, *options]
-    return value if value is None or isinstance(value, bool | int | float) else str(value)
 
 
 _LARGEST = 2**28

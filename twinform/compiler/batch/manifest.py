@@ -13,8 +13,8 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
-from twinform.compiler.batch.dependencies import Dependency, packed, unpacked
 from twinform.compiler.batch.record import ModelRecord, Outcome
+from twinform.compiler.dependencies import Dependency, packed, unpacked
 from twinform.compiler.output.same_files import is_open_at
 from twinform.storage.transaction import named_after, transaction
 from twinform.storage.writing import is_stream, refuse_way_out, sync_files

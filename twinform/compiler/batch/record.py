@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import NamedTuple
 
-from twinform.compiler.batch.dependencies import Dependency
+from twinform.compiler.dependencies import Dependency
 
 Row = dict[str, object]
 

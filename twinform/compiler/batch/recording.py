@@ -16,7 +16,12 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from twinform.compiler.batch.dependencies import (
+from twinform.compiler.batch.entries import ModelEntry
+from twinform.compiler.batch.manifest import FOLDER, Manifest, read_records
+from twinform.compiler.batch.places import ResultPlaces
+from twinform.compiler.batch.record import ModelRecord, ModelResult, Outcome
+from twinform.compiler.batch.task import Done, Task
+from twinform.compiler.dependencies import (
     Dependency,
     DependencyKind,
     are_current,
@@ -26,11 +31,6 @@ from twinform.compiler.batch.dependencies import (
     stamp,
     status,
 )
-from twinform.compiler.batch.entries import ModelEntry
-from twinform.compiler.batch.manifest import FOLDER, Manifest, read_records
-from twinform.compiler.batch.places import ResultPlaces
-from twinform.compiler.batch.record import ModelRecord, ModelResult, Outcome
-from twinform.compiler.batch.task import Done, Task
 from twinform.compiler.observing import digest
 from twinform.compiler.output.same_files import is_below
 from twinform.storage.writing import is_stream, write_all_atomically

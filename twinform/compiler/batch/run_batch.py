@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from twinform.compiler.batch.entries import FolderError, ModelEntry, Shard
-from twinform.compiler.batch.jobs import Convert, Diff, describe_options
+from twinform.compiler.batch.jobs import Convert, Diff
 from twinform.compiler.batch.manifest import Manifest
 from twinform.compiler.batch.places import ResultPlaces, outputs, require_apart
 from twinform.compiler.batch.record import ModelRecord, ModelResult, Outcome
@@ -28,6 +28,7 @@ from twinform.compiler.batch.task import (
     versions,
     work,
 )
+from twinform.compiler.described_options import describe_options
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.observing import digest
 from twinform.compiler.workers import Failure, Runner, process_runner, run_on

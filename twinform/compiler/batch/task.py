@@ -14,9 +14,9 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
-from twinform.compiler.batch.dependencies import Dependency, dependencies_of, renewed, status
 from twinform.compiler.batch.entries import ModelEntry
 from twinform.compiler.batch.record import ModelRecord, Outcome, Row
+from twinform.compiler.dependencies import Dependency, dependencies_of, renewed, status
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.observing import observed
 from twinform.compiler.reproducers import write_reproducer
@@ -117,6 +117,7 @@ def work(task: Task) -> Done:
         done = _work_within_time(task)
     if done.dependencies is None:
         return done
+    seen = seen.merged()
     dependencies = dependencies_of(seen, _absolute(task.root), outside=_absolute(task.dest) if task.dest else None)
     return replace(done, dependencies=dependencies, variables=seen.variables, time=begin)
 

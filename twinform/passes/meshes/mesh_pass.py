@@ -28,6 +28,7 @@ from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult, 
 from twinform.passes.mesh_jobs.mesh_files import EXTRA, MARK
 from twinform.passes.meshes.mesh_source import MeshSource, MeshSources
 from twinform.passes.shared.mesh_solids import MeshError, submesh_of
+from twinform.storage.user_cache import prune, user_cache
 from twinform.storage.writing import write_atomically
 
 VARIABLE = "TWINFORM_MESH_CACHE"
@@ -49,16 +50,7 @@ class ResultsCache:
     def usual(cls) -> Self:
         """The cache of the user."""
         chosen = os.environ.get(VARIABLE, "")
-        if chosen == "off":
-            return cls(None)
-        if chosen:
-            return cls(Path(chosen))
-        base = os.environ.get("XDG_CACHE_HOME", "")
-        try:
-            home = Path(base) if Path(base).is_absolute() else Path.home() / ".cache"
-        except RuntimeError:  # the user has no home
-            return cls(None)
-        return cls(home / "twinform" / "meshes")
+        return cls(None if chosen == "off" else Path(chosen) if chosen else user_cache("meshes"))
 
     def get(self, job: MeshJob) -> MeshResult | None:
         """The result of a job that was done before; None where there is none, or where it is damaged."""
@@ -80,7 +72,7 @@ class ResultsCache:
         data = result.to_bytes()
         with suppress(OSError):
             write_atomically(path, hashlib.sha256(data).digest() + data, durably=False)  # half a result has no digest
-            _prune(path.parent)
+            prune(path.parent, _MOST)
 
     def _path(self, job: MeshJob) -> Path | None:
         if self.folder is not None:
@@ -97,17 +89,6 @@ def _version(name: str) -> str:
         return version(name)
     except PackageNotFoundError:
         return ""
-
-
-def _prune(folder: Path) -> None:
-    found = [(status.st_mtime, status.st_size, path) for path in folder.iterdir() for status in [path.stat()]]
-    total = sum(size for _, size, _ in found)
-    for _, size, path in sorted(found):
-        if total <= _MOST:
-            return
-        with suppress(OSError):
-            path.unlink()
-            total -= size
 
 
 _UNUSUAL_IN_NAMES = re.compile(r"[^\w.-]+")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from twinform.compiler.batch.dependencies import (
+from twinform.compiler.dependencies import (
     Dependency,
     DependencyKind,
     are_current,

@@ -12,12 +12,13 @@ import os
 import stat
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import StrEnum
+from itertools import islice
 from pathlib import Path
 from posixpath import normpath
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from twinform.compiler.observing import Observation, digest, is_coarse, is_young
+from twinform.compiler.observing import Observation, describe_name, digest, is_coarse, is_young
 from twinform.file_access import read_regular
 
 _MOST_NAMES = 100_000
@@ -37,6 +38,8 @@ class DependencyKind(StrEnum):
     """It was only looked at."""
     OTHER = "other"
     """A pipe, device or socket."""
+    NAMED = "named"
+    """It was looked at without following a link; the digest says what stood there."""
 
 
 class Dependency(NamedTuple):
@@ -65,10 +68,13 @@ def status(path: str) -> os.stat_result | None:
         return None
 
 
-def dependencies_of(seen: Observation, root: str, *, outside: str | None) -> tuple[Dependency, ...] | None:
-    """Return what was seen, with digests of what was read; None if something changed or failed meanwhile.
+def dependencies_of(
+    seen: Observation, root: str, *, outside: str | None, names: bool = False
+) -> tuple[Dependency, ...] | None:
+    """Return what was seen, but not in its parts, with digests of what was read.
 
-    Files in the folder `outside` are left out: results are no inputs.
+    It is None if something changed or failed meanwhile. Files in the folder `outside` are left out: results are no
+    inputs. With `names`, it counts too where links lead, and where nothing was found that would make a folder a root.
     """
     if seen.failed:
         return None
@@ -85,6 +91,8 @@ def dependencies_of(seen: Observation, root: str, *, outside: str | None) -> tup
     found += [
         _make_relative(_describe_status(path, before), root) for path, before in looks if not _is_below(path, outside)
     ]
+    if names:
+        found += [Dependency(path, DependencyKind.NAMED, digest=stood) for path, stood in seen.names.items()]
     return tuple(found)
 
 
@@ -194,8 +202,14 @@ def _digest_content(path: str, kind: DependencyKind) -> str | None:
 
 
 def _digest_names(path: str) -> str:
-    names = sorted(os.listdir(path))  # noqa: PTH208 - only the names
+    with os.scandir(path) as entries:
+        names = sorted(map(_describe_entry, islice(entries, _MOST_NAMES + 1)))
     return digest(os.fsencode("\0".join(names))) if len(names) <= _MOST_NAMES else ""
+
+
+def _describe_entry(entry: os.DirEntry[str]) -> str:
+    """Return the name of an entry, and whether it is a folder or a link: a listing is asked for these too."""
+    return f"{entry.name}{'/' if entry.is_dir() else ''}{'/@' if entry.is_symlink() else ''}"
 
 
 def _describe_status(path: str, now: os.stat_result | None) -> Dependency:
@@ -217,6 +231,8 @@ def _is_below(path: str, folder: str | None) -> bool:
 
 
 def _is_current(dependency: Dependency, now: os.stat_result | None, noted: int | None) -> bool:
+    if dependency.kind is DependencyKind.NAMED:
+        return describe_name(dependency.path) == dependency.digest
     if dependency.kind not in {DependencyKind.READ, DependencyKind.LISTED}:
         return _describe_status(dependency.path, now) == dependency
     if now is None or (dependency.kind is DependencyKind.READ and now.st_size != dependency.size):
@@ -236,6 +252,8 @@ def _is_current(dependency: Dependency, now: os.stat_result | None, noted: int |
 
 def _renew(dependency: Dependency, path: str) -> Dependency | None:
     """Return a dependency with its status from before its content was compared; None if the content has changed."""
+    if dependency.kind is DependencyKind.NAMED:
+        return dependency if describe_name(path) == dependency.digest else None
     now = status(path)
     if dependency.kind not in {DependencyKind.READ, DependencyKind.LISTED}:
         return dependency if _describe_status(dependency.path, now) == dependency else None

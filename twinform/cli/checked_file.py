@@ -1,0 +1,272 @@
+"""What `check` reports about one file, as a value that can be sent from another process and kept as JSON."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from twinform.cli.command import Unusable
+from twinform.cli.inputs import InputSource, read_model
+from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, inspect
+from twinform.compiler.input.load_options import ReadingOptions
+from twinform.diagnostics import Diagnostic, Fix, Location, Policy, Safety, Severity, rules
+from twinform.diagnostics.diagnostic import Span, TextEdit
+from twinform.diagnostics.reporters import NO_TEXTS, FileFindings, FileTexts
+from twinform.diagnostics.rule_registry import find_rule
+from twinform.passes import PassError
+
+if TYPE_CHECKING:
+    from twinform.diagnostics.baseline import BaselineRun, KnownFinding
+    from twinform.passes import Pipeline
+
+
+@dataclass(frozen=True, slots=True)
+class Reporting:
+    """What is reported of the findings of a file.
+
+    Fixes are made for findings from the severity `fixed` on, and columns for those from `shown` on. Findings of the
+    `baseline` are left out; with `updates` all that a baseline can have.
+    """
+
+    policy: Policy
+    fixed: Severity
+    shown: Severity
+    baseline: "BaselineRun | None" = None
+    updates: bool = False
+
+    def new(self, loaded: LoadResult, seen: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
+        """Return the findings that are not known from the baseline; that of an unreadable file stays as it is."""
+        if self.baseline is None:
+            return seen
+        new = seen if loaded.unreadable else self.baseline.unknown(loaded.path, seen)
+        if self.updates:
+            return tuple(each for each in new if each.rule.fatal or each.severity is Severity.INFO)
+        return new
+
+
+@dataclass(frozen=True, slots=True)
+class CheckedFile:
+    """The findings of a file with columns and fixes, and the texts that they are about.
+
+    `opened` tells whether there was a file at all. `allowed` and `known` are the numbers of findings that are left out
+    by the rules or comments, and by the baseline; `baselined` counts those that a baseline can have.
+    """
+
+    findings: FileFindings
+    unreadable: bool = False
+    opened: bool = True
+    allowed: int = 0
+    known: int = 0
+    baselined: "Mapping[KnownFinding, int]" = field(default_factory=dict["KnownFinding", int])
+
+    @classmethod
+    def of(cls, loaded: LoadResult, reporting: Reporting) -> "CheckedFile":
+        """Make the report on a file that was read and inspected."""
+        seen = reporting.policy.apply(loaded.diagnostics)
+        new = reporting.new(loaded, seen)
+        found = _with_fixes(loaded, new, reporting.fixed)
+        return cls(
+            _locate(loaded, found, reporting.shown),
+            loaded.unreadable,
+            opened=not (loaded.unreadable and loaded.content is None),
+            allowed=len(loaded.allowed) + len(loaded.diagnostics) - len(seen),
+            known=len(seen) - len(new),
+            baselined=dict(reporting.baseline.found) if reporting.baseline else {},
+        )
+
+    @classmethod
+    def failed(cls, path: str, why: str) -> "CheckedFile":
+        """Make the report on a file whose check has ended its process or did not come to an end."""
+        found = Diagnostic(
+            rules.UNREADABLE_FILE, f"the file could not be checked: {why}", Location(path), Severity.ERROR
+        )
+        return cls(FileFindings(path, (found,)), unreadable=True, opened=False)
+
+    def to_json(self) -> list[Any]:
+        """Return the report as lists and texts, with the pieces of the files that reports quote."""
+        found = self.findings.diagnostics
+        return [
+            self.findings.path,
+            self.unreadable,
+            self.opened,
+            self.allowed,
+            self.known,
+            [[list(known), count] for known, count in self.baselined.items()],
+            [row_of_diagnostic(each) for each in found],
+            QuotedTexts.of(self.findings).to_json(),
+        ]
+
+    @classmethod
+    def from_json(cls, row: list[Any]) -> "CheckedFile":
+        """Make a report of what `to_json` has returned.
+
+        Raises:
+            ValueError, TypeError, LookupError: it was something else.
+        """
+        path, unreadable, opened, allowed, known, baselined, found, texts = row
+        counts = _known_findings(baselined) if baselined else {}
+        findings = FileFindings(path, tuple(map(diagnostic_of_row, found)), QuotedTexts.from_json(texts))
+        return cls(findings, unreadable, opened, allowed, known, counts)
+
+
+@dataclass(frozen=True, slots=True)
+class CheckTask:
+    """The check of one file, with the options for it."""
+
+    source: InputSource
+    load_options: LoadOptions
+    passes: "Pipeline | None"
+    expands_includes: bool
+    reporting: Reporting
+
+    @property
+    def name(self) -> str:
+        """The path of the file."""
+        return self.source.name
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether the result can be kept: passes of other packages may read what nobody knows of."""
+        if not self.passes:
+            return True
+        from twinform.compiler.described_options import owners_of  # noqa: PLC0415 - few runs have passes
+
+        return owners_of(self.passes) <= {"twinform"}
+
+    def sharing(self, common: dict[Any, Any]) -> "CheckTask":
+        """Return the task with the search path of other tasks, which knows what is in folders."""
+        search = common.setdefault(self.load_options.search, self.load_options.search)
+        return replace(self, load_options=replace(self.load_options, search=search))
+
+    def look(self) -> LoadResult:
+        """Read the file and find what is wrong in it.
+
+        Raises:
+            click.UsageError: a pass changes the model.
+            Unusable: a pass is at fault.
+        """
+        reading: ReadingOptions = {"expand_includes": self.expands_includes}
+        try:
+            return inspect(read_model(self.source, self.load_options, reading), self.load_options, self.passes)
+        except ReadOnlyPassError as error:
+            raise click.UsageError(str(error)) from error
+        except PassError as error:
+            raise Unusable(str(error)) from error
+
+    def do(self) -> CheckedFile:
+        """Check the file."""
+        return CheckedFile.of(self.look(), self.reporting)
+
+
+def _known_findings(rows: list[Any]) -> "dict[KnownFinding, int]":
+    from twinform.diagnostics.baseline import KnownFinding  # noqa: PLC0415 - few runs have a baseline
+
+    return {KnownFinding(*known): count for known, count in rows}
+
+
+def _with_fixes(loaded: LoadResult, found: tuple[Diagnostic, ...], least: Severity) -> tuple[Diagnostic, ...]:
+    if not any(each.rule.fix and each.severity >= least for each in found):
+        return found
+    from twinform.compiler.fixing import with_fixes  # noqa: PLC0415 - clean files need none
+
+    return with_fixes(replace(loaded, diagnostics=found), lambda each: each.severity >= least)
+
+
+def _locate(loaded: LoadResult, found: tuple[Diagnostic, ...], least: Severity) -> FileFindings:
+    """Add columns to the findings that are shown, and the texts of the files; others come last, and are counted."""
+    shown = tuple(each for each in found if each.severity >= least)
+    if not shown:
+        return FileFindings(loaded.path, found)
+    from twinform.compiler.input.finding_spans import with_columns  # noqa: PLC0415 - only findings have places
+    from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - as above
+
+    files = SourceFiles.of(loaded)
+    others = tuple(each for each in found if each.severity < least)
+    return FileFindings(loaded.path, (*with_columns(shown, files), *others), files)
+
+
+@dataclass(frozen=True, slots=True)
+class QuotedTexts:
+    """The lines of files that reports quote, and the lines and columns of the edits of fixes."""
+
+    lines: Mapping[tuple[str, int], str]
+    places: Mapping[tuple[str, int], tuple[int, int]]
+
+    @classmethod
+    def of(cls, findings: FileFindings) -> "QuotedTexts":
+        """Collect what a report may quote for some findings."""
+        texts, path = findings.texts, findings.path
+        if texts is NO_TEXTS:
+            return cls({}, {})
+        lines = {(name, each.location.line) for each in findings.diagnostics for name in [each.location.file or path]}
+        offsets = {
+            (each.location.file or path, offset)
+            for each in findings.diagnostics
+            for edit in (each.fix.edits if each.fix else ())
+            for offset in edit.span
+        }
+        return cls(dict(_known(lines, texts.line)), dict(_known(offsets, texts.place)))
+
+    def line(self, file: str, number: int, /) -> str | None:
+        """Return a line, from 1, without its end; None if unknown."""
+        return self.lines.get((file, number))
+
+    def place(self, file: str, offset: int, /) -> tuple[int, int] | None:
+        """Return the line and column of an offset; None if unknown."""
+        return self.places.get((file, offset))
+
+    def to_json(self) -> list[Any]:
+        """Return the texts as lists."""
+        lines = [[*key, line] for key, line in sorted(self.lines.items())]
+        return [lines, [[*key, *place] for key, place in sorted(self.places.items())]]
+
+    @classmethod
+    def from_json(cls, rows: list[Any]) -> FileTexts:
+        """Return the texts that `to_json` has written."""
+        lines, places = rows
+        return cls(
+            {(file, number): line for file, number, line in lines},
+            {(file, offset): (line, column) for file, offset, line, column in places},
+        )
+
+
+def _known(keys: Iterable[tuple[str, int]], ask: Any) -> Iterator[tuple[tuple[str, int], Any]]:
+    """Yield the keys about which something is known, with that."""
+    for key in sorted(keys):
+        found = ask(*key)
+        if found is not None:
+            yield key, found
+
+
+def row_of_diagnostic(one: Diagnostic) -> list[Any]:
+    """Return a finding as a row of JSON."""
+    fix = one.fix and [one.fix.title, [[*edit.span, edit.new] for edit in one.fix.edits], one.fix.safety]
+    related = [list(each) for each in one.related]
+    return [
+        one.rule.name,
+        one.message,
+        list(one.location),
+        one.severity,
+        one.found,
+        one.expected,
+        one.help,
+        related,
+        fix,
+    ]
+
+
+def diagnostic_of_row(row: list[Any]) -> Diagnostic:
+    """Make a finding of a row of JSON.
+
+    Raises:
+        ValueError, TypeError, LookupError: it is none.
+    """
+    name, message, location, severity, found, expected, advice, related, fix = row
+    registered = find_rule(name)
+    if registered is None:
+        raise KeyError(name)
+    made = fix and Fix(fix[0], tuple(TextEdit(Span(a, b), new) for a, b, new in fix[1]), Safety(fix[2]))
+    places = tuple(Location(*each) for each in related)
+    rule, where, level = registered.rule, Location(*location), Severity(severity)
+    return Diagnostic(rule, message, where, level, found, expected, advice, places, made)
