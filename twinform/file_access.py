@@ -4,10 +4,11 @@ import errno
 import os
 import stat
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 from typing import BinaryIO, Self
+
+from twinform.dataclass import dataclass
 
 _HIDDEN = f"{os.sep}."
 

@@ -1,7 +1,6 @@
 """`twinform convert`."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,6 +23,7 @@ from twinform.cli.run_conversion import Options, print_plan, run_into, run_job, 
 from twinform.compiler import ConversionRequest
 from twinform.compiler.input.load_options import ReadingOptions
 from twinform.compiler.request_options import RequestOptions
+from twinform.dataclass import dataclass
 
 if TYPE_CHECKING:
     from twinform.profiles import Profile

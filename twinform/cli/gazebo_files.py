@@ -1,7 +1,6 @@
 """Files for Gazebo beside the model: a world around it, and the configuration of ros_gz_bridge."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import get_args
 
@@ -11,6 +10,7 @@ from twinform.cli.flags import group
 from twinform.cli.outputs import Output, Outputs
 from twinform.cli.printing import show
 from twinform.compiler import Conversion
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.reporters import FileFindings
 from twinform.passes.plugins.release_names import ReleaseName

@@ -1,6 +1,6 @@
 """Instrumentation of passes: options that print the IR, changes and times, and the report of a failed pass."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 
 import click
@@ -8,6 +8,7 @@ import click
 from twinform.cli.command import UNUSABLE
 from twinform.cli.flags import group
 from twinform.cli.printing import print_line, print_text
+from twinform.dataclass import dataclass
 from twinform.passes import CombinedInstrumentation, PassError, PassInstrumentation
 from twinform.passes.framework.hooks import Dumps, Statistics, table
 

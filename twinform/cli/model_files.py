@@ -1,9 +1,10 @@
 """Which files are models, by their names and contents, and which are excluded from a search."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
+
+from twinform.dataclass import dataclass
 
 XACRO = ".xacro"
 _MODELS = (".urdf", ".sdf", ".world")

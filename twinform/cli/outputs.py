@@ -2,7 +2,7 @@
 
 from collections.abc import Hashable, Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,6 +12,7 @@ from twinform.cli.command import FINDINGS, Unusable
 from twinform.cli.printing import print_document, print_line
 from twinform.compiler import write_all_atomically
 from twinform.compiler.output.same_files import folded, identities, is_below, is_nothing
+from twinform.dataclass import dataclass
 from twinform.diagnostics import HEAD, SideFile
 from twinform.file_access import Readable, read_regular
 from twinform.storage.writing import is_stream

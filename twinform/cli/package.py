@@ -1,7 +1,6 @@
 """`twinform package`."""
 
 import json
-from dataclasses import dataclass
 from pathlib import Path
 
 import click
@@ -25,6 +24,7 @@ from twinform.compiler.packaging.kinds import build
 from twinform.compiler.packaging.order import Built, Order, PackageDetails, details_around
 from twinform.compiler.packaging.package import OccupiedError, Package, write_package
 from twinform.compiler.request_options import RequestOptions
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Policy
 from twinform.passes import PassError
 from twinform.passes.plugins.release_names import ReleaseName

@@ -4,7 +4,7 @@ import os
 import re
 import warnings
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import AnyStr, Self
 
@@ -12,6 +12,7 @@ from pathspec import GitIgnoreSpec
 from pathspec.patterns.gitignore.spec import GitIgnoreSpecPattern
 
 from twinform.cli.model_files import Exclusion, FileKind, PatternError, is_model
+from twinform.dataclass import dataclass
 from twinform.file_access import REPOSITORY, has_any, read_regular
 
 LONGEST = 4096

@@ -1,7 +1,7 @@
 """Options that a configuration has as well: rules, pipelines and consumers, for the project and for single files."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -17,6 +17,7 @@ from twinform.cli.flags import group
 from twinform.cli.inputs import load_options_of
 from twinform.compiler import LoadOptions
 from twinform.compiler.input.load_options import FileOptions
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Policy
 from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule
 from twinform.diagnostics.rule_registry import rules as known_rules

@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from twinform.cli.command import Unusable
@@ -10,6 +9,7 @@ from twinform.cli.inputs import InputSource
 from twinform.cli.outputs import Outputs, require_as_read
 from twinform.cli.printing import print_document, print_line, print_text
 from twinform.compiler import write_all_atomically
+from twinform.dataclass import dataclass
 from twinform.diagnostics import SideFile
 from twinform.text import SourceText, UndecodableError
 from twinform.text.source_text import line_diff

@@ -1,7 +1,7 @@
 """One conversion of `twinform convert`: to a new file, in place, into an edited file, or split by models."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +17,7 @@ from twinform.cli.outputs import Output, Outputs, beside
 from twinform.cli.printing import plural, print_line, show
 from twinform.cli.project_options import ResolvedOptions
 from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadOptions, read, run_conversion
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import FileFindings, printable
 from twinform.passes import FilesPass, PassError, PassInstrumentation, Pipeline, SideFilePass

@@ -4,7 +4,7 @@ import contextlib
 import threading
 import webbrowser
 from collections.abc import Generator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 import click
@@ -15,6 +15,7 @@ from twinform.cli.inputs import InputSource, file_options, inputs, load_options_
 from twinform.cli.printing import print_line, show
 from twinform.compiler import CompileError, LoadOptions
 from twinform.compiler.input.load_options import FileOptions
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic
 from twinform.diagnostics.reporters import FileFindings
 from twinform.signals import signals_exit_with

@@ -4,7 +4,7 @@ import os
 import stat
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple, Protocol, TypeVar
 
 import click
@@ -13,6 +13,7 @@ from twinform.cli.command import INTERRUPTED, Unusable
 from twinform.cli.inputs import InputSource, format_of_suffix
 from twinform.cli.printing import plural, print_line
 from twinform.compiler.observing import Observation, observed
+from twinform.dataclass import dataclass
 
 # How long to wait for the system to report a change before looking, since not every file system reports changes.
 _MILLISECONDS = 1000

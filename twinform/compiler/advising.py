@@ -5,7 +5,6 @@ it is best kept in, and the profiles of all consumers are asked about both.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import groupby
 from typing import NamedTuple
@@ -18,6 +17,7 @@ from twinform.compiler.inspect_for_consumers import subject_of
 from twinform.compiler.inspection import inspect
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.request_options import Language
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, LedgerEntry, rules
 from twinform.diagnostics.rules import MODEL_NOT_CHOSEN
 from twinform.ir import Document, Format, Joint, walk

@@ -8,11 +8,11 @@ Anything else is *unaccounted*, which is a bug in the converter.
 
 import re
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass
 from typing import NamedTuple, Self
 
 from lxml import etree
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Fate, Ledger, Location
 from twinform.ir.defaults import UNLIMITED
 from twinform.ir.frames import MODEL

@@ -6,12 +6,12 @@ https://fuel.gazebosim.org/1.0/OpenRobotics/models/Sun/3/files/meshes/sun.dae
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Literal, Self
 from urllib.parse import quote, unquote, urlsplit
 
+from twinform.dataclass import dataclass
 from twinform.passes.shared.document_uris import FUEL_SERVERS
 
 SERVER = FUEL_SERVERS[0]

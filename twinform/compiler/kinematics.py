@@ -2,9 +2,9 @@
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Generic, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.ir import Axis, Format, Joint, Mimic, Vector3
 from twinform.ir.defaults import SCREW_THREAD_PITCH, UNLIMITED, direction, multiplier, with_range
 from twinform.ir.motion import FULL_TURN, axes_of, plane_across, slide, spanning_tree, turn, unit

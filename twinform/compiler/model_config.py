@@ -2,11 +2,11 @@
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.input.parsing import UnreadableError, parse, read_bytes
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.file_access import Readable
 from twinform.ir import Document, Format

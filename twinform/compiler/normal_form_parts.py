@@ -1,10 +1,11 @@
 """The elements and values of a normal form, and how repeated `<gazebo>` elements are merged into one."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import NamedTuple
 
 from twinform.compiler.compare.compared_values import Flag, Numbers, PoseValue, Text, Value, gaps, typed_value
 from twinform.compiler.compare.comparison import TOLERANCE
+from twinform.dataclass import dataclass
 from twinform.ir import Pose
 from twinform.ir.transform import Transform
 from twinform.schemas import Fact, XmlElement, format_value, parse_value

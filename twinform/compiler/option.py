@@ -6,8 +6,9 @@ The default of an option is that of the field which it fills.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Annotated, Any, TypeVar, get_args, get_origin
+
+from twinform.dataclass import dataclass
 
 Value = TypeVar("Value")
 

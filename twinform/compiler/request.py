@@ -1,10 +1,11 @@
 """The request of a conversion: target format, version, passes and options."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from twinform.compiler.option import given
 from twinform.compiler.request_options import URDF_VERSIONS, Language, RequestOptions, UrdfVersion, known_sdf_version
+from twinform.dataclass import dataclass
 from twinform.ir import Document, Format
 from twinform.passes import NO_ASSETS, Assets, Pass, Pipeline
 from twinform.passes.carriers.annotations import has_mixed_words, source_version

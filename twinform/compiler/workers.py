@@ -11,7 +11,6 @@ from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future
 from concurrent.futures import wait as wait_for_futures
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
 from functools import partial
 from itertools import islice
 from multiprocessing.connection import wait
@@ -21,6 +20,7 @@ from typing import Any, Generic, ParamSpec, TypeVar
 from pebble import ProcessExpired, ProcessPool
 
 from twinform.child_python import spawn_context
+from twinform.dataclass import dataclass
 
 Arguments = ParamSpec("Arguments")
 Job = TypeVar("Job")

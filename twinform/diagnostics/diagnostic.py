@@ -2,9 +2,11 @@
 
 from bisect import bisect_right
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import IntEnum, StrEnum
 from typing import NamedTuple, Self
+
+from twinform.dataclass import dataclass
 
 
 class Location(NamedTuple):

@@ -2,10 +2,10 @@
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple, cast
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics.diagnostic import NOWHERE, Location, Rule
 
 

@@ -1,10 +1,10 @@
 """The rules that are installed: ours, and those that other packages bring through an entry-point group."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics.catalog import catalog
 from twinform.diagnostics.diagnostic import Rule
 

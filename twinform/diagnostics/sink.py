@@ -1,9 +1,10 @@
 """The sink into which each stage of the compiler writes diagnostics, and the policy that a project has for them."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import NamedTuple
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics.diagnostic import NOWHERE, Diagnostic, LineOrigins, Location, Rule, Severity
 from twinform.diagnostics.ledger import Fate, LedgerEntry
 

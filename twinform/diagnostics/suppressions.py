@@ -6,8 +6,10 @@ Pure: from comments and their lines to suppressions, and from these and findings
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple
+
+from twinform.dataclass import dataclass
 
 _OURS = re.compile(r"\s*twinform\s*(?::|\s(?=allow\b))\s*", re.IGNORECASE)
 _WORDS = re.compile(

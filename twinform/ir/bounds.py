@@ -1,9 +1,9 @@
 """Boxes along the axes of a frame that hold shapes."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import Any
 
+from twinform.dataclass import dataclass
 from twinform.ir.defaults import sizes
 from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, ShapeNode, Sphere
 from twinform.ir.node import Vector3

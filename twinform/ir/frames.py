@@ -1,9 +1,9 @@
 """The frame graph: resolves poses of a model or world through the frames that they are relative to."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Literal
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import NOWHERE, DiagnosticSink, Location, Rule, Source, rules
 from twinform.ir.document import World
 from twinform.ir.joint import Joint

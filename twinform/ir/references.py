@@ -1,10 +1,10 @@
 """Which fields of the IR are references by name, what kind of thing each names, and how to change them all."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache
 from typing import Literal, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.ir.document import Format
 from twinform.ir.joint import Axis, Joint, Mimic
 from twinform.ir.link import Link

@@ -2,9 +2,9 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+from twinform.dataclass import dataclass
 from twinform.ir.defaults import INERTIAL, MASS, MOMENT, filled, sizes
 from twinform.ir.document import Format
 from twinform.ir.geometry import Box, Capsule, Cone, Cylinder, Ellipsoid, ShapeNode, Sphere

@@ -2,9 +2,10 @@
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Self
 
+from twinform.dataclass import dataclass
 from twinform.ir.node import Quaternion, Vector3
 from twinform.ir.pose import Pose
 

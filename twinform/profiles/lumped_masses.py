@@ -2,9 +2,9 @@
 
 import math
 import re
-from dataclasses import dataclass
 from functools import lru_cache
 
+from twinform.dataclass import dataclass
 from twinform.ir import Pose
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import ORIGIN, Solid, combined, placed

@@ -2,13 +2,13 @@
 
 import re
 import tomllib
-from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Severity
 from twinform.diagnostics.did_you_mean import did_you_mean
 from twinform.ir import Format

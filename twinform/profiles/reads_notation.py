@@ -9,9 +9,10 @@ form means that the item has to be there, and ` => ` is followed by the passes t
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+
+from twinform.dataclass import dataclass
 
 _COLUMNS = re.compile(r"\s{2,}")
 _STEP = re.compile(r"(?P<first>\^?)(?P<tag>[\w:.-]+)(?P<every>\*?)(?:\[(?P<other>!?)(?P<types>[^\]]*)\])?")

@@ -2,8 +2,9 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from twinform.dataclass import dataclass
 from twinform.profiles.forms import number_in
 from twinform.profiles.nodes import Fact, FactTable, RawNode
 

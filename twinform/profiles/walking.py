@@ -7,8 +7,9 @@ in `reads_notation.py`).
 
 import re
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
+from twinform.dataclass import dataclass
 from twinform.profiles import tree_facts
 from twinform.profiles.forms import FORMS
 from twinform.profiles.nodes import Paths, RawNode, UnparsedError

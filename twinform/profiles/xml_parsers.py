@@ -7,11 +7,11 @@ declaration only before everything else, and takes every `<?...?>` for one.
 
 import io
 import re
-from dataclasses import dataclass
 from xml.parsers import expat
 
 from lxml import etree
 
+from twinform.dataclass import dataclass
 from twinform.profiles.nodes import RawNode, UnparsedError
 from twinform.schemas import XmlElement
 

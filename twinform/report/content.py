@@ -1,7 +1,7 @@
 """The content of a report on one file or two, from the modules of the compiler that know each part."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 
 from twinform.compiler.compare import USUAL, Comparison, ComparisonOptions, compare_files
@@ -18,6 +18,7 @@ from twinform.compiler.request import ConversionRequest
 from twinform.compiler.resolve_uris import SearchPath
 from twinform.compiler.scene import Scene, build_scene
 from twinform.compiler.statistics import FileStatistics, MeshCost, ModelStatistics, measure
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Ledger, Severity
 from twinform.diagnostics.reporters import FileFindings
 from twinform.ir import Document, Format

@@ -1,10 +1,11 @@
 """Documents and conversions in notebooks: a summary by default, and the 3D view on demand."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
 from twinform.compiler.graph import build_graph
 from twinform.compiler.graph.svg import svg
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Fate, Severity
 from twinform.diagnostics.reporters.file_findings import grouped
 from twinform.ir import Document

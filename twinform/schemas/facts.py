@@ -31,10 +31,11 @@ Places are:
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cache
 from itertools import pairwise
 
+from twinform.dataclass import dataclass
 from twinform.package_files import package_files
 
 Version = tuple[int, int]

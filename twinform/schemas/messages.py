@@ -1,9 +1,10 @@
 """Diagnostics of the reader: one function for each, apart from the hot path."""
 
 from collections.abc import Collection
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TypedDict, Unpack
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, nearest_name, rules
 from twinform.schemas.facts import Fact, Version, print_version
 from twinform.schemas.hints import dialect_of, hint_for_attribute, hint_for_element, hint_for_word, words_of

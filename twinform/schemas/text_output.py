@@ -6,12 +6,13 @@ a typed field; `TextOutput.unusual` adds what has none, and notes where a node s
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import count
 from typing import Any
 
 from lxml import etree
 
+from twinform.dataclass import dataclass
 from twinform.schemas.facts import Version
 from twinform.schemas.value_types import format_numbers, format_value, parse_bool
 from twinform.schemas.written_rows import in_order

@@ -5,8 +5,9 @@ Every parser raises `ValueError` for text that the type's XSD pattern refuses, a
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import isfinite
+
+from twinform.dataclass import dataclass
 
 Parser = Callable[[str], object]
 

@@ -5,10 +5,10 @@ Numbers that no double can hold fit the patterns; the parsers refuse them.
 """
 
 import re
-from dataclasses import dataclass
 
 from lxml import etree
 
+from twinform.dataclass import dataclass
 from twinform.schemas.facts import Fact
 from twinform.schemas.xml import XmlElement
 

@@ -5,7 +5,7 @@ process and its time: xacro is expanded in the same confined process as by the c
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -16,6 +16,7 @@ from twinform.compiler.input.loading import read
 from twinform.compiler.input.size_limits import Limits
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.inspection import inspect
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Policy, rules
 from twinform.text.formatting import FormatOptions
 

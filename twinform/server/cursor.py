@@ -1,8 +1,8 @@
 """The part of a document at the cursor: a tag, the name or the value of an attribute, or a text."""
 
-from dataclasses import dataclass
 from enum import Enum, auto
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
 from twinform.server.documents import TextDocument
 from twinform.server.tolerant_tree import TolerantNode

@@ -2,10 +2,11 @@
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cache
 from typing import Literal, NamedTuple, Self, cast, get_args
 
+from twinform.dataclass import dataclass
 from twinform.ir import Document, Model, Node
 from twinform.ir.record import fields_of
 from twinform.package_files import package_files

@@ -2,9 +2,9 @@
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import NamedTuple
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
 from twinform.passes.structure.rename_parts import LOOKUP_ORDER
 from twinform.server.model_text import ModelText

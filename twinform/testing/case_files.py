@@ -14,12 +14,13 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterable
 from contextlib import chdir
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from pathlib import Path
 from typing import Literal, TypedDict
 
 from twinform.compiler import CompileError, Conversion, check, convert
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, LedgerEntry, Severity
 from twinform.text.tokens import IN_COMMENT
 

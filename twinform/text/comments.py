@@ -5,9 +5,9 @@ The text need not be well-formed: only tags, comments and sections are looked fo
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import NamedTuple
 
+from twinform.dataclass import dataclass
 from twinform.text.positions import indentation
 from twinform.text.tokens import COMMENT, IN_COMMENT, INSTRUCTION, SECTION
 

@@ -15,10 +15,10 @@ tags. The lines of a comment, and of a text of nothing but numbers, move with th
 
 import re
 from array import array
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
+from twinform.dataclass import dataclass
 from twinform.text.positions import Lines
 from twinform.text.source_text import SourceText
 from twinform.text.start_tags import TAB, StartTag, all_numbers, name_of, shortest, usage

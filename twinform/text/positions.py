@@ -7,11 +7,12 @@ for them, by expat, which knows where each tag begins.
 import re
 from bisect import bisect_right
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import NamedTuple
 from xml.parsers import expat
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
 from twinform.text.tokens import COMMENT, INSTRUCTION, SECTION, UnplacedError
 

@@ -2,8 +2,8 @@
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
 from twinform.schemas import XmlElement
 from twinform.text.alignment import BLANKS, elements, texts

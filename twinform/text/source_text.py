@@ -3,9 +3,9 @@
 import codecs
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Self
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import TextEdit
 from twinform.diagnostics.reporters import printable
 

@@ -6,11 +6,12 @@ the lines are aligned below the first attribute, or below another one where the 
 
 import re
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from math import isfinite
 from typing import NamedTuple, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.schemas import Fact, table
 
 _NAME = re.compile(r"<([^\s/>]++)")

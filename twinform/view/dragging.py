@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from twinform.compiler.kinematics import Degree, Positions
 from twinform.compiler.scene import SceneJoint
+from twinform.dataclass import dataclass
 from twinform.ir import Vector3
 from twinform.ir.transform import Transform, across, cross, dot, minus
 from twinform.view.figure import Figure

@@ -3,12 +3,13 @@
 import importlib
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 from twinform.compiler.graph.graph import shortened
 from twinform.compiler.kinematics import Kinematics, Positions
 from twinform.compiler.scene import Scene, SceneJoint, SceneShape
+from twinform.dataclass import dataclass
 from twinform.ir import Plane, Vector3
 from twinform.ir.transform import Transform
 from twinform.view.triangles import MeshDrawings, Triangles, triangles_of

@@ -4,12 +4,13 @@ import json
 import math
 import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, cast
 
 from twinform.compiler.graph.graph import shortened
 from twinform.compiler.kinematics import Degree, Positions
 from twinform.compiler.scene import SceneJoint
+from twinform.dataclass import dataclass
 from twinform.view import words
 from twinform.view.figure import Figure
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass, field
+from dataclasses import field
 from threading import RLock
 from typing import Any
 
@@ -10,6 +10,7 @@ from twinform.compiler.compare.comparison import Comparison
 from twinform.compiler.graph.graph import shortened
 from twinform.compiler.kinematics import Degree, Positions
 from twinform.compiler.scene import SceneJoint
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic
 from twinform.view import words
 from twinform.view.dragging import MODIFIER, Dragging

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
@@ -10,6 +10,7 @@ import click
 
 from twinform.cli.command import combine_options
 from twinform.cli.config.config_file import ConfigError, Table, find, section
+from twinform.dataclass import dataclass
 
 if TYPE_CHECKING:
     from twinform.cli.config.settings import ProjectSettings

@@ -8,12 +8,12 @@ from it only if it is the caller's own. `HELD` says it setting by setting.
 import os
 import stat
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
 from twinform.cli.config.config_file import ConfigError
 from twinform.compiler.output.same_files import is_below
+from twinform.dataclass import dataclass
 from twinform.passes import FilesPass, Pass, Pipeline
 from twinform.passes.framework.built_in import BUILT_IN
 

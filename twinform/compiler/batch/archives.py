@@ -11,11 +11,12 @@ import zipfile
 import zlib
 from collections.abc import Generator, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path, PurePosixPath
 
 from twinform.compiler.batch.entries import FolderError
 from twinform.compiler.batch.tar_reader import BrokenArchiveError, ByteStream, LargeArchiveError, members, opened
+from twinform.dataclass import dataclass
 from twinform.file_access import Readable
 from twinform.storage.staging import staging_folder, temporary_folder
 

@@ -5,11 +5,12 @@ import hashlib
 import json
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path, PurePosixPath
 from posixpath import normpath
 from typing import Any, cast
 
+from twinform.dataclass import dataclass
 from twinform.file_access import Readable
 
 PATTERNS = ("*.urdf", "*.sdf", "*.world", "*.urdf.xacro", "*.sdf.xacro", "*.world.xacro")

@@ -7,7 +7,7 @@ import json
 from collections.abc import Generator, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import closing, contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 
 from twinform.compiler.batch.entries import FolderError, ModelEntry, Shard
@@ -32,6 +32,7 @@ from twinform.compiler.described_options import describe_options
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.observing import digest
 from twinform.compiler.workers import Failure, Runner, process_runner, run_on
+from twinform.dataclass import dataclass
 from twinform.passes import SideFilePass
 from twinform.storage.staging import temporary_folder
 

@@ -10,9 +10,10 @@ import lzma
 import tarfile
 from collections.abc import Generator, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Protocol
+
+from twinform.dataclass import dataclass
 
 # 3 MB that unpack to a header of 3 GiB take 3.2 GB of memory in `tarfile`, which also follows chains of headers by
 # recursion and ends at a broken header as if the archive ended there. Of the 52 hostile archives of the tests, the

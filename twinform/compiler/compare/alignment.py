@@ -8,12 +8,12 @@ explanation that leaves fewer differences is taken.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from twinform.compiler.compare.compared_robot import ComparedBody, ComparedRobot, JointView
 from twinform.compiler.compare.compared_values import Point, PoseValue, Tensor
 from twinform.compiler.compare.comparison import Base, Terms
 from twinform.compiler.compare.matching import unmatched
+from twinform.dataclass import dataclass
 from twinform.ir.frames import WORLD
 from twinform.ir.motion import spanning_tree
 

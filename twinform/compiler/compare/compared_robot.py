@@ -1,10 +1,11 @@
 """A robot as it is compared: bodies, joints and frames, all in the model's frame with every joint at zero."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from twinform.compiler.compare.compared_values import Value
 from twinform.compiler.kinematics import PlacedJoint
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Source
 from twinform.ir import Format, Vector3
 from twinform.ir.solids import NOTHING, Solid

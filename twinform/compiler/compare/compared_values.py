@@ -2,9 +2,9 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Self
 
+from twinform.dataclass import dataclass
 from twinform.ir import Vector3
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import ELEMENTS, turned

@@ -1,11 +1,12 @@
 """The result of a comparison of two robots."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import StrEnum
 
 from twinform.compiler.compare.compared_robot import Leaf
 from twinform.compiler.compare.compared_values import Delta, Value, gaps, show
+from twinform.dataclass import dataclass
 from twinform.diagnostics import NOWHERE, LineOrigins, Location, Source
 from twinform.ir import Format
 from twinform.ir.transform import Transform

@@ -10,10 +10,11 @@ where they are.
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 
 from twinform.compiler.compare.compared_robot import ComparedBody, ComparedRobot, JointView, Mass, NamedFrame
+from twinform.dataclass import dataclass
 from twinform.ir.groups import tops
 from twinform.ir.motion import spanning_tree
 from twinform.ir.solids import Solid, combined

@@ -5,12 +5,13 @@ Values in carriers count as if they were written in the file, because a conversi
 
 from collections.abc import Callable, Iterator
 from copy import deepcopy
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from lxml import etree
 
 from twinform.compiler.compare.compared_robot import Leaf
 from twinform.compiler.compare.compared_values import Flag, Numbers, PoseValue, Text, Value, typed_value
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Source
 from twinform.ir import Pose
 from twinform.ir.transform import Transform

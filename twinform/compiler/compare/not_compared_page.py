@@ -6,8 +6,8 @@ Run `python -m twinform.compiler.compare.not_compared_page FILE [--check]` to wr
 """
 
 import sys
-from dataclasses import dataclass
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics.generated_files import main
 from twinform.passes.carriers.carriers import PREFIX
 

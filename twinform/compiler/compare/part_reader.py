@@ -1,7 +1,7 @@
 """Reads nodes of the IR as parts: every value in them with its type, its line in the file and its default."""
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 
 from lxml import etree
@@ -19,6 +19,7 @@ from twinform.compiler.compare.leaves import (
     urdf_pieces,
     urdf_row,
 )
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Source
 from twinform.ir import Document, Element, Format, Frame, Joint, Link, Model, Node, Sensor, World, node_fields
 from twinform.ir.sensor import RENAMED_ELEMENTS

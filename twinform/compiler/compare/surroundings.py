@@ -1,13 +1,13 @@
 """Compares the worlds of two files without their models: values and parts of worlds, and parts beside the worlds."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import partial
 
 from twinform.compiler.compare.compared_robot import Leaves, LinkPart
 from twinform.compiler.compare.comparison import Base, ComparedSubject, ComparisonFindings, Difference, Terms
 from twinform.compiler.compare.matching import compare_leaves, compare_parts
 from twinform.compiler.compare.part_reader import PartReader
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Source
 from twinform.ir import Document, Frame, Joint, Pose, World
 from twinform.ir.frames import WORLD, FrameGraph

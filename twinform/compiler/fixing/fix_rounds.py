@@ -4,11 +4,12 @@ import re
 from bisect import bisect_left, insort
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from twinform.compiler.fixing.offering import with_fixes
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.inspection import inspect
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit
 from twinform.diagnostics.sink import MOST
 from twinform.text import SourceText, apply

@@ -3,7 +3,7 @@
 import re
 from collections import defaultdict
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import Any
 
@@ -11,6 +11,7 @@ from twinform.compiler.input.finding_lines import PartFinder
 from twinform.compiler.input.front_ends import ROOTS, declared_version
 from twinform.compiler.input.loading import LoadResult, read_tree_again
 from twinform.compiler.input.parsing import UnreadableError
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Fix, Location, Safety, TextEdit
 from twinform.schemas import Fact, Version, XmlElement, rows_by_name, table
 from twinform.text import Editor, Lines, SourceText, TextSurroundings, UndecodableError, UnplacedError, masked, spans

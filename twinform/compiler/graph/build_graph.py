@@ -2,10 +2,11 @@
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from twinform.compiler.graph.graph import Attachment, Cluster, Follower, Graph, GraphJoint, GraphNode, NodeKind
 from twinform.compiler.kinematics import range_of
+from twinform.dataclass import dataclass
 from twinform.diagnostics import NOWHERE, DiagnosticSink, Location
 from twinform.ir import Document, Format, Frame, Joint, Mimic, Model, World
 from twinform.ir.defaults import multiplier

@@ -2,9 +2,9 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Literal
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import NOWHERE, Location
 from twinform.diagnostics.reporters import printable
 

@@ -6,11 +6,12 @@ across. Everything is linear in the nodes, and nothing recurses.
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import NamedTuple
 from unicodedata import east_asian_width
 
 from twinform.compiler.graph.graph import Graph, GraphJoint, GraphNode, shortened
+from twinform.dataclass import dataclass
 from twinform.ir.motion import spanning_tree
 
 BOX = 30

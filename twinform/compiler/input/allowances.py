@@ -4,10 +4,11 @@ An allowed finding is not reported, and an allowed error stops nothing, as long 
 """
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 
 from twinform.compiler.input.size_limits import Limits
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, LineOrigins, Location, Rule
 from twinform.diagnostics.rules import MALFORMED_SUPPRESSION, UNUSED_SUPPRESSION
 from twinform.diagnostics.suppressions import NO_SUPPRESSIONS, Suppression, Suppressions

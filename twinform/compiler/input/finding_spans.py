@@ -7,7 +7,7 @@ piece is meant.
 import re
 from bisect import bisect_left
 from collections import defaultdict
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 
 from twinform.compiler.input.finding_lines import PartFinder
@@ -17,6 +17,7 @@ from twinform.compiler.input.loading import garbage_collection_paused, read_tree
 from twinform.compiler.input.parsing import UnreadableError, parse
 from twinform.compiler.input.size_limits import LIFTED_LIMITS
 from twinform.compiler.input.source_files import SourceFiles
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Span, rules
 from twinform.schemas import LAST_LINE, XmlElement
 from twinform.text import ElementSpan, Lines, SourceText

@@ -8,7 +8,6 @@ import json
 import re
 import sys
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, cast
 
 from twinform.compiler.input.documents import first_difference, shown, unwritable_part, without_empty
@@ -16,6 +15,7 @@ from twinform.compiler.input.parsing import refuse_excess
 from twinform.compiler.input.size_limits import excess_of_names
 from twinform.compiler.output.emitting import document_text
 from twinform.compiler.output.json import IDENTIFIER, Data, JsonPath, is_array, is_object
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, LineOrigins, Location, Source, rules
 from twinform.diagnostics.did_you_mean import did_you_mean
 from twinform.ir import Document, Node, node_values

@@ -5,11 +5,11 @@ Most are checked on the bytes, before there is a tree, because the tree is what 
 
 import re
 import sys
-from dataclasses import dataclass
 from typing import NamedTuple, cast
 
 from lxml import etree
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Location
 from twinform.schemas import XmlElement, declared_namespaces, path_of
 

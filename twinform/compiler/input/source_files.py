@@ -1,11 +1,12 @@
 """The texts of the files that findings are about: the file that was read, and those that it includes or comes from."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 
 from twinform.compiler.input.load_options import LoadResult
 from twinform.compiler.input.size_limits import LARGEST
+from twinform.dataclass import dataclass
 from twinform.diagnostics.rules import XACRO_REFUSED
 from twinform.file_access import Readable
 from twinform.schemas import XmlElement

@@ -7,11 +7,11 @@ lies within its reach.
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 from twinform.compiler.input.size_limits import LARGEST
 from twinform.compiler.observing import note_look
+from twinform.dataclass import dataclass
 from twinform.file_access import OutsideError, Readable
 
 _MAGIC = re.compile(r"[*?[]")

@@ -1,9 +1,9 @@
 """The comments of a file that was read, and the tree of elements that they stood in."""
 
 import re
-from dataclasses import dataclass
 from typing import NamedTuple
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Source
 from twinform.schemas import XmlElement, path_of
 

@@ -1,11 +1,11 @@
 """The `<ros2_control>` systems of a model, and Gazebo's plugin for them, which reads the controllers of the package."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import ClassVar
 
 from pydantic import Field
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Element, Format, GazeboExtension, Model, Plugin, rewrite
 from twinform.passes.framework.pass_base import Pass

@@ -9,7 +9,7 @@ Models that the world already includes, by `model://` or from Fuel, stay where t
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path, PurePosixPath
 
 from lxml import etree
@@ -24,6 +24,7 @@ from twinform.compiler.packaging.thumbnail import thumbnail
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.compiler.ros_packages import MODEL_CONFIG
 from twinform.compiler.split_world import Placement, split
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger
 from twinform.diagnostics.rules import UNPACKAGED_INCLUDE
 from twinform.ir import Document, Model

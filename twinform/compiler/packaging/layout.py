@@ -7,10 +7,12 @@ are put into no package.
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import count
 from pathlib import PurePath
 from typing import Literal
+
+from twinform.dataclass import dataclass
 
 FileKind = Literal["mesh", "image", "sound", "script", "data"]
 

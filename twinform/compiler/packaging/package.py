@@ -9,10 +9,10 @@ import os
 import shutil
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 from types import MappingProxyType
 
+from twinform.dataclass import dataclass
 from twinform.storage.staging import remove_leftovers
 from twinform.storage.transaction import Transaction, named_after, transaction
 from twinform.storage.writing import stage_texts, sync_files

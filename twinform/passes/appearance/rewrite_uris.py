@@ -3,7 +3,6 @@
 import os
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from posixpath import normpath
 from typing import ClassVar, Literal, Self
@@ -11,6 +10,7 @@ from urllib.parse import unquote
 
 from pydantic import Field, field_validator
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import UNMAPPED_URI
 from twinform.ir import Document

@@ -9,9 +9,10 @@ Such a carrier names the versions that have its part:
     <tf:version since="1.9" instead="pose"><pose/></tf:version>    what stands for a sibling in an untyped element
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Location, Rule
 from twinform.ir import Element, Node, Opaque
 from twinform.passes.carriers.carriers import NAMESPACE, Attributes, Keeper, is_carrier, pack, unpack

@@ -1,9 +1,10 @@
 """Migration of Gazebo Classic sensors, and of the plugins in them."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Element, Plugin, Sensor
 from twinform.ir.sensor import RENAMED_ELEMENTS

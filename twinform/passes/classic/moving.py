@@ -1,9 +1,10 @@
 """Moves parameters of Gazebo Classic plugins to the elements that gz-sim reads, at paths such as `camera/clip/near`."""
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import isfinite, pi, tan
 
+from twinform.dataclass import dataclass
 from twinform.ir import Element
 from twinform.passes.classic.tables import Move, Moves
 from twinform.schemas import format_value

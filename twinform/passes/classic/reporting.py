@@ -1,8 +1,8 @@
 """Reports on migrated plugins: findings, ledger entries, and what the author has to check."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Element, Plugin
 from twinform.passes.classic.moving import DroppedParameter, truth_of

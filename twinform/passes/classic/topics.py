@@ -7,8 +7,9 @@ A pattern has pieces separated by slashes. A piece is a name after `=`, or in br
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 
+from twinform.dataclass import dataclass
 from twinform.ir import Element, Plugin
 
 _NAMESPACES = ("robotNamespace", "robot_namespace")

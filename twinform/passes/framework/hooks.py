@@ -5,10 +5,10 @@
 
 import json
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from operator import attrgetter
 from time import perf_counter
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.ir.changes import ChangeKind, NodeChange, Sizes, changes, count_changes

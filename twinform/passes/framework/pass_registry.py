@@ -5,11 +5,11 @@ search of every installed package.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Protocol
 
+from twinform.dataclass import dataclass
 from twinform.passes.framework.built_in import BUILT_IN
 from twinform.passes.framework.pass_base import Pass
 

@@ -1,8 +1,8 @@
 """Pipelines, which run passes in sequence, and the interface of hooks around each pass."""
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.ir import Document
 from twinform.passes.framework.assets import Assets

@@ -20,7 +20,8 @@ import json
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+
+from twinform.dataclass import dataclass
 
 Scalar = str | float | bool | None
 Value = Scalar | list[Scalar]

@@ -5,8 +5,8 @@ A frame inside of a model may not exist in another format; the model itself and 
 
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Frame, Joint, Pose, World, rewrite
 from twinform.ir.frames import WORLD, FrameError, FrameGraph

@@ -2,10 +2,11 @@
 
 import re
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from posixpath import normpath
 from typing import TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Include, Model, World, replace_fields
 from twinform.ir.element import joined

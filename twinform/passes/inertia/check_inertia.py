@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import ClassVar, Self
 
 from pydantic import Field, model_validator
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.diagnostics.rules import MASS_RATIO, MISSING_INERTIAL, NON_POSITIVE_MASS, UNREADABLE_MESH
 from twinform.ir import Document, Format, Inertial, Link

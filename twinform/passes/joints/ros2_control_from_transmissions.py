@@ -1,11 +1,12 @@
 """Convert transmissions of ROS 1 to `<ros2_control>`."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import ClassVar
 
 from pydantic import Field
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Document, Element, Format, Joint, Model, Opaque, rewrite
 from twinform.passes.framework.pass_base import Pass
@@ -95,7 +96,7 @@ class Ros2ControlFromTransmissions(Pass):
         )
 
 
-@dataclass
+@dataclass()
 class _ModelRun:
     """The conversion of one model."""
 

@@ -5,8 +5,9 @@ Names of interfaces and types are from ros_control's `hardware_interface` and `t
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from twinform.dataclass import dataclass
 from twinform.ir import Element
 
 _REDUCTION = "mechanicalReduction"

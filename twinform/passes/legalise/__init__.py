@@ -1,10 +1,10 @@
 """Legalisation: passes that rewrite what the target format cannot express into what it can."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cache, lru_cache
 from typing import Literal
 
+from twinform.dataclass import dataclass
 from twinform.ir import Format
 from twinform.passes.framework.pass_base import Pass
 from twinform.schemas import versions_of

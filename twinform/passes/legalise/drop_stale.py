@@ -1,8 +1,9 @@
 """Dropping stale carriers and annotations of the other format."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import ClassVar, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Document, Format, Model, Node, Opaque, census_of, map_children

@@ -4,10 +4,11 @@ import atexit
 import os
 import subprocess
 import threading
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import BinaryIO, cast
 
 from twinform.child_python import python_command
+from twinform.dataclass import dataclass
 from twinform.passes.mesh_jobs.job import MEMORY, BadMessageError, MeshJob, MeshResult
 
 # Seconds of the wall clock, on a busy machine, after which a job is given up; its limit of

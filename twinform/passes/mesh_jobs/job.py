@@ -7,11 +7,12 @@ import hashlib
 import json
 import mmap
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import BinaryIO, Literal, TypeAlias, cast
 
 from twinform.confinement.resources import Kind, limits, set_limit
+from twinform.dataclass import dataclass
 
 Number: TypeAlias = float | int | str | bool | None
 Options: TypeAlias = Mapping[str, Number | Sequence[Number]]

@@ -4,12 +4,13 @@ import io
 import json
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any, NamedTuple, cast
 from urllib.parse import unquote
 
 from lxml import etree
 
+from twinform.dataclass import dataclass
 from twinform.passes.mesh_jobs.libraries import trimesh
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError
 from twinform.schemas import XmlElement

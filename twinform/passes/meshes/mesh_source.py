@@ -5,11 +5,12 @@ are taken, where the document may read them, and only up to a limit.
 """
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path, PurePosixPath
 from typing import NamedTuple
 from urllib.parse import unquote
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import HEAD, DiagnosticSink, rules
 from twinform.file_access import Readable
 from twinform.passes.framework.assets import AssetError, Assets

@@ -23,9 +23,10 @@ options are the same. Values with blanks stand in double quotes, and `#` begins 
 
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from typing import Literal, NamedTuple, cast, get_args
+
+from twinform.dataclass import dataclass
 
 Count = Literal["1", "?", "*", "+"]
 """How often a parameter stands: once, at most once, any number of times, at least once."""

@@ -2,7 +2,6 @@
 
 import tomllib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 from typing import Annotated, Any, Literal, get_args
@@ -10,6 +9,7 @@ from typing import Annotated, Any, Literal, get_args
 from lxml import etree
 from pydantic import Field
 
+from twinform.dataclass import dataclass
 from twinform.ir import Element
 from twinform.passes.carriers.carriers import from_xml
 from twinform.passes.plugins.catalog import sensor, sensors

@@ -5,11 +5,12 @@ GUI, which are untyped elements. In URDF they are elements in `<gazebo>`. A pass
 """
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, TypeVar
 
 from lxml import etree
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import (
     Document,

@@ -2,9 +2,9 @@
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Literal
 
+from twinform.dataclass import dataclass
 from twinform.ir import Document, Element, Format, Model, Plugin, Sensor
 from twinform.ir.node import Node
 from twinform.passes.plugins.catalog import modern_class, systems_of_file

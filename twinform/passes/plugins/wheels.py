@@ -5,9 +5,9 @@ Everything is measured with all joints at zero, in m, in the frame of the model.
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from operator import itemgetter
 
+from twinform.dataclass import dataclass
 from twinform.ir import Capsule, Cylinder, Format, Joint, Model, Shape, Sphere, Vector3
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, FrameError, FrameGraph

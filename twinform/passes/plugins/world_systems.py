@@ -1,8 +1,8 @@
 """World systems: those that a world has, and those that plugins and sensors need."""
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Element, Plugin, Sensor, World
 from twinform.passes.plugins.catalog import (

@@ -1,9 +1,9 @@
 """Unique names for links, joints and frames, which share one scope since SDF 1.7."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import ClassVar, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Frame, Joint, Link, Model, ReferenceKind, World, map_references, rewrite
 from twinform.passes.carriers.sdf_versions import VersionKeeper

@@ -1,9 +1,9 @@
 """Removing elements and attributes that the SDF version does not define."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, ClassVar, cast
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import NOWHERE, Location, Rule, rules
 from twinform.ir import (
     Collision,

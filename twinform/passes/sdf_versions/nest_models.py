@@ -1,9 +1,10 @@
 """Nested models from names such as `arm::hand`, since SDF 1.8."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import partial
 from typing import ClassVar, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import (
     IN_MODELS,

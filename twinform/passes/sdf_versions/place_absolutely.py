@@ -1,8 +1,8 @@
 """Poses in the default frame, as before SDF 1.7, where frames have no names."""
 
-from dataclasses import dataclass
 from typing import Any, ClassVar, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import NOWHERE, rules
 from twinform.ir import (
     Collision,

@@ -1,8 +1,8 @@
 """Elements of world states, renamed in SDF 1.12."""
 
-from dataclasses import dataclass
 from typing import ClassVar
 
+from twinform.dataclass import dataclass
 from twinform.ir import Document, Element, World
 from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign, map_elements_named

@@ -1,9 +1,10 @@
 """Which versions of SDF have an element or attribute, by name, by IR field and as bits of the census."""
 
 from collections.abc import Container, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cache
 
+from twinform.dataclass import dataclass
 from twinform.ir import PLAIN, Document, Node, Pose, bits_of
 from twinform.ir.record import fields_of
 from twinform.ir.rewrite import RARE, union_of

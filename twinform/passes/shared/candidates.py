@@ -1,8 +1,8 @@
 """The models of a file, of which one becomes the robot of a URDF."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
+from twinform.dataclass import dataclass
 from twinform.ir import Document, Include, Model, World
 from twinform.ir.scopes import nested_includes
 

@@ -1,9 +1,9 @@
 """Flattening of nested models into the outermost one, and what a nested model holds of its links: settings, static."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import IN_MODELS, Frame, Joint, Link, Model, Pose, ReferenceKind

@@ -1,10 +1,11 @@
 """Mesh files as solids, in the frame of the shape. They are read and measured in the confined process for meshes."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import NamedTuple, cast
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Rule, rules
 from twinform.ir import Element, Mesh, Vector3
 from twinform.ir.principal_moments import times_each

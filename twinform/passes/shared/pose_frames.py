@@ -1,10 +1,10 @@
 """Moving poses into another frame: those of a link or joint, and those in untyped elements such as projectors."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cache, partial
 from typing import Protocol, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import (
     OPAQUE,

@@ -1,11 +1,12 @@
 """Drop visuals, collisions, sensors, plugins and lights from a model, and report references to them that are left."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import ClassVar, Self, TypeVar
 
 from pydantic import Field, model_validator
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import DROPPED_REFERENCE, NOTHING_MATCHED
 from twinform.ir import (

@@ -2,8 +2,8 @@
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import rules
 from twinform.ir import Joint, Link, Model
 from twinform.ir.frames import WORLD, FrameError, FrameGraph

@@ -2,10 +2,10 @@
 
 from abc import abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from pydantic import Field
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Model, World, replace_fields
 from twinform.ir.frames import FrameError

@@ -5,9 +5,9 @@ are names of links or joints, the word contains `joint`, `link`, `body` or `fram
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import NamedTuple
 
+from twinform.dataclass import dataclass
 from twinform.ir import Element, Model, Node, Plugin, ReferenceKind, walk
 from twinform.ir.references import REFERENCES
 

@@ -8,12 +8,12 @@ has none in continuous time.
 import importlib
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from twinform.dataclass import dataclass
 from twinform.testing.oracles import drake
 from twinform.testing.oracles.engines import Alike, EngineUnreadableError, Verdict
 from twinform.testing.oracles.robot import Matrix, View, spread

@@ -1,12 +1,12 @@
 """The physics engines that can be asked, what each of them reads, and the verdict that they give."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from enum import StrEnum
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 
+from twinform.dataclass import dataclass
 from twinform.testing.oracles import libsdformat
 
 

@@ -4,13 +4,15 @@ import math
 import zlib
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
 from lxml import etree
+
+from twinform.dataclass import dataclass
 
 Part = TypeVar("Part")
 Matrix = npt.NDArray[np.float64]

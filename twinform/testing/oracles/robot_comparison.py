@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 
+from twinform.dataclass import dataclass
 from twinform.passes.carriers.token_mass import CHAIN_MASS, TOKEN_MASS
 from twinform.testing.oracles.engines import Alike, EngineUnreadableError, Verdict, required
 from twinform.testing.oracles.robot import EngineRobot, Matrix, Sample, View

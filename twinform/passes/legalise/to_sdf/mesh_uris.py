@@ -1,8 +1,8 @@
 """URIs of meshes and textures for Gazebo: `package://` to `model://`."""
 
-from dataclasses import dataclass
 from typing import ClassVar, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Collision, Format, Link, Mesh, Model, Visual, replace_fields
 from twinform.passes.carriers.annotations import came_from, find_annotation, with_annotation, without_annotation

@@ -1,9 +1,10 @@
 """Reverse conversion of poses: restoring how the SDF source wrote them."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import ClassVar, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Axis, Element, Format, Frame, Inertial, Joint, Link, Model, Node, Pose, replace_fields, rewrite
 from twinform.ir.defaults import direction

@@ -1,10 +1,11 @@
 """Building one kinematic tree: choosing a root, cutting loops, connecting several roots."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import partial
 from typing import ClassVar, NamedTuple
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Fate, rules
 from twinform.ir import GazeboExtension, Joint, Link, Model, Pose, count_parts, rewrite
 from twinform.ir.frames import MODEL, WORLD, FrameGraph

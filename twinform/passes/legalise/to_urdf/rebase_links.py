@@ -1,9 +1,9 @@
 """Moving each link frame to the frame of its joint, as URDF requires."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import ClassVar, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import NOWHERE, Fate, Location, rules
 from twinform.ir import (
     PLAIN,

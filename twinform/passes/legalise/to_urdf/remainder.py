@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cache
 from types import MappingProxyType
 from typing import NamedTuple, TypeVar, Union
 
+from twinform.dataclass import dataclass
 from twinform.ir import Element, Node, Opaque
 from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_values, fields_of

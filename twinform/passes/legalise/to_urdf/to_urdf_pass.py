@@ -2,9 +2,9 @@
 
 from abc import abstractmethod
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Literal, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, Rule
 from twinform.ir import Document, Format, Joint, Model, Node, Opaque, replace_fields
 from twinform.ir.frames import FrameError, Kind
