@@ -21,7 +21,7 @@ from twinform.text import SourceText
 from twinform.text.formatting import FormatOptions, format_text
 
 LINKS, RUNS = 30, 15
-_TWINFORM = ("-c", "from twinform import cli; getattr(cli, 'program', cli.main)()")  # older ones have `main` alone
+_TWINFORM = ("-m", "twinform")  # as people start it: `cli.main` is for other programs
 _XACRO = ("-c", "import sys; from xacro import main; sys.exit(main())")
 BARE = "python -c pass"
 LIMITS = (
