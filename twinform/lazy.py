@@ -1,4 +1,4 @@
-"""Lazy attributes of packages (PEP 562): a name is imported from its module when it is first asked for."""
+"""What is made when it is first asked for: attributes of packages (PEP 562), and regular expressions."""
 
 import sys
 from importlib import import_module
@@ -6,6 +6,8 @@ from importlib import import_module
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+    from re import Pattern
+    from typing import AnyStr
 
 
 def lazy_attributes(package: str, modules: "Mapping[str, str]") -> "Callable[[str], object]":
@@ -26,3 +28,21 @@ def lazy_attributes(package: str, modules: "Mapping[str, str]") -> "Callable[[st
         return value
 
     return get
+
+
+def lazy_pattern(text: "AnyStr", flags: int = 0) -> "Pattern[AnyStr]":
+    """A regular expression that is compiled when it is first used: a short command uses few of those it imports."""
+    return _LazyPattern(text, flags)  # pyright: ignore[reportReturnType] - it has all attributes of one
+
+
+class _LazyPattern:
+    def __init__(self, text: "str | bytes", flags: int) -> None:
+        self._written, self.pattern = (text, flags), text
+
+    def __getattr__(self, name: str) -> object:
+        from re import compile as compiled  # noqa: PLC0415 - `import twinform` needs none
+
+        value = getattr(compiled(*self._written), name)
+        # The next access finds the method in the object itself and does not come here again.
+        setattr(self, name, value)
+        return value

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import get_args
 
 from twinform.schemas.facts import parse_version, table
+from twinform.schemas.name_usage import generate_name_usage
 from twinform.schemas.packaged import XsdVersion, code_file, schema_file
 from twinform.schemas.text_generator import generate_text_writer
 from twinform.schemas.xsd import generate_schema
@@ -25,6 +26,7 @@ def generated() -> Iterator[tuple[Path, str]]:
             for xsd in get_args(XsdVersion):
                 yield Path(str(schema_file(name, version, xsd))), generate_schema(facts, version, xsd)
         yield Path(str(code_file(f"{name}_text"))), generate_text_writer(facts)
+    yield Path(str(code_file("name_usage"))), generate_name_usage(map(table, FORMATS))
 
 
 def stale() -> list[Path]:

@@ -19,20 +19,22 @@ from functools import cached_property
 from typing import Literal
 
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
+from twinform.schemas.generated.name_usage import NUMERIC_ATTRIBUTES, NUMERIC_TEXTS, OPAQUE
 from twinform.text.positions import Lines
 from twinform.text.source_text import SourceText
-from twinform.text.start_tags import TAB, StartTag, all_numbers, name_of, shortest, usage
+from twinform.text.start_tags import TAB, StartTag, all_numbers, name_of, rank, shortest
 from twinform.text.tokens import TokenKind, Tokens
 
-_LINE_END = re.compile(r"\r\n|\n|\r")
+_LINE_END = lazy_pattern(r"\r\n|\n|\r")
 # 205 of 2,249 real files separate their sections by two blank lines.
 _MOST_LINE_ENDS = 3
 """Two blank lines in a row are the most that are kept."""
-_PRESERVED = re.compile(r"""\sxml:space\s*=\s*["']preserve["']""")
+_PRESERVED = lazy_pattern(r"""\sxml:space\s*=\s*["']preserve["']""")
 # Columns are kept where attributes of neighboring rows begin at one column behind more than one
 # blank. Both neighbors see that alike, so a second run changes nothing.
-_WIDE = re.compile(r"[ \t\r\n]{2}|\t")
-_PLAIN = re.compile(r"""<([^\s/>]++)(?: [^\s=<>/"']++=(?:"[^"\r\n]*+"|'[^'\r\n]*+'))*+(?:>| ?/>)""")
+_WIDE = lazy_pattern(r"[ \t\r\n]{2}|\t")
+_PLAIN = lazy_pattern(r"""<([^\s/>]++)(?: [^\s=<>/"']++=(?:"[^"\r\n]*+"|'[^'\r\n]*+'))*+(?:>| ?/>)""")
 """A start tag that is laid out already."""
 _TAGS = frozenset({TokenKind.START, TokenKind.EMPTY})
 _BETWEEN = frozenset({TokenKind.BLANK, TokenKind.COMMENT})
@@ -72,7 +74,6 @@ class _Formatting:
         self.out: list[str] = []
         self.asked = (0, False)
         self.keeps_tags = options.numbers == "kept" and not options.sort_attributes
-        self.opaque = usage().opaque
         self.open: list[_OpenElement] = [_OpenElement("", opaque=False)]
 
     def run(self) -> str:
@@ -104,7 +105,7 @@ class _Formatting:
         around.row = number if self._is_row(number) else None
         if self.tokens.kinds[number] == TokenKind.START:
             name = plain[1] if plain else name_of(text)
-            self.open.append(_OpenElement(name, opaque=around.opaque or name in self.opaque))
+            self.open.append(_OpenElement(name, opaque=around.opaque or name in OPAQUE))
 
     def _end(self, number: int) -> None:
         ended = self.open.pop()
@@ -119,7 +120,7 @@ class _Formatting:
         begin = self.tokens.ends[number]
         text, ended = self.tokens.text[begin : self.tokens.start(end)], self.open.pop()
         is_leaf = end == number + 2 and self.tokens.kinds[number + 1] == TokenKind.TEXT
-        if is_leaf and not ended.opaque and ended.name in usage().numeric_texts and all_numbers(text):
+        if is_leaf and not ended.opaque and ended.name in NUMERIC_TEXTS and all_numbers(text):
             text = self._moved(shortest(text) if self.options.numbers == "shortest" else text, number)
         self.out.append(f"{text}</{ended.name}>")
 
@@ -183,10 +184,10 @@ class _Formatting:
         """Parse a start tag, with its attributes sorted and its numbers shortened where the options ask for it."""
         tag, options = StartTag.of(self.tokens[number]), self.options
         if options.sort_attributes:
-            tag = tag.sorted_by([usage().rank(tag.name, each.name) for each in tag.attributes])
+            tag = tag.sorted_by([rank(tag.name, each.name) for each in tag.attributes])
         if options.numbers == "shortest" and not self.open[-1].opaque:
-            numeric = usage().numeric_attributes
-            tag = tag.with_values(lambda name, value: shortest(value) if (tag.name, name) in numeric else value)
+            numeric = NUMERIC_ATTRIBUTES.get(tag.name, ())
+            tag = tag.with_values(lambda name, value: shortest(value) if name in numeric else value)
         return tag
 
     def _tag_text(self, number: int, tag: StartTag) -> str:

@@ -5,19 +5,19 @@ the lines are aligned below the first attribute, or below another one where the 
 """
 
 import re
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import cache
 from math import isfinite
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple
 
 from twinform.dataclass import dataclass
-from twinform.schemas import Fact, table
+from twinform.lazy import lazy_pattern
+from twinform.schemas.generated.name_usage import ORDER
 
-_NAME = re.compile(r"<([^\s/>]++)")
-_ATTRIBUTE = re.compile(r"""(\s*+)([^\s=<>/"']++)\s*+=\s*+("[^"]*+"|'[^']*+')""")
-_END = re.compile(r"(\s*+)(/?>)")
-_LINE_END = re.compile(r"\r\n|\n|\r")
+_NAME = lazy_pattern(r"<([^\s/>]++)")
+_ATTRIBUTE = lazy_pattern(r"""(\s*+)([^\s=<>/"']++)\s*+=\s*+("[^"]*+"|'[^']*+')""")
+_END = lazy_pattern(r"(\s*+)(/?>)")
+_LINE_END = lazy_pattern(r"\r\n|\n|\r")
 TAB = 8
 """The width of a tab where a column is asked for, as terminals and most editors have it."""
 
@@ -168,73 +168,17 @@ class _Aligning:
         self.known = self.known and _LINE_END.search(text) is None  # behind a value of several lines nobody aligns
 
 
-_NUMBERS = frozenset({"double", "vector2d", "vector3", "quaternion", "color", "color4", "pose"})
-_FORMATS = ("urdf", "sdf")
-_Key = TypeVar("_Key", bound=Hashable)
+def rank(element: str, attribute: str) -> int:
+    """Return a sort key: smaller for attributes that usually come first."""
+    if attribute == "name":
+        return -1
+    known = ORDER.get(element, ())
+    return known.index(attribute) if attribute in known else len(known)
 
 
-@dataclass(frozen=True, slots=True)
-class Usage:
-    """What the facts tables know by name alone: numeric values, and the usual order of attributes.
-
-    `opaque` are the elements with contents of their own, such as plugins, in which nothing is known.
-    """
-
-    numeric_attributes: frozenset[tuple[str, str]]
-    numeric_texts: frozenset[str]
-    opaque: frozenset[str]
-    order: dict[str, tuple[str, ...]]
-
-    def rank(self, element: str, attribute: str) -> int:
-        """Return a sort key: smaller for attributes that usually come first."""
-        if attribute == "name":
-            return -1
-        known = self.order.get(element, ())
-        return known.index(attribute) if attribute in known else len(known)
-
-
-@cache
-def usage() -> Usage:
-    """Return the usage of names in both formats and all versions."""
-    elements = [element for format in _FORMATS for element in _elements(format)]
-    order: dict[str, dict[str, None]] = {}
-    for name, _, fact in elements:
-        order.setdefault(name, {}).update((row.name[1:], None) for row in fact.attributes)
-    return Usage(
-        _numeric(((name, row.name[1:]), row.type) for name, _, fact in elements for row in fact.attributes),
-        _numeric((name, type) for name, type, _ in elements),
-        frozenset(name for name, _, fact in elements if fact.any),
-        {name: tuple(attributes) for name, attributes in order.items()},
-    )
-
-
-def _numeric(typed: Iterable[tuple[_Key, str | None]]) -> frozenset[_Key]:
-    """Return the keys that have numbers wherever they have a value."""
-    found = list(typed)
-    others = {key for key, type in found if type and type not in _NUMBERS}
-    return frozenset({key for key, type in found if type} - others)
-
-
-def _elements(format: str) -> Iterator[tuple[str, str | None, Fact]]:
-    """Yield each element of a format: its name, the type of its text, and the fact that holds its rows."""
-    facts = table(format)
-    pending = [facts.definitions[facts.root]]
-    seen: set[int] = set()
-    yield facts.root, None, pending[0]
-    while pending:
-        fact = pending.pop()
-        if id(fact) in seen:
-            continue
-        seen.add(id(fact))
-        for row in fact.children:
-            inner = facts.resolve(row)
-            yield row.name, row.type or inner.type, inner
-            pending.append(inner)
-
-
-_NUMBER = re.compile(r"[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
-_EXPONENT = re.compile(r"e([-+])0*(\d+)")
-_ONLY_NUMBERS = re.compile(rf"\s*+(?:{_NUMBER.pattern}(?:\s++|$))++", re.ASCII)
+_NUMBER = lazy_pattern(r"[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
+_EXPONENT = lazy_pattern(r"e([-+])0*(\d+)")
+_ONLY_NUMBERS = lazy_pattern(rf"\s*+(?:{_NUMBER.pattern}(?:\s++|$))++", re.ASCII)
 
 
 def all_numbers(text: str) -> bool:
