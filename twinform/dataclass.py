@@ -23,7 +23,7 @@ def dataclass(
     def make(kind: Kind) -> Kind:
         made: type[Any] = dataclasses.dataclass(init=False, repr=False, eq=False, slots=slots, kw_only=kw_only)(kind)
         methods: dict[str, Any] = {"__init__": _first_call(made, frozen=frozen), "__repr__": _shown}
-        methods["__signature__"] = _LazySignature()
+        methods["__signature__"] = LazySignature(attrgetter("init"))
         if eq:
             methods |= {"__eq__": _equal, "__hash__": _hashed if frozen else None}
         if frozen:
@@ -41,11 +41,14 @@ def dataclass(
     return make
 
 
-class _LazySignature:
-    """The signature of a class, which is made when somebody asks for it."""
+class LazySignature:
+    """The signature of a class, which is made when somebody asks for it; `is_shown` says of which fields."""
+
+    def __init__(self, is_shown: Callable[[Field[Any]], bool]) -> None:
+        self._is_shown = is_shown
 
     def __get__(self, instance: object, kind: type[Any]) -> Signature:
-        return Signature([_parameter(each) for each in sorted(fields(kind), key=_is_named) if each.init])
+        return Signature([_parameter(each) for each in sorted(fields(kind), key=_is_named) if self._is_shown(each)])
 
 
 def _parameter(each: Field[Any]) -> Parameter:

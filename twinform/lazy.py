@@ -7,7 +7,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from re import Pattern
-    from typing import AnyStr
+    from typing import Any, AnyStr
 
 
 def lazy_attributes(package: str, modules: "Mapping[str, str]") -> "Callable[[str], object]":
@@ -36,7 +36,7 @@ def lazy_pattern(text: "AnyStr", flags: int = 0) -> "Pattern[AnyStr]":
 
 
 class _LazyPattern:
-    def __init__(self, text: "str | bytes", flags: int) -> None:
+    def __init__(self, text: "Any", flags: int) -> None:
         self._written, self.pattern = (text, flags), text
 
     def __getattr__(self, name: str) -> object:

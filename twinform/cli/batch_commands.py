@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Generator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Literal, NoReturn, TypedDict
 
@@ -42,6 +42,7 @@ from twinform.compiler.batch.task import BatchJob
 from twinform.compiler.compare import ComparisonOptions
 from twinform.compiler.input.load_options import FileOptions, ReadingOptions
 from twinform.compiler.request_options import RequestOptions
+from twinform.dataclass import dataclass
 from twinform.file_access import Readable
 from twinform.passes import Pipeline
 from twinform.profiles import Profile

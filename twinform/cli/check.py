@@ -2,7 +2,6 @@
 
 import os
 from collections import Counter
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,6 +18,7 @@ from twinform.cli.printing import all_option, notes_option, plural, print_docume
 from twinform.cli.project_options import OptionsByFile, consumers_option, pipeline_option, policy_options
 from twinform.compiler import LoadResult
 from twinform.compiler.input.load_options import ReadingOptions
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Policy, Safety, Severity
 from twinform.diagnostics.reporters import REPORTERS, FileFindings
 from twinform.file_access import OutsideError, Readable

@@ -1,7 +1,7 @@
 """What `check` reports about one file, as a value that can be sent from another process and kept as JSON."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -10,6 +10,7 @@ from twinform.cli.command import Unusable
 from twinform.cli.inputs import InputSource, read_model
 from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, inspect
 from twinform.compiler.input.load_options import ReadingOptions
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fix, Location, Policy, Safety, Severity, rules
 from twinform.diagnostics.diagnostic import Span, TextEdit
 from twinform.diagnostics.reporters import NO_TEXTS, FileFindings, FileTexts

@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
@@ -23,9 +22,10 @@ from twinform.compiler.in_place import convert_in_place
 from twinform.compiler.input.load_options import FileOptions
 from twinform.compiler.input.loading import XACRO
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Policy, Severity
 from twinform.diagnostics.reporters import FileFindings
-from twinform.passes import PassError, Pipeline, SideFilePass
+from twinform.passes import FilesPass, PassError, Pipeline
 
 Look = Callable[[str | bytes, str], LoadResult]
 """Checks a file, or the bytes of one under its name."""
@@ -196,7 +196,7 @@ def _require_model(source: InputSource, passes: Pipeline | None) -> None:
     """
     if source.format == "json" or source.name.lower().endswith(".xacro"):
         raise click.UsageError(f"{source.name} is not URDF or SDF: change it by hand, or convert it first")
-    made = [step.file for step in passes or () if isinstance(step, SideFilePass)]
+    made = [step.only_file for step in passes or () if isinstance(step, FilesPass) and step.only_file]
     if made:
         raise click.UsageError(f"a pass writes {made[0]} beside the result: give it to convert")
 

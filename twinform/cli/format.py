@@ -1,7 +1,6 @@
 """`twinform format`."""
 
 from collections import Counter
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
@@ -21,6 +20,7 @@ from twinform.compiler.formatting import formatted
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.compiler.input.size_limits import LARGEST, Limits
 from twinform.compiler.option import given
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Severity, rules
 from twinform.diagnostics.reporters import FileFindings
 from twinform.text import SourceText

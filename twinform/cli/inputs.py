@@ -20,6 +20,7 @@ from twinform.compiler.input.size_limits import LARGEST
 from twinform.compiler.option import declared_options
 from twinform.diagnostics import Policy
 from twinform.file_access import STREAMS, Readable, read_up_to
+from twinform.lazy import lazy_pattern
 
 if TYPE_CHECKING:
     from twinform.profiles import Profile
@@ -118,7 +119,7 @@ def _name_at(text: bytes, start: int) -> bytes:
     return text[start:end]
 
 
-_ARGUMENT = re.compile(r"(?P<name>[A-Za-z_][\w.-]*):=(?P<value>.*)", re.DOTALL)
+_ARGUMENT = lazy_pattern(r"(?P<name>[A-Za-z_][\w.-]*):=(?P<value>.*)", re.DOTALL)
 _FOLDER = {"type": click.Path(exists=True, file_okay=False, path_type=Path)}
 file_options = combine_options(config_options, group("reading", dict, *flags_of(FileOptions, paths=_FOLDER)))
 """Gives a command the options of how a file is read, as `reading`, and those of the configuration."""

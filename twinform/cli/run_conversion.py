@@ -20,7 +20,7 @@ from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadO
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import FileFindings, printable
-from twinform.passes import FilesPass, PassError, PassInstrumentation, Pipeline, SideFilePass
+from twinform.passes import FilesPass, PassError, PassInstrumentation, Pipeline
 
 if TYPE_CHECKING:
     from twinform.compiler import SplitWorld
@@ -55,7 +55,7 @@ class Options:
     @property
     def beside(self) -> list[str]:
         """The paths of the files that the user's passes make, below the folder of the result."""
-        return [step.file for step in self.request.passes if isinstance(step, SideFilePass)]
+        return [step.only_file for step in self.request.passes if isinstance(step, FilesPass) and step.only_file]
 
     def places(self, job: ConversionJob, outputs: Outputs) -> Iterator[Output]:
         """Yield all files that one conversion writes.

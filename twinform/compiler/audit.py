@@ -16,6 +16,7 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import Fate, Ledger, Location
 from twinform.ir.defaults import UNLIMITED
 from twinform.ir.frames import MODEL
+from twinform.lazy import lazy_pattern
 from twinform.passes.carriers.annotations import MIMIC, SYNTHESIZED
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.joint_chains import CHAIN, PART
@@ -31,9 +32,9 @@ _OURS = f"{{{NAMESPACE}}}"
 # Elements and attributes whose numbers depend on the frame that they are expressed in, so that no
 # value can be expected.
 _COMPUTED = frozenset({"pose", "origin", "xyz", "rpy", "axis", "inertia", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"})
-_SHAPE_NAME = re.compile(r"(.+)_(?:visual|collision)(?:_\d+)?")
-_MATERIAL = re.compile(r"(.+)_material(?:_\d+)?")
-_SCHEME = re.compile(r"\b[a-z]+://")
+_SHAPE_NAME = lazy_pattern(r"(.+)_(?:visual|collision)(?:_\d+)?")
+_MATERIAL = lazy_pattern(r"(.+)_material(?:_\d+)?")
+_SCHEME = lazy_pattern(r"\b[a-z]+://")
 # Elements of one format that imply a word of the other: a frame stands for a fixed joint.
 _IMPLIED_BY = {"frame": "fixed"}
 # Booleans that the other format writes as their opposites.
@@ -41,7 +42,7 @@ _OPPOSITES = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
 _SYNONYMS = {"revolute": "continuous", "continuous": "revolute"}
 """Words for which the other format may have another one: a continuous joint may be a revolute one without limits."""
 _TRUTHS = {"true": "1.0", "yes": "1.0", "false": "0.0", "no": "0.0"}
-_PREDICATE = re.compile(r"\[[^]]*+\]?|\{[^}]*+\}?|(?<=[/@])[\w.-]+:")
+_PREDICATE = lazy_pattern(r"\[[^]]*+\]?|\{[^}]*+\}?|(?<=[/@])[\w.-]+:")
 _Place = tuple[int, str]
 """A line of the source, and the path of an element or attribute that begins on it."""
 _PUNCTUATION = str.maketrans(dict.fromkeys("/:,;", " "))

@@ -1,7 +1,7 @@
 """One conversion: a file is loaded, goes through the user's passes and legalisation, and is written."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -21,6 +21,7 @@ from twinform.compiler.output.emitting import document_tree, emit, emit_legal
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.resolve_uris import LocalAssets
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile
 from twinform.diagnostics.rules import MISSING_ATTRIBUTE, MISSING_LIMIT, OUTSIDE_VERSION
 from twinform.ir import Document, Format, Include

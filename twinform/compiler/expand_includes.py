@@ -5,7 +5,7 @@ The passes in `passes/includes` put the contents of included files in the places
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from posixpath import dirname
 from typing import NamedTuple
@@ -14,6 +14,7 @@ from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.input.size_limits import LIFTED_BY_TAGS, excess_of_names
 from twinform.compiler.model_config import manifest, model_file, newest_read
 from twinform.compiler.resolve_uris import UriError
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.diagnostics.rules import UNREAD_DOCUMENT
 from twinform.ir import Document, Format, Include

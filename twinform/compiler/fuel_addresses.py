@@ -4,7 +4,6 @@ https://fuel.gazebosim.org/1.0/OpenRobotics/models/Sun/3/files/meshes/sun.dae
 ~/.gz/fuel/fuel.gazebosim.org/openrobotics/models/sun/3/meshes/sun.dae
 """
 
-import re
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -12,6 +11,7 @@ from typing import Literal, Self
 from urllib.parse import quote, unquote, urlsplit
 
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
 from twinform.passes.shared.document_uris import FUEL_SERVERS
 
 SERVER = FUEL_SERVERS[0]
@@ -22,7 +22,7 @@ TIP = "tip"
 _VARIABLES = ("GZ_FUEL_CACHE_PATH", "IGN_FUEL_CACHE_PATH")
 # One server under two names: fuel.ignitionrobotics.org became fuel.gazebosim.org.
 _TWINS = {SERVER: FUEL_SERVERS[1], FUEL_SERVERS[1]: SERVER}
-_ADDRESS = re.compile(r"/(?:\d+\.\d+/)?(?P<owner>[^/]+)/(?P<kind>models|worlds)/(?P<name>[^/]+)(?:/(?P<rest>.*))?")
+_ADDRESS = lazy_pattern(r"/(?:\d+\.\d+/)?(?P<owner>[^/]+)/(?P<kind>models|worlds)/(?P<name>[^/]+)(?:/(?P<rest>.*))?")
 _FIRST_OWNER = "openrobotics"
 """The owner whose models are preferred where several owners have one of a name."""
 Kind = Literal["models", "worlds"]

@@ -15,6 +15,7 @@ from typing import NamedTuple
 from twinform.compiler.input.parsing import UnreadableError, parse
 from twinform.compiler.input.size_limits import USUAL_LIMITS, Limits
 from twinform.diagnostics import DiagnosticSink
+from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement
 from twinform.text import SourceText, UndecodableError, UnplacedError, merge, patch, spans
 from twinform.text.alignment import elements, known_by
@@ -28,8 +29,8 @@ from twinform.text.line_merging import (
     with_markers,
 )
 
-_PIECES = re.compile(r"(<!--.*?-->|<[^<>]*>)", re.DOTALL)
-_ROOT = re.compile(r"<(robot|sdf|gazebo)\b")
+_PIECES = lazy_pattern(r"(<!--.*?-->|<[^<>]*>)", re.DOTALL)
+_ROOT = lazy_pattern(r"<(robot|sdf|gazebo)\b")
 Step = tuple[Hashable, int]
 """What an element is known by, and its number among its siblings that are known by the same."""
 

@@ -1,21 +1,22 @@
 """Rewrites the relative paths of a document for another folder."""
 
 import os
-import re
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from typing import Literal
 from urllib.parse import quote, unquote
 
 from twinform.compiler.resolve_uris import LocalAssets, exists
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import MISSING_FILE
 from twinform.file_access import Readable
 from twinform.ir import Document
+from twinform.lazy import lazy_pattern
 from twinform.passes.framework.assets import AssetError
 from twinform.passes.shared.document_uris import map_uris
 
-_ABSOLUTE = re.compile(r"[A-Za-z][\w+.-]*:|/|__")
+_ABSOLUTE = lazy_pattern(r"[A-Za-z][\w+.-]*:|/|__")
 """A scheme, a path from the root, or a keyword such as `__default__`."""
 _FILE = "file://"
 

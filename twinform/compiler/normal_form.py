@@ -26,7 +26,7 @@ What counts, and what does not:
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import StrEnum
 from pathlib import Path
 
@@ -38,6 +38,7 @@ from twinform.compiler.input.front_ends import declared_version
 from twinform.compiler.input.loading import LoadOptions, read, read_tree
 from twinform.compiler.input.parsing import UnreadableError
 from twinform.compiler.normal_form_parts import TEXT, Key, NormalPart, same, text_of
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.schemas import XmlElement, path_of

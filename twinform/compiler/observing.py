@@ -14,10 +14,12 @@ import time
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cache
 from pathlib import Path
 from typing import Any, Generic, TypeVar
+
+from twinform.dataclass import dataclass
 
 Key = TypeVar("Key")
 Value = TypeVar("Value")

@@ -5,7 +5,6 @@ says that it does not come again from the document alone.
 """
 
 import os
-import re
 import sys
 import traceback
 from collections.abc import Iterator
@@ -20,6 +19,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.file_access import Readable
 from twinform.ir import Document
 from twinform.ir.verify import verify
+from twinform.lazy import lazy_pattern
 from twinform.passes.framework.assets import NO_ASSETS, Assets
 from twinform.passes.framework.pass_base import DocumentReader, Refusal
 from twinform.passes.framework.pass_errors import BrokenPassError, PassError
@@ -101,7 +101,7 @@ class Reproducer(BaseModel):
         return self.model_dump_json(indent=2, exclude_defaults=True) + "\n"
 
 
-_UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
+_UNSAFE = lazy_pattern(r"[^A-Za-z0-9._-]+")
 # Characters of a model's name in a file name: file systems take 255 bytes in all.
 _LONGEST = 60
 _MOST = 1000

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from posixpath import normpath
 from typing import Literal, NamedTuple, Self
@@ -11,6 +11,7 @@ from urllib.parse import unquote, urlsplit
 from twinform.compiler import fuel_addresses
 from twinform.compiler.observing import Memo
 from twinform.compiler.ros_packages import MODEL_CONFIG, PackageIndex, package_name
+from twinform.dataclass import dataclass
 from twinform.diagnostics import rules
 from twinform.file_access import OutsideError, Readable, find_root, folders_around, neighborhood
 from twinform.passes import AssetError

@@ -6,7 +6,6 @@ digest of the rest. What cannot be read, or is not as it was written, is as if i
 
 import json
 import os
-import re
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
@@ -25,6 +24,7 @@ from twinform.compiler.dependencies import (
 )
 from twinform.compiler.observing import Observation, digest, observed
 from twinform.file_access import read_regular
+from twinform.lazy import lazy_pattern
 from twinform.storage.user_cache import prune
 from twinform.storage.writing import write_atomically
 
@@ -41,7 +41,7 @@ _PER_DEPENDENCY = 150
 """Bytes of a dependency in a file, more or less."""
 
 
-_NAME = re.compile(r"[0-9a-f]{64}\.json")
+_NAME = lazy_pattern(r"[0-9a-f]{64}\.json")
 
 
 def delete_results(folder: Path) -> int:

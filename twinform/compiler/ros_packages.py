@@ -3,7 +3,7 @@
 import os
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
@@ -11,6 +11,7 @@ from typing import NamedTuple
 from lxml import etree
 
 from twinform.compiler.observing import Memo
+from twinform.dataclass import dataclass
 from twinform.file_access import read_regular
 from twinform.schemas import XmlElement
 

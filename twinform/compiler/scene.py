@@ -6,10 +6,11 @@ of nested models, and of models in a world, are `model::part`.
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal, TypeVar
 
 from twinform.compiler.kinematics import Kinematics, PlacedJoint, degrees_of
+from twinform.dataclass import dataclass
 from twinform.diagnostics import NOWHERE, DiagnosticSink, Location
 from twinform.ir import (
     Collision,
@@ -233,7 +234,7 @@ def _choose_passes(document: Document) -> tuple[Pass, ...]:
     from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - see above
     from twinform.passes.legalise.to_sdf.shared_materials import SharedMaterials  # noqa: PLC0415 - see above
 
-    return (SharedMaterials(carriers=False), FoldGazebo(carriers=False))
+    return (SharedMaterials.unchecked(carriers=False), FoldGazebo.unchecked(carriers=False))
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,9 +4,8 @@ Models become URDF where Gazebo reads that as the same robot. Gazebo reads an in
 which loses what `gazebo_urdf.py` lists. A model that would lose something stays SDF, and a warning gives the reason.
 """
 
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 
 from twinform.compiler.conversion import has_mixed_words, mixed_words, written
@@ -20,6 +19,7 @@ from twinform.compiler.output.emitting import emit_legal
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.resolve_uris import LocalAssets
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile, rules
 from twinform.diagnostics.rules import UNSAYABLE_SHAPE
 from twinform.ir import Document, Format, Include, Model, Pose, World
@@ -27,11 +27,12 @@ from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.scopes import outer_models
 from twinform.ir.transform import Transform
 from twinform.ir.verify import verify
+from twinform.lazy import lazy_pattern
 from twinform.passes import PassInstrumentation
 from twinform.passes.includes import detach, links_named_around
 from twinform.schemas import XmlElement, table
 
-_UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
+_UNSAFE = lazy_pattern(r"[^A-Za-z0-9._-]+")
 """Characters that some file system or shell does not take in a name."""
 
 # Files in which libsdformat describes SDF to itself; it would take an include of such a name for

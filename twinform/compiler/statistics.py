@@ -5,12 +5,13 @@ A confined process counts the triangles of meshes; without the libraries that it
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import NamedTuple, cast
 
 from twinform.compiler.input.loading import LoadResult
 from twinform.compiler.resolve_uris import LocalAssets, SearchPath, UriError
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import (
     Collision,
@@ -342,12 +343,12 @@ def _complete(document: Document, assets: Assets) -> Document:
     if document.format is Format.URDF:
         from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - SDF does not need it
 
-        return Pipeline((FoldGazebo(),)).run(document, sink)
+        return Pipeline((FoldGazebo.unchecked(),)).run(document, sink)
     if not any(isinstance(node, Link) and node.inertial and node.inertial.auto for node in walk(document)):
         return document
     from twinform.passes.sdf_versions.write_inertias import WriteInertias  # noqa: PLC0415 - few files have these
 
-    return Pipeline((WriteInertias(version="1.10"),)).with_files(assets).run(document, sink)
+    return Pipeline((WriteInertias.unchecked(version="1.10"),)).with_files(assets).run(document, sink)
 
 
 def _count_freedom(joint: Joint) -> int:

@@ -5,20 +5,21 @@ stays the same one when something before it moves. How often it occurs is counte
 """
 
 import json
-import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cached_property
 from typing import Any, NamedTuple, cast
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics.diagnostic import Diagnostic, Severity
+from twinform.lazy import lazy_pattern
 
 _MARK = "twinform-baseline"
 _VERSION = 1
 _FINDINGS = "findings"
-_PLACES = re.compile(r"\[\d+\]")
-_LINES = re.compile(r"\b(line|lines|column) \d+")
+_PLACES = lazy_pattern(r"\[\d+\]")
+_LINES = lazy_pattern(r"\b(line|lines|column) \d+")
 # Characters of a message that are kept. Longer ones quote the file, and begin with what is wrong.
 _LONGEST = 300
 

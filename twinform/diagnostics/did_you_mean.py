@@ -6,6 +6,8 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import lru_cache
 from itertools import islice
 
+from twinform.lazy import lazy_pattern
+
 # The longest name that is compared: a longer one is no typing mistake.
 _LONGEST = 80
 # Among more names nothing is suggested: a hostile file may have a hundred thousand, and as many
@@ -15,7 +17,7 @@ _MOST_COMPARED = 200
 """The most names that are compared letter by letter."""
 _ALIKE = 0.6
 """How much of two names is the same where one may be meant for the other, as `difflib` measures it."""
-_ASKS = re.compile(r"did you mean (?P<quote>['\"]?)(?P<name>.+)(?P=quote)\?", re.DOTALL)
+_ASKS = lazy_pattern(r"did you mean (?P<quote>['\"]?)(?P<name>.+)(?P=quote)\?", re.DOTALL)
 
 
 def did_you_mean(name: str, known: Iterable[str | None], but: Collection[str | None] = ()) -> str | None:

@@ -3,6 +3,7 @@
 import re
 from typing import TYPE_CHECKING
 
+from twinform.lazy import lazy_pattern
 from twinform.package_files import package_files
 
 if TYPE_CHECKING:
@@ -18,8 +19,8 @@ HEADINGS = {
 """The headings of a page, and the fields of `Rule` that they are. The last one may be left out."""
 # A run needs the name and the severity of each rule, and no page. The heads are generated into
 # `rules/__init__.py`; a page is read when `explain`, an editor or SARIF asks for it.
-_FILE = re.compile(r"---\n(?P<head>([a-z]+: .+\n)+)---\n(?P<page>(\n## .+\n(\n([^#\n].*\n)+)+)+)")
-_SECTION = re.compile(r"^## (.+)\n((?:\n(?:[^#\n].*\n)+)+)", re.MULTILINE)
+_FILE = lazy_pattern(r"---\n(?P<head>([a-z]+: .+\n)+)---\n(?P<page>(\n## .+\n(\n([^#\n].*\n)+)+)+)")
+_SECTION = lazy_pattern(r"^## (.+)\n((?:\n(?:[^#\n].*\n)+)+)", re.MULTILINE)
 
 
 def rule_names() -> list[str]:

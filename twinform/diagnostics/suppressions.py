@@ -10,9 +10,10 @@ from dataclasses import field
 from typing import NamedTuple
 
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
 
-_OURS = re.compile(r"\s*twinform\s*(?::|\s(?=allow\b))\s*", re.IGNORECASE)
-_WORDS = re.compile(
+_OURS = lazy_pattern(r"\s*twinform\s*(?::|\s(?=allow\b))\s*", re.IGNORECASE)
+_WORDS = lazy_pattern(
     # One hyphen, since XML has no `--` in a comment: libxml2 and expat refuse such a file, and only
     # tinyxml does not. Two are understood, and the file gets a `repaired-xml` finding as any other
     # with such a comment.

@@ -48,7 +48,7 @@ def axes_of(joint: Joint) -> tuple[Axis, ...]:
     if joint.type in WITHOUT_AXIS:
         return ()
     axes = (joint.axis, joint.axis2) if joint.type in WITH_TWO_AXES else (joint.axis,)
-    return tuple(axis or Axis() for axis in axes)
+    return tuple(axis or Axis.unchecked() for axis in axes)
 
 
 def spanning_tree(joints: Iterable[AnyJoint]) -> Mapping[str, AnyJoint]:

@@ -7,9 +7,10 @@ most of what a short command does, so that this waits until something is validat
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, field, fields
 from functools import cache, partial
-from inspect import Parameter, Signature
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any, ClassVar, ParamSpec, Self, TypeVar, cast, dataclass_transform
+
+from twinform.dataclass import LazySignature
 
 if TYPE_CHECKING:
     from pydantic import TypeAdapter
@@ -37,13 +38,8 @@ def record(kind: type[AnyRecord]) -> type[AnyRecord]:
     compared = [each.name for each in own if each.compare]
     made.field_names = tuple(each.name for each in own)
     made.compared_values = attrgetter(*compared or ("__class__",))
-    made.__signature__ = Signature([_parameter(each) for each in own if each.repr])
+    made.__signature__ = LazySignature(attrgetter("repr"))
     return made
-
-
-def _parameter(each: Field[Any]) -> Parameter:
-    default = Parameter.empty if each.default is MISSING else each.default
-    return Parameter(each.name, Parameter.KEYWORD_ONLY, default=default, annotation=each.type)
 
 
 class Record:

@@ -121,7 +121,7 @@ _SOLIDS: dict[type[Any], Callable[..., _Moments]] = {
 
 def tensor(inertia: Inertia | None, moment: float = 0.0) -> Symmetric:
     """Return the written inertia, with `moment` for missing moments and zero for missing products."""
-    written = inertia or Inertia()
+    written = inertia or Inertia.unchecked()
     xx, yy, zz = (moment if value is None else value for value in (written.ixx, written.iyy, written.izz))
     return xx, yy, zz, written.ixy or 0.0, written.ixz or 0.0, written.iyz or 0.0
 
@@ -129,12 +129,12 @@ def tensor(inertia: Inertia | None, moment: float = 0.0) -> Symmetric:
 def with_tensor(inertia: Inertia | None, elements: Symmetric) -> Inertia:
     """Return the inertia with these elements, keeping whatever else is written in it."""
     update: dict[str, float] = dict(zip(ELEMENTS, elements, strict=True))
-    return (inertia or Inertia()).copy(**update)
+    return (inertia or Inertia.unchecked()).copy(**update)
 
 
 def written_solid(inertial: Inertial | None, format_: Format) -> Solid:
     """Return the solid of an inertial in its own frame, by the format's defaults; in URDF, none has no mass."""
-    written = inertial or Inertial()
+    written = inertial or Inertial.unchecked()
     mass = MASS[format_] if written.mass is None else written.mass
     return Solid(mass or 0.0, ORIGIN, tensor(written.inertia, MOMENT[format_] or 0.0))
 
@@ -143,7 +143,7 @@ def with_written_defaults(inertial: Inertial | None) -> Inertial:
     """The inertial of a link of SDF with the mass and the inertia written that SDF has by default."""
     if inertial is None:
         return INERTIAL
-    inertia = filled(inertial.inertia or Inertia(), _USUAL_ELEMENTS)
+    inertia = filled(inertial.inertia or Inertia.unchecked(), _USUAL_ELEMENTS)
     return replace_fields(filled(inertial, {"mass": INERTIAL.mass}), inertia=inertia)
 
 

@@ -13,6 +13,8 @@ from typing import Any, NamedTuple, cast
 from urllib.parse import quote, unquote
 from xml.sax.saxutils import escape, unescape
 
+from twinform.lazy import lazy_pattern
+
 Names = Mapping[str, str]
 """From the name of a file as it is written to the one that is to stand there."""
 
@@ -59,7 +61,7 @@ def _format_of_spans(
     return ReferenceFormat(references, rewritten, by_name)
 
 
-_COLLADA_TOKEN = re.compile(
+_COLLADA_TOKEN = lazy_pattern(
     rb"(?P<comment><!--)|(?P<after>-->)|(?P<image><(?:\w+:)?image[\s>])|(?P<close></(?:\w+:)?image\s*>)"
     rb"|<(?:\w+:)?(?:init_from|ref)(?:\s[^<>]*)?>(?P<name>[^<]*)"
 )
@@ -86,12 +88,12 @@ def _find_collada_images(data: bytes) -> Iterator[NamedSpan]:
             yield NamedSpan(name, start, start + len(written))
 
 
-_OBJ_LIBRARY = re.compile(rb"^[ \t]*mtllib[ \t]+([^\r\n]*)", re.MULTILINE)
-_MTL_TEXTURE = re.compile(
+_OBJ_LIBRARY = lazy_pattern(rb"^[ \t]*mtllib[ \t]+([^\r\n]*)", re.MULTILINE)
+_MTL_TEXTURE = lazy_pattern(
     rb"^[ \t]*(?:map_\w+|bump|disp|decal|refl|norm)[ \t]+([^\r\n]*)", re.MULTILINE | re.IGNORECASE
 )
-_WORD = re.compile(rb"[^ \t]+")
-_NUMBER = re.compile(rb"[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?")
+_WORD = lazy_pattern(rb"[^ \t]+")
+_NUMBER = lazy_pattern(rb"[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?")
 _OPTION_WORDS = {
     b"-blendu": 1, b"-blendv": 1, b"-bm": 1, b"-boost": 1, b"-cc": 1, b"-clamp": 1, b"-imfchan": 1, b"-mm": 2,
     b"-o": 3, b"-s": 3, b"-t": 3, b"-texres": 1, b"-type": 1,
@@ -140,7 +142,7 @@ def _span_of_rest(line: re.Match[bytes], start: int) -> Iterator[NamedSpan]:
         yield NamedSpan(os.fsdecode(written), at, at + len(written))
 
 
-_OGRE_TEXTURE = re.compile(
+_OGRE_TEXTURE = lazy_pattern(
     rb"^[ \t]*(?:texture|cubic_texture|anim_texture)[ \t]+(\"[^\"\r\n]*\"|[^\s\"{}]+)", re.MULTILINE
 )
 

@@ -8,16 +8,18 @@ import math
 import re
 from collections.abc import Callable, Mapping
 
+from twinform.lazy import lazy_pattern
+
 # `\d++` and `*+` never give back what they matched: text from a stranger must not make a match
 # quadratic.
-_STREAM = re.compile(r"[ \t\n\v\f\r]*[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
-_LEADING = re.compile(r"[ \t\n\v\f\r]*([-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?)", re.ASCII)
-_HEXADECIMAL = re.compile(r"[-+]?0[xX](?:[0-9a-fA-F]++\.?[0-9a-fA-F]*+|\.[0-9a-fA-F]++)(?:[pP][-+]?\d++)?", re.ASCII)
-_WORDS = re.compile(r"[-+]?(?:inf|infinity|nan(?:\(\w*\))?)", re.ASCII | re.IGNORECASE)
-_ASCII_BLANKS = re.compile(r"[ \t\n\v\f\r]+")
+_STREAM = lazy_pattern(r"[ \t\n\v\f\r]*[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
+_LEADING = lazy_pattern(r"[ \t\n\v\f\r]*([-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?)", re.ASCII)
+_HEXADECIMAL = lazy_pattern(r"[-+]?0[xX](?:[0-9a-fA-F]++\.?[0-9a-fA-F]*+|\.[0-9a-fA-F]++)(?:[pP][-+]?\d++)?", re.ASCII)
+_WORDS = lazy_pattern(r"[-+]?(?:inf|infinity|nan(?:\(\w*\))?)", re.ASCII | re.IGNORECASE)
+_ASCII_BLANKS = lazy_pattern(r"[ \t\n\v\f\r]+")
 _SHORTEST = 1e-8
 _LONGEST_NAME = 240
-_VERSION = re.compile(r"\s*+[-+]?(?=\d)0*+(\d{0,9})\.\s*+[-+]?(?=\d)0*+(\d{0,9})", re.ASCII)
+_VERSION = lazy_pattern(r"\s*+[-+]?(?=\d)0*+(\d{0,9})\.\s*+[-+]?(?=\d)0*+(\d{0,9})", re.ASCII)
 
 
 def _is_stream(text: str) -> bool:

@@ -9,12 +9,13 @@ from twinform.ir import Pose
 from twinform.ir.principal_moments import Symmetric
 from twinform.ir.solids import ORIGIN, Solid, combined, placed
 from twinform.ir.transform import Transform
+from twinform.lazy import lazy_pattern
 from twinform.passes.inertia.physical_consistency import clearances, is_doubtful, rounding_loss
 from twinform.profiles.forms import FORMS
 from twinform.profiles.nodes import Fact, FactTable, RawNode
 from twinform.profiles.sdformat_facts import foreign_ends, is_static, preserved_joints
 
-_NUMBER = re.compile(
+_NUMBER = lazy_pattern(
     r"[-+]?(?:0[xX][0-9a-fA-F]+|(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?|inf)", re.IGNORECASE | re.ASCII
 )
 _ELEMENTS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")

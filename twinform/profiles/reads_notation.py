@@ -13,9 +13,10 @@ from functools import cache
 from importlib.resources import files
 
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
 
-_COLUMNS = re.compile(r"\s{2,}")
-_STEP = re.compile(r"(?P<first>\^?)(?P<tag>[\w:.-]+)(?P<every>\*?)(?:\[(?P<other>!?)(?P<types>[^\]]*)\])?")
+_COLUMNS = lazy_pattern(r"\s{2,}")
+_STEP = lazy_pattern(r"(?P<first>\^?)(?P<tag>[\w:.-]+)(?P<every>\*?)(?:\[(?P<other>!?)(?P<types>[^\]]*)\])?")
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterator
 
+from twinform.lazy import lazy_pattern
 from twinform.profiles.forms import number_in
 from twinform.profiles.nodes import Fact, FactTable, RawNode
 
@@ -17,12 +18,12 @@ _WORDS = frozenset(
     {"cfmDamping", "fdir1", "implicitSpringDamper", "material", "provideFeedback", "selfCollide", "static"}
 )
 _READ = _NUMBERS | _WHOLE | _WORDS | _LUMPING | {"turnGravityOff"}
-_NUMBER = re.compile(r"\s*[-+]?(?:0[xX](?:[0-9a-fA-F]|\.[0-9a-fA-F])|\d|\.\d|inf|nan)", re.ASCII | re.IGNORECASE)
+_NUMBER = lazy_pattern(r"\s*[-+]?(?:0[xX](?:[0-9a-fA-F]|\.[0-9a-fA-F])|\d|\.\d|inf|nan)", re.ASCII | re.IGNORECASE)
 """The beginning of a number."""
 # std::stod throws below the smallest normal double, and of that Values2str writes too few digits for Param.cc.
 _LEAST = 2.3e-308
-_INTEGER = re.compile(r"\s*[-+]?\d{1,9}", re.ASCII)
-_DECIMAL = re.compile(r"\s*[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
+_INTEGER = lazy_pattern(r"\s*[-+]?\d{1,9}", re.ASCII)
+_DECIMAL = lazy_pattern(r"\s*[-+]?(?:\d++\.?\d*+|\.\d++)(?:[eE][-+]?\d++)?", re.ASCII)
 
 
 def preserved_joints(root: RawNode) -> frozenset[str]:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import field, replace
 
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
 from twinform.profiles import tree_facts
 from twinform.profiles.forms import FORMS
 from twinform.profiles.nodes import Paths, RawNode, UnparsedError
@@ -26,7 +27,7 @@ from twinform.profiles.xml_parsers import (
 IsThere = Callable[[str], bool]
 """Says whether a URI leads to a file."""
 _is_number = FORMS["python"][1]
-_ITEMS = re.compile(r"[\w:.-]+\??")
+_ITEMS = lazy_pattern(r"[\w:.-]+\??")
 
 
 @dataclass(frozen=True, slots=True)
@@ -231,7 +232,7 @@ __all__ = ["Shortfall", "read_as"]
 
 _ROBOTS = frozenset({"tinyxml", "tinyxml2", "bullet", "sax"})
 """Parsers whose consumers take the first robot at the top; others take whatever element is there."""
-_DECLARATIONS = re.compile(rb"^[^\S\n]*<\?xml[^\n]*\?>[^\S\n]*$", re.MULTILINE)
+_DECLARATIONS = lazy_pattern(rb"^[^\S\n]*<\?xml[^\n]*\?>[^\S\n]*$", re.MULTILINE)
 """Declarations, which are removed before the text is parsed."""
 _NOT_XML = "its XML parser does not read the file"
 _LEFT_OUT = "it leaves the element out"

@@ -12,21 +12,22 @@ from xml.parsers import expat
 from lxml import etree
 
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
 from twinform.profiles.nodes import RawNode, UnparsedError
 from twinform.schemas import XmlElement
 
 _NAME = r"[A-Za-z_:\x80-\U0010ffff][\w.:\x80-\U0010ffff-]*"
-_TAG = re.compile(rf"<({_NAME})")
-_ATTRIBUTE = re.compile(rf"""\s*({_NAME})\s*=\s*(?:"([^"]*)"|'([^']*)')""")
-_UNQUOTED = re.compile(rf"""\s*({_NAME})\s*=\s*([^\s"'/>]+)""")
-_END = re.compile(rf"</({_NAME})\s*>")
-_CLOSE = re.compile(r"\s*(/?)>")
-_REFERENCE = re.compile(r"&(?:#x([0-9A-Fa-f]+)|#(\d+)|(lt|gt|amp|quot|apos));")
+_TAG = lazy_pattern(rf"<({_NAME})")
+_ATTRIBUTE = lazy_pattern(rf"""\s*({_NAME})\s*=\s*(?:"([^"]*)"|'([^']*)')""")
+_UNQUOTED = lazy_pattern(rf"""\s*({_NAME})\s*=\s*([^\s"'/>]+)""")
+_END = lazy_pattern(rf"</({_NAME})\s*>")
+_CLOSE = lazy_pattern(r"\s*(/?)>")
+_REFERENCE = lazy_pattern(r"&(?:#x([0-9A-Fa-f]+)|#(\d+)|(lt|gt|amp|quot|apos));")
 _NAMED = {"lt": "<", "gt": ">", "amp": "&", "quot": '"', "apos": "'"}
 _ASIDE = (("<!--", "-->"), ("<![CDATA[", "]]>"))
 _LARGEST = 0x10FFFF
 _LONGEST_LINE = 8191
-_CUT = re.compile(rb"[\r\0]")
+_CUT = lazy_pattern(rb"[\r\0]")
 
 
 @dataclass(frozen=True, slots=True)

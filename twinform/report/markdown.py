@@ -8,6 +8,7 @@ from twinform.compiler.compare.comparison_reporters import amounts_of, heading_o
 from twinform.compiler.graph.mermaid import fits, mermaid
 from twinform.diagnostics import Diagnostic, Fate, Severity
 from twinform.diagnostics.reporters import printable
+from twinform.lazy import lazy_pattern
 from twinform.report.content import ModelReport, ReportSubject
 from twinform.report.markup import count, place
 from twinform.report.report_page import outcome
@@ -18,8 +19,8 @@ LARGEST = 65_536
 _LISTED = (25, 10, 3, 0)
 _LONGEST = 300
 _DRAWN = 60
-_SIGNS = re.compile(r"[!\"#$%&'()*+\-./:;<=>?@\[\\\]^_`{|}~]")
-_JOINED = re.compile(r"[@#]|://|(?<=www)\.|(?<=GH)-", re.IGNORECASE)
+_SIGNS = lazy_pattern(r"[!\"#$%&'()*+\-./:;<=>?@\[\\\]^_`{|}~]")
+_JOINED = lazy_pattern(r"[@#]|://|(?<=www)\.|(?<=GH)-", re.IGNORECASE)
 """What GitHub turns into links: mentions, issues and addresses."""
 _BREAK = "\N{ZERO WIDTH SPACE}"
 

@@ -1,7 +1,6 @@
 """HTML that escapes by type, so that no text of a file can become a tag; tables, bars and numbers made of it."""
 
 import math
-import re
 from base64 import b64encode
 from collections.abc import Iterable, Sequence
 from html import escape
@@ -9,10 +8,11 @@ from typing import NamedTuple
 
 from twinform.diagnostics import Fate, Ledger, Location
 from twinform.diagnostics.reporters import printable
+from twinform.lazy import lazy_pattern
 
 _WITHOUT_END = frozenset({"meta", "img", "br", "wbr"})
 _LINES = frozenset({"\n", "\t"})
-_PIECES = re.compile(r"[^/_:.]*[/_:.]*")
+_PIECES = lazy_pattern(r"[^/_:.]*[/_:.]*")
 
 
 # With templates each place has to be escaped, or an engine with autoescape be installed. Here a

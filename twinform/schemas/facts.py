@@ -29,21 +29,21 @@ Places are:
 * nothing: the subtree is kept as an opaque element, and no row in it has a place.
 """
 
-import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field, replace
 from functools import cache
 from itertools import pairwise
 
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
 from twinform.package_files import package_files
 
 Version = tuple[int, int]
 
 # A notation of our own: Python literals would need four times the lines and a type checker's
 # patience, and TOML and CSV cannot nest. It is documented and parsed here only.
-_LINE = re.compile(r"(?P<indent> *)(?P<name>@?[\w.]++)(?P<rest>.*)")
-_WORD = re.compile(r'->\s*\S+|\w+=(?:"[^"]*"|\S+)|\S+')
+_LINE = lazy_pattern(r"(?P<indent> *)(?P<name>@?[\w.]++)(?P<rest>.*)")
+_WORD = lazy_pattern(r'->\s*\S+|\w+=(?:"[^"]*"|\S+)|\S+')
 _COUNTS = frozenset("1?*+")
 _FLAGS = frozenset({"any", "aside", "deprecated", "expected", "last"})
 

@@ -14,10 +14,10 @@ A row with `=` stands for all rows of another place. Versions, units and default
 name that has several rows, one for each version, has one text.
 """
 
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 
+from twinform.lazy import lazy_pattern
 from twinform.package_files import package_files
 from twinform.schemas.facts import Fact, Table, parse_version, print_version, table
 
@@ -25,7 +25,7 @@ Path = tuple[str, ...]
 """The names from a definition down to a row."""
 
 # In files beside the facts: a sentence for each of 1,100 rows would bury the tables.
-_LINE = re.compile(r"(?P<indent> *)(?:= (?P<like>[\w. @]+)|(?P<name>@?[\w.]+): (?P<text>\S.*))")
+_LINE = lazy_pattern(r"(?P<indent> *)(?:= (?P<like>[\w. @]+)|(?P<name>@?[\w.]+): (?P<text>\S.*))")
 
 
 @cache

@@ -13,6 +13,7 @@ from typing import Any
 from lxml import etree
 
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
 from twinform.schemas.facts import Version
 from twinform.schemas.value_types import format_numbers, format_value, parse_bool
 from twinform.schemas.written_rows import in_order
@@ -30,11 +31,11 @@ NEW_LINE = "\n"
 """The indent of the root."""
 _STEP = "  "
 _ZERO = (0.0, 0.0, 0.0)
-_PLAIN_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]*")
+_PLAIN_NAME = lazy_pattern(r"[A-Za-z_][A-Za-z0-9_.-]*")
 _NOT_IN_XML = "\0-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff"
 # Whatever is not here stands as it is, so that each "<" in a text written here begins a tag.
-_ODD_IN_TEXT = re.compile(f"[&<>\r{_NOT_IN_XML}]")
-_ODD_IN_ATTRIBUTE = re.compile(f'[&<>"\n\t\r{_NOT_IN_XML}]')
+_ODD_IN_TEXT = lazy_pattern(f"[&<>\r{_NOT_IN_XML}]")
+_ODD_IN_ATTRIBUTE = lazy_pattern(f'[&<>"\n\t\r{_NOT_IN_XML}]')
 _REFERENCES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\n": "&#10;", "\t": "&#9;", "\r": "&#13;"}
 # XML declares this prefix itself.
 _KNOWN = {"": "", "http://www.w3.org/XML/1998/namespace": "xml:"}

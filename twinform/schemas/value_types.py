@@ -8,6 +8,7 @@ from collections.abc import Callable
 from math import isfinite
 
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
 
 Parser = Callable[[str], object]
 
@@ -123,7 +124,7 @@ def parse_bool(text: str) -> bool:
     raise ValueError
 
 
-_INTEGER = re.compile(r"\s*(?P<hex>[-+]?0[xX][0-9a-fA-F]+)\s*|\s*(?P<decimal>[-+]?[0-9]+)(\.0*)?\s*", re.ASCII)
+_INTEGER = lazy_pattern(r"\s*(?P<hex>[-+]?0[xX][0-9a-fA-F]+)\s*|\s*(?P<decimal>[-+]?[0-9]+)(\.0*)?\s*", re.ASCII)
 
 
 def _int(text: str) -> int:

@@ -1,11 +1,12 @@
 """The one place that names lxml's element type, which the library keeps under a private name."""
 
-import re
 from collections.abc import Iterable, Iterator
 from typing import cast
 
 from lxml import etree
 from lxml.etree import _Element as XmlElement  # pyright: ignore[reportPrivateUsage] - lxml has no public name for it
+
+from twinform.lazy import lazy_pattern
 
 __all__ = [
     "BLANKS",
@@ -29,7 +30,7 @@ Places = dict[XmlElement, int]
 """The places of elements among their like."""
 _UNDECLARED = "urn:twinform:undeclared:"
 """The beginning of the namespace that an undeclared prefix is given; the prefix is the end."""
-_UNDECLARED_NAME = re.compile(rf"(?<={{){_UNDECLARED}(?P<prefix>[^}}]*)(?=}})")
+_UNDECLARED_NAME = lazy_pattern(rf"(?<={{){_UNDECLARED}(?P<prefix>[^}}]*)(?=}})")
 _USUAL = {
     "drake": "http://drake.mit.edu",
     "gz": "http://gazebosim.org/schema",

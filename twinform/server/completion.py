@@ -2,12 +2,13 @@
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
 from lsprotocol import types
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
 from twinform.ir.references import ReferenceKind
+from twinform.lazy import lazy_pattern
 from twinform.passes.plugins.catalog import systems
 from twinform.passes.plugins.catalog_types import PluginParameter
 from twinform.passes.structure.rename_parts import LOOKUP_ORDER
@@ -82,8 +83,8 @@ def _documents_with_names(session: Session, document: TextDocument) -> Iterator[
         yield from session.neighbors.included(document, search_of(session, document))[1:]
 
 
-_IN_EXPRESSION = re.compile(r"\$\{[^}<>]*?(?P<word>[A-Za-z_]\w*)?$")
-_IN_SUBSTITUTION = re.compile(r"\$\((?P<command>[a-z]*)(?:\s+(?P<word>[\w.-]*))?$")
+_IN_EXPRESSION = lazy_pattern(r"\$\{[^}<>]*?(?P<word>[A-Za-z_]\w*)?$")
+_IN_SUBSTITUTION = lazy_pattern(r"\$\((?P<command>[a-z]*)(?:\s+(?P<word>[\w.-]*))?$")
 _COMMANDS = ("arg", "find", "dirname", "env", "optenv", "eval")
 _LOOKED_BACK = 500
 
@@ -158,7 +159,7 @@ def _propose_name(name: Name) -> Proposal:
 
 _ITEM = types.CompletionItemKind
 _BOOLS = ("true", "false")
-_PLACE = re.compile(r"(?P<escaped>\\\$)|\$\{[^}$]*\}|\$.?", re.DOTALL)
+_PLACE = lazy_pattern(r"(?P<escaped>\\\$)|\$\{[^}$]*\}|\$.?", re.DOTALL)
 
 
 def complete(session: Session, document: TextDocument, offset: int) -> types.CompletionList:

@@ -1,21 +1,22 @@
 """The documents that are open in the editor, kept in step with what is typed, and the other files that they name."""
 
-import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 
 from lsprotocol.types import PositionEncodingKind, TextDocumentContentChangeEvent, TextDocumentContentChangePartial
 
+from twinform.dataclass import dataclass
 from twinform.file_access import Readable
+from twinform.lazy import lazy_pattern
 from twinform.server.checking import LARGEST, MOST_TAGS
 from twinform.server.locations import Positions, file_of, path_of, uri_of
 from twinform.server.model_text import ModelText
 from twinform.text import SourceText, UndecodableError
 
-_DECLARED = re.compile(r"""\s*<\?xml[^>]{0,200}?\sencoding\s*=\s*["']([A-Za-z][\w.-]*)["']""")
-_LONE = re.compile("[\ud800-\udfff]")
+_DECLARED = lazy_pattern(r"""\s*<\?xml[^>]{0,200}?\sencoding\s*=\s*["']([A-Za-z][\w.-]*)["']""")
+_LONE = lazy_pattern("[\ud800-\udfff]")
 
 
 @dataclass(frozen=True)  # no slots: what is made of the text is kept in the dictionary

@@ -1,6 +1,5 @@
 """Hover: meaning, unit, default, versions, and the counterpart in the other format, as Markdown."""
 
-import re
 from collections.abc import Iterator
 from functools import cache
 
@@ -8,6 +7,7 @@ from lsprotocol import types
 
 from twinform.diagnostics import Diagnostic, Span
 from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule
+from twinform.lazy import lazy_pattern
 from twinform.passes.plugins.catalog import systems
 from twinform.passes.plugins.catalog_types import PluginKind
 from twinform.schemas import table
@@ -153,7 +153,7 @@ def _rule_page(found: Diagnostic) -> str:
     return f"**{rule.name}**: {rule.finds}\n\n{rule.matters}\n\nBetter:\n\n{rule.better}"
 
 
-_TICKS = re.compile("`+")
+_TICKS = lazy_pattern("`+")
 
 
 def code(text: str) -> str:

@@ -3,18 +3,19 @@
 import os
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
 from twinform.compiler.resolve_uris import SearchPath
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
+from twinform.lazy import lazy_pattern
 from twinform.passes import AssetError
 from twinform.server.documents import DocumentFiles, TextDocument
 from twinform.server.tolerant_tree import TolerantNode
 
-_FIND = re.compile(r"\$\(find\s+(?P<package>[\w.-]+)\)(?P<rest>.*)", re.DOTALL)
-_DIRNAME = re.compile(r"\$\(dirname\)/?")
+_FIND = lazy_pattern(r"\$\(find\s+(?P<package>[\w.-]+)\)(?P<rest>.*)", re.DOTALL)
+_DIRNAME = lazy_pattern(r"\$\(dirname\)/?")
 ENDINGS = (".urdf", ".xacro", ".sdf", ".world", ".gazebo")
 """The suffixes of files that are searched for includes."""
 _MOST_FILES = 500

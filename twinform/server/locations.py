@@ -4,20 +4,20 @@ Lines count from 0, and columns are in the units of the editor, UTF-16 by defaul
 """
 
 import os
-import re
 from bisect import bisect_right
-from dataclasses import dataclass
 from itertools import accumulate
 from pathlib import Path
 from urllib.parse import unquote_to_bytes, urlsplit
 
 from lsprotocol.types import Position, PositionEncodingKind, Range
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
+from twinform.lazy import lazy_pattern
 
 # The three line ends of the protocol, and no others: pygls splits with `str.splitlines`, which also
 # takes form feeds and U+2028, and places every later change wrongly.
-_LINE_END = re.compile(r"\r\n|\n|\r")
+_LINE_END = lazy_pattern(r"\r\n|\n|\r")
 _WIDTHS = {PositionEncodingKind.Utf8: "utf-8", PositionEncodingKind.Utf16: "utf-16-le"}
 _UNITS = {PositionEncodingKind.Utf8: 1, PositionEncodingKind.Utf16: 2}
 
@@ -95,7 +95,7 @@ _LONGEST_PATH = 4095
 _LONGEST_NAME = 255
 """The limits of Linux in bytes."""
 _PROCESSES = Path("/proc")
-_UNFIT = re.compile(r"[^\w.+-]+")
+_UNFIT = lazy_pattern(r"[^\w.+-]+")
 _SHOWN = 100
 
 

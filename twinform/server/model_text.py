@@ -1,10 +1,10 @@
 """The text of a model, whatever its state: its tree, its format, and what is made of it once."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Self, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.server.schema import FormatName, Schema, format_of
 from twinform.server.tolerant_tree import Tree, parse
 

@@ -1,11 +1,11 @@
 """Names at their place in a text, and those of xacro: macros, parameters, properties, arguments, and references."""
 
-import re
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
+from twinform.lazy import lazy_pattern
 from twinform.passes.structure.rename_parts import LOOKUP_ORDER
 from twinform.server.model_text import ModelText
 from twinform.server.schema import PREFIX
@@ -51,9 +51,9 @@ ELEMENTS: dict[str, tuple[tuple[str, ...], tuple[str, ...], str]] = {
 """The elements of xacro: required attributes, optional attributes, and meaning."""
 XACRO_KINDS = frozenset({"macro", "property", "arg", "param"})
 _DEFINES = {"xacro:macro": "macro", "xacro:property": "property", "xacro:arg": "arg"}
-_EXPRESSION = re.compile(r"\$\{(?P<expression>[^}]*)\}?|\$\(arg\s+(?P<arg>[^\s)]+)")
-_WORD = re.compile(r"""'[^']*'|"[^"]*"|(?<![\w.])(?P<word>[A-Za-z_]\w*)""")
-_PARAMETER = re.compile(r"(?<![*^|])[*^|]*+(?P<name>[A-Za-z_][\w.]*)(?:\s*:?=\s*(?:'[^']*'|\"[^\"]*\"|\S+))?")
+_EXPRESSION = lazy_pattern(r"\$\{(?P<expression>[^}]*)\}?|\$\(arg\s+(?P<arg>[^\s)]+)")
+_WORD = lazy_pattern(r"""'[^']*'|"[^"]*"|(?<![\w.])(?P<word>[A-Za-z_]\w*)""")
+_PARAMETER = lazy_pattern(r"(?<![*^|])[*^|]*+(?P<name>[A-Za-z_][\w.]*)(?:\s*:?=\s*(?:'[^']*'|\"[^\"]*\"|\S+))?")
 _RESERVED = frozenset(["and", "or", "not", "if", "else", "for", "in", "is", "True", "False", "None", "lambda"])
 
 

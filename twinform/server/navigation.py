@@ -1,7 +1,6 @@
 """Navigation and renaming: definitions of a name, and all references to it, also in documents connected by includes."""
 
 import os
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
@@ -11,6 +10,7 @@ from lsprotocol import types
 from twinform.compiler.resolve_uris import SearchPath
 from twinform.diagnostics import Span
 from twinform.file_access import Readable
+from twinform.lazy import lazy_pattern
 from twinform.passes.structure.rename_parts import RESERVED
 from twinform.server.document_names import defined, name_at, names_of, resolve_in, surroundings
 from twinform.server.documents import TextDocument
@@ -155,8 +155,8 @@ _ONE_SCOPE = frozenset({"link", "joint", "frame", "model"})
 """The kinds that share a namespace in SDF."""
 
 
-_XACRO_NAME = re.compile(r"[A-Za-z_]\w*")
-_UNFIT = re.compile(r"[<>&\"'\s$]")
+_XACRO_NAME = lazy_pattern(r"[A-Za-z_]\w*")
+_UNFIT = lazy_pattern(r"[<>&\"'\s$]")
 
 
 class RenameRefusedError(Exception):

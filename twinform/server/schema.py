@@ -3,9 +3,9 @@
 Elements of xacro that only hold others, such as `<xacro:if>`, count as the element around them.
 """
 
-from dataclasses import dataclass
 from functools import cache, cached_property
 
+from twinform.dataclass import dataclass
 from twinform.passes.plugins.catalog import (
     classic_plugins_of_file,
     system_of_class,

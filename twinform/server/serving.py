@@ -15,6 +15,7 @@ from contextlib import suppress
 from threading import Thread
 from typing import BinaryIO
 
+from twinform.lazy import lazy_pattern
 from twinform.server.checking import SettingsOf, no_settings
 from twinform.server.wiring import Server, make_server
 
@@ -95,7 +96,7 @@ LARGEST_MESSAGE = 256 * 2**20
 _LONGEST_LINE = 1024
 _PIECE = 2**20
 # Searched at the end of a line: the rest of a message longer than its header said may stand before it.
-_LENGTH = re.compile(rb"content-length:[ \t]*(?P<length>\d{1,12})[ \t]*\r?\n", re.IGNORECASE)
+_LENGTH = lazy_pattern(rb"content-length:[ \t]*(?P<length>\d{1,12})[ \t]*\r?\n", re.IGNORECASE)
 
 
 def read_messages(stream: BinaryIO) -> Iterator[bytes | None]:

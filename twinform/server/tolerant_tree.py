@@ -8,14 +8,15 @@ Parsing is linear in the length of any text.
 import re
 from bisect import bisect_left
 from collections import Counter
-from dataclasses import dataclass
 
 from twinform.compiler.input.loading import garbage_collection_paused
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
+from twinform.lazy import lazy_pattern
 from twinform.text import AttributeSpan
 
 _ATTRIBUTES = r"""(?:\s++[^\s=<>/"']++\s*+=\s*+(?:"[^"<]*+"|'[^'<]*+'))*+"""
-_MARKUP = re.compile(
+_MARKUP = lazy_pattern(
     r"<(?:(?P<aside>!--|!\[CDATA\[|\?|!)|/(?P<close>[^\s<>/]*+)"
     rf"|(?P<open>[^\s<>/!?\"'=]*+)(?:{_ATTRIBUTES}\s*+(?P<ending>/?>))?+)"
 )
@@ -23,13 +24,13 @@ _MARKUP = re.compile(
 _ENDS = {"!--": "-->", "![CDATA[": "]]>", "?": "?>", "!": ">"}
 # A file in an editor is broken most of the time, so expat, which refuses it, cannot give names and
 # completion. A property test holds this scanner to expat for files that are well-formed.
-_ATTRIBUTE = re.compile(
+_ATTRIBUTE = lazy_pattern(
     r"""\s*(?P<name>[^\s=<>/"']+)(?:\s*=\s*(?:"(?P<double>[^"<]*)(?P<end>"?)|'(?P<single>[^'<]*)(?P<stop>'?)|(?P<bare>))"""
     r"""|(?P<alone>))"""
 )
-_JUNK = re.compile(r"[\s\"'=]*")
-_BLANKS = re.compile(r"\s*")
-_LINE_END = re.compile(r"[\r\n]")
+_JUNK = lazy_pattern(r"[\s\"'=]*")
+_BLANKS = lazy_pattern(r"\s*")
+_LINE_END = lazy_pattern(r"[\r\n]")
 
 
 class TolerantNode:

@@ -10,7 +10,6 @@ report too. They run in the folder of the file. The expected result lies in a fi
 `NAME.expected.urdf` or `NAME.expected.sdf`; there is none if the passes change nothing or refuse the model.
 """
 
-import re
 from collections import Counter
 from collections.abc import Collection, Iterable
 from contextlib import chdir
@@ -22,9 +21,10 @@ from typing import Literal, TypedDict
 from twinform.compiler import CompileError, Conversion, check, convert
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, LedgerEntry, Severity
+from twinform.lazy import lazy_pattern
 from twinform.text.tokens import IN_COMMENT
 
-_EXPECT = re.compile(rb"<!--\s*expect:\s*(?P<severity>\w+)\s+(?P<rule>[\w-]+)\s*-->")
+_EXPECT = lazy_pattern(rb"<!--\s*expect:\s*(?P<severity>\w+)\s+(?P<rule>[\w-]+)\s*-->")
 _OTHER: dict[str, Literal["sdf", "urdf"]] = {".urdf": "sdf", ".sdf": "urdf"}
 _SUFFIXES = frozenset({*_OTHER, ".xacro"})
 _PARTS = "parts"
@@ -109,7 +109,7 @@ def _is_case(path: Path, folder: Path) -> bool:
     return path.suffix in _SUFFIXES and ".expected" not in path.suffixes
 
 
-_PASSES = re.compile(rf"<!--\s*+passes:(?P<pipeline>{IN_COMMENT})(?:-->)?")
+_PASSES = lazy_pattern(rf"<!--\s*+passes:(?P<pipeline>{IN_COMMENT})(?:-->)?")
 _FORMATS: dict[str, Literal["sdf", "urdf"]] = {".urdf": "urdf", ".sdf": "sdf"}
 
 

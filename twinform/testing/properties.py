@@ -4,7 +4,6 @@ A model is a document, a path, or the text or bytes of a file.
 """
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple, Self
 
@@ -15,6 +14,7 @@ from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.normal_form import normal_form
 from twinform.compiler.output.emitting import emit
 from twinform.compiler.resolve_uris import SearchPath
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.diagnostics.reporters import REPORTERS, FileFindings
 from twinform.ir import Document, Format

@@ -8,10 +8,11 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
 from twinform.text.positions import indentation
 from twinform.text.tokens import COMMENT, IN_COMMENT, INSTRUCTION, SECTION
 
-_TOKEN = re.compile(
+_TOKEN = lazy_pattern(
     rf"<!--(?P<comment>{IN_COMMENT})-->"
     rf"|{COMMENT}|{SECTION}|{INSTRUCTION}"
     r"|<(?P<close>/?)[^\s<>/\"'!?](?:[^<>\"'/]++|\"[^\"]*+\"|'[^']*+'|/(?!>))*+(?P<empty>/?)>"

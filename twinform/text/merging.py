@@ -7,12 +7,13 @@ was changed too and says something else about a part that changed, that is a con
 from collections import Counter, defaultdict
 from collections.abc import Hashable, Iterator, Sequence
 from copy import deepcopy
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import cache
 from typing import NamedTuple
 
 from lxml import etree
 
+from twinform.dataclass import dataclass
 from twinform.schemas import Fact, XmlElement, table
 from twinform.text.alignment import (
     ElementContents,

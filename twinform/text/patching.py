@@ -6,8 +6,9 @@ spelling of numbers, indentation and line ends. Blanks around texts and between 
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Span, TextEdit
 from twinform.schemas import XmlElement
 from twinform.text.alignment import BLANKS, ElementContents, aligned, elements, known_by, renamed, texts, with_renamed

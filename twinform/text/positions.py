@@ -14,11 +14,12 @@ from xml.parsers import expat
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
+from twinform.lazy import lazy_pattern
 from twinform.text.tokens import COMMENT, INSTRUCTION, SECTION, UnplacedError
 
-_ATTRIBUTE = re.compile(r"""\s+([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
-_NAME = re.compile(r"</?([^\s<>/]+)")
-_END_OF_TAG = re.compile(r"\s*/?>")
+_ATTRIBUTE = lazy_pattern(r"""\s+([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
+_NAME = lazy_pattern(r"</?([^\s<>/]+)")
+_END_OF_TAG = lazy_pattern(r"\s*/?>")
 
 
 class LineColumn(NamedTuple):
@@ -221,11 +222,11 @@ def start_tag(text: str, start: int) -> ElementSpan:
     return ElementSpan(Span(start, end.end()), name, attributes)
 
 
-_TOKEN = re.compile(
+_TOKEN = lazy_pattern(
     rf"(?P<aside>{COMMENT}|{INSTRUCTION})|{SECTION}"
     r"|<(?P<end>/)?[^\s<>/!?][^<>\"']*+(?:\"[^\"]*+\"[^<>\"']*+|'[^']*+'[^<>\"']*+)*+>"
 )
-_TAG_NAME = re.compile(r"<([^\s<>/]+)")
+_TAG_NAME = lazy_pattern(r"<([^\s<>/]+)")
 _MOST = 4000
 """So many tags are looked at for one element: a hostile file has hundreds of them around a million others."""
 _START, _END, _ASIDE = range(3)

@@ -1,10 +1,10 @@
 """Writes elements as text between others: where they go, indented like their neighbors, with the prefixes there."""
 
-import re
 from collections.abc import Mapping
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
+from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement
 from twinform.text.alignment import BLANKS, elements, texts
 from twinform.text.positions import ElementSpan, indentation
@@ -113,7 +113,7 @@ def contents(element: XmlElement, layout: ElementLayout, prefixes: Prefixes) -> 
     return "".join((*pieces, "" if mixed else layout.indent))
 
 
-_REST_OF_LINE = re.compile(r"(?:[ \t]*<!--(?:(?!-->)[^\n])*-->)+(?=[ \t]*\r?\n)")
+_REST_OF_LINE = lazy_pattern(r"(?:[ \t]*<!--(?:(?!-->)[^\n])*-->)+(?=[ \t]*\r?\n)")
 """Comments behind an element on its line, which are about it."""
 _STEP = "  "
 """What new elements are indented by where nothing in the file shows it."""

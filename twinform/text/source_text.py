@@ -1,20 +1,20 @@
 """The text of a file and the bytes that it came from; edits that are applied to it, and its unified diff."""
 
 import codecs
-import re
 from collections.abc import Iterable, Iterator
 from typing import Self
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import TextEdit
 from twinform.diagnostics.reporters import printable
+from twinform.lazy import lazy_pattern
 
 _MARKS = (
     (codecs.BOM_UTF8, "utf-8"),
     (codecs.BOM_UTF16_LE, "utf-16-le"),
     (codecs.BOM_UTF16_BE, "utf-16-be"),
 )
-_DECLARED = re.compile(rb"""\s*<\?xml[^>]*?\sencoding\s*=\s*["']([A-Za-z][\w.-]*)["']""")
+_DECLARED = lazy_pattern(rb"""\s*<\?xml[^>]*?\sencoding\s*=\s*["']([A-Za-z][\w.-]*)["']""")
 _WITHOUT_MARK = ((b"<\0", "utf-16-le"), (b"\0<", "utf-16-be"))
 """How UTF-16 begins where it has no mark."""
 

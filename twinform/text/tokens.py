@@ -9,6 +9,8 @@ from array import array
 from enum import IntEnum
 from xml.parsers import expat
 
+from twinform.lazy import lazy_pattern
+
 # Possessive repetitions (Python 3.11): they never give back what they took, so no text makes them
 # quadratic.
 IN_COMMENT = r"[^-]*+(?:-(?!->)[^-]*+)*+"
@@ -20,7 +22,7 @@ SECTION = rf"<!\[CDATA\[{IN_SECTION}(?:\]\]>)?"
 INSTRUCTION = rf"<\?{IN_INSTRUCTION}(?:\?>)?"
 
 
-_TOKEN = re.compile(rf"""{COMMENT}|{INSTRUCTION}|{SECTION}|<(?:[^"'<>]++|"[^"]*+"|'[^']*+')*+>|[^<]++""")
+_TOKEN = lazy_pattern(rf"""{COMMENT}|{INSTRUCTION}|{SECTION}|<(?:[^"'<>]++|"[^"]*+"|'[^']*+')*+>|[^<]++""")
 
 
 class UnplacedError(ValueError):
@@ -101,12 +103,12 @@ def _refuse_doctype(*_: object) -> None:
     raise UnplacedError("the document has a DOCTYPE")
 
 
-_ASIDE = re.compile(
+_ASIDE = lazy_pattern(
     rf"{SECTION}|<!--(?P<comment>{IN_COMMENT})-->|{COMMENT}|(?P<declaration><\?xml\s{IN_INSTRUCTION}\?>)"
     rf"|{INSTRUCTION}",
     re.IGNORECASE,
 )
-_VISIBLE = re.compile(r"[^\r\n]")
+_VISIBLE = lazy_pattern(r"[^\r\n]")
 
 
 def masked(text: str) -> str:

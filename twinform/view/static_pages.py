@@ -1,6 +1,5 @@
 """Pages with a 3D view that open without a server and ask for nothing: for reports and notebooks."""
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -8,6 +7,7 @@ from twinform.compiler.compare.comparison import Comparison
 from twinform.compiler.input.load_options import unexpanded_name
 from twinform.compiler.resolve_uris import SearchPath
 from twinform.compiler.scene import build_scene
+from twinform.dataclass import dataclass
 from twinform.ir import Document
 from twinform.view.subject import ViewerMissingError, ViewSubject
 

@@ -2,7 +2,6 @@
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
 from twinform.compiler.inspection import inspect
 from twinform.compiler.resolve_uris import SearchPath
 from twinform.compiler.scene import Scene, build_scene
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Location
 from twinform.diagnostics.ledger import LedgerEntry
 from twinform.ir import Document, Format, Model

@@ -3,11 +3,11 @@
 import importlib
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from twinform.compiler.resolve_uris import LocalAssets, SearchPath
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Mesh, Plane, Sphere
 from twinform.ir.defaults import sizes

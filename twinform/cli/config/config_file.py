@@ -1,7 +1,6 @@
 """Finds a configuration and reads its file; the error of a wrong one."""
 
 import os
-import re
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -9,6 +8,7 @@ from typing import cast
 
 from twinform.cli.command import Unusable
 from twinform.file_access import REPOSITORY, Readable, folders_above, has_any
+from twinform.lazy import lazy_pattern
 
 OWN = "twinform.toml"
 _SHARED = "pyproject.toml"
@@ -16,10 +16,10 @@ _LARGEST = 2**20
 _DEEPEST = 64
 # A dotted key with too many parts: `tomllib` is quadratic in them, and 200,000 parts in a file of 400 kB took longer
 # than a minute. No setting has more than three.
-_DEEP_KEY = re.compile(rb"""(?:\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*){%d}""" % _DEEPEST)
-_LINE = re.compile(r" \(at line (\d+), column \d+\)")
+_DEEP_KEY = lazy_pattern(rb"""(?:\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*){%d}""" % _DEEPEST)
+_LINE = lazy_pattern(r" \(at line (\d+), column \d+\)")
 # A number with so many digits that `int` raises a plain ValueError, without a line.
-_LONG_NUMBER = re.compile(rb"[0-9_]{%d}" % sys.get_int_max_str_digits())
+_LONG_NUMBER = lazy_pattern(rb"[0-9_]{%d}" % sys.get_int_max_str_digits())
 Table = Mapping[str, object]
 
 

@@ -7,7 +7,7 @@ others, without hidden files, other models, and links that lead elsewhere. The c
 import json
 import os
 from collections.abc import Iterable, Iterator
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import asdict, field, replace
 from pathlib import Path, PurePosixPath
 
 from lxml import etree
@@ -29,6 +29,7 @@ from twinform.compiler.model_config import MANIFESTS, manifest, model_file
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.split_world import split
 from twinform.compiler.statistics import measure
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Fate, Ledger, Policy, Severity, SideFile
 from twinform.diagnostics.reporters.json import row
 from twinform.file_access import Readable

@@ -3,11 +3,12 @@
 import json
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import StrEnum
 from typing import NamedTuple
 
 from twinform.compiler.dependencies import Dependency
+from twinform.dataclass import dataclass
 
 Row = dict[str, object]
 

@@ -33,7 +33,7 @@ from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.observing import digest
 from twinform.compiler.workers import Failure, Runner, process_runner, run_on
 from twinform.dataclass import dataclass
-from twinform.passes import SideFilePass
+from twinform.passes import FilesPass
 from twinform.storage.staging import temporary_folder
 
 
@@ -159,7 +159,7 @@ def _plan_outputs(asked: Batch, entries: Sequence[ModelEntry]) -> Mapping[str, s
     if not isinstance(job, Convert):
         return {entry.name: "" for entry in entries}
     for step in job.to.passes:
-        if isinstance(step, SideFilePass):
+        if isinstance(step, FilesPass) and step.only_file:
             raise FolderError(f"{step.name} makes a file beside a result, and a batch has many: use twinform convert")
     # of all models, so that the place of one does not depend on the shard that it is in
     every = outputs((entry.name for entry in asked.entries), job.to.to)

@@ -8,7 +8,7 @@ import threading
 import time
 from collections.abc import Generator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -21,6 +21,7 @@ from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.observing import observed
 from twinform.compiler.reproducers import write_reproducer
 from twinform.compiler.resolve_uris import SearchPath
+from twinform.dataclass import dataclass
 from twinform.passes import PassError
 
 # Versions of Python and lxml may differ between machines: they change the wording of some messages and no result that

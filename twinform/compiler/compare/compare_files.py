@@ -2,7 +2,6 @@
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Unpack
 
@@ -34,6 +33,7 @@ from twinform.compiler.input.loading import (
 )
 from twinform.compiler.option import require_options
 from twinform.compiler.resolve_uris import LocalAssets
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, LineOrigins
 from twinform.ir import Document, Format, Model
 from twinform.ir.frames import FrameError
@@ -133,7 +133,7 @@ def _select_robots(
 ) -> Iterator[tuple[str, ComparedRobot]]:
     """Yield each robot with its name, which includes the world's name where several robots have one name."""
     if document.format is Format.SDF:  # names that a model of URDF had, as far as these are unlike others
-        canonical = RestoreNames(to=Format.URDF, unique=True).run(canonical, DiagnosticSink())
+        canonical = RestoreNames.unchecked(to=Format.URDF, unique=True).run(canonical, DiagnosticSink())
     selector = Selector(canonical)
     names = list(dict.fromkeys(one.full_name for one in selector.among))
     called = Counter(one.model.name for one in selector.among)
@@ -141,7 +141,9 @@ def _select_robots(
         chosen = selector.select(name, sink)
         if sink.has_errors:
             return
-        chosen = UniqueNames().run(chosen, DiagnosticSink())  # before 1.7 a joint and a link could share theirs
+        chosen = UniqueNames.unchecked().run(
+            chosen, DiagnosticSink()
+        )  # before 1.7 a joint and a link could share theirs
         chosen = chosen.copy(models=tuple(map(_without_additions, chosen.models)))
         source = document.models[0] if document.format is Format.URDF else chosen.models[0]
         robot = build_robot(chosen.models[0], source, document.format, memos[name])

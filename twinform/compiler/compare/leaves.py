@@ -80,7 +80,7 @@ class LeafWalk:
         if "pose" not in rows or f"{path}pose" in self.skipped:
             return holder
         written = element.find("pose")
-        pose = Pose() if written is None else read_pose(from_xml(written))
+        pose = Pose.unchecked() if written is None else read_pose(from_xml(written))
         here = self.resolve(pose, holder)
         self._put(f"{path}pose", PoseValue(here), None, carried=carried)
         return here

@@ -66,7 +66,7 @@ _RESOLVED: Mapping[type[Node], frozenset[str]] = {
 """Paths that are compared in another form than they are written in, such as poses in the model's frame."""
 Places = Callable[[str], Source | None]
 """A function from the path of a value to the place where it was read."""
-_NOTHING = Element(name="nothing")
+_NOTHING = Element.unchecked(name="nothing")
 _NOT_OF_THE_ROBOT = frozenset({"material", "link", "name", "type"})
 """Contents of URDF carriers that only tell how the file is written, or that the model also has in SDF syntax."""
 _IN_URDF: Mapping[type[Node], tuple[str, ...]] = {

@@ -113,7 +113,7 @@ class _RobotReading:
         model, identity = self.model, Transform()
         leaves, parts = self.reader.parts(model, identity)
         inner = [*(self._shell(shell, frame.name) for frame, shell in shells), *self._carried_shells()]
-        of_urdf = source if self.format is Format.URDF else Model(name="")
+        of_urdf = source if self.format is Format.URDF else Model.unchecked(name="")
         links, joints = ({part.name for part in parts} for parts in (of_urdf.links, of_urdf.joints))
         return ComparedRobot(
             name=model.name,
@@ -148,8 +148,8 @@ class _RobotReading:
         return ComparedBody(link.name, frame, mass, leaves, parts, link.source)
 
     def _mass(self, inertial: Inertial | None, frame: Transform) -> Mass:
-        inertial = inertial or Inertial()
-        pose = self.poses.resolve(inertial.pose or Pose(), frame)
+        inertial = inertial or Inertial.unchecked()
+        pose = self.poses.resolve(inertial.pose or Pose.unchecked(), frame)
         solid = placed(written_solid(inertial, Format.SDF), pose)
         return Mass(solid, bool(inertial.auto), inertial.source)
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from twinform.compiler.fixing.site import FindingSite, Fixers, safe, unsafe
 from twinform.diagnostics import Fix, Safety, TextEdit, meant_name, rules
+from twinform.lazy import lazy_pattern
 from twinform.schemas import VALUE_TYPES, format_value
 
 # A number may not start in the middle of another one, or each digit of a long one would be a start
@@ -19,8 +20,8 @@ _CHARACTERS = str.maketrans(
     {"\u2212": "-", "\u2013": "-", "\ufe63": "-", "\uff0d": "-", "\uff0c": ",", "\uff0e": ".", "\u00a0": " "}
 )
 _BRACKETS = str.maketrans("()[]{}", "      ")
-_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d+)?")
-_DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d)|(?<![\d.]),(?=\d)")
+_THOUSANDS = lazy_pattern(r"[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d+)?")
+_DECIMAL_COMMA = lazy_pattern(r"(?<=\d),(?=\d)|(?<![\d.]),(?=\d)")
 _SI = {"m", "rad", "kg", "n", "nm", "n*m", "n.m", "s", "m/s", "rad/s", "hz", "kg*m^2", "kg.m^2", "kgm^2"}
 """Units that the formats use anyway."""
 _SCALES = {
@@ -38,7 +39,7 @@ _SCALES = {
     "deg/s": math.pi / 180,
     "rpm": math.pi / 30,
 }
-_WITH_UNIT = re.compile(rf"(?P<number>{_NUMBER})\s*+(?P<unit>[A-Za-z\u00b0][A-Za-z/*.^\d]*+)")
+_WITH_UNIT = lazy_pattern(rf"(?P<number>{_NUMBER})\s*+(?P<unit>[A-Za-z\u00b0][A-Za-z/*.^\d]*+)")
 _WORDS = {"yes": "true", "on": "true", "no": "false", "off": "false"}
 # Here a minus means neither "no limit" nor a direction.
 _NEVER_NEGATIVE = frozenset({"capsule", "cylinder", "dynamics", "length", "mass", "radius", "size", "sphere"})

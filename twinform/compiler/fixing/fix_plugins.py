@@ -1,14 +1,13 @@
 """Fixes of plugins of Gazebo: names of Ignition, classes that their files do not have, systems that a world lacks."""
 
-import re
-
 from lxml import etree
 
 from twinform.compiler.fixing.site import FindingSite, Fixers, unsafe
 from twinform.diagnostics import Fix, TextEdit, meant_name, rules
+from twinform.lazy import lazy_pattern
 from twinform.passes.plugins.catalog import systems_of_file
 
-_WRITTEN = re.compile(r'<plugin filename="(?P<file>[^"]+)" name="(?P<name>[^"]+)"')
+_WRITTEN = lazy_pattern(r'<plugin filename="(?P<file>[^"]+)" name="(?P<name>[^"]+)"')
 
 
 def _ignition_name(site: FindingSite) -> Fix | None:

@@ -1,6 +1,5 @@
 """Applies fixes until nothing changes. A fix that causes a new finding, or breaks the file, is taken back."""
 
-import re
 from bisect import bisect_left, insort
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
@@ -12,6 +11,7 @@ from twinform.compiler.inspection import inspect
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit
 from twinform.diagnostics.sink import MOST
+from twinform.lazy import lazy_pattern
 from twinform.text import SourceText, apply
 
 MOST_ROUNDS = 100
@@ -22,7 +22,7 @@ _LEAST_CHECKS = 10
 # are left out.
 # A hostile file of 400 kB costs ten times what `check` costs, instead of 200 times.
 _MOST_BYTES = 4_000_000
-_PREDICATE = re.compile(r"\[(?:@name='(?:.*?'\](?=[/\[]|$)|.*)|\d+\](?=[/\[]|$))")
+_PREDICATE = lazy_pattern(r"\[(?:@name='(?:.*?'\](?=[/\[]|$)|.*)|\d+\](?=[/\[]|$))")
 
 Group = list[Diagnostic]
 """Findings that one fix fixes."""

@@ -12,30 +12,31 @@ from lxml import etree
 from twinform.compiler.fixing.site import FixableFile, TextFixers, safe, unsafe
 from twinform.compiler.input.xml_recovery import REPAIRS
 from twinform.diagnostics import Diagnostic, Fix, Span, TextEdit, nearest_name, rules
+from twinform.lazy import lazy_pattern
 from twinform.schemas import usual_namespace
 from twinform.text.tokens import COMMENT, IN_COMMENT, INSTRUCTION, SECTION
 
-_COMMENT = re.compile(rf"<!--(?P<inside>{IN_COMMENT})(?:-->)?")
-_ASIDE = re.compile(f"{COMMENT}|{SECTION}|{INSTRUCTION}")
-_DECLARATION = re.compile(r"<\?xml\s[^<>]*+(?<=\?)>", re.IGNORECASE)
-_VERSION = re.compile(r"""(?<=\s)version\s*=\s*(?:"[^"]*"|'[^']*')""")
-_VERSION_TYPO = re.compile(r"(?<=\s)ver[a-z]*(?=\s*=)")
-_ENCODING = re.compile(r"""encoding\s*=\s*["']([^"']*)["']""")
-_BREAK = re.compile(r"[\t\r\n]")
-_NUMBERS = re.compile(r"[-+.\deE\s]+")
-_HYPHENS = re.compile(r"-{2,}")
-_LOST = re.compile(r"\s*(?=\?xml\s)")
-_PREFIX = re.compile(r"the prefix '(?P<prefix>[\w.-]+)' of ")
-_TAG = re.compile(r"</?[A-Za-z_][\w.-]*::[A-Za-z_]")
-_ROOT = re.compile(r"<[A-Za-z_][\w:.-]*")
-_BARE_AMPERSAND = re.compile(r"&(?!#\d+;|#x[0-9A-Fa-f]+;|[A-Za-z_][\w.-]*;)")
-_ENTITY = re.compile(r"&(?P<name>[A-Za-z]\w*);")
+_COMMENT = lazy_pattern(rf"<!--(?P<inside>{IN_COMMENT})(?:-->)?")
+_ASIDE = lazy_pattern(f"{COMMENT}|{SECTION}|{INSTRUCTION}")
+_DECLARATION = lazy_pattern(r"<\?xml\s[^<>]*+(?<=\?)>", re.IGNORECASE)
+_VERSION = lazy_pattern(r"""(?<=\s)version\s*=\s*(?:"[^"]*"|'[^']*')""")
+_VERSION_TYPO = lazy_pattern(r"(?<=\s)ver[a-z]*(?=\s*=)")
+_ENCODING = lazy_pattern(r"""encoding\s*=\s*["']([^"']*)["']""")
+_BREAK = lazy_pattern(r"[\t\r\n]")
+_NUMBERS = lazy_pattern(r"[-+.\deE\s]+")
+_HYPHENS = lazy_pattern(r"-{2,}")
+_LOST = lazy_pattern(r"\s*(?=\?xml\s)")
+_PREFIX = lazy_pattern(r"the prefix '(?P<prefix>[\w.-]+)' of ")
+_TAG = lazy_pattern(r"</?[A-Za-z_][\w.-]*::[A-Za-z_]")
+_ROOT = lazy_pattern(r"<[A-Za-z_][\w:.-]*")
+_BARE_AMPERSAND = lazy_pattern(r"&(?!#\d+;|#x[0-9A-Fa-f]+;|[A-Za-z_][\w.-]*;)")
+_ENTITY = lazy_pattern(r"&(?P<name>[A-Za-z]\w*);")
 _OF_XML = frozenset({"lt", "gt", "amp", "apos", "quot"})
-_UNQUOTED = re.compile(r"""(?P<before>\s[\w:.-]+\s*=\s*)(?P<value>[^\s"'<>=/]+)(?=[\s/>])""")
-_MISMATCH = re.compile(r"Opening and ending tag mismatch: (?P<open>\S+) line \d+ and (?P<close>\S+)")
-_NO_BLANK = re.compile(r"""(?<==)\s*(?P<value>"[^"<]*"|'[^'<]*')(?=[A-Za-z_])""")
-_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
-_DOCTYPE = re.compile(r"<!DOCTYPE\s+\w+\s*>\s*", re.IGNORECASE)
+_UNQUOTED = lazy_pattern(r"""(?P<before>\s[\w:.-]+\s*=\s*)(?P<value>[^\s"'<>=/]+)(?=[\s/>])""")
+_MISMATCH = lazy_pattern(r"Opening and ending tag mismatch: (?P<open>\S+) line \d+ and (?P<close>\S+)")
+_NO_BLANK = lazy_pattern(r"""(?<==)\s*(?P<value>"[^"<]*"|'[^'<]*')(?=[A-Za-z_])""")
+_CONTROL = lazy_pattern(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
+_DOCTYPE = lazy_pattern(r"<!DOCTYPE\s+\w+\s*>\s*", re.IGNORECASE)
 _SURE = 0.7
 # The most namespaces of a root to which more are added. libxml2 names a hundred prefixes at a time;
 # real files have 16.

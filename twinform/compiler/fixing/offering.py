@@ -4,7 +4,6 @@ Fixers are functions that make a fix; each of our modules `fix_...` has a table 
 theirs through the entry-point group `twinform.fixes`, where the name of an entry point is that of the rule.
 """
 
-import re
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -21,12 +20,13 @@ from twinform.compiler.fixing.site import (
 )
 from twinform.compiler.input.loading import LoadResult
 from twinform.diagnostics import Diagnostic, Fix, catalog, rules
+from twinform.lazy import lazy_pattern
 
 # Rules whose path may lead to an element that is not written: in URDF a <limit> implies its axis.
 _ABOUT_WHAT_IS_NOT_THERE = frozenset({rules.UNUSED_AXIS.name})
 # A fix with more edits is offered at the first of its findings only.
 _MANY_EDITS = 100
-_ATTRIBUTE = re.compile(r"/@[^/\]']+$")
+_ATTRIBUTE = lazy_pattern(r"/@[^/\]']+$")
 
 
 def with_fixes(loaded: LoadResult, wanted: Callable[[Diagnostic], bool] = lambda _: True) -> tuple[Diagnostic, ...]:

@@ -1,6 +1,5 @@
 """The site of a finding for fixers: the file, the element and the attribute that it is about, and edits of them."""
 
-import re
 from collections import defaultdict
 from collections.abc import Callable, Mapping
 from dataclasses import field
@@ -13,11 +12,12 @@ from twinform.compiler.input.loading import LoadResult, read_tree_again
 from twinform.compiler.input.parsing import UnreadableError
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Fix, Location, Safety, TextEdit
+from twinform.lazy import lazy_pattern
 from twinform.schemas import Fact, Version, XmlElement, rows_by_name, table
 from twinform.text import Editor, Lines, SourceText, TextSurroundings, UndecodableError, UnplacedError, masked, spans
 
-_EXPRESSION = re.compile(r"\$[{(]")
-_BETWEEN_WORDS = re.compile(r"\s+|::|,")
+_EXPRESSION = lazy_pattern(r"\$[{(]")
+_BETWEEN_WORDS = lazy_pattern(r"\s+|::|,")
 
 
 @dataclass(frozen=True)

@@ -44,7 +44,7 @@ def _fold_extensions(document: Document) -> Document:
     from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - SDF does not need it
 
     try:
-        return Pipeline((FoldGazebo(carriers=False),)).run(document, DiagnosticSink())
+        return Pipeline((FoldGazebo.unchecked(carriers=False),)).run(document, DiagnosticSink())
     except PassError:
         return document
 

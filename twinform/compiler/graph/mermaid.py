@@ -3,10 +3,10 @@
 Names stand in quoted labels, where every character that could mean something is a numeric entity; ids are ours.
 """
 
-import re
 from collections.abc import Iterator, Mapping
 
 from twinform.compiler.graph.graph import Cluster, Graph, GraphJoint, GraphNode, indent, shortened, write_clusters
+from twinform.lazy import lazy_pattern
 
 MOST_EDGES = 500
 MOST_CHARACTERS = 50_000
@@ -19,7 +19,7 @@ _SHAPES: Mapping[str, str] = {
     "missing": '["{}"]:::missing',
 }
 # A test has Mermaid draw names such as `end`, `<script>` and `#quot;` in a browser.
-_PLAIN = re.compile(r"[^\w .,/()-]")
+_PLAIN = lazy_pattern(r"[^\w .,/()-]")
 """Characters with an entity; letters of all scripts stay."""
 
 

@@ -1,7 +1,6 @@
 """Checks documents in memory as the files that they would be, which have to say everything that they do."""
 
 import json
-import re
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple, cast
 
@@ -13,12 +12,13 @@ from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format, Node
 from twinform.ir.record import field_value
 from twinform.ir.verify import verify
+from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement
 
 _ASIDE = frozenset({"$schema", "namespaces", "order", "spelling"})
 """Fields that are not compared: the version of the schema; prefixes, which a file may have more of; and fields that are
 not about the robot."""
-_NOT_IN_XML = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+_NOT_IN_XML = lazy_pattern("[\0-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _NOWHERE = object()
 
 

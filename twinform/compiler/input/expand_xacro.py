@@ -5,12 +5,10 @@ The process gets a task, asks questions, and sends a result.
 
 import json
 import os
-import re
 import site
 import subprocess
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from importlib.machinery import PathFinder
 from pathlib import Path
 from threading import Timer
@@ -26,7 +24,9 @@ from twinform.compiler.input.size_limits import LARGEST
 from twinform.compiler.input.xacro_files import AllowedFiles, DeniedError, variable
 from twinform.compiler.observing import note_failure, note_variable
 from twinform.compiler.resolve_uris import SearchPath, UriError
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, LineOrigins, Location, rules
+from twinform.lazy import lazy_pattern
 
 _WORKER = Path(__file__).with_name("xacro") / "__main__.py"
 _LIBRARIES = ("xacro", "yaml")
@@ -46,7 +46,7 @@ _QUESTIONS = frozenset({"environment", "find", "match", "read"})
 _PASSED_ON = ("APPDATA", "HOME", "LANG", "PATH", "SYSTEMROOT", "TEMP", "TMPDIR", "USERPROFILE")
 # Python needs these to find its modules. Nothing else of the environment is in the process.
 _PASSED_ON_STARTS = ("COV", "DYLD_", "LC_", "LD_", "PYTHON")
-_EXPAT = re.compile(r"not well-formed XML: .*: line \d+, column (\d+)$")
+_EXPAT = lazy_pattern(r"not well-formed XML: .*: line \d+, column (\d+)$")
 """Where expat noticed what is wrong; it counts columns from 0."""
 _REMARKS = {"warning: ": rules.XACRO_WARNING, "error: ": rules.XACRO_WARNING}
 

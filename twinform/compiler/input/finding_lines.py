@@ -12,13 +12,14 @@ from functools import cached_property
 from itertools import chain
 
 from twinform.diagnostics import Diagnostic, Location
+from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement
 from twinform.schemas.xml import prefix_of
 
-_STEP = re.compile(
+_STEP = lazy_pattern(
     r"/(?P<tag>[^/\[\]@]+)(?:\[@(?P<key>name|reference)='(?P<value>.*?)'\]|\[(?P<place>\d+)\])?(?=/|$)", re.DOTALL
 )
-_ATTRIBUTE = re.compile(r"/@[^/\]']+$")
+_ATTRIBUTE = lazy_pattern(r"/@[^/\]']+$")
 
 _KEYS = ("name", "reference")
 _SEVERAL = 2

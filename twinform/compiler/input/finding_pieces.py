@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from itertools import islice
 
 from twinform.diagnostics import Diagnostic, Rule, Span, nearest_name, rules
+from twinform.lazy import lazy_pattern
 from twinform.text import AttributeSpan, ElementSpan
 from twinform.text.tokens import COMMENT, INSTRUCTION
 
@@ -46,15 +47,15 @@ _PARTS: dict[Rule, str] = {
     rules.SELF_JOINT: "child",
 }
 """The attribute, or the child element, that a finding about an element is about, where it has one."""
-_QUOTED = re.compile(r"'((?:[^']|(?<=\w)'(?=\w))+)'")
-_EXPRESSION = re.compile(r"when evaluating expression '(.*)'$", re.DOTALL)
-_ARGUMENT = re.compile(r"^Undefined substitution argument (\S+)$")
+_QUOTED = lazy_pattern(r"'((?:[^']|(?<=\w)'(?=\w))+)'")
+_EXPRESSION = lazy_pattern(r"when evaluating expression '(.*)'$", re.DOTALL)
+_ARGUMENT = lazy_pattern(r"^Undefined substitution argument (\S+)$")
 _ALIKE = 0.75
 """How similar an attribute's name has to be to that of a missing attribute to be taken for a typo of it."""
 _SHORTEST = 4
 """Shorter names are not taken for typos."""
-_TOKEN = re.compile(r"[^\s,]+")
-_ASIDE = re.compile(f"{COMMENT}|{INSTRUCTION}")
+_TOKEN = lazy_pattern(r"[^\s,]+")
+_ASIDE = lazy_pattern(f"{COMMENT}|{INSTRUCTION}")
 
 
 def piece(finding: Diagnostic, element: ElementSpan, text: str) -> Span:

@@ -4,7 +4,6 @@ It is only done on demand, for files with findings. A finding keeps its line wit
 piece is meant.
 """
 
-import re
 from bisect import bisect_left
 from collections import defaultdict
 from dataclasses import field, replace
@@ -19,11 +18,12 @@ from twinform.compiler.input.size_limits import LIFTED_LIMITS
 from twinform.compiler.input.source_files import SourceFiles
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Span, rules
+from twinform.lazy import lazy_pattern
 from twinform.schemas import LAST_LINE, XmlElement
 from twinform.text import ElementSpan, Lines, SourceText
 from twinform.text.positions import Tags, start_tag
 
-_WORD = re.compile(r"[\w:.-]+")
+_WORD = lazy_pattern(r"[\w:.-]+")
 _OF_ROOT = frozenset({rules.UNKNOWN_ROOT, rules.OLD_ROOT})
 """Findings about the root element, whatever its name is."""
 # libxml2 knows the line on which a start tag ends, and findings are made with that, which costs

@@ -5,7 +5,6 @@ format, and nothing comes in that a file could not say: what does not come back 
 """
 
 import json
-import re
 import sys
 from collections.abc import Iterator, Mapping
 from typing import Any, cast
@@ -20,6 +19,7 @@ from twinform.diagnostics import DiagnosticSink, LineOrigins, Location, Source, 
 from twinform.diagnostics.did_you_mean import did_you_mean
 from twinform.ir import Document, Node, node_values
 from twinform.ir.tree_walks import classes_in
+from twinform.lazy import lazy_pattern
 
 _MOST = 20
 """The faults that are reported: what is of another kind altogether has thousands."""
@@ -27,8 +27,8 @@ _AS_THEY_ARE = frozenset({"order", "opaque", "content"})
 """Fields in which no node stands."""
 _QUALIFIED = '"{'
 """How a name in a namespace begins."""
-_TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|[{}\[\],:]|[^\s{}\[\],:"]+')
-_QUOTED = re.compile("'([^']*)'")
+_TOKEN = lazy_pattern(r'"(?:[^"\\]|\\.)*"|[{}\[\],:]|[^\s{}\[\],:"]+')
+_QUOTED = lazy_pattern("'([^']*)'")
 _NO_FIELD = "is no field of this object"
 _MESSAGES = {
     "dataclass_type": "is no object",

@@ -1,7 +1,7 @@
 """`LoadOptions` and `LoadResult`: how a file is read, and what was found in it."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypedDict
 
@@ -10,6 +10,7 @@ from twinform.compiler.input.size_limits import LARGEST, MOST_TAGS, USUAL_LIMITS
 from twinform.compiler.option import Option, given
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.resolve_uris import SearchPath
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, LedgerEntry, LineOrigins
 from twinform.ir import Document, count_parts
 from twinform.schemas import DEFAULT_SDF_VERSION, Engine, XmlElement

@@ -3,7 +3,6 @@
 import errno
 import gc
 import os
-import re
 from collections.abc import Generator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -53,6 +52,7 @@ from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format
 from twinform.ir.record import amend
 from twinform.ir.verify import verify
+from twinform.lazy import lazy_pattern
 from twinform.schemas import (
     Context,
     XmlElement,
@@ -64,7 +64,7 @@ from twinform.schemas import (
 _CONSEQUENCES = frozenset(
     {rules.MISSING_LIMIT, rules.PARTIAL_LIMIT, rules.SEVERAL_ROOTS, rules.EMPTY_MODEL, rules.UNKNOWN_MATERIAL}
 )
-_JSON = re.compile(rb"(\xef\xbb\xbf)?\s*\{")
+_JSON = lazy_pattern(rb"(\xef\xbb\xbf)?\s*\{")
 """How a JSON document begins."""
 XACRO = ".xacro"
 """The ending of the names of files that are expanded before they are read."""

@@ -11,20 +11,21 @@ from typing import NamedTuple
 from lxml import etree
 
 from twinform.diagnostics import DiagnosticSink, Location, Severity, rules
+from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement
 from twinform.schemas.xml import Places, path_of
 from twinform.text.tokens import COMMENT, INSTRUCTION, SECTION
 
 _KINDS = bytes.maketrans(b"\t\r123456789", b"\n\n000000000")
 """Maps all digits to one, and all line breaks and tabs to one."""
-_ASIDE = re.compile(f"{COMMENT}|{INSTRUCTION}|{SECTION}".encode())
-_ATTRIBUTE = re.compile(rb"""(?<![\w:.-])([\w:.-]++)\s*+=\s*+(?:"([^"<]*+)"|'([^'<]*+)')""")
-_TABBED = re.compile(rb"""["'][-+.\deE ]*+(?:[\t\r\n]|&#)[-+.\deE \t\r\n&#xaAdD;]*+["']""")
+_ASIDE = lazy_pattern(f"{COMMENT}|{INSTRUCTION}|{SECTION}".encode())
+_ATTRIBUTE = lazy_pattern(rb"""(?<![\w:.-])([\w:.-]++)\s*+=\s*+(?:"([^"<]*+)"|'([^'<]*+)')""")
+_TABBED = lazy_pattern(rb"""["'][-+.\deE ]*+(?:[\t\r\n]|&#)[-+.\deE \t\r\n&#xaAdD;]*+["']""")
 """Numbers in quotes with a break or a character reference between them: a quick test that few files pass."""
-_REFERENCE = re.compile(rb"&#(?:0*(?:9|10|13)|x0*[9aAdD]);")
-_NUMBERS = re.compile(rb"[-+.\deE \t\r\n]+")
-_DIGIT = re.compile(rb"\d")
-_BREAK = re.compile(rb"[\t\r\n]")
+_REFERENCE = lazy_pattern(rb"&#(?:0*(?:9|10|13)|x0*[9aAdD]);")
+_NUMBERS = lazy_pattern(rb"[-+.\deE \t\r\n]+")
+_DIGIT = lazy_pattern(rb"\d")
+_BREAK = lazy_pattern(rb"[\t\r\n]")
 _COMMENT = b"<!--"
 _BEFORE_COMMENT = 200
 """So many bytes before a comment are searched for text."""

@@ -11,6 +11,7 @@ from lxml import etree
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Location
+from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement, declared_namespaces, path_of
 
 LARGEST = 64 * 2**20
@@ -47,7 +48,7 @@ DEEPEST_MODELS = 64
 """The most models in each other, since a part in them is reached through all. The most in a real file are four."""
 
 _SHORTEST_ATTRIBUTE = len(' a=""')
-_LONG_TAG = re.compile(rb"<[^<]{%d}" % min(MOST_ATTRIBUTES * _SHORTEST_ATTRIBUTE, LONGEST_NAME))
+_LONG_TAG = lazy_pattern(rb"<[^<]{%d}" % min(MOST_ATTRIBUTES * _SHORTEST_ATTRIBUTE, LONGEST_NAME))
 """A tag that might hold too much, or one that long text follows; few files have any."""
 _CROWDED = etree.XPath(f"/descendant::*[@*[{MOST_ATTRIBUTES + 1}]]")
 _POPULOUS = etree.XPath(f"(/descendant::*[*[{MOST_CHILDREN + 1}]])[1]")
@@ -59,13 +60,13 @@ _DEEP_MODEL = etree.XPath(
 _QUALIFIED = etree.XPath("count(/descendant::*[namespace-uri()]) + count(/descendant::*/@*[namespace-uri()])")
 _FEW = 64
 """Namespaces that nobody needs to count: with these, a file has too many tags first."""
-_DECLARED = re.compile(rb"""^[^<]{0,16}<\?xml[^>]{0,200}?encoding\s*=\s*["']([A-Za-z0-9._:-]*)""")
-_COUNTABLE = re.compile(rb"utf-?8|utf-?16.*|utf-?32.*|ucs-?[24].*|us-ascii|ascii|iso[-_]?8859.*|latin.*|windows-125\d|"
-                        rb"cp125\d|koi8.*|gb.*|big5.*|euc.*|shift_jis", re.IGNORECASE)  # fmt: skip
+_DECLARED = lazy_pattern(rb"""^[^<]{0,16}<\?xml[^>]{0,200}?encoding\s*=\s*["']([A-Za-z0-9._:-]*)""")
+_COUNTABLE = lazy_pattern(rb"utf-?8|utf-?16.*|utf-?32.*|ucs-?[24].*|us-ascii|ascii|iso[-_]?8859.*|latin.*|"
+                        rb"windows-125\d|cp125\d|koi8.*|gb.*|big5.*|euc.*|shift_jis", re.IGNORECASE)  # fmt: skip
 """Encodings in which `<` has the byte of ASCII. UTF-7, for one, can hide it."""
 
 
-_SIZE = re.compile(r"(?P<number>\d{1,15}(?:\.\d{1,15})?)\s*(?P<unit>(?:[kmg]i?)?)b?", re.IGNORECASE | re.ASCII)
+_SIZE = lazy_pattern(r"(?P<number>\d{1,15}(?:\.\d{1,15})?)\s*(?P<unit>(?:[kmg]i?)?)b?", re.IGNORECASE | re.ASCII)
 _LONGEST_SIZE = 40
 _UNITS = {"": 1, "k": 10**3, "m": 10**6, "g": 10**9, "ki": 2**10, "mi": 2**20, "gi": 2**30}
 

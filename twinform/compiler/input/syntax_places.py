@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from twinform.compiler.input.syntax_words import described
 from twinform.compiler.input.xml_recovery import XmlError
 from twinform.diagnostics import Location, Span
+from twinform.lazy import lazy_pattern
 from twinform.text import Lines, SourceText
 from twinform.text.tokens import COMMENT, INSTRUCTION
 
@@ -36,11 +37,11 @@ _BEFORE: Mapping[str, str] = {
 # So the line of some findings is an earlier one than that of other tools, which report where the
 # parser noticed.
 _NEAR = 300
-_HERE = re.compile(r"</?[\w:.-]+|--|[\w:.-]+|\S")
+_HERE = lazy_pattern(r"</?[\w:.-]+|--|[\w:.-]+|\S")
 """The piece at the place that libxml2 reports, for all other errors."""
-_DOCTYPE = re.compile(rf"(?:\s++|{COMMENT}|{INSTRUCTION})*+(?P<piece><!DOCTYPE)")
-_OPEN_TAG = re.compile(r"</?(?P<piece>[\w:.-]+)")
-_OPEN_VALUE = re.compile(r"\s(?P<piece>[^\s=<>\"']+\s*=\s*[\"'])")
+_DOCTYPE = lazy_pattern(rf"(?:\s++|{COMMENT}|{INSTRUCTION})*+(?P<piece><!DOCTYPE)")
+_OPEN_TAG = lazy_pattern(r"</?(?P<piece>[\w:.-]+)")
+_OPEN_VALUE = lazy_pattern(r"\s(?P<piece>[^\s=<>\"']+\s*=\s*[\"'])")
 
 
 class SyntaxPlaces:

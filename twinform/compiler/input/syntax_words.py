@@ -6,17 +6,18 @@ from typing import NamedTuple
 
 from twinform.compiler.input.xml_recovery import XmlError
 from twinform.diagnostics import nearest_name
+from twinform.lazy import lazy_pattern
 from twinform.text.tokens import COMMENT, INSTRUCTION, SECTION
 
 _NEAR = 2000
 """So many characters before an error are searched for the tag that it is in."""
-_TAG = re.compile(r"<(/?[\w:.-]+)")
-_ATTRIBUTE = re.compile(r"([\w:.-]+)\s*=\s*[\"']?")
-_TAGS = re.compile(rf"{COMMENT}|{INSTRUCTION}|{SECTION}|<(?P<end>/?)(?P<name>[^\s<>/!?]++)(?P<rest>[^<>]*+)>")
-_MISMATCH = re.compile(r"(?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)$")
-_IN_TAG = re.compile(r"in [Tt]ag (?P<tag>\S+) line (?P<line>\d+)|Start Tag (?P<start>\S+) line (?P<at>\d+)")
-_PREFIX = re.compile(r"prefix (?P<prefix>\S+) (?:for (?P<word>\S+) )?on (?P<tag>\S+) is")
-_QUOTED = re.compile(r"'([^']*)'")
+_TAG = lazy_pattern(r"<(/?[\w:.-]+)")
+_ATTRIBUTE = lazy_pattern(r"([\w:.-]+)\s*=\s*[\"']?")
+_TAGS = lazy_pattern(rf"{COMMENT}|{INSTRUCTION}|{SECTION}|<(?P<end>/?)(?P<name>[^\s<>/!?]++)(?P<rest>[^<>]*+)>")
+_MISMATCH = lazy_pattern(r"(?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)$")
+_IN_TAG = lazy_pattern(r"in [Tt]ag (?P<tag>\S+) line (?P<line>\d+)|Start Tag (?P<start>\S+) line (?P<at>\d+)")
+_PREFIX = lazy_pattern(r"prefix (?P<prefix>\S+) (?:for (?P<word>\S+) )?on (?P<tag>\S+) is")
+_QUOTED = lazy_pattern(r"'([^']*)'")
 
 
 class _Site(NamedTuple):

@@ -5,7 +5,6 @@ lies within its reach.
 """
 
 import os
-import re
 from collections.abc import Iterable, Iterator, Mapping
 from fnmatch import fnmatchcase
 
@@ -13,8 +12,9 @@ from twinform.compiler.input.size_limits import LARGEST
 from twinform.compiler.observing import note_look
 from twinform.dataclass import dataclass
 from twinform.file_access import OutsideError, Readable
+from twinform.lazy import lazy_pattern
 
-_MAGIC = re.compile(r"[*?[]")
+_MAGIC = lazy_pattern(r"[*?[]")
 _MOST_LOOKED_AT = 10_000
 """Entries of folders, for one pattern."""
 # a name does not show what is a secret: DBPASS, a connection string or the address of a web hook. So these are listed

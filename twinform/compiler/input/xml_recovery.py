@@ -6,6 +6,8 @@ from typing import NamedTuple, Protocol
 
 from lxml import etree
 
+from twinform.lazy import lazy_pattern
+
 REPAIRS = {
     "ERR_UNKNOWN_VERSION": "write <?xml version='1.0'?>",
     "ERR_VERSION_MISSING": "write <?xml version='1.0'?>",
@@ -42,15 +44,15 @@ _HELP = {
     "ERR_INVALID_CHAR": "delete the control character",
     "NS_ERR_QNAME": "write one colon between a prefix and a name",
 }
-_COLONS = re.compile(
+_COLONS = lazy_pattern(
     rb"<!--(?:.*?-->|.*)|<!\[CDATA\[(?:.*?\]\]>|.*)|(?P<start></?[A-Za-z_][\w.-]*)::(?=[A-Za-z_])", re.DOTALL
 )
 """Two colons in a tag, or a comment or section, which is skipped; one that does not end goes to the end of the text."""
-_COMMENT = re.compile(rb"<!\[CDATA\[(?:.*?\]\]>|.*)|<!--(?:(?P<content>.*?)-->|.*)", re.DOTALL)
+_COMMENT = lazy_pattern(rb"<!\[CDATA\[(?:.*?\]\]>|.*)|<!--(?:(?P<content>.*?)-->|.*)", re.DOTALL)
 """A section, or a comment with its content; one that does not end goes to the end of the text."""
 _MOST_LOGGED = 100
 """The number of errors that libxml2 lists; of later ones it only lists those of a graver level."""
-_MISMATCH = re.compile(r"Opening and ending tag mismatch: (?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)")
+_MISMATCH = lazy_pattern(r"Opening and ending tag mismatch: (?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)")
 
 
 class LogEntry(Protocol):

@@ -1,6 +1,5 @@
 """Writes a document as text that its schema accepts."""
 
-import re
 from collections.abc import Callable
 from collections.abc import Set as AbstractSet
 from dataclasses import replace
@@ -14,6 +13,7 @@ from twinform.diagnostics import Diagnostic, DiagnosticSink, Fate, Location, rul
 from twinform.diagnostics.rules import LEFT_COMMENT
 from twinform.ir import Document, Element, Format, walk
 from twinform.ir.verify import verify_again
+from twinform.lazy import lazy_pattern
 from twinform.passes import PassInstrumentation, Pipeline
 from twinform.schemas import (
     LAST_LINE,
@@ -33,9 +33,9 @@ from twinform.schemas import (
     versions_of,
 )
 
-_NAMED = re.compile(r"\[@name='([^']*)'\]")
-_START_TAG = re.compile("<[^/?]")
-_ROOT_TAG = re.compile(r'<[^\s/>?]+(?: xmlns:[^=]+="[^"]*")*')
+_NAMED = lazy_pattern(r"\[@name='([^']*)'\]")
+_START_TAG = lazy_pattern("<[^/?]")
+_ROOT_TAG = lazy_pattern(r'<[^\s/>?]+(?: xmlns:[^=]+="[^"]*")*')
 _BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str], WrittenParts | None], str]] = {
     Format.URDF: back_ends.urdf_text,
     Format.SDF: back_ends.sdf_text,

@@ -6,6 +6,7 @@ from inspect import getdoc
 from typing import Any, TypeGuard
 
 from twinform.ir import Document, Format, Model, Node, node_values
+from twinform.lazy import lazy_pattern
 from twinform.schemas import in_order, repeated_fields, table
 
 Data = dict[str, Any]
@@ -15,7 +16,7 @@ IDENTIFIER = "urn:twinform:document:1"
 
 _ROOTS: dict[Format, type[Node]] = {Format.URDF: Model, Format.SDF: Document}
 """The type of node that the root element of a format makes."""
-_FIELD = re.compile(r"^    (\w+): (.*(?:\n {5,}.*)*)", re.MULTILINE)
+_FIELD = lazy_pattern(r"^    (\w+): (.*(?:\n {5,}.*)*)", re.MULTILINE)
 """A field and its description in the docstring of a class."""
 _ORDER = (
     "In which order the parts of several kinds stand in the file: the name of an array for each part. Without it they "

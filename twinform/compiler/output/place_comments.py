@@ -15,6 +15,7 @@ from lxml import etree
 
 from twinform.compiler.output.source_comments import FIRST, Comments, SourceComment
 from twinform.diagnostics import Source
+from twinform.lazy import lazy_pattern
 from twinform.schemas import WrittenParts, XmlElement, end_of_element, in_attribute, path_of
 
 # The IR does not know of comments. A field in each node would be copied and merged by a hundred
@@ -37,8 +38,8 @@ _FAR = 8
 _STEP = "  "
 # What stands on the line of an element comes before what stands on lines below it.
 _BESIDE, _BELOW = 0, 1
-_START = re.compile(r"<[^\s/>?][^\s/>]*")
-_NAME = re.compile(r' name="([^"]*)"')
+_START = lazy_pattern(r"<[^\s/>?][^\s/>]*")
+_NAME = lazy_pattern(r' name="([^"]*)"')
 
 
 class _Target(NamedTuple):

@@ -1,16 +1,16 @@
 """The comments of a file that was read, and the tree of elements that they stood in."""
 
-import re
 from typing import NamedTuple
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Source
+from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement, path_of
 
 # The step of a path for the only element of its name may have it or not.
 FIRST = "[1]"
 # How comments begin that are for us, such as suppressions of findings.
-_OWN = re.compile(r"\s*twinform:")
+_OWN = lazy_pattern(r"\s*twinform:")
 
 
 class SourceComment(NamedTuple):

@@ -4,22 +4,20 @@ Files that passes have made and nobody has written yet, such as simpler meshes, 
 of plugins name are reported and not collected, since only the plugin knows what they mean.
 """
 
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from posixpath import dirname, join, normpath
 from typing import ClassVar, Self
-
-from pydantic import PrivateAttr
 
 from twinform.compiler.packaging.collecting import Collection, UncollectedError
 from twinform.compiler.packaging.layout import FileKind, suffix_of
 from twinform.compiler.resolve_uris import LocalAssets
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity, SideFile
 from twinform.diagnostics.rules import UNPACKAGED_FILE, UNPACKAGED_INCLUDE, UNPACKAGED_PARAMETER
 from twinform.ir import Document, Element, Format, Plugin, rewrite
 from twinform.ir.rewrite import untyped_elements
+from twinform.lazy import lazy_pattern
 from twinform.passes.framework.assets import AssetError
 from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.mesh_references import FORMATS
@@ -87,14 +85,12 @@ class CollectFiles(AssetPass):
     # The one pass that keeps something: a package holds a model in several texts (SDF in two
     # versions, URDF), and a mesh is there once. It has no entry point, so nobody but `package`
     # makes one.
-    _collection: Collection = PrivateAttr()
+    _collection: Collection
 
     @classmethod
     def into(cls, collection: Collection) -> Self:
         """Make a pass that puts files into a collection."""
-        made = cls.unchecked(lenient=collection.lenient)
-        made._collection = collection  # noqa: SLF001 - its own
-        return made
+        return cls.unchecked(lenient=collection.lenient, _collection=collection)
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document with the URIs of the package."""
@@ -176,7 +172,7 @@ class CollectFiles(AssetPass):
             sink.report(UNPACKAGED_INCLUDE, message, where, found=uri, help=advice)
 
 
-_FILE_URI = re.compile(r"(?:package|model|file)://\S+|\$\(find [^)]*\)\S*")
+_FILE_URI = lazy_pattern(r"(?:package|model|file)://\S+|\$\(find [^)]*\)\S*")
 
 
 def report_plugin_files(document: Document, is_there: Callable[[str], bool], sink: DiagnosticSink) -> None:

@@ -3,7 +3,7 @@
 import hashlib
 import stat
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from pathlib import Path
 from posixpath import basename, relpath
 from posixpath import dirname as folder_of
@@ -12,6 +12,7 @@ from urllib.parse import unquote
 from twinform.compiler.packaging.layout import FileKind, PackageLayout, PackagePlaces, kind_of, suffix_of
 from twinform.compiler.packaging.package import Content, digest_of
 from twinform.compiler.resolve_uris import LocalAssets
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Rule
 from twinform.diagnostics.rules import UNPACKAGED_FILE, URI_LEAVES_FOLDER
 from twinform.file_access import OutsideError

@@ -3,20 +3,21 @@
 Wheels may be a differential drive, whose measures are taken from the model.
 """
 
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 from twinform.compiler.packaging.gazebo_control import Component, System, runs_in_gazebo, systems_of
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Model
+from twinform.lazy import lazy_pattern
 from twinform.passes.plugins.ground_clearance import base_link
 from twinform.passes.plugins.wheels import NotMeasuredError, Wheel, radius_of, separation_of, wheel
 from twinform.passes.plugins.yaml_text import Value, yaml_text
 
 _RATE = 100
 """The rate of controllers, in Hz, where none is given."""
-_STRANGE = re.compile(r"[^A-Za-z0-9_]+")
+_STRANGE = lazy_pattern(r"[^A-Za-z0-9_]+")
 _LONGEST = 100
 _FORWARDED = ("velocity", "effort")
 """Commands that go on as they come: what a trajectory needs beside them are gains, which nobody can guess."""

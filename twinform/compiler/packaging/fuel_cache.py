@@ -1,10 +1,8 @@
 """Fills the local cache of Gazebo Fuel from folders, so that includes by address are found without a network."""
 
 import os
-import re
 import shutil
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from filecmp import cmp
 from pathlib import Path
 
@@ -12,11 +10,13 @@ from lxml import etree
 
 from twinform.compiler.fuel_addresses import FuelName, Kind, name_of, newest_first
 from twinform.compiler.model_config import manifest
+from twinform.dataclass import dataclass
 from twinform.file_access import Readable
+from twinform.lazy import lazy_pattern
 from twinform.storage.transaction import named_after, transaction
 from twinform.storage.writing import sync_files
 
-_PART = re.compile(r"[^./\\\x00-\x1f][^/\\\x00-\x1f]*")
+_PART = lazy_pattern(r"[^./\\\x00-\x1f][^/\\\x00-\x1f]*")
 """The name of a single folder that is not hidden."""
 _WORLDS = ("*.sdf", "*.world")
 

@@ -4,7 +4,6 @@ The kind of a file follows from its name: mesh, image, sound, material script, o
 are put into no package.
 """
 
-import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
@@ -13,6 +12,7 @@ from pathlib import PurePath
 from typing import Literal
 
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
 
 FileKind = Literal["mesh", "image", "sound", "script", "data"]
 
@@ -37,7 +37,7 @@ def kind_of(path: PurePath | str) -> FileKind | None:
     return _KINDS.get(suffix_of(path))
 
 
-_UNSAFE = re.compile(r"[^A-Za-z0-9._-]+")
+_UNSAFE = lazy_pattern(r"[^A-Za-z0-9._-]+")
 """Characters that some reader of URIs, file system or build tool does not take in a name."""
 _FOLDERS: dict[str, tuple[str, ...]] = {
     "meshes": ("meshes", "mesh"),

@@ -1,8 +1,7 @@
 """The order of a package: its model, its name, and its details, which may come from the package around the model."""
 
-import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import field, fields, replace
 from pathlib import Path
 from typing import Self
 
@@ -19,8 +18,10 @@ from twinform.compiler.packaging.package import Package
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.request_options import Language
 from twinform.compiler.ros_packages import MANIFEST, MODEL_CONFIG, read_manifest
+from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Ledger, Location, Severity
 from twinform.diagnostics.rules import UNPACKAGED_FILE
+from twinform.lazy import lazy_pattern
 from twinform.passes import PassInstrumentation, Pipeline
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.schemas import XmlElement
@@ -128,7 +129,7 @@ class Built:
 _TEXTS = etree.Element
 """Only texts of elements count, and not those of comments and unresolved entities."""
 _UNSAID = frozenset(PLACEHOLDERS.values())
-_VERSION = re.compile(r"(\d+\.\d+)(\.\d+)?")
+_VERSION = lazy_pattern(r"(\d+\.\d+)(\.\d+)?")
 
 
 def details_around(file: Path) -> PackageDetails:

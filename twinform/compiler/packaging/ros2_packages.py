@@ -19,6 +19,7 @@ from twinform.compiler.packaging.package import Content, Package
 from twinform.compiler.packaging.ros2_texts import PackageContents, generated_files
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Model, Sensor, rewrite
+from twinform.lazy import lazy_pattern
 from twinform.passes import Pipeline
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.joints.carried_elements import urdf_elements
@@ -29,7 +30,7 @@ from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sites import PluginSite, map_sensors, sensors_of
 from twinform.passes.plugins.world_systems import kind_of_sensor
 
-_NAME = re.compile(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
+_NAME = lazy_pattern(r"[a-z][a-z0-9]*(_[a-z0-9]+)*")
 """Names of packages (REP 144): lower case, digits, single underscores, a letter first."""
 _WORLD = "default"
 """The name of the world of the package, which is a part of the names of topics."""

@@ -2,14 +2,15 @@
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from importlib import resources
 from xml.sax.saxutils import escape, quoteattr
 
 from twinform.compiler.packaging.controllers import Controller, controllers_yaml
 from twinform.compiler.packaging.gazebo_control import CONTROLLERS, control_package
 from twinform.compiler.packaging.order import PackageDetails
+from twinform.dataclass import dataclass
 from twinform.ir import Document, Model
+from twinform.lazy import lazy_pattern
 from twinform.passes.plugins.bridge_config import Bridge, bridge_yaml
 from twinform.passes.plugins.ground_clearance import base_link, lowest_point
 from twinform.passes.plugins.yaml_text import Value, yaml_text
@@ -123,7 +124,7 @@ def _spawn_height(contents: PackageContents) -> float:
 
 
 _SCHEMA = "http://download.ros.org/schema/package_format3.xsd"
-_FORBIDDEN = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_FORBIDDEN = lazy_pattern(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """Characters that XML cannot have, in any notation."""
 
 
@@ -164,9 +165,9 @@ def _xml_plain(text: str) -> str:
 
 # Templates read as what they become. A template engine would be a dependency of everybody for forty
 # marked lines.
-_PLACE = re.compile(r"\{\{(\w+)\}\}")
-_PLAIN = re.compile(r"[A-Za-z0-9_./-]+")
-_CONDITION = re.compile(r"  #\? (\w+)$")
+_PLACE = lazy_pattern(r"\{\{(\w+)\}\}")
+_PLAIN = lazy_pattern(r"[A-Za-z0-9_./-]+")
+_CONDITION = lazy_pattern(r"  #\? (\w+)$")
 
 
 def render(template: str, values: Mapping[str, str], facts: Mapping[str, bool]) -> str:

@@ -1,11 +1,11 @@
 """The findings of files, as reporters are given them."""
 
-import re
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple, Protocol
 
 from twinform.diagnostics.diagnostic import Diagnostic
+from twinform.lazy import lazy_pattern
 
 
 class FileTexts(Protocol):
@@ -80,7 +80,7 @@ def printable(text: str) -> str:
 
 _FEWEST = 3
 """Fewer findings of one cause are shown one by one."""
-_NAME = re.compile(r"\[@\w+='(?:(.*?)'\](?=/|$)|.*)")
+_NAME = lazy_pattern(r"\[@\w+='(?:(.*?)'\](?=/|$)|.*)")
 
 
 class Group(NamedTuple):

@@ -2,13 +2,13 @@
 
 import math
 import tomllib
-from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from typing import ClassVar
 
 from pydantic import Field
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import PBR_TOO_OLD, TEXTURED_SCRIPT, UNKNOWN_SCRIPT
 from twinform.ir import (

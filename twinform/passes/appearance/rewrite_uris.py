@@ -1,7 +1,6 @@
 """Rewrite URIs of files to another scheme: `package://`, `model://`, `file://`, Fuel, or relative paths."""
 
 import os
-import re
 from collections.abc import Iterator
 from pathlib import Path
 from posixpath import normpath
@@ -14,13 +13,14 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import UNMAPPED_URI
 from twinform.ir import Document
+from twinform.lazy import lazy_pattern
 from twinform.passes.framework.assets import AssetError, Assets
 from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.shared.document_uris import FUEL_SERVERS, Kind, map_uris
 
 Scheme = Literal["package", "model", "file", "relative", "fuel"]
 KnownScheme = Literal["package", "model", "file", "relative", "http", "fuel"]
-_SCHEME = re.compile(r"([A-Za-z][\w+.-]*):")
+_SCHEME = lazy_pattern(r"([A-Za-z][\w+.-]*):")
 _SCHEMES: dict[str, KnownScheme] = {
     "package": "package",
     "model": "model",

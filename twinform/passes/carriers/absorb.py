@@ -1,10 +1,9 @@
 """Merging SDF elements into a typed node, as if they had been children of its element."""
 
 from collections.abc import Mapping
-from typing import Any, TypeGuard, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeGuard, TypeVar, cast
 
 from lxml import etree
-from pydantic import ValidationError
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Geometry, Model, Node, Opaque
@@ -13,6 +12,9 @@ from twinform.ir.record import field_value, fields_of
 from twinform.passes.carriers.definitions import definition_of, is_repeated
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.schemas import Context, Version, XmlElement, element_xml, reader, table
+
+if TYPE_CHECKING:
+    from pydantic import ValidationError
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -133,8 +135,9 @@ def _merged(node: AnyNode, data: Mapping[str, Any], index: int | None = None) ->
     required = {name: getattr(node, name) for name in fields_of(type(node)) if name in _REQUIRED}
     try:
         read = type(node).model_validate({**required, **data})
-    except ValidationError as error:
-        raise CarrierError(error.errors(include_url=False)[0]["msg"]) from error
+    except ValueError as error:
+        # Pydantic is imported when it validates
+        raise CarrierError(cast("ValidationError", error).errors(include_url=False)[0]["msg"]) from error
     update: dict[str, object] = {
         name: _merged_value(node, name, getattr(read, name), index) for name in data if name not in NOT_CONTENT
     }

@@ -1,6 +1,5 @@
 """Migration of Gazebo Classic plugins, one by one, and of plugins with the names of Ignition."""
 
-import re
 from collections.abc import Callable, Iterable, Iterator
 
 from twinform.dataclass import dataclass
@@ -9,6 +8,7 @@ from twinform.ir import Axis, Element, Format, Joint, Mimic, Model, Plugin
 from twinform.ir.defaults import multiplier
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.transform import Transform
+from twinform.lazy import lazy_pattern
 from twinform.passes.classic.document_edits import DeferredEdits
 from twinform.passes.classic.migrate_sensors import SensorMigration, set_frame
 from twinform.passes.classic.moving import DroppedParameter, Moved
@@ -28,8 +28,8 @@ _NATIVE = 6
 _ELEMENTS = {"ignition-gui": "gz-gui", "ignition_frame_id": "gz_frame_id"}
 # Only where the word names a library or a message. `ignition` alone may be a topic or a model of
 # the author.
-_WORDS = re.compile(r"\bignition(?=\.msgs\.|-physics-|-rendering-|-gui\b)")
-_CLASSES = re.compile(r"\bignition::(?:gazebo|sim)::")
+_WORDS = lazy_pattern(r"\bignition(?=\.msgs\.|-physics-|-rendering-|-gui\b)")
+_CLASSES = lazy_pattern(r"\bignition::(?:gazebo|sim)::")
 # Frames that gazebo_ros_p3d takes for the world; any other is a link that the pose is relative to.
 _WORLDS = frozenset({"", "world", "/world", "map", "/map"})
 _FRAMES = ("frameName", "frame_name")

@@ -5,16 +5,16 @@ A pattern has pieces separated by slashes. A piece is a name after `=`, or in br
 `$plugin` is the name of the node, which is that of the plugin. A piece that begins with a slash is absolute, as in ROS.
 """
 
-import re
 from collections.abc import Iterator
 from dataclasses import field
 
 from twinform.dataclass import dataclass
 from twinform.ir import Element, Plugin
+from twinform.lazy import lazy_pattern
 
 _NAMESPACES = ("robotNamespace", "robot_namespace")
 _REMAPPINGS = frozenset({"remapping", "argument"})
-_SEPARATOR = re.compile(r"/(?![^{}]{0,100}+\})")
+_SEPARATOR = lazy_pattern(r"/(?![^{}]{0,100}+\})")
 """A slash outside of braces; a choice in braces has fewer than 100 characters."""
 
 

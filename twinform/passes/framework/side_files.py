@@ -5,18 +5,18 @@ only without errors, and only below the folder of the result. A pipeline may com
 and these must not decide where files are written.
 """
 
-import re
 from abc import abstractmethod
-from typing import Annotated, Self
+from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
 from twinform.diagnostics import DiagnosticSink, SideFile
 from twinform.ir import Document
-from twinform.passes.framework.pass_base import Pass
+from twinform.lazy import lazy_pattern
+from twinform.passes.framework.pass_base import FilesPass
 
 # A file name that is not hidden and means the same to every system and shell.
-_PART = re.compile(r"[^./~\\:\x00-\x1f\x7f][^/\\:\x00-\x1f\x7f]*")
+_PART = lazy_pattern(r"[^./~\\:\x00-\x1f\x7f][^/\\:\x00-\x1f\x7f]*")
 
 
 def _below(path: str) -> str:
@@ -30,25 +30,16 @@ CompanionPath = Annotated[str, AfterValidator(_below)]
 """A relative path that stays below its folder, as long as there are no symbolic links."""
 
 
-class FilesPass(Pass):
-    """A pass that makes files beside the result, which therefore needs a folder, and a pipeline that is trusted."""
-
-    @property
-    def place(self) -> str:
-        """The path of the file, or of the folder of files, below the folder of the result."""
-        raise NotImplementedError
-
-    def below(self, folder: str) -> Self:
-        """Return the pass with its files in a subfolder; a pass with a fixed place returns itself."""
-        del folder
-        return self
-
-
 class SideFilePass(FilesPass):
     """A pass that makes one file beside the result and leaves the document alone."""
 
     @property
     def place(self) -> str:
+        """The path of the file."""
+        return self.file
+
+    @property
+    def only_file(self) -> str:
         """The path of the file."""
         return self.file
 

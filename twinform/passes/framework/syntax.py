@@ -22,19 +22,20 @@ import re
 from collections.abc import Iterator
 
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
 
 Scalar = str | float | bool | None
 Value = Scalar | list[Scalar]
 
-_BLANKS = re.compile(r"\s*")
+_BLANKS = lazy_pattern(r"\s*")
 # No pass can be called `@NAME`: names begin with a letter.
-_NAME = re.compile(r"[a-z][a-z0-9]*(?:-[a-z0-9]+)*")
-KEY = re.compile(r"[A-Za-z0-9_-]+")
+_NAME = lazy_pattern(r"[a-z][a-z0-9]*(?:-[a-z0-9]+)*")
+KEY = lazy_pattern(r"[A-Za-z0-9_-]+")
 """The name of a pipeline."""
-_STRING = re.compile(r'"(?:[^"\\]|\\.)*"', re.DOTALL)
-_WORD = re.compile(r'[^\s,={}\[\]"]+')
-_INTEGER = re.compile(r"[-+]?[0-9]+")
-_REAL = re.compile(r"[-+]?(?:[0-9]++\.?[0-9]*+|\.[0-9]++)(?:[eE][-+]?[0-9]++)?|[-+]?inf")
+_STRING = lazy_pattern(r'"(?:[^"\\]|\\.)*"', re.DOTALL)
+_WORD = lazy_pattern(r'[^\s,={}\[\]"]+')
+_INTEGER = lazy_pattern(r"[-+]?[0-9]+")
+_REAL = lazy_pattern(r"[-+]?(?:[0-9]++\.?[0-9]*+|\.[0-9]++)(?:[eE][-+]?[0-9]++)?|[-+]?inf")
 _KEYWORDS: dict[str, Scalar] = {"true": True, "false": False, "null": None}
 # No double needs more digits, and Python refuses to read thousands of them.
 _LONGEST_NUMBER = 400

@@ -1,6 +1,5 @@
 """Replaces the includes of a document by the models of other files, with their paths and versions adapted."""
 
-import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import field
 from posixpath import normpath
@@ -12,6 +11,7 @@ from twinform.ir import Document, Include, Model, World, replace_fields
 from twinform.ir.element import joined
 from twinform.ir.scopes import nested_includes, outer_models
 from twinform.ir.transform import Transform
+from twinform.lazy import lazy_pattern
 from twinform.passes.includes.merge import (
     account_replaced_include,
     merge_into_model,
@@ -28,7 +28,7 @@ Holder = TypeVar("Holder", Document, World)
 _NESTED_MODELS = "1.5"
 _NAMED_FRAMES = "1.7"
 """The first versions of SDF with nested models and with named frames."""
-_NOT_RELATIVE = re.compile(r"[A-Za-z][\w+.-]*:|/|__")
+_NOT_RELATIVE = lazy_pattern(r"[A-Za-z][\w+.-]*:|/|__")
 """The beginning of a URI, of a path from the root, or of a name such as `__default__`."""
 _HERE = frozenset({"", "."})
 

@@ -86,7 +86,7 @@ def _proxy_frame(model: Model, around: str, sink: DiagnosticSink) -> Frame | Non
     attached = None if body == MODEL else body
     # The name is that of libsdformat (Utils.cc, computeMergedModelProxyFrameName), so that a file
     # that names this frame still finds it.
-    return Frame(
+    return Frame.unchecked(
         name=f"_merged__{model.name}__model__", attached_to=attached, pose=placed.to_pose(base), source=model.source
     )
 
@@ -99,7 +99,7 @@ class _MovedContents:
 
     def posed(self, node: Posed) -> Posed:
         """A link, nested model or include, whose pose was relative to the model by default."""
-        pose = node.pose or Pose()
+        pose = node.pose or Pose.unchecked()
         pose = pose.copy(relative_to=self._follow_frame("any", pose.relative_to or MODEL))
         placed = node.copy(pose=pose)
         return self.inside(placed) if isinstance(placed, Link) else placed  # what is in a model has frames of its own
@@ -195,7 +195,7 @@ def _model_parts(include: Include, model: Model, sink: DiagnosticSink) -> Iterat
     for part in include.opaque:
         name = part.element.name if part.element else ""
         if part.element is not None and name == "namespace" and not _has_namespace(model):
-            yield Opaque(attribute=("namespace", part.element.text or ""), source=part.source)
+            yield Opaque.unchecked(attribute=("namespace", part.element.text or ""), source=part.source)
         elif name == "model_state":
             yield part
         else:

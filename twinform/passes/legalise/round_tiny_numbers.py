@@ -24,12 +24,13 @@ from twinform.ir import (
     rewrite,
 )
 from twinform.ir.record import fields_of
+from twinform.lazy import lazy_pattern
 from twinform.passes.carriers.definitions import definition_of
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.shared.gazebo_tags import NUMBER_TAGS
 from twinform.schemas import Fact, format_value, table
 
-_MAY_BE_TINY = re.compile(r"[eE]-0*\d\d|\.0{36}")
+_MAY_BE_TINY = lazy_pattern(r"[eE]-0*\d\d|\.0{36}")
 _NUMBERS = frozenset({"double", "vector2d", "vector3", "quaternion", "pose", "time"})
 _BELOW_JOINT: Mapping[type[Node], str] = {
     Axis: "axis", Limit: "axis/limit", Dynamics: "axis/dynamics", Mimic: "axis/mimic"

@@ -154,7 +154,7 @@ def without_share(inertial: Inertial) -> Inertial | None:
         place = parse_value("vector3", found.get("xyz") or "0 0 0")
     except ValueError:
         return None
-    moved = (inertial.pose or Pose()).copy(xyz=place)
+    moved = (inertial.pose or Pose.unchecked()).copy(xyz=place)
     pose = moved if found.get("xyz") else inertial.pose
-    inertia = (inertial.inertia or Inertia()).copy(**old)
+    inertia = (inertial.inertia or Inertia.unchecked()).copy(**old)
     return without_annotation(inertial, SHARED).copy(inertia=inertia, pose=pose)

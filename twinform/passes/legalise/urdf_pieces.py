@@ -99,7 +99,7 @@ def _misfit_of_mimic(element: Element, joint: Joint, standing: Standing) -> str:
     if joint.axis is not None and joint.axis.mimic is not None:
         return "the joint mimics another one"
     leader = element.get("joint")
-    if useless_leader(joint, Mimic(joint=leader), standing.joints):
+    if useless_leader(joint, Mimic.unchecked(joint=leader), standing.joints):
         return ""
     return f"joint {leader!r} has an axis by now, and this joint has moved without it"
 

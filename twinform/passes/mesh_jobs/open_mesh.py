@@ -2,7 +2,6 @@
 
 import io
 import json
-import re
 from collections.abc import Iterable, Mapping
 from dataclasses import field
 from typing import Any, NamedTuple, cast
@@ -11,13 +10,14 @@ from urllib.parse import unquote
 from lxml import etree
 
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
 from twinform.passes.mesh_jobs.libraries import trimesh
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError
 from twinform.schemas import XmlElement
 
 _MOST_CORNERS = 1000
 # The reader cuts a face into triangles one by one, and a line may continue in the next.
-_LONG_FACE = re.compile(rb"(?m)^[ \t]*f(?:(?:[ \t]|\\\r?\n)+[^ \t\r\n\\]+){%d}" % (_MOST_CORNERS + 1))
+_LONG_FACE = lazy_pattern(rb"(?m)^[ \t]*f(?:(?:[ \t]|\\\r?\n)+[^ \t\r\n\\]+){%d}" % (_MOST_CORNERS + 1))
 # Of a glTF scene, and of faces of one material in an OBJ file: the reader makes a mesh or a node
 # for each.
 _MOST_PIECES = 10_000

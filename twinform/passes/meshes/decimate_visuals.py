@@ -1,6 +1,5 @@
 """Replace the meshes of visuals by ones with fewer triangles, within a distance; levels of detail."""
 
-import re
 from typing import ClassVar, Self, cast
 
 from pydantic import Field, model_validator
@@ -8,6 +7,7 @@ from pydantic import Field, model_validator
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import CHANGED_MESH, KEPT_MESH, NOTHING_MATCHED
 from twinform.ir import Document, Geometry, Link, Mesh, Visual, rewrite
+from twinform.lazy import lazy_pattern
 from twinform.passes.framework.pass_base import EVERY, matches, with_such_a_name
 from twinform.passes.mesh_jobs.job import Options
 from twinform.passes.meshes.mesh_pass import (
@@ -21,7 +21,7 @@ from twinform.passes.meshes.mesh_pass import (
 )
 from twinform.passes.shared.mesh_solids import MeshError
 
-_MADE = re.compile(r"_lod\d+$")
+_MADE = lazy_pattern(r"_lod\d+$")
 _MOST_LEVELS = 8
 
 

@@ -12,17 +12,19 @@ import re
 from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path, PurePosixPath
 from typing import Literal, NamedTuple, Self
 
 from pydantic import Field, field_validator
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, SideFile, rules
 from twinform.ir import Mesh
-from twinform.passes.framework.pass_base import AssetPass
-from twinform.passes.framework.side_files import CompanionPath, FilesPass
+from twinform.lazy import lazy_pattern
+from twinform.passes.framework.pass_base import AssetPass, FilesPass
+from twinform.passes.framework.side_files import CompanionPath
 from twinform.passes.mesh_jobs.child_process import do
 from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult, Options
 from twinform.passes.mesh_jobs.mesh_files import EXTRA, MARK
@@ -91,7 +93,7 @@ def _version(name: str) -> str:
         return ""
 
 
-_UNUSUAL_IN_NAMES = re.compile(r"[^\w.-]+")
+_UNUSUAL_IN_NAMES = lazy_pattern(r"[^\w.-]+")
 _WITHOUT_MARK = (".png", ".jpg", ".jpeg", ".bin")
 
 

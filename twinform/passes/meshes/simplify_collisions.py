@@ -1,6 +1,5 @@
 """Replace the meshes of collisions by primitives, convex hulls or convex parts, within a distance."""
 
-import re
 from collections.abc import Sequence
 from typing import ClassVar, Literal, cast
 
@@ -11,6 +10,7 @@ from twinform.diagnostics.rules import CHANGED_MESH, KEPT_MESH, NOTHING_MATCHED
 from twinform.ir import Collision, Document, Format, Geometry, Link, Mesh, Shape, rewrite
 from twinform.ir.geometry import Box, Capsule, Cylinder, Sphere
 from twinform.ir.transform import Transform
+from twinform.lazy import lazy_pattern
 from twinform.passes.framework.pass_base import EVERY, matches, with_such_a_name
 from twinform.passes.mesh_jobs.job import Options
 from twinform.passes.meshes.mesh_pass import (
@@ -25,7 +25,7 @@ from twinform.passes.shared.mesh_solids import MeshError
 
 Way = Literal["primitive", "hull", "parts"]
 Kind = Literal["box", "sphere", "cylinder", "capsule"]
-_MADE_STEM = re.compile(r"_(hull|part\d+)$")
+_MADE_STEM = lazy_pattern(r"_(hull|part\d+)$")
 _CAPSULES: dict[Format, tuple[int, ...]] = {Format.URDF: (1, 1), Format.SDF: (1, 8)}
 """The first version of each format that has capsules."""
 

@@ -1,15 +1,15 @@
 """Write the configuration of ros_gz_bridge, as a file beside the result: which topics of Gazebo map to which of ROS."""
 
-import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Annotated, ClassVar
 
 from pydantic import AfterValidator, Field
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.ir import Document, Format
+from twinform.lazy import lazy_pattern
 from twinform.passes.framework.side_files import CompanionPath, SideFilePass
 from twinform.passes.plugins.catalog import ros_message
 from twinform.passes.plugins.release_names import ReleaseName
@@ -58,7 +58,7 @@ _TRANSFORM_TOPIC = "/tf"
 # Transforms on topics with these last parts are for the tree of ROS (`/tf`). Others keep their
 # name, so that the tree stays whole.
 _TREE_TOPICS = frozenset({"tf", "pose", "pose_static"})
-_STRANGE = re.compile(r"[^A-Za-z0-9_]")
+_STRANGE = lazy_pattern(r"[^A-Za-z0-9_]")
 _IGNITION = "fortress"
 """The release whose bridge calls messages by the name of Ignition."""
 _DIRECTIONS = {"<": "GZ_TO_ROS", ">": "ROS_TO_GZ"}

@@ -4,7 +4,6 @@ The facts are package data in `data/`, read when they are first asked for. They 
 to 10 and its main branch, of gazebo_ros_pkgs, gz_ros2_control and ros_gz_bridge.
 """
 
-import re
 import tomllib
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
@@ -14,6 +13,7 @@ from importlib import resources
 from importlib.resources.abc import Traversable
 from typing import Any, Literal
 
+from twinform.lazy import lazy_pattern
 from twinform.passes.plugins.catalog_types import PluginKind, Published, Release, SensorKind, read_plugins
 
 __all__ = [
@@ -51,9 +51,9 @@ _MOST_NAMES = 2000
 
 Family = Literal["noetic", "ros2"]
 
-_SYSTEM_FILE = re.compile(r"(?:lib)?(?:ignition-gazebo|gz-sim)\d*-(.+?)(?:\.so|\.dylib|\.dll)?")
-_FILE = re.compile(r"(?:lib)?(.+?)(?:\.so|\.dylib|\.dll)?")
-_IGNITION_CLASS = re.compile(r"^(?:::)?(?:ignition::gazebo|gz::sim)(?:::v\d+)?::")
+_SYSTEM_FILE = lazy_pattern(r"(?:lib)?(?:ignition-gazebo|gz-sim)\d*-(.+?)(?:\.so|\.dylib|\.dll)?")
+_FILE = lazy_pattern(r"(?:lib)?(.+?)(?:\.so|\.dylib|\.dll)?")
+_IGNITION_CLASS = lazy_pattern(r"^(?:::)?(?:ignition::gazebo|gz::sim)(?:::v\d+)?::")
 
 
 class UnknownNameError(LookupError):

@@ -4,7 +4,6 @@ An option has the name of its parameter in kebab-case, after the names of the el
 `left-joint`, `<left_track><link>` is `left-track-link`, `linkName` is `link-name`.
 """
 
-import re
 from abc import abstractmethod
 from collections.abc import Iterator, Mapping
 from functools import cache
@@ -12,11 +11,12 @@ from itertools import product
 from typing import Annotated, Any, ClassVar, Literal, Self, cast
 
 from lxml import etree
-from pydantic import AfterValidator, BeforeValidator, Field, ValidationError, create_model
+from pydantic import AfterValidator, BeforeValidator, Field, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from twinform.ir import Element
+from twinform.lazy import lazy_pattern
 from twinform.passes.carriers.carriers import from_xml
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.plugins.catalog import UnknownNameError, suggestion
@@ -24,8 +24,8 @@ from twinform.passes.plugins.catalog_types import ParameterType, PluginKind, Plu
 from twinform.passes.plugins.parameters import problem_of
 from twinform.schemas import format_value
 
-_HUMP = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
-_CHOICE = re.compile(r"\[([^\[\]]++)\]")
+_HUMP = lazy_pattern(r"(?<=[a-z0-9])(?=[A-Z])")
+_CHOICE = lazy_pattern(r"\[([^\[\]]++)\]")
 _TYPES: dict[ParameterType, Any] = {
     "number": float,
     "integer": int,
@@ -272,9 +272,10 @@ def _selected_class(cls: P, options: Mapping[str, object]) -> P:
 def _make_class(cls: P, word: str) -> P:
     """Make the class of a pass whose options include those that a word selects."""
     fields: dict[str, Any] = {option.replace("-", "_"): field for option, field in cls.fields_for(word).items()}
-    made: P = create_model(cls.__name__, __base__=cls, __doc__=cls.__doc__, **fields)
-    made.selected, made.origin = True, cls
-    return made
+    annotations = {name: annotation for name, (annotation, _) in fields.items()}
+    values = {name: value for name, (_, value) in fields.items()}
+    about = {"__module__": cls.__module__, "__doc__": cls.__doc__, "selected": True, "origin": cls}
+    return type(cls)(cls.__name__, (cls,), about | values | {"__annotations__": annotations})
 
 
 def _option_error(title: str, option: str, message: str, value: object) -> ValidationError:

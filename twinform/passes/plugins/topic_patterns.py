@@ -3,13 +3,15 @@
 import re
 from collections.abc import Mapping
 
-_REMOVED = re.compile("@|~|//|:=")
+from twinform.lazy import lazy_pattern
+
+_REMOVED = lazy_pattern("@|~|//|:=")
 _REFUSED = (" ", *_REMOVED.pattern.split("|"))
 _LONGEST = 65535
-_PLACE = re.compile(r"\{([^{}]++)\}")
+_PLACE = lazy_pattern(r"\{([^{}]++)\}")
 """A placeholder: names of values, of which the first that is known is taken."""
-_PIECE = re.compile(r"\(([^()]++)\)")
-_CHOICE = re.compile(r"\|(?![^{}]*\})")
+_PIECE = lazy_pattern(r"\(([^()]++)\)")
+_CHOICE = lazy_pattern(r"\|(?![^{}]*\})")
 """Separates the texts of a piece, of which the first that can become a topic is taken."""
 
 

@@ -7,6 +7,7 @@ from typing import Literal
 from twinform.dataclass import dataclass
 from twinform.ir import Document, Element, Format, Model, Plugin, Sensor
 from twinform.ir.node import Node
+from twinform.lazy import lazy_pattern
 from twinform.passes.plugins.catalog import modern_class, systems_of_file
 from twinform.passes.plugins.catalog_types import PluginKind, Published, SensorKind, TopicChannel
 from twinform.passes.plugins.sites import PluginSite, plugins_of, sensors_of
@@ -22,7 +23,7 @@ from twinform.passes.plugins.topic_patterns import (
 from twinform.passes.plugins.world_systems import custom_type, kind_of_sensor
 from twinform.passes.shared.gazebo_tags import TRUE, lumped_joints, lumped_links
 
-_CLOUD = re.compile(r"points|cloud", re.IGNORECASE)
+_CLOUD = lazy_pattern(r"points|cloud", re.IGNORECASE)
 """Occurs in names of topics with point clouds: `velodyne_points`, `lidar/points`, `cloud_in`."""
 _CLOUD_TOPICS = frozenset({"{topic}/points", "({topic}/points)"})
 # CameraSensor.cc reads <camera_info_topic>; other sensors choose the topic themselves.

@@ -4,16 +4,18 @@ import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
+from twinform.lazy import lazy_pattern
+
 Value = str | bool | int | float | None | Sequence["Value"] | Mapping[str, "Value"]
 
 # PyYAML is no dependency: what is written is a mapping of known shape, and a property says that
 # PyYAML reads it back, types included, for any text. ROS reads `nan` and `inf` as numbers where
 # they stand without quotes, which PyYAML would not write in quotes.
-_PLAIN = re.compile(r"[A-Za-z_/][A-Za-z0-9_/.-]*(?: [A-Za-z0-9_/.]+)*")
+_PLAIN = lazy_pattern(r"[A-Za-z_/][A-Za-z0-9_/.-]*(?: [A-Za-z0-9_/.]+)*")
 """Text that needs no quotes anywhere, except for the words below."""
 # YAML 1.1 reads these as other types than text, and ROS as numbers.
 _RESERVED_WORDS = frozenset({"true", "false", "yes", "no", "on", "off", "null", "y", "n", "nan", "inf", "infinity"})
-_SURROGATES = re.compile(r"\\u(d[89ab][0-9a-f]{2})\\u(d[c-f][0-9a-f]{2})")
+_SURROGATES = lazy_pattern(r"\\u(d[89ab][0-9a-f]{2})\\u(d[c-f][0-9a-f]{2})")
 
 
 def yaml_text(value: Mapping[str, Value]) -> str:

@@ -62,7 +62,7 @@ def _fit_continuous(keeper: VersionKeeper, joint: Joint) -> Joint:
 def _fit_fixed(keeper: VersionKeeper, joint: Joint) -> Joint:
     pieces = [_type_piece(joint)]
     if joint.axis is not None:
-        written = to_element(Joint(name="", type="fixed", axis=joint.axis), "joint", "sdf").find("axis")
+        written = to_element(Joint.unchecked(name="", type="fixed", axis=joint.axis), "joint", "sdf").find("axis")
         pieces += [Opaque.unchecked(element=written)] if written else []
     # What older versions of libsdformat made of a fixed joint of URDF themselves.
     changed = joint.copy(type="revolute", axis=_STILL)

@@ -154,9 +154,9 @@ def _make_model(
         if inner.holds(frame):
             pose = graph.pose(own.name, MODEL, kind="frame").to_pose()
         elif frame:
-            pose = (pose or Pose()).copy(relative_to=frame)
+            pose = (pose or Pose.unchecked()).copy(relative_to=frame)
         canonical = inner.strip(own.attached_to) if inner.holds(own.attached_to) else None
-    nested = Model(
+    nested = Model.unchecked(
         name=inner.name,
         pose=pose,
         canonical_link=canonical,

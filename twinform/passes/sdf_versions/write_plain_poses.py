@@ -39,7 +39,7 @@ def _write_plain(keeper: VersionKeeper, node: Node) -> Node:
     if pose is None or not (pose.quat_xyzw or pose.degrees is not None or pose.rotation_format is not None):
         return node
     made = in_radians(Transform.from_pose(pose), pose.relative_to).copy(opaque=pose.opaque)
-    changed = node.copy(pose=made if made != Pose() else None)
+    changed = node.copy(pose=made if made != Pose.unchecked() else None)
     called = getattr(node, "name", None) or type(node).__name__.lower()
     message = f"the pose of {called!r} is written in degrees or as a quaternion"
     weight = count_parts(pose)

@@ -66,7 +66,7 @@ class _FlattenedNames:
         return self.prefix.removesuffix("::") or MODEL
 
     def link(self, link: Link) -> Link:
-        pose = link.pose or Pose()
+        pose = link.pose or Pose.unchecked()
         return self._renamed(link, {"pose": pose.copy(relative_to=pose.relative_to or MODEL)})
 
     def joint(self, joint: Joint) -> Joint:
@@ -85,13 +85,13 @@ def _own_frame(model: Model, around: _FlattenedNames, scope: _FlattenedNames, gr
     name = scope.frame_name
     body = graph.body(name, kind="model")
     base = around.rename("any", (model.pose and model.pose.relative_to) or MODEL)
-    pose = (model.pose or Pose()).copy(relative_to=base)
+    pose = (model.pose or Pose.unchecked()).copy(relative_to=base)
     if model.placement_frame:
         pose = graph.pose(name, base, kind="model", base="joint").to_pose(base)
     # SDF attaches a model's frame to its canonical link. A model without links, or one that only
     # holds includes which were not read, has none.
     attached = body if graph.knows(body) and body not in (name, MODEL) else around.frame_name
-    return annotate_synthesized(Frame(name=name, attached_to=attached, pose=pose, source=model.source))
+    return annotate_synthesized(Frame.unchecked(name=name, attached_to=attached, pose=pose, source=model.source))
 
 
 def settle_links(model: Model, *, annotated: bool = False) -> Model:
@@ -165,7 +165,7 @@ def with_static_models_fixed(model: Model) -> Model:
     welds: list[Joint] = []
     for root, nested in roots:
         name = reserve_name(f"{root.replace(SCOPE, '__')}_fixed_joint", taken)
-        weld = Joint(name=name, type="fixed", parent=WORLD, child=root, source=nested.source)
+        weld = Joint.unchecked(name=name, type="fixed", parent=WORLD, child=root, source=nested.source)
         welds.append(annotate_synthesized(weld))
     # Joints between the links stay, as in a model that is static as a whole: URDF is a tree, and
     # they place the links.

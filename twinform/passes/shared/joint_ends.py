@@ -32,7 +32,7 @@ def resolve_ends(joint: Joint, links: Container[str], graph: FrameGraph) -> tupl
             pieces.append(text_piece(end, name))
     # A joint without a frame is posed in its child, which changes to another link here.
     if "child" in changed and not (joint.pose and joint.pose.relative_to):
-        changed["pose"] = (joint.pose or Pose()).copy(relative_to=joint.child)
+        changed["pose"] = (joint.pose or Pose.unchecked()).copy(relative_to=joint.child)
     return (joint.copy(**changed) if changed else joint), pieces
 
 

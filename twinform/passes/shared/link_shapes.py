@@ -200,9 +200,9 @@ def own_density(node: Node) -> float | None:
 
 def inertial_of(found: Solid, written: Inertial | None) -> Inertial:
     """The inertial with the mass, center and inertia of a solid in the link frame."""
-    return (written or Inertial()).copy(
+    return (written or Inertial.unchecked()).copy(
         auto=None,
         mass=found.mass,
-        pose=Pose(xyz=found.center, rpy=ORIGIN) if any(found.center) else None,
+        pose=Pose.unchecked(xyz=found.center, rpy=ORIGIN) if any(found.center) else None,
         inertia=with_tensor(None, found.inertia),
     )

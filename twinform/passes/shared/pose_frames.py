@@ -100,7 +100,7 @@ class ElementPoses:
         names_frame = pose is not None and _frame_of(pose) is not None
         if not names_frame and not (moves and (pose is not None or element.name in link_elements("pose"))):
             return element.copy(children=children) if children != element.children else element
-        read = Pose() if pose is None else read_pose(pose)
+        read = Pose.unchecked() if pose is None else read_pose(pose)
         in_base = self._resolve(read)
         made = to_element(holder.inverse().compose(in_base).to_pose(), "pose", "sdf")
         children = tuple(made if child is pose else child for child in children)
@@ -120,7 +120,7 @@ class ElementPoses:
         moves: bool,
     ) -> Element:
         """The element with its pose in the frame and notation of its annotation, and without the annotation."""
-        read = Pose() if pose is None else read_pose(pose)
+        read = Pose.unchecked() if pose is None else read_pose(pose)
         placed = self._resolve(read) if moves or read.relative_to else holder.compose(Transform.from_pose(read))
         name = annotation.get("relative_to")
         around, kind = self.frame(name) if name else ("", "frame")
@@ -129,7 +129,7 @@ class ElementPoses:
             here = self.graph.pose(self.base[0], around, kind=self.base[1], base=kind).compose(placed)
         else:
             here = placed if moves else holder.inverse().compose(placed)
-        made = to_element(as_annotated(here, annotation, name if known else None) or Pose(), "pose", "sdf")
+        made = to_element(as_annotated(here, annotation, name if known else None) or Pose.unchecked(), "pose", "sdf")
         rest = tuple(made if child is pose else child for child in children if child is not annotation)
         return element.copy(children=rest if pose is not None else (made, *rest))
 

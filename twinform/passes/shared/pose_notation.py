@@ -38,7 +38,7 @@ def as_annotated(transform: Transform, annotation: Element | None, relative_to: 
     """The pose in the notation of an annotation; None for the identity, which need not be written."""
     if annotation is None or not (annotation.get("degrees") or annotation.get("rotation_format")):
         pose = transform.to_pose(relative_to)
-        return None if pose == Pose() else pose
+        return None if pose == Pose.unchecked() else pose
     degrees, form = annotation.get("degrees"), annotation.get("rotation_format")
     plain = transform.to_pose()
     update: dict[str, object] = {"degrees": None if degrees is None else degrees == "true", "rotation_format": form}
@@ -76,7 +76,7 @@ def read_offset(annotation: Element) -> Transform:
     Raises:
         ValueError: it is not three numbers.
     """
-    return Transform.from_pose(Pose(xyz=_vector(annotation.get("xyz")), rpy=_vector(annotation.get("rpy"))))
+    return Transform.from_pose(Pose.unchecked(xyz=_vector(annotation.get("xyz")), rpy=_vector(annotation.get("rpy"))))
 
 
 def _vector(text: str | None) -> Vector3:

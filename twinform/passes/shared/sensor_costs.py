@@ -50,11 +50,11 @@ def sensor_of(element: Element, around: Source | None) -> Sensor:
         update_rate = float((rate.text or "").strip()) if rate else None
     except ValueError:
         update_rate = None
-    return Sensor(
+    return Sensor.unchecked(
         name=element.get("name"),
         type=element.get("type"),
         update_rate=update_rate,
-        opaque=tuple(Opaque(element=child) for child in element.children if child.name in _PARTS),
+        opaque=tuple(Opaque.unchecked(element=child) for child in element.children if child.name in _PARTS),
         source=element.source or around,
     )
 

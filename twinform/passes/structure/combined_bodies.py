@@ -49,7 +49,7 @@ def add_guests(link: Link, own: Solid, guests: Sequence[Solid], sink: Diagnostic
         )
         sink.report(INDEFINITE_INERTIA, message, link.location, severity=Severity.ERROR)
         return link
-    return link.copy(inertial=write_solid(link.inertial or Inertial(), whole))
+    return link.copy(inertial=write_solid(link.inertial or Inertial.unchecked(), whole))
 
 
 def write_solid(inertial: Inertial, whole: Solid) -> Inertial:
@@ -66,5 +66,5 @@ def write_solid(inertial: Inertial, whole: Solid) -> Inertial:
 
 def _pose_at_center(written: Pose | None, whole: Solid) -> Pose:
     """The pose of an inertial with another center of mass, in the frame of the link."""
-    pose = written or Pose(rpy=(0.0, 0.0, 0.0))
+    pose = written or Pose.unchecked(rpy=(0.0, 0.0, 0.0))
     return pose.copy(xyz=whole.center, relative_to=None)

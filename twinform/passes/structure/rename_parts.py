@@ -1,6 +1,5 @@
 """Renaming parts of a model with every reference to them, by the scopes in which SDF looks names up."""
 
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import field
 from typing import Any, TypeVar
@@ -23,6 +22,7 @@ from twinform.ir import (
 from twinform.ir.frames import MODEL, WORLD
 from twinform.ir.scopes import nested_models, outer_models
 from twinform.ir.sourced import Sourced
+from twinform.lazy import lazy_pattern
 from twinform.passes.shared.nodes import map_elements
 from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text
 
@@ -47,7 +47,7 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 Holder = TypeVar("Holder", Model, World)
 _DEFINES = frozenset({"link", "joint", "frame"})
 _MODELS = frozenset({"model", "model_state"})
-_SEPARATORS = re.compile(r"([\s,;]+)")
+_SEPARATORS = lazy_pattern(r"([\s,;]+)")
 _DEFAULT_SHAPE = ("_collision", "_visual", "_fixed_joint_lump__")
 """What readers of URDF append to the name of a link to name its shapes."""
 Changed = TypeVar("Changed", bound=Sourced)

@@ -36,13 +36,13 @@ def reroot_sdf(model: Model, way: list[Joint]) -> Model:
 
 def _reverse_joint(joint: Joint) -> Joint:
     """The joint with parent and child exchanged; its frame stays in place, and moves with the new child."""
-    pose = joint.pose or Pose()
+    pose = joint.pose or Pose.unchecked()
     base = pose.relative_to or joint.child
     pose = pose.copy(relative_to=None if base == joint.parent else base)
     update = {
         "parent": joint.child,
         "child": joint.parent,
-        "pose": None if pose == Pose() else pose,
+        "pose": None if pose == Pose.unchecked() else pose,
         "axis": turn_axis(joint, opposite(direction(joint.axis, Format.SDF))),
         "sensors": swap_sensors(joint),
     }
@@ -54,7 +54,7 @@ def _reattach_frame(frame: Frame, children: dict[str, str]) -> Frame:
     joint = frame.attached_to or ""
     if joint not in children:
         return frame
-    pose = frame.pose or Pose()
+    pose = frame.pose or Pose.unchecked()
     if not pose.relative_to:
         pose = pose.copy(relative_to=joint)
     return frame.copy(attached_to=children[joint], pose=pose)
@@ -66,7 +66,7 @@ def turn_axis(joint: Joint, direction: Vector3) -> Axis | None:
         return joint.axis
     # Turning the axis around instead of the positions leaves limits, mimics, calibration and
     # controllers as they are.
-    return (joint.axis or Axis()).copy(xyz=direction)
+    return (joint.axis or Axis.unchecked()).copy(xyz=direction)
 
 
 def opposite(direction: Vector3) -> Vector3:
@@ -102,7 +102,7 @@ def _swap_sensor(sensor: Sensor) -> Sensor:
         return sensor
     parts = [part for part in sensor.opaque if not _is_torque(part)]
     torque = next((part.element for part in sensor.opaque if _is_torque(part) and part.element), None)
-    made = Opaque(element=_swap_torque(torque or Element(name="force_torque")))
+    made = Opaque.unchecked(element=_swap_torque(torque or Element.unchecked(name="force_torque")))
     return sensor.copy(opaque=(*parts, made))
 
 
@@ -120,7 +120,7 @@ def _swap_in_sensor(element: Element) -> Element:
     if element.name != "sensor" or element.get("type") != "force_torque":
         return element
     torque = element.find("force_torque")
-    made = _swap_torque(torque or Element(name="force_torque"))
+    made = _swap_torque(torque or Element.unchecked(name="force_torque"))
     others = tuple(child for child in element.children if child is not torque)
     return element.copy(children=(*others, made))
 
@@ -133,5 +133,5 @@ def _swap_torque(element: Element) -> Element:
         "measure_direction": values.get("measure_direction") or FORCE_TORQUE["measure_direction"],
     }
     others = tuple(child for child in element.children if child.name not in words)
-    made = tuple(Element(name=name, text=_SWAPPED.get(word, word)) for name, word in words.items())
+    made = tuple(Element.unchecked(name=name, text=_SWAPPED.get(word, word)) for name, word in words.items())
     return element.copy(children=(*made, *others))

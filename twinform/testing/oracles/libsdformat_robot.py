@@ -6,12 +6,12 @@ model in the world; every shape is compared by its kind, its geometry and its pl
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from enum import Enum, auto
 from pathlib import Path
 
 import numpy as np
 
+from twinform.dataclass import dataclass
 from twinform.testing.oracles.libsdformat import JointRow, LinkRow, RobotRow, describe
 from twinform.testing.oracles.robot import (
     GRAVITY,

@@ -28,12 +28,13 @@ from twinform.compiler.input.xacro.expression_values import (
     text_of,
     weigh,
 )
+from twinform.lazy import lazy_pattern
 
 Method = Callable[..., Value]
 """Takes the value before the dot, the budget, and the arguments."""
 # Characters that `strip` looks for: it compares each of them with each of the text.
 _LONGEST_SET = 1000
-_FIELD = re.compile(r"\{\{|\}\}|\{(\w*)\}|[{}]")
+_FIELD = lazy_pattern(r"\{\{|\}\}|\{(\w*)\}|[{}]")
 _NAMES_OF_DICT = frozenset(dir(dict))
 
 

@@ -12,9 +12,10 @@ from twinform.compiler.input.xacro.channel import NotFoundError, TooMuchError
 from twinform.compiler.input.xacro.expression_values import NameLookup, Value, text_of
 from twinform.compiler.input.xacro.interpreter import Interpreter
 from twinform.compiler.input.xacro.vocabulary import eval_vocabulary
+from twinform.lazy import lazy_pattern
 
 # The four tokens of xacro's own lexer (`QuickLexer` in xacro/__init__.py), in its order.
-_PART = re.compile(
+_PART = lazy_pattern(
     r"\$(?P<escaped>\$+[{(])|\$\{(?P<expression>[^}]*)\}|\$\((?P<substitution>[^)]*)\)|(?P<plain>[^$]+|\$[^{($]+|\$$)"
 )
 

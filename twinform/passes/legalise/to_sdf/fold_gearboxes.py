@@ -44,7 +44,7 @@ class FoldGearboxes(ModelPass):
                 found = relation(gearbox, joints, graph)
             except (UngearedError, FrameError):
                 continue
-            coupled[found.follower] = Mimic(joint=found.leader, multiplier=found.multiplier)
+            coupled[found.follower] = Mimic.unchecked(joint=found.leader, multiplier=found.multiplier)
         kept = {
             joint.name: _with_needed_mimic(joint, bare[joint.name], coupled.get(joint.name), sink)
             for joint in annotated

@@ -2,9 +2,9 @@
 
 import math
 from collections.abc import Container, Iterator
-from dataclasses import dataclass
 from typing import ClassVar, NamedTuple, TypeVar
 
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Axis, Dynamics, Format, Joint, JointType, Limit, Link, Model, Opaque
 from twinform.ir.defaults import direction, multiplier, with_range
@@ -130,7 +130,7 @@ def _check_links(chain: JointChain, around: ChainNeighbors) -> None:
 
 def _check_limits(chain: JointChain) -> None:
     for joint in (*chain.above, chain.last):
-        limit = joint.axis.limit if joint.axis and joint.axis.limit else Limit()
+        limit = joint.axis.limit if joint.axis and joint.axis.limit else Limit.unchecked()
         if any(getattr(limit, field) is not None for field in _BEYOND_SDF):
             raise StaleChainError(f"joint {joint.name!r} has limits that SDF does not have")
 
@@ -145,7 +145,7 @@ def _check_ball(chain: JointChain) -> None:
     _check_turns(chain)
     joints = (*chain.above, chain.last)
     for joint, xyz in zip(joints, BALL_AXES, strict=True):
-        axis = joint.axis or Axis()
+        axis = joint.axis or Axis.unchecked()
         # A limited axis of the three is a limit that a ball joint cannot have.
         if axis.xyz != xyz or axis.mimic or joint.type != "continuous":
             raise StaleChainError(f"joint {joint.name!r} does not turn freely about {xyz}")
@@ -155,7 +155,7 @@ def _check_ball(chain: JointChain) -> None:
 
 
 def _damping(joint: Joint) -> tuple[float | None, float | None]:
-    dynamics = joint.axis.dynamics if joint.axis and joint.axis.dynamics else Dynamics()
+    dynamics = joint.axis.dynamics if joint.axis and joint.axis.dynamics else Dynamics.unchecked()
     return dynamics.damping, dynamics.friction
 
 
@@ -166,7 +166,7 @@ def _check_screw(chain: JointChain) -> None:
         raise StaleChainError("it does not slide and turn")
     if mimic is None or mimic.joint != turn.name or mimic.offset:
         raise StaleChainError(f"joint {slide.name!r} does not follow {turn.name!r}")
-    if (slide.axis or Axis()).xyz != (turn.axis or Axis()).xyz:
+    if (slide.axis or Axis.unchecked()).xyz != (turn.axis or Axis.unchecked()).xyz:
         raise StaleChainError("it slides along another axis than it turns about")
 
 
@@ -193,11 +193,11 @@ def folded(chain: JointChain) -> Joint:
 
 def _axis_in_sdf(joint: Joint) -> Axis:
     """The axis of a URDF joint with the defaults of URDF written out."""
-    axis = joint.axis or Axis()
+    axis = joint.axis or Axis.unchecked()
     limit = axis.limit
     if limit is not None and joint.type == "continuous":
         limit = limit.copy(lower=None, upper=None)
-        limit = None if limit == Limit() else limit
+        limit = None if limit == Limit.unchecked() else limit
     elif limit is not None:
         limit = with_range(limit, Format.URDF)
     return axis.copy(xyz=direction(axis, Format.URDF), limit=limit)
@@ -214,9 +214,9 @@ def _fold_ball(joint: Joint, last: Joint) -> Joint:
     """The ball joint with the axis that it carries and the damping of the chain."""
     joint = _unpack_elements(joint.copy(axis=None), ("axis", "axis2"))
     damping, friction = _damping(last)
-    axis = joint.axis or Axis()
-    dynamics = (axis.dynamics or Dynamics()).copy(damping=damping, friction=friction)
-    if dynamics == (axis.dynamics or Dynamics()):
+    axis = joint.axis or Axis.unchecked()
+    dynamics = (axis.dynamics or Dynamics.unchecked()).copy(damping=damping, friction=friction)
+    if dynamics == (axis.dynamics or Dynamics.unchecked()):
         return joint
     return joint.copy(axis=axis.copy(dynamics=dynamics))
 

@@ -88,17 +88,17 @@ class FrameLinks(ModelPass):
 
     def _frames(self, joint: Joint, link: Link, sink: DiagnosticSink) -> tuple[Frame, ...]:
         pose = joint.pose.copy(relative_to=None) if joint.pose else None
-        if pose == Pose():
+        if pose == Pose.unchecked():
             pose = None
         annotation = find_annotation(link, FRAME)
         if annotation is not None and is_synthesized(joint):
             return (frame_as_before(joint, link, annotation, pose),)
         # Two frames, so that both names stay, the origin stays as it is written, and joints below
         # keep the link's name as their parent.
-        mount = Frame(
+        mount = Frame.unchecked(
             name=joint.name, attached_to=joint.parent, pose=pose, opaque=_carriers(joint), source=joint.source
         )
-        body = Frame(name=link.name, attached_to=joint.name, source=link.source, opaque=_carriers(link))
+        body = Frame.unchecked(name=link.name, attached_to=joint.name, source=link.source, opaque=_carriers(link))
         if annotation is not None:  # its joint stays, so that in SDF it is a link like those of URDF
             body = without_annotation(body, FRAME)
             message = f"link {link.name!r} was one frame of SDF, and has a joint that was not made for it"
@@ -140,7 +140,7 @@ class FrameLinks(ModelPass):
             if all(value is None for value in written.values()):
                 continue
             untagged = {field: value for field, value in written.items() if field not in FLAGS}
-            bare = to_element(Link(name="", spelling=link.spelling, **untagged), "link", "sdf")
+            bare = to_element(Link.unchecked(name="", spelling=link.spelling, **untagged), "link", "sdf")
             children = (*flag_tags(link), *bare.children)
             element = Element.unchecked(name="gazebo", attributes=(("reference", link.name),), children=children)
             names = ", ".join(field for field, value in written.items() if value is not None)
@@ -156,7 +156,7 @@ class FrameLinks(ModelPass):
     def _rest_of_link(self, frame: Frame, link: Link, sink: DiagnosticSink) -> Frame:
         if link.inertial is None:
             return frame
-        bare = Link(name=link.name, inertial=link.inertial)
+        bare = Link.unchecked(name=link.name, inertial=link.inertial)
         rest = [Opaque.unchecked(element=child) for child in to_element(bare, "link", "urdf").children]
         return self._keep(frame, rest, f"the frame {link.name!r} has no inertia", sink)
 
@@ -203,10 +203,10 @@ def frame_as_before(joint: Joint, link: Link, annotation: Element, pose: Pose | 
     """The frame of SDF from which a link and its joint were made, at their present place."""
     holder = annotation.get("attached_to")
     if holder is not None:
-        pose = (pose or Pose()).copy(relative_to=joint.parent)
+        pose = (pose or Pose.unchecked()).copy(relative_to=joint.parent)
     opaque = without_annotation(link, FRAME).opaque
     attached = None if holder == MODEL else holder or joint.parent
-    return Frame(name=link.name, attached_to=attached, pose=pose, opaque=opaque, source=link.source)
+    return Frame.unchecked(name=link.name, attached_to=attached, pose=pose, opaque=opaque, source=link.source)
 
 
 def is_massless(link: Link) -> bool:
@@ -254,7 +254,7 @@ def _host_guests(link: Link, guests: list[Link], sink: DiagnosticSink, *, carrie
 
 def _pose_in_frame(node: Placed, frame: str) -> Placed:
     """The node posed in a frame of that name, unless its pose names another one already."""
-    pose = node.pose or Pose()
+    pose = node.pose or Pose.unchecked()
     if pose.relative_to is not None:
         return node
     return node.copy(pose=pose.copy(relative_to=frame))

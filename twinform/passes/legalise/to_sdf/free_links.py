@@ -46,7 +46,7 @@ def placing_frames(model: Model, joints: Iterable[Joint]) -> Mapping[str, Frame]
         poses = {joint.name: graph.pose(joint.child or "", root).to_pose() for joint in joints}
     except FrameError:
         return {}
-    return {name: annotate_synthesized(Frame(name=name, pose=pose)) for name, pose in poses.items()}
+    return {name: annotate_synthesized(Frame.unchecked(name=name, pose=pose)) for name, pose in poses.items()}
 
 
 def are_at_one_place(frame: Frame, other: Frame) -> bool:

@@ -59,6 +59,6 @@ def _without_static(link: Link) -> Link:
 
 
 def _without_static_element(part: Opaque) -> Opaque:
-    element = part.element or Element(name="")
+    element = part.element or Element.unchecked(name="")
     children = tuple(child for child in element.children if child.name != "static")
     return part.copy(element=element.copy(children=children))

@@ -65,8 +65,8 @@ def set_visual(visual: Visual, values: Values) -> Visual:
     names = [str(value) for tag, value in values if tag.target == "visual" and value]
     if not names:
         return visual
-    script = Script(uris=(SCRIPT_URI,), name=names[-1])
-    material = (visual.material or Material()).copy(script=script)
+    script = Script.unchecked(uris=(SCRIPT_URI,), name=names[-1])
+    material = (visual.material or Material.unchecked()).copy(script=script)
     return visual.copy(material=material)
 
 
@@ -75,7 +75,7 @@ def set_collision(collision: Collision, values: Values) -> Collision:
     own = {tag.field: value for tag, value in values if tag.target == "collision"}
     surface = {tag.field: value for tag, value in values if tag.target == "surface"}
     if surface:
-        own["surface"] = (collision.surface or Surface()).copy(**surface)
+        own["surface"] = (collision.surface or Surface.unchecked()).copy(**surface)
     return collision.copy(**own) if own else collision
 
 
@@ -83,8 +83,8 @@ def set_joint_fields(joint: Joint, values: Values) -> Joint:
     """The joint with the springs and the physics that tags describe."""
     springs = {tag.field: value for tag, value in values if tag.target == "dynamics"}
     if springs:
-        axis = joint.axis or Axis()
-        dynamics = (axis.dynamics or Dynamics()).copy(**springs)
+        axis = joint.axis or Axis.unchecked()
+        dynamics = (axis.dynamics or Dynamics.unchecked()).copy(**springs)
         joint = joint.copy(axis=axis.copy(dynamics=dynamics))
     physics = [(tag.field, value) for tag, value in values if tag.target == "physics"]
     return merge(joint, {"opaque": (_physics(physics),)}, []) if physics else joint
@@ -234,6 +234,6 @@ def with_axis(joint: Joint) -> Joint:
     """An axis that is not written is z in SDF and x in URDF; a limit that is not written is none at all, or zero."""
     if joint.type not in _HAS_AXIS:
         return joint
-    axis = joint.axis or Axis()
+    axis = joint.axis or Axis.unchecked()
     update = {"xyz": direction(axis, Format.SDF), "limit": axis.limit and with_range(axis.limit, Format.SDF)}
     return joint.copy(axis=axis.copy(**update))

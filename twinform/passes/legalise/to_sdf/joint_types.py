@@ -155,7 +155,7 @@ class UrdfJoints(ModelPass):
         return self._keep(kept, [Opaque.unchecked(element=child) for child in rest], message, sink)
 
     def _moving(self, joint: Joint, sink: DiagnosticSink) -> Joint:
-        axis = joint.axis or Axis()
+        axis = joint.axis or Axis.unchecked()
         limit, rest = _limit(joint, axis.limit)
         update: dict[str, object] = {}
         if limit is not axis.limit:
@@ -234,33 +234,33 @@ def planar_chain(joint: Joint, names: Names) -> PlanarChain:
     along, across = plane_across(normal)
     first, first_link, second, second_link = names
     source = joint.source
-    slide = Joint(
+    slide = Joint.unchecked(
         name=first,
         type="prismatic",
         parent=joint.parent,
         child=first_link,
         pose=joint.pose,
-        axis=Axis(xyz=along),
+        axis=Axis.unchecked(xyz=along),
         source=source,
     )
-    shift = Joint(
+    shift = Joint.unchecked(
         name=second,
         type="prismatic",
         parent=first_link,
         child=second_link,
-        pose=Pose(relative_to=first_link),
-        axis=Axis(xyz=across),
+        pose=Pose.unchecked(relative_to=first_link),
+        axis=Axis.unchecked(xyz=across),
         source=source,
     )
     turn = joint.copy(
         type="revolute",
         parent=second_link,
-        pose=Pose(relative_to=second_link),
-        axis=Axis(xyz=normal),
+        pose=Pose.unchecked(relative_to=second_link),
+        axis=Axis.unchecked(xyz=normal),
     )
     links = (
         # Any mass worth the name would change the mass matrix of the robot.
-        Link(name=first_link, pose=Pose(relative_to=first), inertial=TOKEN, source=source),
-        Link(name=second_link, pose=Pose(relative_to=second), inertial=TOKEN, source=source),
+        Link.unchecked(name=first_link, pose=Pose.unchecked(relative_to=first), inertial=TOKEN, source=source),
+        Link.unchecked(name=second_link, pose=Pose.unchecked(relative_to=second), inertial=TOKEN, source=source),
     )
     return PlanarChain(links, (slide, shift, turn))

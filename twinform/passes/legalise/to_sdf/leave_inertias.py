@@ -58,7 +58,7 @@ def _is_auto(part: Opaque) -> bool:
 
 
 def _leave_to_reader(link: Link, graph: FrameGraph, meshes: Meshes, sink: DiagnosticSink) -> Link:
-    inertial = link.inertial or Inertial()
+    inertial = link.inertial or Inertial.unchecked()
     computed = _FIELDS if find_annotation(inertial, COMPUTED_MASS) else _FIELDS[1:]
     left = without_annotation(inertial.copy(**dict.fromkeys(computed)), COMPUTED_MASS)
     try:

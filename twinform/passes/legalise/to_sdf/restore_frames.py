@@ -122,11 +122,11 @@ class _Restoring:
         """A frame for each one that SDF has elsewhere than URDF."""
         own = self._offset(self.model)
         if own is not None:  # as yet the model is where its root is
-            yield Frame(name=_BASE, pose=own.to_pose())
+            yield Frame.unchecked(name=_BASE, pose=own.to_pose())
         for each in _framed(self.model):
             offset = self._offset(each)
             if offset is not None:
-                yield Frame(name=each.name + _BASE, attached_to=each.name, pose=offset.to_pose())
+                yield Frame.unchecked(name=each.name + _BASE, attached_to=each.name, pose=offset.to_pose())
 
     def _offset(self, node: Link | Joint | Frame | Model) -> Transform | None:
         found = find_annotation(node, OFFSET)
@@ -177,7 +177,7 @@ class _Restoring:
         usual = around(link.name, graph)
         pose = self._own_pose(link, "link", usual, graph)
         if usual != MODEL and not (pose and pose.relative_to):  # until it stands in that model, if it is in one
-            pose = (pose or Pose()).copy(relative_to=usual)
+            pose = (pose or Pose.unchecked()).copy(relative_to=usual)
         # An automatic inertia is in the link's own frame whatever that is; its pose has no meaning
         # to move.
         inertial = link.inertial if link.inertial and link.inertial.auto else inside.inertial
@@ -245,7 +245,7 @@ class _Restoring:
             pose = self._own_pose(frame, "frame", frame.attached_to or around(frame.name, graph), graph)
         else:  # a model is posed in the one around it
             usual = around(frame.name.removesuffix(f"{SCOPE}{MODEL}"), graph)
-            pose = self._own_pose(frame, "frame", usual, graph) or Pose()
+            pose = self._own_pose(frame, "frame", usual, graph) or Pose.unchecked()
             pose = pose.copy(relative_to=pose.relative_to or usual)
         return without_annotation(frame.copy(pose=pose), OFFSET, POSE)
 

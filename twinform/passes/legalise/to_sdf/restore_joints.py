@@ -52,10 +52,10 @@ def _restore_joint(joint: Joint, sink: DiagnosticSink) -> Joint:
 
 
 def _without_infinities(axis: Axis) -> Axis:
-    limit = axis.limit or Limit()
+    limit = axis.limit or Limit.unchecked()
     update = {name: None for name in _NUMBERS if _sign(name) * (getattr(limit, name) or 0.0) >= UNLIMITED}
     bare = limit.copy(**update) if update else limit
-    return axis.copy(limit=None if bare == Limit() else bare)
+    return axis.copy(limit=None if bare == Limit.unchecked() else bare)
 
 
 def _sign(name: str) -> int:
@@ -67,7 +67,7 @@ def _restore_continuous(joint: Joint, sink: DiagnosticSink) -> Joint:
     if find_annotation(joint, CONTINUOUS) is None:
         return joint
     joint = without_annotation(joint, CONTINUOUS)
-    limit = joint.axis.limit if joint.axis and joint.axis.limit else Limit()
+    limit = joint.axis.limit if joint.axis and joint.axis.limit else Limit.unchecked()
     # A joint without a range is revolute in URDF's conversion, since no engine of Gazebo has
     # `continuous`: DART makes such a joint a fixed one.
     if joint.type == "revolute" and limit.lower is None and limit.upper is None:

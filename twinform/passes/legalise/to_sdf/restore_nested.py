@@ -180,7 +180,7 @@ def _posed(node: AnyNode) -> AnyNode:
         return node
     own = pose.relative_to == MODEL and isinstance(node, Link | Model)
     pose = pose.copy(relative_to=None) if own else pose
-    return node.copy(pose=None if pose == Pose() else pose)
+    return node.copy(pose=None if pose == Pose.unchecked() else pose)
 
 
 def _short(models: frozenset[str], name: str) -> str:

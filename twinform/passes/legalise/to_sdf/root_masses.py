@@ -81,12 +81,12 @@ class UrdfBodies(ModelPass):
 
 
 def _has_no_mass(link: Link) -> bool:
-    inertial = link.inertial or Inertial()
+    inertial = link.inertial or Inertial.unchecked()
     return not inertial.auto and not inertial.mass
 
 
 def _has_no_inertia(link: Link) -> bool:
-    inertial = link.inertial or Inertial()
+    inertial = link.inertial or Inertial.unchecked()
     moments = [getattr(inertial.inertia, name) for name in MOMENTS] if inertial.inertia else []
     return not inertial.auto and not any(moments)
 

@@ -40,7 +40,7 @@ class ShareInertias(ModelPass):
         written = link.inertial
         if written is None or link.name not in found:
             return link
-        made, old = write_solid(written, found[link.name]), written.pose or Pose()
+        made, old = write_solid(written, found[link.name]), written.pose or Pose.unchecked()
         moved = found[link.name].center != (old.xyz or ORIGIN)
         made = made if moved else made.copy(pose=written.pose)
         what = "center of mass and inertia" if moved else "inertia"

@@ -97,7 +97,7 @@ def _with_repeated_poses(node: Node) -> Node:
         return node
     parts = tuple(piece for part in node.opaque for piece in (unpack(part) if _is_repeated_pose(part) else (part,)))
     pose = getattr(node, "pose", None)
-    return node.copy(pose=_IDENTITY if pose in (None, Pose()) else pose, opaque=parts)
+    return node.copy(pose=_IDENTITY if pose in (None, Pose.unchecked()) else pose, opaque=parts)
 
 
 def _is_repeated_pose(part: Opaque) -> bool:

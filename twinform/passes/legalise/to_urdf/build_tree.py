@@ -219,7 +219,7 @@ def _hang_roots(model: Model, roots: list[Link], first: str, keeper: UrdfKeeper)
     kind = "fixed" if model.static else "floating"
     for link in roots:
         name = reserve_name(f"{link.name}_{kind}_joint", taken)
-        made = Joint(name=name, type=kind, parent=first, child=link.name, source=link.source)
+        made = Joint.unchecked(name=name, type=kind, parent=first, child=link.name, source=link.source)
         joints.append(annotate_synthesized(made))
         message = f"link {link.name!r} is attached by a {kind} joint to {first!r}"
         keeper.sink.account(Fate.APPROXIMATED, rules.HUNG_ROOT, message, link.location, 0)
@@ -243,7 +243,7 @@ def cut_joints(
         # libsdformat copies what stands in <gazebo> of the robot into the model, so Gazebo still
         # closes the loop.
         blob = to_element(joint.copy(pose=placed.to_pose()), "joint", "sdf")
-        extensions.append(GazeboExtension(content=(blob,), source=joint.source))
+        extensions.append(GazeboExtension.unchecked(content=(blob,), source=joint.source))
     model = model.copy(joints=tuple(kept), extensions=tuple(extensions))
     names = frozenset(joint.name for joint in cut)
     return rewrite(model, Pose, partial(_repose_from_cut, graph, names))

@@ -65,7 +65,7 @@ def _finish_model(model: Model, document: Document, rest: "_RemainderCarrier") -
     model = model.copy(links=tuple(_annotate_world(link, keeper) for link in model.links))
     has_world = any(link.name == WORLD for link in model.links)  # which SDF before 1.7 did not forbid
     if not has_world and any(joint.parent == WORLD for joint in model.joints):
-        model = model.copy(links=(Link(name=WORLD), *model.links))
+        model = model.copy(links=(Link.unchecked(name=WORLD), *model.links))
     if document.version is not None:
         message = f"the file is SDF {document.version}"
         keeper.account(rules.SDF_ONLY, message, document.location.at("@version"), 1)

@@ -42,7 +42,7 @@ class ExpressAxes(ToUrdfPass):
 
 def _express_axis(joint: Joint, field: str, graph: FrameGraph, keeper: UrdfKeeper) -> Joint:
     written: Axis | None = getattr(joint, field)
-    axis = written or Axis()
+    axis = written or Axis.unchecked()
     if axis.xyz is not None and not any(axis.xyz):
         message = f"the {field} of joint {joint.name!r} has length zero"
         keeper.sink.report(rules.ZERO_AXIS, message, axis.location, found="0 0 0")

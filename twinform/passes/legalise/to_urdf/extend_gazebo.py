@@ -71,7 +71,7 @@ class ExtendGazebo(ToUrdfPass):
 def _extension(node: Link | Joint, content: Iterable[Element]) -> Iterator[GazeboExtension]:
     listed = tuple(content)
     if listed:
-        yield GazeboExtension(reference=node.name, content=listed, source=node.source)
+        yield GazeboExtension.unchecked(reference=node.name, content=listed, source=node.source)
 
 
 @cache
@@ -100,7 +100,7 @@ def _link_content(link: Link) -> tuple[list[Element], Link]:
     content = list(flag_tags(link))
     link = link.copy(**dict.fromkeys(FLAGS)) if content else link
     if any(value not in (None, ()) for value in written.values()):
-        content += to_element(Link(name=link.name, spelling=link.spelling, **written), "link", "sdf").children
+        content += to_element(Link.unchecked(name=link.name, spelling=link.spelling, **written), "link", "sdf").children
     content += _verbatim_elements(link.opaque, "link")
     if not content:
         return content, link
@@ -122,7 +122,7 @@ def _joint_content(
     if joint.name in links:  # a reference would mean the link
         return content, joint
     if joint.sensors:
-        content += to_element(Joint(name="", type="fixed", sensors=joint.sensors), "joint", "sdf").children
+        content += to_element(Joint.unchecked(name="", type="fixed", sensors=joint.sensors), "joint", "sdf").children
     content += _verbatim_elements(joint.opaque, "joint")
     return content, replace_fields(joint, sensors=(), opaque=_without_verbatim(joint.opaque, "joint"))
 
@@ -140,7 +140,7 @@ def _take_springs(joint: Joint) -> tuple[list[Element], Joint]:
     if not content:
         return [], joint
     dynamics: Dynamics | None = axis.dynamics.copy(**dict.fromkeys(_SPRING_TAGS))
-    dynamics = None if dynamics == Dynamics() else dynamics
+    dynamics = None if dynamics == Dynamics.unchecked() else dynamics
     return content, joint.copy(axis=axis.copy(dynamics=dynamics))
 
 
@@ -183,10 +183,10 @@ def _take_tags(element: Element, path: str, tags: list[Element]) -> Element | No
 def _model_extensions(model: Model) -> Iterator[GazeboExtension]:
     # One <gazebo> for each plugin, as people write them by hand.
     for plugin in model.plugins:
-        yield GazeboExtension(content=(to_element(plugin, "plugin", "sdf"),), source=plugin.source)
+        yield GazeboExtension.unchecked(content=(to_element(plugin, "plugin", "sdf"),), source=plugin.source)
     for element in _verbatim_elements(model.opaque, "model"):
-        yield GazeboExtension(content=(element,))
+        yield GazeboExtension.unchecked(content=(element,))
     written = {field: getattr(model, field) for field in _MODEL_FIELDS}
     flags = to_element(Model.unchecked(name=model.name, spelling=model.spelling, **written), "model", "sdf").children
     if flags:  # the last one decides about `static` in libsdformat 12, also by its silence: InsertSDFExtensionRobot
-        yield GazeboExtension(content=flags)
+        yield GazeboExtension.unchecked(content=flags)

@@ -113,7 +113,7 @@ def _motion_of(part: Joint | Link) -> dict[str, object]:
     """The fields of a part that matter for its motion; an empty limit counts as none."""
     written = {name: getattr(part, name) for name in fields_of(type(part)) if name not in _BESIDE}
     if isinstance(part, Joint) and part.axis is not None:
-        limit = None if part.axis.limit == Limit() else part.axis.limit
+        limit = None if part.axis.limit == Limit.unchecked() else part.axis.limit
         written["axis"] = part.axis.copy(limit=limit, opaque=())
     return written
 

@@ -100,7 +100,7 @@ def _script_tag(link: Link, keeper: UrdfKeeper) -> GazeboExtension | None:
     name = scripts.pop() if len(scripts) == 1 else None
     if name is None or not (name.startswith("Gazebo/") or keeper.back):
         return None
-    return GazeboExtension(
+    return GazeboExtension.unchecked(
         reference=link.name, content=(Element.unchecked(name="material", text=name),), source=link.source
     )
 
@@ -111,7 +111,7 @@ def _set_by_tag(link: Link, keeper: UrdfKeeper) -> Link:
     for visual in link.visuals:
         material, script = visual.material, visual.material.script if visual.material else None
         bare = material.copy(script=None) if material else None
-        one = visual.copy(material=None if bare == Material() else bare)
+        one = visual.copy(material=None if bare == Material.unchecked() else bare)
         if script and script.uris:
             message = f"<material> for link {link.name!r} does not name the files of the material of {visual.name!r}"
             keeper.account(rules.SDF_ONLY, message, script.location, len(script.uris))

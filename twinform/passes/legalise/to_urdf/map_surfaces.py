@@ -42,7 +42,9 @@ class MapSurfaces(ToUrdfPass):
             links.append(_without_fields(link, fields))
             _note_unshared(links[-1], keeper)
             if content:
-                extensions.append(GazeboExtension(reference=link.name, content=tuple(content), source=link.source))
+                extensions.append(
+                    GazeboExtension.unchecked(reference=link.name, content=tuple(content), source=link.source)
+                )
         return model.copy(links=tuple(links), extensions=tuple(extensions))
 
 

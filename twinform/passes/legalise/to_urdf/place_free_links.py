@@ -35,7 +35,7 @@ class PlaceFreeLinks(ToUrdfPass):
         # The frame is a second pose, and there is no way around it. The one of the joint counts;
         # `stale-carrier` says where an edit has made the two differ.
         frames = (*placing_frames(model, filter(is_synthesized, floating)).values(), *written.values())
-        extensions = (GazeboExtension(content=(to_element(frame, "frame", "sdf"),)) for frame in frames)
+        extensions = (GazeboExtension.unchecked(content=(to_element(frame, "frame", "sdf"),)) for frame in frames)
         return model.copy(
             links=tuple(link for link in model.links if link.name not in written),
             joints=tuple(joint for joint in model.joints if joint.child not in written),

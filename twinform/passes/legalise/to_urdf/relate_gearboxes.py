@@ -45,8 +45,8 @@ class RelateGearboxes(ToUrdfPass):
 
 
 def _follower(joint: Joint, found: Relation) -> Joint:
-    mimic = Mimic(joint=found.leader, multiplier=found.multiplier)
-    axis = (joint.axis or Axis()).copy(mimic=mimic)
+    mimic = Mimic.unchecked(joint=found.leader, multiplier=found.multiplier)
+    axis = (joint.axis or Axis.unchecked()).copy(mimic=mimic)
     return with_annotation(joint.copy(axis=axis), GEARED)
 
 

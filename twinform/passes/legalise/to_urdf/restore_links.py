@@ -46,17 +46,17 @@ def _with_links(model: Model, keeper: UrdfKeeper) -> Model:
     for name, mount in pairs.items():
         frame = next(each for each in model.frames if each.name == name)
         holder = _parent_of(mount, pairs, graph)
-        pose = (mount.pose or Pose()).copy(
+        pose = (mount.pose or Pose.unchecked()).copy(
             relative_to=(mount.pose and mount.pose.relative_to) or mount.attached_to or MODEL
         )
         joints.append(
-            Joint(
+            Joint.unchecked(
                 name=mount.name, type="fixed", parent=holder, child=name, pose=pose, opaque=mount.opaque,
                 source=mount.source,
             )
         )  # fmt: skip
-        own = (frame.pose or Pose()).copy(relative_to=mount.name)
-        bare = Link(name=name, pose=own, opaque=without_annotation(frame, LINK).opaque)
+        own = (frame.pose or Pose.unchecked()).copy(relative_to=mount.name)
+        bare = Link.unchecked(name=name, pose=own, opaque=without_annotation(frame, LINK).opaque)
         holders = [link for link in model.links if link.name == held_by[name]]
         links.append(_with_held(bare.copy(source=frame.source), holders))
     frames = tuple(
@@ -76,7 +76,7 @@ def _hold_a_link(joint: Joint, held_by: dict[str, str]) -> Joint:
     # not be read again.
     if body in {None, joint.parent, MODEL, WORLD}:
         return joint
-    pose = joint.pose or Pose()
+    pose = joint.pose or Pose.unchecked()
     pose = pose if pose.relative_to else pose.copy(relative_to=joint.child)
     return joint.copy(child=body, pose=pose)
 
@@ -140,7 +140,7 @@ def _with_held(link: Link, holders: list[Link]) -> Link:
 
 def _pose_in_own_frame(node: Placed) -> Placed:
     pose = node.pose.copy(relative_to=None) if node.pose else None
-    return node.copy(pose=None if pose == Pose() else pose)
+    return node.copy(pose=None if pose == Pose.unchecked() else pose)
 
 
 def _frame_of(part: Opaque) -> str | None:
@@ -170,7 +170,9 @@ def with_floating_joints(model: Model, keeper: UrdfKeeper) -> Model:
             message = f"link {link.name!r} hung from {parent!r} by the floating joint {name!r}, and no longer can"
             keeper.sink.report(STALE_CARRIER, message, link.location, found=name)
             continue
-        joint = Joint(name=name, type="floating", parent=parent, child=link.name, pose=Pose(relative_to=link.name))
+        joint = Joint.unchecked(
+            name=name, type="floating", parent=parent, child=link.name, pose=Pose.unchecked(relative_to=link.name)
+        )
         rest = [Opaque.unchecked(element=child) for child in annotation.children]
         joints.append(carry(joint.copy(source=link.source), rest, "urdf"))
     links = tuple(without_annotation(link, FLOATING) for link in model.links)

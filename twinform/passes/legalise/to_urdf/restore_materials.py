@@ -144,7 +144,7 @@ def _restore_in_visual(
     if material is not None and one.is_unnamed:
         return bare.copy(material=material.copy(name=None))
     if material is None and defined.get(name, (None, None)) == (None, None) and not own:
-        return bare.copy(material=Material(name=name))  # which nobody defines
+        return bare.copy(material=Material.unchecked(name=name))  # which nobody defines
     if material is not None and own:
         return bare.copy(material=material.copy(name=name))
     if material is not None and _look_of(material) == defined.get(name, (None, None)):

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from functools import cache
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual, replace_fields
 from twinform.ir.record import field_values
@@ -39,7 +39,7 @@ class ShareVisuals(ToUrdfPass):
             links.append(kept)
             if content:
                 blob = Element.unchecked(name="visual", children=tuple(content))
-                extensions.append(GazeboExtension(reference=link.name, content=(blob,), source=link.source))
+                extensions.append(GazeboExtension.unchecked(reference=link.name, content=(blob,), source=link.source))
         return replace_fields(model, links=tuple(links), extensions=tuple(extensions))
 
 
@@ -53,7 +53,7 @@ def _share_parts(link: Link, version: UrdfVersion) -> tuple[Link, list[Element]]
     visuals = link.visuals
     shared = _shared_look(visuals, look)
     if shared is not None:
-        content += to_element(Visual(name="", material=shared), "visual", "sdf").children
+        content += to_element(Visual.unchecked(name="", material=shared), "visual", "sdf").children
         visuals = tuple(_without_look(visual, look) for visual in visuals)
     parts = [_parts_beside_material(visual, version) for visual in visuals]
     if parts[0] and all(part == parts[0] for part in parts[1:]):
@@ -67,11 +67,15 @@ def _shared_look(visuals: tuple[Visual, ...], look: tuple[str, ...]) -> Material
     if not look:
         return None
     materials = [_with_only(visual.material, look) for visual in visuals]
-    return materials[0] if materials[0] != Material() and all(one == materials[0] for one in materials[1:]) else None
+    return (
+        materials[0]
+        if materials[0] != Material.unchecked() and all(one == materials[0] for one in materials[1:])
+        else None
+    )
 
 
 def _with_only(material: Material | None, look: tuple[str, ...]) -> Material:
-    return Material.model_validate({name: value for name, value in _written_fields(material) if name in look})
+    return Material.unchecked(**{name: value for name, value in _written_fields(material) if name in look})
 
 
 def _without_look(visual: Visual, look: tuple[str, ...]) -> Visual:
@@ -79,11 +83,11 @@ def _without_look(visual: Visual, look: tuple[str, ...]) -> Visual:
     rest = {name: value for name, value in _written_fields(visual.material) if name not in look}
     color = rest.get("diffuse") or rest.get("ambient")
     rest |= {name: color for name in _COLORS if color is not None and name in look}
-    material = visual.material and Material.model_validate({**rest, "source": visual.material.source})
+    material = visual.material and Material.unchecked(**rest, source=visual.material.source)
     return visual.copy(material=None if not rest else material)
 
 
-def _written_fields(material: Material | None) -> Iterator[tuple[str, object]]:
+def _written_fields(material: Material | None) -> Iterator[tuple[str, Any]]:
     """The names and values of the fields that are set in a material."""
     for name, value in field_values(material).items() if material else ():
         if value not in (None, ()):

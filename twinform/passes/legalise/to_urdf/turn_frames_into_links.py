@@ -27,7 +27,7 @@ class TurnFramesIntoLinks(ToUrdfPass):
             return model
         taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
         if not model.links:
-            model = model.copy(links=(annotate_synthesized(Link(name=reserve_name(model.name, taken))),))
+            model = model.copy(links=(annotate_synthesized(Link.unchecked(name=reserve_name(model.name, taken))),))
         graph = FrameGraph(model)
         links, joints = list(model.links), list(model.joints)
         floating = {joint.name for joint in model.joints if joint.type == "floating"} if keeper.carriers else set[str]()
@@ -39,16 +39,16 @@ class TurnFramesIntoLinks(ToUrdfPass):
             if not is_synthesized(frame) and frame.name not in floating:
                 message = f"frame {frame.name!r} becomes a link without mass"
                 keeper.account(rules.FRAME_MADE_LINK, message, frame.location, count_parts(frame))
-            made = Joint(name=joint, type="fixed", parent=body, child=frame.name, source=frame.source)
+            made = Joint.unchecked(name=joint, type="fixed", parent=body, child=frame.name, source=frame.source)
             joints.append(annotate_synthesized(made))
         return model.copy(links=tuple(links), joints=tuple(joints), frames=())
 
 
 def _make_link(frame: Frame, body: str, keeper: UrdfKeeper) -> Link:
-    pose = frame.pose or Pose()
+    pose = frame.pose or Pose.unchecked()
     if not pose.relative_to:
         pose = pose.copy(relative_to=frame.attached_to or MODEL)
-    link = Link(name=frame.name, pose=pose, source=frame.source, opaque=frame.opaque)
+    link = Link.unchecked(name=frame.name, pose=pose, source=frame.source, opaque=frame.opaque)
     if is_synthesized(frame):
         return keeper.annotate(
             without_annotation(link, SYNTHESIZED), FRAME, attributes={"attached_to": None}, always=True

@@ -52,8 +52,8 @@ def _ball(joint: Joint) -> tuple[ChainStep, ...]:
     written = joint.axis.dynamics if joint.axis else None
     damped = None
     if written is not None and (written.damping is not None or written.friction is not None):
-        damped = Dynamics(damping=written.damping, friction=written.friction)
-    return tuple(ChainStep("revolute", Axis(xyz=xyz, dynamics=damped)) for xyz in BALL_AXES)
+        damped = Dynamics.unchecked(damping=written.damping, friction=written.friction)
+    return tuple(ChainStep("revolute", Axis.unchecked(xyz=xyz, dynamics=damped)) for xyz in BALL_AXES)
 
 
 def _screw(joint: Joint) -> tuple[ChainStep, ...]:
@@ -63,16 +63,18 @@ def _screw(joint: Joint) -> tuple[ChainStep, ...]:
     # the pitch.
     axis = joint.axis or _Z
     ratio = metres_per_radian(joint) or 0.0
-    slide = Axis(xyz=axis.xyz, limit=_slide_limit(axis.limit, ratio), mimic=Mimic(joint=joint.name, multiplier=ratio))
+    slide = Axis.unchecked(
+        xyz=axis.xyz, limit=_slide_limit(axis.limit, ratio), mimic=Mimic.unchecked(joint=joint.name, multiplier=ratio)
+    )
     return (ChainStep("prismatic", slide), ChainStep("revolute", axis))
 
 
 def _slide_limit(limit: Limit | None, ratio: float) -> Limit:
     """The limits of the slide: those of the turn times the ratio."""
-    values = limit or Limit()
+    values = limit or Limit.unchecked()
     ends = sorted((_scaled(values.lower, -UNLIMITED, ratio), _scaled(values.upper, UNLIMITED, ratio)))
     speed = values.velocity if values.velocity is not None and values.velocity >= 0 else UNLIMITED
-    return Limit(lower=ends[0], upper=ends[1], effort=UNLIMITED, velocity=min(UNLIMITED, speed * abs(ratio)))
+    return Limit.unchecked(lower=ends[0], upper=ends[1], effort=UNLIMITED, velocity=min(UNLIMITED, speed * abs(ratio)))
 
 
 def _scaled(value: float | None, unbounded: float, ratio: float) -> float:
@@ -138,7 +140,9 @@ def _unfold(joint: Joint, taken: set[str], keeper: UrdfKeeper) -> tuple[tuple[Li
     for word, step in zip(CHAINS[joint.type], above, strict=True):
         name = reserve_name(f"{joint.name}_{word}", taken)
         link = reserve_name(f"{name}_link", taken)
-        made = Joint(name=name, type=step.type, parent=parent, child=link, axis=step.axis, source=joint.source)
+        made = Joint.unchecked(
+            name=name, type=step.type, parent=parent, child=link, axis=step.axis, source=joint.source
+        )
         joints.append(_annotate_part(made.copy(opaque=parts_of_first), joint, keeper))
         links.append(_make_link_between(link, joint, keeper))
         parent, parts_of_first = link, ()
@@ -151,7 +155,9 @@ def _annotate_part(made: Joint, joint: Joint, keeper: UrdfKeeper) -> Joint:
 
 def _make_link_between(name: str, joint: Joint, keeper: UrdfKeeper) -> Link:
     """A link of the chain, with a token mass that is large enough for libsdformat and MuJoCo."""
-    link = Link(name=name, pose=Pose(relative_to=joint.name), inertial=CHAIN_TOKEN, source=joint.source)
+    link = Link.unchecked(
+        name=name, pose=Pose.unchecked(relative_to=joint.name), inertial=CHAIN_TOKEN, source=joint.source
+    )
     return with_annotation(link, PART, attributes={"joint": joint.name}) if keeper.carriers else link
 
 
@@ -197,7 +203,7 @@ def _keep_axis(joint: Joint, keeper: UrdfKeeper) -> Joint:
         axis: Axis | None = getattr(joint, field)
         if axis is not None:
             message = f"ball joint {joint.name!r} has an {field}; its damping acts on each of the three joints"
-            bare = to_element(Joint(name="", type=joint.type).copy(**{field: axis}), "joint", "sdf")
+            bare = to_element(Joint.unchecked(name="", type=joint.type).copy(**{field: axis}), "joint", "sdf")
             pieces = [Opaque.unchecked(element=child) for child in bare.children]
             joint = keeper.keep(joint, pieces, rules.UNFOLDED_JOINT, message, axis.location, count_parts(axis))
     return joint
