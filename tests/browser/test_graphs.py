@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.unit.compiler.graph.models import NESTED, WORLD, hostile_urdf
-from tests.unit.compiler.graph.test_build_graph import graph_of
+from tests.unit.compiler.graph.test_graph import graph_of
 from twinform.compiler.graph import Graph
 from twinform.compiler.graph.graph import shortened
 from twinform.compiler.graph.mermaid import mermaid

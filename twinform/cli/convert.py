@@ -11,7 +11,6 @@ from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.config import settings_of
 from twinform.cli.config.config_defaults import RuleSettings
-from twinform.cli.conversion_targets import TARGETS, ConversionJob, Target, jobs, jobs_in_place
 from twinform.cli.gazebo_files import GazeboFiles, companion_options, version_for
 from twinform.cli.inputs import InputSource, inputs, reading_options
 from twinform.cli.instrumentation import InstrumentationOptions, watching_options
@@ -19,7 +18,18 @@ from twinform.cli.outputs import Outputs
 from twinform.cli.printing import all_option, notes_option, print_line
 from twinform.cli.project_options import OptionsByFile, consumers_option, keep_physics_option, policy_options
 from twinform.cli.request import passes_of, request_options, whole_request
-from twinform.cli.run_conversion import Options, print_plan, run_into, run_job, run_split
+from twinform.cli.run_conversion import (
+    TARGETS,
+    ConversionJob,
+    Options,
+    Target,
+    jobs,
+    jobs_in_place,
+    print_plan,
+    run_into,
+    run_job,
+    run_split,
+)
 from twinform.compiler import ConversionRequest
 from twinform.compiler.input.load_options import ReadingOptions
 from twinform.compiler.request_options import RequestOptions

@@ -11,11 +11,10 @@ import click
 from twinform.cli.command import FINDINGS, Unusable
 from twinform.cli.printing import print_document, print_line
 from twinform.compiler import write_all_atomically
-from twinform.compiler.output.same_files import folded, identities, is_below, is_nothing
 from twinform.dataclass import dataclass
 from twinform.diagnostics import HEAD, SideFile
 from twinform.file_access import Readable, read_regular
-from twinform.storage.writing import is_stream
+from twinform.storage.writing import folded, identities, is_below, is_nothing, is_stream
 
 output_option = click.option(
     "-o", "--output", "output", metavar="FILE", type=click.Path(path_type=Path), help="Where to write; else it prints."

@@ -11,12 +11,12 @@ from twinform.cli.config.trust import Outside
 from twinform.cli.printing import paint, print_line, print_text
 from twinform.compiler import LoadOptions
 from twinform.compiler.expand_includes import OtherDocuments
-from twinform.compiler.output.same_files import is_below
 from twinform.compiler.reproducers import Reproducer, read_reproducer
 from twinform.compiler.resolve_uris import LocalAssets, SearchPath
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.reporters import FileFindings, concise
 from twinform.passes import PassError, PipelineError, RegistryError
+from twinform.storage.writing import is_below
 
 EXAMPLES = {
     "Run the pass again of which a fault has left a file": "twinform reproduce twinform-fault.json",

@@ -23,7 +23,7 @@ from twinform.passes.carriers.joint_chains import CHAIN, PART
 from twinform.passes.carriers.token_mass import TOKEN_MASS
 from twinform.passes.legalise.changed_names import NAME, SCOPED_NAME
 from twinform.passes.legalise.to_sdf.root_masses import UNSAID
-from twinform.passes.shared.gearboxes import GEARED
+from twinform.passes.shared.joint_ends import GEARED
 from twinform.passes.shared.link_shapes import COMPUTED_MASS
 from twinform.schemas import XmlElement, path_of
 from twinform.schemas.value_types import format_number

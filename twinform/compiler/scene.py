@@ -37,8 +37,8 @@ from twinform.ir.solids import Solid, placed, written_solid
 from twinform.ir.transform import Transform
 from twinform.passes import Pass, Pipeline
 from twinform.passes.appearance.materials import classic_materials
+from twinform.passes.meshes.limit_sensors import image_size, samples
 from twinform.passes.shared.flattening import flatten
-from twinform.passes.shared.sensor_costs import image_size, samples
 
 Role = Literal["visual", "collision"]
 

@@ -37,7 +37,7 @@ from twinform.ir.scopes import scoped_models
 from twinform.passes import NO_ASSETS, Assets, Pipeline
 from twinform.passes.mesh_jobs.job import MeshJob
 from twinform.passes.mesh_jobs.mesh_files import EXTRA, READ, RefusedMeshError, content_of, kind_of
-from twinform.passes.shared.sensor_costs import sensor_cost, sensors_in
+from twinform.passes.meshes.limit_sensors import sensor_cost, sensors_in
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

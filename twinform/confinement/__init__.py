@@ -10,6 +10,8 @@ Three layers beneath it, each where the system has it, and none that the process
 It stands below all rooms and needs nothing of them: the process that expands xacro imports no other package of ours.
 """
 
+import signal
+import sys
 from importlib import import_module
 
 from twinform.confinement.resources import renounce_descriptors
@@ -38,3 +40,17 @@ def confine(*, threads: bool = False) -> list[str]:
     except ImportError:
         pass  # a Python without ctypes
     return [name for name, renounce in layers.items() if renounce()]
+
+
+_SET_PARENT_DEATH_SIGNAL = 1
+
+
+def end_with_parent() -> None:
+    """Let the system kill this process when the thread that started it ends; only Linux does that."""
+    if not sys.platform.startswith("linux"):
+        return
+    try:
+        import ctypes  # noqa: PLC0415 - a Python may be without it
+    except ImportError:
+        return
+    ctypes.CDLL(None).prctl(_SET_PARENT_DEATH_SIGNAL, signal.SIGKILL, 0, 0, 0)

@@ -12,7 +12,6 @@ from twinform.schemas.facts import (
     versions_of,
 )
 from twinform.schemas.messages import Context
-from twinform.schemas.node_makers import LAST_LINE, element_xml, node_class
 from twinform.schemas.packaged import schema_text
 from twinform.schemas.reader import SchemaReader, reader
 from twinform.schemas.text_output import Item, WrittenParts, end_of_element, in_attribute
@@ -26,6 +25,7 @@ from twinform.schemas.validator import (
     validate,
     xmlschema_errors,
 )
+from twinform.schemas.value_readers import LAST_LINE, element_xml, node_class
 from twinform.schemas.value_types import VALUE_TYPES, format_value, parse_value
 from twinform.schemas.written_rows import in_order, repeated_fields
 from twinform.schemas.xml import (

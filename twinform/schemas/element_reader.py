@@ -7,8 +7,21 @@ from twinform.ir import Node
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Version, rows_by_name
 from twinform.schemas.messages import Context
-from twinform.schemas.node_makers import Data, keep_attribute, keep_content, keep_element, keep_text, required_words
-from twinform.schemas.value_readers import SCALARS, Types, attribute_reader, bounds, own_field, stripped, text_reader
+from twinform.schemas.value_readers import (
+    SCALARS,
+    Data,
+    Types,
+    attribute_reader,
+    bounds,
+    keep_attribute,
+    keep_content,
+    keep_element,
+    keep_text,
+    own_field,
+    required_words,
+    stripped,
+    text_reader,
+)
 from twinform.schemas.xml import BLANKS, XmlElement, is_blank
 
 ReadChild = Callable[[XmlElement, Data, Context, int], None]

@@ -18,8 +18,7 @@ from twinform.schemas import messages
 from twinform.schemas.element_reader import ElementReader, ReadChild, with_row_findings
 from twinform.schemas.facts import Fact, Table, Version, table
 from twinform.schemas.messages import Context
-from twinform.schemas.node_makers import Data, NodeMaker, keep_element, locate, node_class, require_place
-from twinform.schemas.value_readers import text_reader
+from twinform.schemas.value_readers import Data, NodeMaker, keep_element, locate, node_class, require_place, text_reader
 from twinform.schemas.value_types import VALUE_TYPES
 from twinform.schemas.xml import XmlElement, is_blank, is_followed
 

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 import twinform
-from twinform.cli.model_discovery import NothingFoundError, discover
+from twinform.cli.inputs import NothingFoundError, discover
 from twinform.cli.model_files import Exclusion, is_model
 
 NO_EXCLUSION = Exclusion(())

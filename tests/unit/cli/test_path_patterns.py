@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from pathspec import GitIgnoreSpec
 
 from tests.patterns.growth import grows_too_fast
-from twinform.cli.model_discovery import discover
+from twinform.cli.inputs import discover
 from twinform.cli.model_files import Exclusion, PatternError
 from twinform.cli.path_patterns import LONGEST, PathPatterns
 

@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import Literal
 
 from twinform.cli.config.config_file import ConfigError
-from twinform.compiler.output.same_files import is_below
 from twinform.dataclass import dataclass
 from twinform.passes import FilesPass, Pass, Pipeline
 from twinform.passes.framework.built_in import BUILT_IN
+from twinform.storage.writing import is_below
 
 Hold = Literal["nothing to hold", "lowers a limit", "inside its folder", "known passes", "only if trusted"]
 HELD: Mapping[str, Hold] = {

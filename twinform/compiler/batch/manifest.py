@@ -15,9 +15,8 @@ from typing import Any, BinaryIO, NamedTuple
 
 from twinform.compiler.batch.record import ModelRecord, Outcome
 from twinform.compiler.dependencies import Dependency, packed, unpacked
-from twinform.compiler.output.same_files import is_open_at
 from twinform.storage.transaction import named_after, transaction
-from twinform.storage.writing import is_stream, refuse_way_out, sync_files
+from twinform.storage.writing import is_open_at, is_stream, refuse_way_out, sync_files
 
 try:
     import fcntl

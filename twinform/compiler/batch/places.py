@@ -7,8 +7,7 @@ from functools import cached_property
 from pathlib import Path, PurePosixPath
 
 from twinform.compiler.batch.entries import FolderError, ModelEntry, stem
-from twinform.compiler.output.same_files import identities
-from twinform.storage.writing import is_stream
+from twinform.storage.writing import identities, is_stream
 
 LEDGER = ".ledger.json"
 """What is added to the name of a result for its ledger."""

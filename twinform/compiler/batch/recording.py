@@ -32,8 +32,7 @@ from twinform.compiler.dependencies import (
     status,
 )
 from twinform.compiler.observing import digest
-from twinform.compiler.output.same_files import is_below
-from twinform.storage.writing import is_stream, write_all_atomically
+from twinform.storage.writing import is_below, is_stream, write_all_atomically
 
 # The most paths of which the status is kept: several models share macro libraries, meshes and
 # folders.

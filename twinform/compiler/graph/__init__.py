@@ -3,9 +3,8 @@
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
-from twinform.compiler.graph.build_graph import build_graph
 from twinform.compiler.graph.dot import dot
-from twinform.compiler.graph.graph import Attachment, Cluster, Follower, Graph, GraphJoint, GraphNode
+from twinform.compiler.graph.graph import Attachment, Cluster, Follower, Graph, GraphJoint, GraphNode, build_graph
 from twinform.compiler.graph.mermaid import mermaid
 from twinform.compiler.graph.svg import svg
 

@@ -12,7 +12,7 @@ from twinform.compiler.graph.dot import dot, quoted
 from twinform.compiler.graph.graph import shortened
 
 from .models import HOSTILE, NESTED, WORLD, hostile_urdf
-from .test_build_graph import graph_of
+from .test_graph import graph_of
 
 _GRAPHVIZ = shutil.which("dot")
 needs_graphviz = pytest.mark.skipif(_GRAPHVIZ is None, reason="Graphviz is not installed: apt-get install graphviz")

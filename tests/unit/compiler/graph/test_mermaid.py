@@ -7,7 +7,7 @@ from twinform.compiler.graph import Graph, GraphNode
 from twinform.compiler.graph.mermaid import MOST_EDGES, escaped, fits, mermaid
 
 from .models import HOSTILE, NESTED, WORLD, hostile_urdf
-from .test_build_graph import graph_of
+from .test_graph import graph_of
 
 _LABEL = r'"(?:[\w .,/()-]|#\d+;|<br>)+"'
 _LINE = re.compile(

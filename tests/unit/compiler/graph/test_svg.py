@@ -11,7 +11,7 @@ from twinform.compiler.graph.layout import LayoutBox, layout
 from twinform.compiler.graph.svg import svg
 
 from .models import NESTED, WORLD, hostile_urdf
-from .test_build_graph import graph_of
+from .test_graph import graph_of
 
 _SVG = "{http://www.w3.org/2000/svg}"
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from twinform.compiler.output.back_ends import with_bases_first
+from twinform.compiler.output.emitting import with_bases_first
 from twinform.ir import Element, Frame, Link, Model, Node, Opaque, Pose
 from twinform.schemas import Item
 

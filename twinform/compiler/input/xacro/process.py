@@ -12,8 +12,7 @@ from twinform.compiler.input.xacro.budget import ExcessError
 from twinform.compiler.input.xacro.channel import Compiler, MissingFileError, NotFoundError, WorkerChannel
 from twinform.compiler.input.xacro.expander import Expander
 from twinform.compiler.input.xacro.places import BadFileError, FileLine, places_below
-from twinform.confinement import confine
-from twinform.confinement.parent import end_with_parent
+from twinform.confinement import confine, end_with_parent
 from twinform.confinement.resources import limits, set_limit
 
 _LONGEST = 1000

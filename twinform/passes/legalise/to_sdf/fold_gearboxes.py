@@ -9,7 +9,7 @@ from twinform.ir.defaults import multiplier
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.shared.gearboxes import GEARED, UngearedError, relation
+from twinform.passes.shared.joint_ends import GEARED, UngearedError, relation
 
 _CLOSE = 1e-9
 """How far multipliers may be apart that were made from one ratio."""

@@ -8,7 +8,7 @@ from twinform.ir.frames import FrameGraph
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.legalise.to_urdf.build_tree import cut_joints
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.shared.gearboxes import GEARED, Relation, UngearedError, relation
+from twinform.passes.shared.joint_ends import GEARED, Relation, UngearedError, relation
 
 
 class RelateGearboxes(ToUrdfPass):

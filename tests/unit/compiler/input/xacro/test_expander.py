@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from tests.profile import examples
 from twinform.compiler.input.xacro.budget import Budget, ExcessError
+from twinform.compiler.input.xacro.expander import TextEvaluator
 from twinform.compiler.input.xacro.interpreter import Interpreter
-from twinform.compiler.input.xacro.texts import TextEvaluator
 
 _XACRO: Any = import_module("xacro")
 
