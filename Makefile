@@ -25,7 +25,7 @@ DEMO := out/demo
 # tests start the command a thousand times: it must not be compiled each time
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help sync fmt generate lint site pictures wheel test verify demo report bench latency vsix size before prove coverage fuzz clean
+.PHONY: help sync fmt generate lint site pictures wheel test verify demo report imports bench latency vsix size before prove coverage fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -146,6 +146,9 @@ $(READERS): $(ORACLES)
 $(PEERS): $(SYNCED)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[bench]' || echo "not all peers are here"
 	touch $@
+
+imports: $(SYNCED) ## what check, convert, format and diff import, for what, and how long it takes: docs/evidence/speed.md
+	@$(BIN)/python -m reports imports
 
 bench: $(PEERS) ## how fast it is, beside its peers; writes a section of docs/evidence/speed.md: BEFORE=../older MORE=../robots
 	$(BIN)/python -m reports performance $(BEFORE) $(MORE) $(ARGS)

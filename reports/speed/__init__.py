@@ -4,5 +4,6 @@ SECTIONS = {
     "performance": "How fast it is",
     "editor": "An editor at work",
     "batch": "Many models",
+    "imports": "What commands import",
 }
 """The sections of the page by the names of their modules, each with its title, in the order of the page."""

@@ -4,7 +4,6 @@ Results come in the order of the files, whoever has made them. What comes from s
 process, and nothing of it is kept.
 """
 
-import json
 import os
 from collections.abc import Callable, Generator, Sequence
 from contextlib import closing, contextmanager
@@ -208,6 +207,8 @@ def _processors() -> int:
 
 
 def _digest(task: object) -> str:
+    import json  # noqa: PLC0415 - only runs with kept results
+
     from twinform.compiler.described_options import describe_options  # noqa: PLC0415 - as above
     from twinform.compiler.observing import digest  # noqa: PLC0415 - as above
 

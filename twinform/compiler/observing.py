@@ -5,11 +5,9 @@ interpreter raises an audit event for every `open` and listing. There is none fo
 `os.readlink`, which are wrapped.
 """
 
-import hashlib
 import os
 import stat
 import sys
-import sysconfig
 import time
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
@@ -27,17 +25,23 @@ Value = TypeVar("Value")
 # not, and one that is forgotten gives a stale result that nobody notices.
 _WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT
 _OPEN, _LISTINGS = "open", frozenset({"os.listdir", "os.scandir"})
-# Python, its packages and devices: their version is part of the request, and nobody edits them.
-_KNOWN_BY_VERSION = tuple(
-    f"{folder}{os.sep}"
-    for folder in {
+
+
+@cache
+def _known_by_version() -> tuple[str, ...]:
+    """Python, its packages and devices: their version is part of the request, and nobody edits them."""
+    import sysconfig  # noqa: PLC0415 - only runs that are observed
+
+    folders = {
         *(sysconfig.get_path(name) for name in ("stdlib", "platstdlib", "purelib", "platlib")),
         str(Path(__file__).resolve().parents[1]),
         "/dev",
         "/proc",
         "/sys",
     }
-)
+    return tuple(f"{folder}{os.sep}" for folder in folders)
+
+
 _CODE = (".py", ".pyc", ".so", ".pyd")
 
 
@@ -90,6 +94,7 @@ _CURRENT: ContextVar[Observation | None] = ContextVar("observation", default=Non
 def observed() -> Generator[Observation]:
     """Record the files and variables that are used inside, in this thread."""
     _install()
+    _known_by_version()  # importing what says so is not the work that is observed
     observation = Observation()
     token = _CURRENT.set(observation)
     try:
@@ -166,6 +171,8 @@ def is_young(modified: int, changed: int, now: int) -> bool:
 
 def digest(content: bytes) -> str:
     """Return the SHA-256 of a content."""
+    import hashlib  # noqa: PLC0415 - it loads OpenSSL, and most runs need none
+
     return hashlib.sha256(content).hexdigest()
 
 
@@ -274,7 +281,7 @@ def _note(what: str, path: Any, status: Any = _ASK) -> None:
 
 
 def _is_known_by_version(name: str) -> bool:
-    return name.startswith(_KNOWN_BY_VERSION) or name.endswith(_CODE)
+    return name.startswith(_known_by_version()) or name.endswith(_CODE)
 
 
 def _absolute(path: Any) -> str | None:

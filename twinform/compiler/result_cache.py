@@ -4,7 +4,6 @@ A file has the results of the runs in one folder. It is JSON, so whatever it say
 digest of the rest. What cannot be read, or is not as it was written, is as if it were not there.
 """
 
-import json
 import os
 import time
 from collections.abc import Callable, Iterable, Iterator
@@ -171,10 +170,14 @@ class ResultCache:
     @classmethod
     def of(cls, folder: Path | None, *names: str) -> "ResultCache":
         """Return the results in a folder that have some names in common."""
+        import json  # noqa: PLC0415 - only runs with kept results
+
         return cls(folder and folder / f"{digest(json.dumps([_FORMAT, *names]).encode())}.json")
 
     def get(self, key: str, parse: Callable[[Any], Item]) -> Item | None:
         """Return a result as `parse` reads it; None where there is none that still counts."""
+        import json  # noqa: PLC0415 - only runs with kept results
+
         kept = self._results.get(key)
         if kept is None or any(os.environ.get(name) != value for name, value in kept.variables.items()):
             return None
@@ -189,6 +192,8 @@ class ResultCache:
 
     def put(self, key: str, result: object, seen: Observed) -> None:
         """Keep a result."""
+        import json  # noqa: PLC0415 - only runs with kept results
+
         text = json.dumps(result)
         if self._file is not None and len(text) <= _LARGEST_RESULT:
             self._results[key] = _KeptResult(tuple(map(self._number, seen.groups)), seen.variables, text)
@@ -197,6 +202,8 @@ class ResultCache:
 
     def save(self) -> None:
         """Write the file if anything has changed; a folder that cannot be written to is no reason to fail."""
+        import json  # noqa: PLC0415 - only runs with kept results
+
         if self._file is None or not self._is_changed:
             return
         if _version_of(self._file) != self._before:  # another run has written it meanwhile
@@ -221,6 +228,8 @@ class ResultCache:
         return are_current((self._dependencies.items[number],), os.sep, noted=noted, status=self._status)
 
     def _read(self, file: Path) -> None:
+        import json  # noqa: PLC0415 - only runs with kept results
+
         with suppress(OSError, *_MALFORMED):
             mark, _, data = read_regular(file, _LARGEST_FILE).partition(b"\n")
             if digest(data).encode() != mark:

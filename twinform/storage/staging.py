@@ -7,7 +7,6 @@ there knows which folders nobody needs any more.
 
 import errno
 import os
-import shutil
 from collections.abc import Generator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -58,6 +57,8 @@ class StagingFolder:
 
     def remove(self) -> None:
         """Remove the folder with all that is in it. It may be called again."""
+        import shutil  # noqa: PLC0415 - it brings three kinds of compression along
+
         if self._outer is not None:
             shutil.rmtree(self._outer, ignore_errors=True)
             if os.path.lexists(self._outer):  # once more: an error may have passed
@@ -112,6 +113,8 @@ def remove_leftovers(folder: Path) -> None:
 
 
 def _remove_if_left(path: Path) -> None:
+    import shutil  # noqa: PLC0415 - it brings three kinds of compression along
+
     lock = os.open(path, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
     try:
         status = os.fstat(lock)

@@ -2,7 +2,6 @@
 
 import errno
 import os
-import shutil
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager, suppress
 from functools import partial
@@ -170,6 +169,8 @@ def _take_away_link(new: Path, target: Path) -> None:
 
 def _give_second_name(path: Path, name: Path) -> None:
     """Keep a file under another name before it is replaced: a hard link, or a copy where there are none."""
+    import shutil  # noqa: PLC0415 - most files are new
+
     try:
         os.link(path, name)
     except OSError:

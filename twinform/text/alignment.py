@@ -4,7 +4,6 @@ from bisect import bisect_left
 from collections import Counter, defaultdict
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
-from difflib import SequenceMatcher
 from functools import partial
 
 from twinform.schemas import XmlElement
@@ -267,6 +266,8 @@ def _by_tag(
 
 def blocks(before: Sequence[Hashable], after: Sequence[Hashable]) -> Iterator[tuple[range, range, bool]]:
     """Split both lists into ranges, each with whether the lists are equal there."""
+    from difflib import SequenceMatcher  # noqa: PLC0415 - few texts differ
+
     # Most lists differ in one place. What is equal at both ends costs linear time and leaves little
     # for difflib, which takes the square.
     begin, end = _common(before, after)

@@ -5,6 +5,8 @@ from pathlib import Path
 import pytest
 
 import twinform
+from testbed.imports import COMMANDS as COMMANDS_OF_ALL_DAY
+from testbed.imports import REASONS, imported, packages_beside
 from twinform.cli import COMMANDS, main
 
 from .conftest import Run
@@ -62,33 +64,24 @@ def test_the_package_runs_as_the_command() -> None:
 
 
 _UNUSED = {
-    "check": [
-        "pydantic",
-        "twinform.passes.legalise",
-        "twinform.passes.framework.pass_base",
-        "twinform.cli.config.settings",
-        "difflib",
-    ],
+    "check": ["twinform.passes.legalise", "twinform.passes.framework.pass_base", "twinform.cli.config.settings"],
     "convert": [
         "twinform.passes.legalise.to_urdf",
+        "twinform.passes.framework.options_model",
         "twinform.compiler.expand_includes",
         "twinform.compiler.audit",
-        "difflib",
     ],
-    "stats": ["subprocess"],
+    "format": ["twinform.passes.legalise"],
+    "diff": ["twinform.passes.framework.options_model", "twinform.cli.config.settings"],
 }
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("command", _UNUSED)
-def test_a_command_imports_what_it_needs(command: str, folder: Path) -> None:
-    program = (
-        "import sys; from twinform.cli import main; main(sys.argv[1:], standalone_mode=False);"
-        f"print(*[name for name in {_UNUSED[command]} if name in sys.modules], file=sys.stderr)"
-    )
-    line = [sys.executable, "-c", program, command, "good.urdf"]
-    done = subprocess.run(line, cwd=folder, capture_output=True, text=True, check=True)
-    assert done.stderr.splitlines()[-1] == ""
+@pytest.mark.parametrize("command", COMMANDS_OF_ALL_DAY)
+def test_a_command_imports_what_it_needs(command: str, tmp_path: Path) -> None:
+    found = imported(command, tmp_path)
+    assert not {each.name for each in found} & {*_UNUSED[command]}
+    assert packages_beside(found).keys() == REASONS[command].keys()
 
 
 @pytest.mark.slow

@@ -4,7 +4,6 @@ import math
 import zlib
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from random import Random
 
 from twinform.compiler.compare.compared_robot import ComparedRobot, JointView, NamedFrame
 from twinform.compiler.compare.compared_values import Delta, PoseValue, Text, gaps, show
@@ -172,6 +171,8 @@ def _comparable(joint: JointView, frames: Mapping[str, Transform]) -> JointView:
 
 def sampled_positions(joints: Iterable[JointView], sample: int) -> Positions:
     """Return a position from -1 to 1 for each joint, and each joint named by a mimic, that depends only on its name."""
+    from random import Random  # noqa: PLC0415 - it brings hashes along
+
     keys = dict.fromkeys((joint.name, number) for joint in joints for number in range(len(joint.degrees)))
     leaders = (degree.leader for joint in joints for degree in joint.degrees)
     keys |= dict.fromkeys((leader.joint, leader.degree) for leader in leaders if leader)

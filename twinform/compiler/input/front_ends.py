@@ -5,7 +5,6 @@ child link is that of the joint. Trees of large files are freed while they are r
 never in memory together.
 """
 
-import ctypes
 import sys
 from collections import defaultdict
 from collections.abc import Callable, Iterator
@@ -134,6 +133,8 @@ def return_memory() -> None:
 @cache
 def _trimmer() -> Callable[[int], int] | None:
     """Return the function of glibc that does it; other C libraries have none."""
+    import ctypes  # noqa: PLC0415 - only large files
+
     return getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None
 
 

@@ -3,7 +3,6 @@
 `Reproducer`, the hook that records a failed pass, is in `compiler/reproducers.py`.
 """
 
-import json
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from operator import attrgetter
 from time import perf_counter
@@ -120,6 +119,8 @@ def _items(labels: object) -> Iterator[str]:
 
 def _show_value(value: object) -> str:
     """A value as in the JSON of a document."""
+    import json  # noqa: PLC0415 - few runs are watched
+
     if value is None:
         return "not set"
     if isinstance(value, Sourced):

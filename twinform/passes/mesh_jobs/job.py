@@ -3,9 +3,6 @@
 A message is the length of a JSON text in eight bytes, the JSON text, and the bytes of the files whose sizes it lists.
 """
 
-import hashlib
-import json
-import mmap
 from collections.abc import Mapping, Sequence
 from dataclasses import field
 from pathlib import Path
@@ -66,6 +63,9 @@ class MeshJob:
 
     def digest(self, versions: Mapping[str, str]) -> str:
         """A digest of everything that the result depends on: the job, and the versions of the libraries."""
+        import hashlib  # noqa: PLC0415 - most models have no meshes to open
+        import json  # noqa: PLC0415 - as above
+
         head = [self.name, sorted(self.options.items()), self.kind, sorted(self.companions), sorted(versions.items())]
         parts = [json.dumps(head).encode(), self.content, *(self.companions[name] for name in sorted(self.companions))]
         return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()
@@ -104,6 +104,8 @@ class MeshResult:
 
 def pack_message(head: Mapping[str, object], files: Sequence[bytes]) -> bytes:
     """Join a head and files to a message."""
+    import json  # noqa: PLC0415 - as above
+
     # No pickles: the cache holds nothing that can be executed when it is read, and the process at
     # the other end may be taken over by a mesh.
     text = json.dumps({**head, "sizes": [len(each) for each in files]}).encode()
@@ -116,6 +118,8 @@ def unpack_message(stream: BinaryIO) -> tuple[dict[str, object], list[bytes]] | 
     Raises:
         BadMessageError: the stream ends in the middle of a message, or has something else.
     """
+    import json  # noqa: PLC0415 - as above
+
     prefix = stream.read(_PREFIX)
     if not prefix:
         return None
@@ -189,6 +193,8 @@ def _lower(kind: Kind, most: int) -> None:
 
 def _address_space() -> int | None:
     """How many bytes this process has reserved, including its libraries; None where the system does not say."""
+    import mmap  # noqa: PLC0415 - as above
+
     try:
         return int(Path("/proc/self/statm").read_text().split()[0]) * mmap.PAGESIZE
     except OSError:
