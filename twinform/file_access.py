@@ -57,6 +57,11 @@ class Readable:
         beside = os.path.realpath(neighbors) if neighbors else ""
         return cls(around, tuple(named), tuple(installed), single, beside)
 
+    def for_neighbor(self, name: str) -> Self:
+        """Return what may be read for another file in the folder of the one that this is for."""
+        single = frozenset(os.path.join(os.path.dirname(each), name) for each in self.single)
+        return type(self)(self.around, self.named, self.installed, single, self.beside)
+
     def allows(self, path: str | Path) -> bool:
         """Tell whether a file or folder may be read, or does not exist."""
         # A link `robot.urdf -> ~/.netrc` in a downloaded repository must not make that file

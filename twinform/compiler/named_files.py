@@ -9,9 +9,8 @@ from urllib.parse import unquote
 
 from twinform.compiler.input.finding_lines import PartFinder, line_of_text
 from twinform.compiler.resolve_uris import SearchPath, UriError, exists
-from twinform.compiler.ros_packages import MODEL_CONFIG
 from twinform.diagnostics import DiagnosticSink, Location, nearest_name, rules
-from twinform.file_access import Readable, folders_around
+from twinform.file_access import Readable
 from twinform.ir import Document
 from twinform.passes.shared.document_uris import Kind, map_uris
 from twinform.schemas import XmlElement
@@ -189,7 +188,7 @@ def _near_below(folder: Path, path: str, search: SearchPath, beside: Path) -> st
 
 def _known_names(scheme: str, search: SearchPath, beside: Path) -> Iterator[str]:
     """Yield the names of the packages or models around a file, and in the folders that were named."""
-    around = folders_around(beside)
+    around = search.surroundings(beside).folders
     index = search.index
     if scheme == "package":
         for folder in (*search.own, *around):
@@ -197,4 +196,4 @@ def _known_names(scheme: str, search: SearchPath, beside: Path) -> Iterator[str]
             yield from filter(None, map(index.name_of, (folder, *inside)))
         return
     for folder in (*search.own, *search.models, *around, *(each / "models" for each in around)):
-        yield from (name for name in index.listing(folder).folders if exists(folder / name / MODEL_CONFIG))
+        yield from index.models_in(folder)

@@ -90,13 +90,14 @@ class SearchPath:
 
     def readable(self, file: Path) -> Readable:
         """Return the files that may be read because `file` leads to them, and `file` itself."""
-        return self._readable.get(
-            file, lambda: Readable.of(file, (*self._roots(), *self.fuel), self._environment_roots())
+        near = self._readable.get(
+            file.parent, lambda: Readable.of(file, (*self._roots(), *self.fuel), self._environment_roots())
         )
+        return near.for_neighbor(file.name)
 
-    def _surroundings(self, file: Path) -> SearchFolders:
+    def surroundings(self, file: Path) -> SearchFolders:
         """Return the folders around a file; they are kept, since a world may have a URI in each of its lines."""
-        return self._around.get(file, lambda: SearchFolders(folders_around(file), neighborhood(find_root(file))))
+        return self._around.get(file.parent, lambda: SearchFolders(folders_around(file), neighborhood(find_root(file))))
 
     def unsaved_of(self, path: str | Path) -> bytes | None:
         """Return the content of a file that is open in an editor; None for other files."""
@@ -117,7 +118,7 @@ class SearchPath:
             raise UriError(rules.UNRESOLVED_URI, f"{uri!r} names no model or package")
         if name == "..":
             raise UriError(rules.URI_LEAVES_FOLDER, f"{uri!r} leads out of the folders of models and packages")
-        around, neighbors = self._surroundings(beside)
+        around, neighbors = self.surroundings(beside)
         candidates = self._candidates(name, (*around, neighbors) if neighbors else around)
         found = self._first_readable(uri, (folder / inner for folder in candidates), beside)
         if found is None:
@@ -175,7 +176,7 @@ class SearchPath:
 
     def _find_path(self, path: str, beside: Path, uri: str | None = None) -> Path:
         """Find a path that is absolute, beside the file, or in one of the folders."""
-        around = self._surroundings(beside).folders
+        around = self.surroundings(beside).folders
         roots = (beside.parent, *self._roots(), *around, *(folder / "models" for folder in around))
         found = self._first_readable(uri or path, (root / path for root in roots), beside) if path else None
         if found is None:

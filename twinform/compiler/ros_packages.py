@@ -61,6 +61,7 @@ class PackageIndex:
     inside: Memo[Path, dict[str, Path]] = field(default_factory=Memo[Path, dict[str, Path]])
     names: Memo[Path, str | None] = field(default_factory=Memo[Path, str | None])
     listings: Memo[Path, FolderListing] = field(default_factory=Memo[Path, FolderListing])
+    models: Memo[Path, tuple[str, ...]] = field(default_factory=Memo[Path, tuple[str, ...]])
 
     def name_of(self, folder: Path) -> str | None:
         """Return the name of the package in a folder; None where there is none."""
@@ -69,6 +70,14 @@ class PackageIndex:
     def listing(self, folder: Path) -> FolderListing:
         """Return what is in a folder; nothing of one that cannot be listed."""
         return self.listings.get(folder, lambda: _list_folder(folder))
+
+    def models_in(self, folder: Path) -> tuple[str, ...]:
+        """Return the names of the folders in a folder that are models of Gazebo."""
+        return self.models.get(folder, lambda: self._models_in(folder))
+
+    def _models_in(self, folder: Path) -> tuple[str, ...]:
+        folders = self.listing(folder).folders
+        return tuple(name for name in folders if os.path.exists(f"{folder}{os.sep}{name}{os.sep}{MODEL_CONFIG}"))  # noqa: PTH110 - many
 
     def named(self, name: str, root: Path) -> Iterator[Path]:
         """Yield the package of a name below a folder, if there is one."""
