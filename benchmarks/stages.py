@@ -14,7 +14,7 @@ from types import FrameType
 
 import twinform
 from testbed.markdown import paragraphs, subsection, table
-from twinform.compiler.request_options import Language
+from twinform.request_options import Language
 
 TICK = 0.001
 """In seconds; a kernel makes four of it."""

@@ -8,8 +8,8 @@ from lxml import etree
 
 import twinform
 from twinform.compiler import Conversion
-from twinform.compiler.request_options import Language
 from twinform.ir.changes import changes
+from twinform.request_options import Language
 from twinform.schemas import XmlElement
 
 OTHER: dict[str, Language] = {"urdf": "sdf", "sdf": "urdf"}

@@ -15,7 +15,7 @@ from twinform import CompileError
 from twinform.compiler import ConversionRequest, LoadOptions, SearchPath
 from twinform.compiler.formatting import formatted
 from twinform.compiler.in_place import convert_in_place
-from twinform.compiler.request_options import Language
+from twinform.request_options import Language
 from twinform.text.formatting import FormatOptions
 
 _ABOUT = """\

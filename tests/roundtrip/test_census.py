@@ -13,9 +13,9 @@ from testbed.corpus.files import CorpusFile
 from tests.corpus.portions import chunks
 from tests.profile import DEEP, examples
 from twinform.compiler import CompileError
-from twinform.compiler.request_options import Language
 from twinform.ir import Document, Node, census_of
 from twinform.ir.rewrite import ANYTHING, map_children
+from twinform.request_options import Language
 from twinform.testing import strategies
 
 TARGETS: list[tuple[Language, str | None]] = [("urdf", None), ("sdf", "1.4"), ("sdf", "1.7"), ("sdf", "1.11")]

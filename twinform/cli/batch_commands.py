@@ -41,11 +41,11 @@ from twinform.compiler.batch.archives import is_archive, unpacked
 from twinform.compiler.batch.task import BatchJob
 from twinform.compiler.compare import ComparisonOptions
 from twinform.compiler.input.load_options import FileOptions, ReadingOptions
-from twinform.compiler.request_options import RequestOptions
 from twinform.dataclass import dataclass
 from twinform.file_access import Readable
 from twinform.passes import Pipeline
 from twinform.profiles import Profile
+from twinform.request_options import RequestOptions
 
 
 class ModelOptions(TypedDict):

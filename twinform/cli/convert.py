@@ -32,8 +32,8 @@ from twinform.cli.run_conversion import (
 )
 from twinform.compiler import ConversionRequest
 from twinform.compiler.input.load_options import ReadingOptions
-from twinform.compiler.request_options import RequestOptions
 from twinform.dataclass import dataclass
+from twinform.request_options import RequestOptions
 
 if TYPE_CHECKING:
     from twinform.profiles import Profile

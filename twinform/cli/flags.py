@@ -9,7 +9,7 @@ from click.shell_completion import CompletionItem
 
 from twinform.cli.command import Decorated, Decorator, combine_options
 from twinform.cli.config import hold_limit
-from twinform.compiler.option import Option, declared_options
+from twinform.option import Option, declared_options
 
 
 def group(parameter: str, make: Callable[..., object], *options: Decorator) -> Callable[[Decorated], Decorated]:

@@ -19,10 +19,10 @@ from twinform.compiler import CompileError
 from twinform.compiler.formatting import formatted
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.compiler.input.size_limits import LARGEST, Limits
-from twinform.compiler.option import given
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Severity, rules
 from twinform.diagnostics.reporters import FileFindings
+from twinform.option import given
 from twinform.text import SourceText
 from twinform.text.formatting import FormatOptions
 from twinform.text.source_text import line_diff

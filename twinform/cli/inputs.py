@@ -17,10 +17,10 @@ from twinform.cli.model_files import DEFAULT_EXCLUDE, XACRO, Exclusion, FileKind
 from twinform.compiler import LoadOptions, LoadResult, read
 from twinform.compiler.input.load_options import FileOptions, ReadingOptions
 from twinform.compiler.input.size_limits import LARGEST
-from twinform.compiler.option import declared_options
 from twinform.diagnostics import Policy
 from twinform.file_access import STREAMS, Readable, read_up_to
 from twinform.lazy import lazy_pattern
+from twinform.option import declared_options
 
 if TYPE_CHECKING:
     from twinform.cli.path_patterns import FolderWalk

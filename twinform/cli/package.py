@@ -23,11 +23,11 @@ from twinform.compiler.packaging.kind_names import KIND_NAMES, kinds_of
 from twinform.compiler.packaging.kinds import build
 from twinform.compiler.packaging.order import Built, Order, PackageDetails, details_around
 from twinform.compiler.packaging.package import OccupiedError, Package, write_package
-from twinform.compiler.request_options import RequestOptions
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Policy
 from twinform.passes import PassError
 from twinform.passes.plugins.release_names import ReleaseName
+from twinform.request_options import RequestOptions
 
 _OPTIONS = (
     click.option("--package-version", metavar="X.Y.Z", default="", help="The version of the package; else 0.1.0."),

@@ -9,7 +9,7 @@ from twinform.cli.completion import pipelines, sdf_versions
 from twinform.cli.flags import flags_of, group
 from twinform.cli.project_options import pipeline_option
 from twinform.compiler.input.load_options import ReadingOptions
-from twinform.compiler.request_options import RequestOptions, known_sdf_version
+from twinform.request_options import RequestOptions, known_sdf_version
 from twinform.schemas import parse_version
 
 if TYPE_CHECKING:

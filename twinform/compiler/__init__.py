@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, load, loads, read
     from twinform.compiler.inspection import inspect
     from twinform.compiler.request import ConversionRequest
-    from twinform.compiler.request_options import URDF_VERSIONS, Language, UrdfVersion
     from twinform.compiler.resolve_uris import SearchPath, UriError
     from twinform.compiler.split_world import SplitWorld, split
+    from twinform.request_options import URDF_VERSIONS, Language, UrdfVersion
     from twinform.schemas import DEFAULT_SDF_VERSION
     from twinform.storage.writing import write_all_atomically, write_atomically
 else:
@@ -34,7 +34,7 @@ else:
             "twinform.schemas": "DEFAULT_SDF_VERSION",
             "twinform.storage.writing": "write_all_atomically write_atomically",
             "twinform.compiler.request": "ConversionRequest",
-            "twinform.compiler.request_options": "URDF_VERSIONS Language UrdfVersion",
+            "twinform.request_options": "URDF_VERSIONS Language UrdfVersion",
             "twinform.compiler.resolve_uris": "SearchPath UriError",
             "twinform.compiler.split_world": "SplitWorld split",
         },

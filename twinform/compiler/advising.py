@@ -16,7 +16,6 @@ from twinform.compiler.input.loading import XACRO, read
 from twinform.compiler.inspect_for_consumers import subject_of
 from twinform.compiler.inspection import inspect
 from twinform.compiler.request import ConversionRequest
-from twinform.compiler.request_options import Language
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, LedgerEntry, rules
 from twinform.diagnostics.rules import MODEL_NOT_CHOSEN
@@ -24,6 +23,7 @@ from twinform.ir import Document, Format, Joint, walk
 from twinform.passes.joints.carried_elements import urdf_elements
 from twinform.passes.shared.candidates import candidates
 from twinform.profiles import Assessment, Effect, Profile, assess
+from twinform.request_options import Language
 
 
 class Loss(NamedTuple):

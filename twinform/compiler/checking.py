@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Unpack
 from twinform.compiler.input.load_options import CheckOptions, Input, LoadResult, checking_options
 from twinform.compiler.input.loading import read
 from twinform.compiler.inspection import inspect
-from twinform.compiler.option import require_options
+from twinform.option import require_options
 
 if TYPE_CHECKING:
     from twinform.passes import Pipeline

@@ -4,11 +4,11 @@ from typing import Unpack
 
 from twinform.compiler.conversion import Conversion, convert_once
 from twinform.compiler.input.load_options import CheckOptions, Input, LoadOptions, LoadResult, checking_options
-from twinform.compiler.option import require_options
 from twinform.compiler.request import ConversionRequest
-from twinform.compiler.request_options import Language, RequestOptions
 from twinform.ir import Document
+from twinform.option import require_options
 from twinform.passes import PassInstrumentation, Pipeline
+from twinform.request_options import Language, RequestOptions
 
 
 class ConversionOptions(CheckOptions, RequestOptions, total=False):

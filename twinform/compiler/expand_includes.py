@@ -24,6 +24,7 @@ from twinform.ir.verify import verify
 from twinform.passes import Pipeline
 from twinform.passes.includes import Included, expand_includes, frame_of_sdf, has_includes
 from twinform.passes.legalise import Target, legalisation
+from twinform.request_options import Requested
 from twinform.schemas import Version, versions_of
 
 _DEEPEST = 32
@@ -208,7 +209,7 @@ class _IncludeExpander:
     def _as_sdf(self, document: Document, path: Path, around: Document) -> Document:
         """Convert a URDF document for the SDF file that includes it."""
         version = around.version if around.version in versions_of("sdf") else _NEWEST_WITHOUT_HARM
-        target = Target(Format.SDF, version or _NEWEST_WITHOUT_HARM, carriers=self.carriers)
+        target = Target(Format.SDF, version or _NEWEST_WITHOUT_HARM, requested=Requested(carriers=self.carriers))
         own = DiagnosticSink(str(path), self.load_options.strict, origins=self.sink.origins)
         document = Pipeline(legalisation(Format.URDF, document.version, target)).run(document, own)
         self.sink.extend(own.diagnostics)

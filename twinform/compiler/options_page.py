@@ -4,9 +4,9 @@ import sys
 
 from twinform.compiler.driver import ConversionOptions
 from twinform.compiler.input.load_options import CheckOptions, FileOptions, ReadingOptions
-from twinform.compiler.option import Option, declared_options
-from twinform.compiler.request_options import RequestOptions
 from twinform.diagnostics.generated_files import main
+from twinform.option import Option, declared_options
+from twinform.request_options import RequestOptions
 
 _INTRODUCTION = """\
 # Options

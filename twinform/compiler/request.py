@@ -1,20 +1,22 @@
 """The request of a conversion: target format, version, passes and options."""
 
 from collections.abc import Iterable
-from dataclasses import field
+from dataclasses import field, fields
+from typing import Any
 
-from twinform.compiler.option import given
-from twinform.compiler.request_options import URDF_VERSIONS, Language, RequestOptions, UrdfVersion, known_sdf_version
 from twinform.dataclass import dataclass
 from twinform.ir import Document, Format
 from twinform.passes import NO_ASSETS, Assets, Pass, Pipeline
 from twinform.passes.carriers.annotations import has_mixed_words, source_version
 from twinform.passes.legalise import Target, legalisation
+from twinform.request_options import URDF_VERSIONS, Language, Requested, RequestOptions, UrdfVersion, known_sdf_version
 from twinform.schemas import DEFAULT_SDF_VERSION, versions_of
+
+_OPTIONS = tuple(each.name for each in fields(Requested))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ConversionRequest:
+class ConversionRequest(Requested):
     """What a conversion is to make; `passes` are the user's, and `assets` the files that the source names.
 
     `mixed` means that the source has elements that its version does not have, and `comments` that the comments of the
@@ -23,17 +25,10 @@ class ConversionRequest:
     """
 
     to: Language
-    sdf_version: str | None = None
-    urdf_version: UrdfVersion | None = None
     passes: Pipeline = field(default_factory=Pipeline)
-    carriers: bool = True
-    model: str | None = None
-    expand_includes: bool = False
     mixed: bool = False
-    comments: bool = True
     remedies: Pipeline = field(default_factory=Pipeline)
     remedied: frozenset[str] = frozenset()
-    keep_physics: bool = False
     assets: Assets = field(default=NO_ASSETS, compare=False, repr=False)
 
     @classmethod
@@ -45,17 +40,16 @@ class ConversionRequest:
             ValueError: SDF has no such version.
         """
         version = options.get("sdf_version")
-        return cls(
-            to=to,
-            sdf_version=None if version is None else known_sdf_version(version),
-            urdf_version=options.get("urdf_version"),
-            passes=_pipeline(options.get("passes")),
-            carriers=given(options.get("carriers"), usual=True),
-            model=options.get("model"),
-            expand_includes=options.get("expand_includes") or False,
-            comments=given(options.get("comments"), usual=True),
-            keep_physics=options.get("keep_physics") or False,
-        )
+        if version is not None:
+            known_sdf_version(version)
+        wanted: dict[str, Any] = {name: options.get(name) for name in _OPTIONS}
+        given = {name: value for name, value in wanted.items() if value is not None}
+        return cls(to=to, passes=_pipeline(options.get("passes")), **given)
+
+    @property
+    def requested(self) -> Requested:
+        """The options alone."""
+        return Requested(**{name: getattr(self, name) for name in _OPTIONS})
 
     def plan(self, source: Document) -> Pipeline:
         """Return every pass that a conversion of a document runs, in order: the user's, then those of the target."""
@@ -85,7 +79,7 @@ class ConversionRequest:
         known: dict[str, UrdfVersion] = {each: each for each in URDF_VERSIONS}
         urdf = self.urdf_version or known.get(before or "", "1.0")
         back = (version if format_ is Format.SDF else urdf) == before and has_mixed_words(source)
-        return Target(format_, version, urdf, self.carriers, self.model, back, self.mixed)
+        return Target(format_, version, urdf, self.requested, back, self.mixed)
 
 
 def _pipeline(passes: str | Iterable[Pass] | None) -> Pipeline:

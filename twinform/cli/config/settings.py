@@ -9,12 +9,12 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationErr
 
 from twinform.cli.config.config_file import ConfigError, Table
 from twinform.compiler.input.load_options import FileOptions
-from twinform.compiler.option import Option, declared_options
-from twinform.compiler.request_options import RequestOptions
+from twinform.option import Option, declared_options
 from twinform.passes import Pipeline, PipelineError, UnknownPipelineError, parse_pipeline
 from twinform.passes.framework.pass_options import nearest
 from twinform.passes.framework.pipeline_text import TableError, parse_tables
 from twinform.passes.framework.syntax import KEY
+from twinform.request_options import RequestOptions
 
 _MOST = 1000
 """The most entries of a list in a configuration."""

@@ -31,12 +31,12 @@ from twinform.compiler.input.loading import (
     name_of_input,
     read,
 )
-from twinform.compiler.option import require_options
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, LineOrigins
 from twinform.ir import Document, Format, Model
 from twinform.ir.frames import FrameError
+from twinform.option import require_options
 from twinform.passes import Assets, Pass, Pipeline
 from twinform.passes.carriers.misplaced import without_misplaced
 from twinform.passes.carriers.token_mass import without_tokens
@@ -158,7 +158,7 @@ def _without_additions(model: Model) -> Model:
 def _to_newest_sdf(document: Document) -> tuple[Pass, ...]:
     newest = versions_of("sdf")[-1]
     if document.format is Format.URDF:
-        return to_sdf(newest, carriers=True, scopes=False)
+        return to_sdf(newest, scopes=False)
     return raise_words(document.version)
 
 

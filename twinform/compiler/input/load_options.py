@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated, TypedDict
 
 from twinform.compiler.input.allowances import Allowances
 from twinform.compiler.input.size_limits import LARGEST, MOST_TAGS, USUAL_LIMITS, Limits, parse_size
-from twinform.compiler.option import Option, given
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.resolve_uris import SearchPath
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, LedgerEntry, LineOrigins
 from twinform.ir import Document, count_parts
+from twinform.option import Option, given
 from twinform.schemas import DEFAULT_SDF_VERSION, Engine, XmlElement
 
 if TYPE_CHECKING:

@@ -46,13 +46,13 @@ from twinform.compiler.input.parsing import (
 )
 from twinform.compiler.input.size_limits import LIFTED_LIMITS, USUAL_LIMITS, Limits, excess_of_json
 from twinform.compiler.input.take_comments import may_have_comments, take_comments
-from twinform.compiler.option import require_options
 from twinform.compiler.output.source_comments import Comments
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format
 from twinform.ir.record import amend
 from twinform.ir.verify import verify
 from twinform.lazy import lazy_pattern
+from twinform.option import require_options
 from twinform.schemas import (
     Context,
     XmlElement,

@@ -16,7 +16,6 @@ from twinform.compiler.packaging.collecting import HIGHEST, Collection, Uncollec
 from twinform.compiler.packaging.layout import PackageLayout
 from twinform.compiler.packaging.package import Package
 from twinform.compiler.request import ConversionRequest
-from twinform.compiler.request_options import Language
 from twinform.compiler.ros_packages import MANIFEST, MODEL_CONFIG, read_manifest
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Ledger, Location, Severity
@@ -24,6 +23,7 @@ from twinform.diagnostics.rules import UNPACKAGED_FILE
 from twinform.lazy import lazy_pattern
 from twinform.passes import PassInstrumentation, Pipeline
 from twinform.passes.plugins.release_names import ReleaseName
+from twinform.request_options import Language
 from twinform.schemas import XmlElement
 
 PLACEHOLDERS: Mapping[str, str] = {

@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 from functools import cache, lru_cache
-from typing import Literal
 
 from twinform.dataclass import dataclass
 from twinform.ir import Format
 from twinform.passes.framework.pass_base import Pass
+from twinform.request_options import USUAL, Requested, UrdfVersion
 from twinform.schemas import versions_of
 
 __all__ = ["Target", "legalisation"]
@@ -16,16 +16,14 @@ __all__ = ["Target", "legalisation"]
 class Target:
     """The target of a conversion.
 
-    With `carriers`, parts that the target cannot express travel along; `model` names the model that becomes a URDF.
-    `mixed` allows syntax of newer versions in the result, as the original source had; `mixed_source` means that the
-    source has such syntax.
+    The versions are those that are written, and `requested` is what was asked for. `mixed` allows syntax of newer
+    versions in the result, as the original source had; `mixed_source` means that the source has such syntax.
     """
 
     format: Format
     sdf_version: str = "1.11"
-    urdf_version: Literal["1.0", "1.1", "1.2"] = "1.0"
-    carriers: bool = True
-    model: str | None = None
+    urdf_version: UrdfVersion = "1.0"
+    requested: Requested = USUAL
     mixed: bool = False
     mixed_source: bool = False
 
@@ -39,22 +37,14 @@ def legalisation(source: Format, version: str | None, target: Target) -> tuple[P
             return ()
         from twinform.passes.sdf_versions import change_version  # noqa: PLC0415 - see above
 
-        return change_version(version, target.sdf_version, carriers=target.carriers)
+        return change_version(version, target.sdf_version, carriers=target.requested.carriers)
     if target.format is Format.SDF:
         from twinform.passes.legalise.to_sdf import to_sdf  # noqa: PLC0415 - see above
 
-        return to_sdf(
-            target.sdf_version, carriers=target.carriers, mixed=target.mixed, mixed_source=target.mixed_source
-        )
+        return to_sdf(target.sdf_version, target.requested, mixed=target.mixed, mixed_source=target.mixed_source)
     from twinform.passes.legalise.to_urdf import to_urdf  # noqa: PLC0415 - see above
 
-    return to_urdf(
-        model=target.model,
-        urdf_version=target.urdf_version,
-        carriers=target.carriers,
-        mixed=target.mixed,
-        mixed_source=target.mixed_source,
-    )
+    return to_urdf(target.urdf_version, target.requested, mixed=target.mixed, mixed_source=target.mixed_source)
 
 
 @cache

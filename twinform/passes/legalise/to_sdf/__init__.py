@@ -32,6 +32,7 @@ from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_sdf.unpack_sdf import UnpackSdf
 from twinform.passes.legalise.to_sdf.world_link import WorldLink
 from twinform.passes.sdf_versions import lower_meaning, lower_version, raise_unversioned
+from twinform.request_options import USUAL, Requested
 from twinform.schemas import parse_version
 
 __all__ = ["to_sdf"]
@@ -43,13 +44,19 @@ _NAMES_MEAN_MODELS = (1, 8)
 
 
 def to_sdf(
-    version: str, *, carriers: bool, mixed: bool = False, mixed_source: bool = False, scopes: bool = True
+    version: str,
+    requested: Requested = USUAL,
+    *,
+    mixed: bool = False,
+    mixed_source: bool = False,
+    scopes: bool = True,
 ) -> tuple[Pass, ...]:
     """The passes that make SDF of a version out of a URDF document.
 
     `mixed` lets it have syntax of newer versions, and `mixed_source` is for a URDF that has some. Without `scopes`,
     `::` in a name that a file before 1.8 gave is no model since 1.8 either, as where such a file is compared.
     """
+    carriers = requested.carriers
     before_named_frames = parse_version(version) < _ONE_SCOPE
     return (
         DropMisplaced.unchecked(),

@@ -14,7 +14,7 @@ from twinform.passes.legalise.to_urdf.extend_gazebo import ExtendGazebo
 from twinform.passes.legalise.to_urdf.fill_inertials import FillInertials
 from twinform.passes.legalise.to_urdf.flatten_for_urdf import FlattenForUrdf
 from twinform.passes.legalise.to_urdf.fold_planar_joints import FoldPlanarJoints
-from twinform.passes.legalise.to_urdf.map_geometry import MapGeometry, UrdfVersion
+from twinform.passes.legalise.to_urdf.map_geometry import MapGeometry
 from twinform.passes.legalise.to_urdf.map_joints import MapJoints
 from twinform.passes.legalise.to_urdf.map_materials import MapMaterials
 from twinform.passes.legalise.to_urdf.map_surfaces import MapSurfaces
@@ -37,27 +37,28 @@ from twinform.passes.legalise.to_urdf.unfold_joints import UnfoldJoints
 from twinform.passes.legalise.to_urdf.unpack_urdf import UnpackUrdf
 from twinform.passes.legalise.to_urdf.upgrade_sdf import UpgradeSdf
 from twinform.passes.sdf_versions.spread_imu_noise import GatherImuNoise
+from twinform.request_options import USUAL, Requested, UrdfVersion
 from twinform.schemas import versions_of
 
-__all__ = ["UrdfVersion", "to_urdf"]
+__all__ = ["to_urdf"]
 
 
 def to_urdf(
-    *,
-    model: str | None = None,
     urdf_version: UrdfVersion = "1.0",
-    carriers: bool = True,
+    requested: Requested = USUAL,
+    *,
     mixed: bool = False,
     mixed_source: bool = False,
 ) -> tuple[Pass, ...]:
-    """The passes that make URDF of the model of this name, or of the only one.
+    """The passes that make URDF of a version out of the requested model, or of the only one.
 
     `mixed` lets it have elements of newer versions, and `mixed_source` means that the SDF has syntax of other ones.
     """
+    carriers = requested.carriers
     words: UrdfVersion = "1.2" if mixed else urdf_version
     return (
         # URDF holds one robot.
-        SelectModel.unchecked(model=model),
+        SelectModel.unchecked(model=requested.model),
         DropMisplaced.unchecked(),
         ShowScopedElements.unchecked(),
         UpgradeSdf.unchecked(carriers=carriers, mixed=mixed_source),

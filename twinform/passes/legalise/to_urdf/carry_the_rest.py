@@ -12,8 +12,9 @@ from twinform.passes.carriers.definitions import has_first, inside, is_repeated
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.to_urdf.map_surfaces import OF_ALL_COLLISIONS
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, take_remainder, urdf_fields
-from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper, UrdfVersion
+from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper
 from twinform.passes.shared.pose_notation import BODY
+from twinform.request_options import UrdfVersion
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

@@ -9,9 +9,10 @@ from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node
 from twinform.ir.defaults import UNLIMITED, multiplier
 from twinform.passes.carriers.annotations import CONTINUOUS, MIMIC
 from twinform.passes.legalise.to_urdf.remainder import urdf_row
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper, UrdfVersion
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.urdf_pieces import BALLS
 from twinform.passes.shared.nodes import text_piece
+from twinform.request_options import UrdfVersion
 from twinform.schemas import format_value
 
 AnyNode = TypeVar("AnyNode", bound=Node)

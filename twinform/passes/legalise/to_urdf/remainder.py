@@ -13,7 +13,7 @@ from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_values, fields_of
 from twinform.ir.tree_walks import classes_in
 from twinform.passes.carriers.carriers import is_ours, to_element
-from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfVersion
+from twinform.request_options import UrdfVersion
 from twinform.schemas import Fact, Version, format_value, table
 from twinform.schemas.facts import parse_version
 

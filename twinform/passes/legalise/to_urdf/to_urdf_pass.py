@@ -2,7 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Iterable, Mapping
-from typing import Literal, TypeVar
+from typing import TypeVar
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, Rule
@@ -13,7 +13,6 @@ from twinform.passes.carriers.carriers import Attributes, Keeper, carry
 from twinform.passes.framework.pass_base import Pass
 
 AnyNode = TypeVar("AnyNode", bound=Node)
-UrdfVersion = Literal["1.0", "1.1", "1.2"]
 
 
 @dataclass(frozen=True, slots=True)

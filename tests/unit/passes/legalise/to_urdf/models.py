@@ -8,6 +8,7 @@ from twinform.ir import Document
 from twinform.passes import Pipeline
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.legalise.to_urdf import to_urdf
+from twinform.request_options import Requested
 from twinform.schemas import Context, XmlElement, libxml2_errors, parse_version, reader
 
 LINK = "<link name='a'/>"
@@ -24,7 +25,7 @@ def read(text: str, version: str = "1.11", around: str = "<model name='m'>{}</mo
 
 def lower(document: Document, *, model: str | None = None, carriers: bool = True) -> tuple[XmlElement, DiagnosticSink]:
     sink = DiagnosticSink()
-    made = Pipeline(to_urdf(model=model, carriers=carriers)).run(document, sink)
+    made = Pipeline(to_urdf(requested=Requested(model=model, carriers=carriers))).run(document, sink)
     if sink.has_errors:
         return etree.Element("none"), sink
     assert made.format == "urdf"

@@ -8,7 +8,7 @@ from hypothesis import given
 from twinform.ir import Collision, Document, Element, Inertial, Joint, Link, Node, Opaque, Pose, Visual, walk
 from twinform.passes.legalise.to_urdf import remainder
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, urdf_fields, urdf_row
-from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfVersion
+from twinform.request_options import UrdfVersion
 from twinform.schemas import Table
 from twinform.schemas.facts import parse_facts
 from twinform.testing import strategies

@@ -3,11 +3,12 @@
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Annotated, Literal, TypedDict, get_args
 
-from twinform.compiler.option import Option
+from twinform.dataclass import dataclass
+from twinform.option import Option
 from twinform.schemas import versions_of
 
 if TYPE_CHECKING:
-    from twinform.passes import Pass
+    from twinform.passes.framework.pass_base import Pass
 
 Language = Literal["sdf", "urdf", "json"]
 UrdfVersion = Literal["1.0", "1.1", "1.2"]
@@ -53,3 +54,23 @@ class RequestOptions(TypedDict, total=False):
     expand_includes: bool
     model: str | None
     keep_physics: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Requested:
+    """What is asked for, with the defaults of the options: legalisation and the writer read it, and all between them.
+
+    Only pipelines are elsewhere, as they are made of the text of `passes`.
+    """
+
+    sdf_version: str | None = None
+    urdf_version: UrdfVersion | None = None
+    carriers: bool = True
+    comments: bool = True
+    expand_includes: bool = False
+    model: str | None = None
+    keep_physics: bool = False
+
+
+USUAL = Requested()
+"""What a conversion is that nothing else was asked of."""

@@ -1,18 +1,22 @@
 """Options are declared once: Python's keywords, the command line and the configuration have the same ones."""
 
 from collections.abc import Callable
+from dataclasses import fields
 from functools import partial
 from typing import Any
 
 import pytest
 
 import twinform
+from twinform.cli.batch_commands import commands
 from twinform.cli.config.settings import ProjectSettings
 from twinform.cli.convert import command
 from twinform.compiler import plan
 from twinform.compiler.input.load_options import FileOptions, ReadingOptions
-from twinform.compiler.option import declared_options
-from twinform.compiler.request_options import RequestOptions
+from twinform.compiler.request import ConversionRequest
+from twinform.ir import Format
+from twinform.option import declared_options
+from twinform.request_options import Requested, RequestOptions
 
 _ROBOT = b'<robot name="a"><link name="a"/></robot>'
 _DECLARED = {**declared_options(ReadingOptions), **declared_options(RequestOptions)}
@@ -52,3 +56,18 @@ def test_the_command_line_and_the_configuration_have_what_is_declared(name: str)
     flags = {each.name: each for each in command.params}
     assert flags[name].opts == [option.flag or f"--{name.replace('_', '-')}"]
     assert name in ProjectSettings.model_fields or not option.setting
+
+
+@pytest.mark.parametrize("name", declared_options(RequestOptions))
+def test_a_batch_has_the_options_of_a_conversion(name: str) -> None:
+    assert name in {each.name for each in commands.commands["convert"].params}
+
+
+def test_what_is_asked_for_reaches_legalisation() -> None:
+    usual = {each.name: each.default for each in fields(Requested)}
+    texts = {"sdf_version": "1.9", "urdf_version": "1.1", "model": "a"}
+    asked: Any = {name: texts.get(name, not value) for name, value in usual.items()}
+    assert set(asked) == set(RequestOptions.__annotations__) - {"passes"}
+    request = ConversionRequest.of("sdf", asked)
+    assert {name: getattr(request, name) for name in asked} == asked
+    assert request.target(twinform.loads(_ROBOT), Format.SDF).requested == request.requested == Requested(**asked)
