@@ -1,6 +1,6 @@
 """Untyped XML elements, which the IR keeps as they are, and the namespaces of documents."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Annotated, Self
 
 from twinform.diagnostics import Location
@@ -56,11 +56,16 @@ class Element(Sourced):
         """The first child of this name, or None."""
         return next((child for child in self.children if child.name == name), None)
 
-    def walk(self) -> Iterator[Self]:
-        """Yield this element and all below it, in document order."""
-        yield self
+    def walk(self) -> list[Self]:
+        """Return this element and all below it, in document order."""
+        # a list: an iterator would be resumed once for each element above the one that it yields
+        found = [self]
         for child in self.children:
-            yield from child.walk()
+            if child.children:
+                found += child.walk()
+            else:
+                found.append(child)
+        return found
 
     @property
     def weight(self) -> int:

@@ -54,10 +54,10 @@ def _rename_frame(pose: Pose) -> Pose:
 
 def _rename_in_element(element: Element, own: frozenset[str | None] = frozenset()) -> Element:
     """An untyped element with its poses renamed; `own` are the frames of the one around it."""
-    if element.name == "plugin" or is_foreign(element):
-        return element
     if element.name == "pose":
         return element if element.get(_OLD) in own else _rename_attribute(element)
+    if not element.children or element.name == "plugin" or is_foreign(element):
+        return element
     frames = frozenset(child.get("name") for child in element.children if child.name == "frame")
     return replace_fields(element, children=tuple(_rename_in_element(child, frames) for child in element.children))
 
