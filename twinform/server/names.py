@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
+from twinform.compiler.input.xacro_mistakes import MACRO_PARAMETER
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
 from twinform.lazy import lazy_pattern
@@ -53,7 +54,6 @@ XACRO_KINDS = frozenset({"macro", "property", "arg", "param"})
 _DEFINES = {"xacro:macro": "macro", "xacro:property": "property", "xacro:arg": "arg"}
 _EXPRESSION = lazy_pattern(r"\$\{(?P<expression>[^}]*)\}?|\$\(arg\s+(?P<arg>[^\s)]+)")
 _WORD = lazy_pattern(r"""'[^']*'|"[^"]*"|(?<![\w.])(?P<word>[A-Za-z_]\w*)""")
-_PARAMETER = lazy_pattern(r"(?<![*^|])[*^|]*+(?P<name>[A-Za-z_][\w.]*)(?:\s*:?=\s*(?:'[^']*'|\"[^\"]*\"|\S+))?")
 _RESERVED = frozenset(["and", "or", "not", "if", "else", "for", "in", "is", "True", "False", "None", "lambda"])
 
 
@@ -85,7 +85,7 @@ def parameter_names(macro: TolerantNode) -> list[MacroParameter]:
     """Return the parameters of a macro, in their order."""
     return [
         MacroParameter(found["name"], found[0], "=" not in found[0] and found[0][0] != "*", found[0][0] == "*")
-        for found in _PARAMETER.finditer(macro.get("params") or "")
+        for found in MACRO_PARAMETER.finditer(macro.get("params") or "")
     ]
 
 
@@ -96,7 +96,7 @@ def _names_of_element(node: TolerantNode) -> Iterator[Name]:
         yield Name(called, node.attributes["name"].value, node, kind, defines=True)
     if node.tag == "xacro:macro" and "params" in node.attributes:
         start = node.attributes["params"].value.start
-        for found in _PARAMETER.finditer(node.values["params"]):
+        for found in MACRO_PARAMETER.finditer(node.values["params"]):
             span = Span(start + found.start("name"), start + found.end("name"))
             yield Name(found["name"], span, node, "param", defines=True, scope=node)
     if node.tag == "xacro:insert_block" and called:

@@ -184,6 +184,8 @@ class _Broken(NamedTuple):
 
 def _not_well_formed(finding: Diagnostic, file: FixableFile) -> Fix | None:
     text = file.text
+    if _PREFIX.search(finding.message):  # what is repaired elsewhere is refused by xacro
+        return _prefix(finding, file)
     lines = file.lines
     number = finding.location.line
     if not 1 <= number <= len(lines):

@@ -19,14 +19,16 @@ from lxml import etree
 
 from twinform.child_python import python_command
 from twinform.compiler.input.load_options import LoadOptions
-from twinform.compiler.input.parsing import UnreadableError, read_bytes
+from twinform.compiler.input.parsing import UnreadableError, parse, read_bytes
 from twinform.compiler.input.size_limits import LARGEST
 from twinform.compiler.input.xacro_files import AllowedFiles, DeniedError, variable
+from twinform.compiler.input.xacro_mistakes import report_mistakes
 from twinform.compiler.observing import note_failure, note_variable
 from twinform.compiler.resolve_uris import SearchPath, UriError
 from twinform.dataclass import dataclass
-from twinform.diagnostics import DiagnosticSink, LineOrigins, Location, rules
+from twinform.diagnostics import DiagnosticSink, LineOrigins, Location, nearest_name, rules
 from twinform.lazy import lazy_pattern
+from twinform.schemas import usual_namespace
 
 _WORKER = Path(__file__).with_name("xacro") / "__main__.py"
 _LIBRARIES = ("xacro", "yaml")
@@ -48,6 +50,8 @@ _PASSED_ON = ("APPDATA", "HOME", "LANG", "PATH", "SYSTEMROOT", "TEMP", "TMPDIR",
 _PASSED_ON_STARTS = ("COV", "DYLD_", "LC_", "LD_", "PYTHON")
 _EXPAT = lazy_pattern(r"not well-formed XML: .*: line \d+, column (\d+)$")
 """Where expat noticed what is wrong; it counts columns from 0."""
+_PREFIX = lazy_pattern(r"the prefix '([\w.-]+)' of ")
+_TEXT_IN_BRACES = lazy_pattern(r"is the text '(\{\w+\})'")
 _REMARKS = {"warning: ": rules.XACRO_WARNING, "error: ": rules.XACRO_WARNING}
 
 
@@ -71,11 +75,13 @@ def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expan
     outcome = _ask_worker(path, load_options)
     _report_remarks(outcome, sink)
     if "text" not in outcome:
-        _report_failure(outcome, sink)
+        if not (outcome.get("syntax") and _report_syntax(outcome["place"][0], path, load_options, sink)):
+            _report_failure(outcome, sink)
         raise UnreadableError
     for name in outcome["unused"]:
         message = f"the argument {name!r} is not one of the file's"
         sink.report(rules.UNUSED_ARGUMENT, message, Location(line=1), found=name)
+    report_mistakes(str(path), outcome["texts"], sink)
     text = outcome["text"].encode()
     if len(text) > LARGEST:
         message = f"the expanded file has {len(text):,} bytes; the limit is {LARGEST:,}"
@@ -96,7 +102,43 @@ def _report_failure(outcome: Mapping[str, Any], sink: DiagnosticSink) -> None:
     file, line = outcome["place"]
     found = _EXPAT.search(outcome["error"])
     column = int(found[1]) + 1 if found else 0
-    sink.report(rules.XACRO_ERROR, outcome["error"], Location(file, line, "", column), help=outcome.get("help") or None)
+    advice = _meant_name(outcome) or outcome.get("help")
+    sink.report(rules.XACRO_ERROR, outcome["error"], Location(file, line, "", column), help=advice or None)
+
+
+def _report_syntax(file: str, path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> bool:
+    """Report why a file is not well-formed as for files without xacro; return whether there is anything to report."""
+    found = DiagnosticSink(file)
+    with suppress(UnreadableError, DeniedError, OSError):
+        # The process says which file it is, so it has to be one that `path` may read.
+        parse(_Conversation(path, load_options).read(file), found, load_options.limits)
+    if not found.diagnostics:
+        return False
+    # What is repaired in other files is refused by xacro, which stops at the first mistake.
+    first = found.diagnostics[0]
+    prefix = _PREFIX.search(first.message)
+    advice = f'add xmlns:{prefix[1]}="{usual_namespace(prefix[1])}" to the root element' if prefix else first.help
+    words = first.message.replace(", repaired:", ":", 1)
+    sink.report(rules.NOT_WELL_FORMED, words, first.location, help=advice)
+    return True
+
+
+def _meant_name(outcome: Mapping[str, Any]) -> str:
+    """Say which name may have been meant by an unknown one, and where that is defined."""
+    text = _TEXT_IN_BRACES.search(outcome["error"])
+    if text:
+        return f"did you mean ${text[1]}?"
+    unknown = outcome.get("unknown")
+    if unknown is None:
+        return ""
+    near = nearest_name(unknown["name"], unknown["known"])
+    if near:
+        place = unknown["known"][near]
+        where = f" ({Path(place[0]).name}:{place[1]})" if place else ""
+        return f"did you mean {near!r}{where}?"
+    if unknown["kind"] == "parameter":
+        return f"it has {', '.join(unknown['known'])}" if unknown["known"] else "it has none"
+    return "if it is in a file, include that before this line" if unknown["kind"] == "macro" else ""
 
 
 def _report_remarks(outcome: Mapping[str, Any], sink: DiagnosticSink) -> None:
@@ -203,6 +245,7 @@ class _Conversation:
         self.search = load_options.search
         self.variables = load_options.variables
         self.files = AllowedFiles(self.search.readable(path))
+        self.texts: dict[str, bytes] = {}
         self.asked = 0
         self.spent = 0.0
 
@@ -218,7 +261,7 @@ class _Conversation:
                 if not received:
                     break
                 if not _QUESTIONS.intersection(received):
-                    return received
+                    return {**received, "texts": self.texts}
                 begin = thread_time()
                 message, content = self._answer(received)
                 self.spent += thread_time() - begin
@@ -234,7 +277,7 @@ class _Conversation:
                 case {"find": uri, "beside": beside}:
                     return self._find(uri, (Path(beside), self.path)), b""
                 case {"read": path}:
-                    content = self._read(path)
+                    content = self.texts[path] = self.read(path)
                     return {"size": len(content)}, content
                 case {"match": pattern}:
                     return {"paths": self.files.match(pattern)}, b""
@@ -260,7 +303,7 @@ class _Conversation:
             message = f"the files and packages it asks for take more than {_SECONDS_TO_ANSWER} seconds to find"
             raise _TooMuchError(message)
 
-    def _read(self, path: str) -> bytes:
+    def read(self, path: str) -> bytes:
         """What is in a file that may be read, or what an editor has of it.
 
         Raises:

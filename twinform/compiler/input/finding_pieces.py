@@ -48,7 +48,8 @@ _PARTS: dict[Rule, str] = {
 }
 """The attribute, or the child element, that a finding about an element is about, where it has one."""
 _QUOTED = lazy_pattern(r"'((?:[^']|(?<=\w)'(?=\w))+)'")
-_EXPRESSION = lazy_pattern(r"when evaluating expression '(.*)'$", re.DOTALL)
+_EXPRESSION = lazy_pattern(r"(?:when evaluating expression '|, in \$\{)(.*)['}]$", re.DOTALL)
+_PARAMETER = lazy_pattern(r" has no parameter '(\S+)'$")
 _ARGUMENT = lazy_pattern(r"^Undefined substitution argument (\S+)$")
 _ALIKE = 0.75
 """How similar an attribute's name has to be to that of a missing attribute to be taken for a typo of it."""
@@ -80,6 +81,10 @@ def quoted(message: str, element: ElementSpan, text: str) -> Span | None:
     wanted = set(_QUOTED.findall(message)) | {word.strip(".,:;[]'\"") for word in message.split()}
     expression = _EXPRESSION.search(message)
     argument = _ARGUMENT.search(message)
+    parameter = _PARAMETER.search(message)
+    if parameter is not None:
+        written = element.attributes.get(parameter[1])
+        return written.name if written else None
     if argument is not None:
         return _find_word(f"$(arg {argument[1]})", element, text)
     if expression is not None:

@@ -100,7 +100,10 @@ def _read_source(source: str | Path | bytes, sink: DiagnosticSink, load_options:
             return _read_xacro(Path(source), sink, load_options)
         text = source if isinstance(source, bytes) else bytes_of(Path(source), sink, load_options)
     except UnreadableError:
-        return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
+        # Fixes of XML are made in the text of a xacro file, which nothing has expanded.
+        is_broken = any(each.rule is rules.NOT_WELL_FORMED for each in sink.diagnostics)
+        content = _unexpanded(Path(source), load_options) if is_broken and not isinstance(source, bytes) else None
+        return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True, content=content)
     allowances = load_options.allowances(sink.file)
     if not _JSON.match(text):
         allowances.read(text, sink)
@@ -193,13 +196,18 @@ def _read_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> 
     name = expanded_name(sink.file)
     sink.origins[name] = expansion.origins
     allowances = load_options.allowances(sink.file, sink.origins)
-    unsaved = load_options.search.unsaved_of(path)
-    allowances.read(content_of(path, load_options.limits) if unsaved is None else unsaved, sink)
+    allowances.read(_unexpanded(path, load_options), sink)
     loaded = _read_text(expansion.text, DiagnosticSink(name, sink.strict), load_options, allowances)
     sink.extend(loaded.diagnostics)
     allowances.settle(sink)
     allowed = (*loaded.allowed, *sink.allowed)
     return replace(loaded, path=sink.file, diagnostics=tuple(sink.diagnostics), origins=sink.origins, allowed=allowed)
+
+
+def _unexpanded(path: Path, load_options: LoadOptions) -> bytes:
+    """Return the text of a xacro file that was read before, or nothing where it cannot be read any more."""
+    unsaved = load_options.search.unsaved_of(path)
+    return content_of(path, load_options.limits) if unsaved is None else unsaved
 
 
 def load(source: str | Path, **options: Unpack[FileOptions]) -> Document:

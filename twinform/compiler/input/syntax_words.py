@@ -52,9 +52,11 @@ class _Site(NamedTuple):
 
 # libxml2 has one name for several mistakes, which different things help against.
 _ADVICE = {
-    " needs > or />": "close the tag with >, or with /> if nothing is in it",
-    " ends nothing: ": "delete it, or write the start tag that is missing before it",
-    " has no closing quote": "close the quotes; a '<' that is meant is written &lt;",
+    r" needs > or />": "close the tag with >, or with /> if nothing is in it",
+    r" ends nothing: ": "delete it, or write the start tag that is missing before it",
+    r"</\S+ ends the <(\S+)> of line \d+$": r"write </\1>",
+    r"^<(\S+)> of line \d+ is not closed before (\S+)$": r"write </\1> before this \2",
+    r" has no closing quote": "close the quotes; a '<' that is meant is written &lt;",
 }
 
 
@@ -62,9 +64,9 @@ def described(error: XmlError, text: str, offset: int) -> XmlError:
     """Say what is wrong and what helps; in libxml2's words where it is seldom wrong in a model."""
     words = _WORDS.get(error.kind)
     said = words if isinstance(words, str) else words(_Site(error, text, offset)) if words else ""
-    is_cut = not text[offset:].strip()  # for which there is other advice
-    help = next((advice for part, advice in _ADVICE.items() if part in said and not is_cut), error.help)
-    return error._replace(message=said or error.message, help=help)
+    advice = (found.expand(text) for pattern, text in _ADVICE.items() if (found := re.search(pattern, said)))
+    is_cut = "was cut off" in (error.help or "")
+    return error._replace(message=said or error.message, help=error.help if is_cut else next(advice, error.help))
 
 
 def _last(pattern: re.Pattern[str], text: str) -> re.Match[str] | None:
@@ -133,8 +135,12 @@ def _mismatch(site: _Site) -> str:
     found = _MISMATCH.search(site.error.message)
     if found is None:
         return ""
-    opened, line, closed = found["open"], found["line"], found["close"]
+    line = found["line"]
     around = _open_elements(site.text[: site.offset])
+    # libxml2 leaves the prefixes out.
+    opened = around[-1] if around and around[-1].endswith(found["open"]) else found["open"]
+    end = _last(_TAG, site.before)
+    closed = end[1].lstrip("/") if end and end[1].endswith(found["close"]) else found["close"]
     if closed in around[:-1]:
         return f"<{opened}> of line {line} is not closed before </{closed}>"
     if nearest_name(closed, [opened]):

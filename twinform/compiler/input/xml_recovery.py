@@ -35,6 +35,7 @@ _HELP = {
     "ERR_ATTRIBUTE_REDEFINED": "delete one of the two attributes of this name",
     "ERR_SPACE_REQUIRED": "put a blank between attributes",
     "ERR_GT_REQUIRED": "close the tag with '>'; an end tag has no attributes",
+    "ERR_TAG_NAME_MISMATCH": "let every end tag repeat the name of its start tag",
     "ERR_TAG_NOT_FINISHED": "the file ends too early: it was cut off, or the last end tags are missing",
     "ERR_UNDECLARED_ENTITY": "write the character itself; XML knows only &lt; &gt; &amp; &apos; and &quot;",
     "ERR_COMMENT_NOT_FINISHED": "close the comment with -->",
@@ -52,7 +53,6 @@ _COMMENT = lazy_pattern(rb"<!\[CDATA\[(?:.*?\]\]>|.*)|<!--(?:(?P<content>.*?)-->
 """A section, or a comment with its content; one that does not end goes to the end of the text."""
 _MOST_LOGGED = 100
 """The number of errors that libxml2 lists; of later ones it only lists those of a graver level."""
-_MISMATCH = lazy_pattern(r"Opening and ending tag mismatch: (?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)")
 
 
 class LogEntry(Protocol):
@@ -149,8 +149,6 @@ def _help_for(entry: LogEntry, text: bytes) -> str | None:
     if _is_at_the_end(entry, text) and entry.type_name in {"ERR_ATTRIBUTE_WITHOUT_VALUE", "ERR_GT_REQUIRED"}:
         return "the file ends in the middle of a tag: it was cut off"
     match entry.type_name:
-        case "ERR_TAG_NAME_MISMATCH":
-            return _help_for_mismatch(entry.message)
         case "ERR_NAME_REQUIRED":
             if entry.message.startswith("xmlParseEntityRef"):
                 return "write & as &amp;"
@@ -167,14 +165,6 @@ def _help_for(entry: LogEntry, text: bytes) -> str | None:
 
 def _is_at_the_end(entry: LogEntry, text: bytes) -> bool:
     return entry.line >= text.rstrip().count(b"\n") + 1 and not text.rstrip().endswith(b">")
-
-
-def _help_for_mismatch(message: str) -> str:
-    found = _MISMATCH.match(message)
-    if found is None:
-        return "let every end tag repeat the name of its start tag"
-    opened, line, closed = found["open"], found["line"], found["close"]
-    return f"write </{opened}> for the <{opened}> of line {line} before this </{closed}>, or correct the name"
 
 
 def _help_for_rest(line: int, text: bytes) -> str:

@@ -64,6 +64,10 @@ class TooMuchError(NotFoundError):
     """More was asked for than is answered: nothing of the file is expanded, whatever it has instead."""
 
 
+class TimeUpError(Exception):
+    """The process has used up its time."""
+
+
 class MissingFileError(OSError):
     """A file that is not there: an include that is optional does without it."""
 

@@ -16,6 +16,7 @@ from xml.dom import minidom
 
 from twinform.compiler.input.xacro.budget import Budget, require_length
 from twinform.compiler.input.xacro.channel import Compiler, MissingFileError, NotFoundError, TooMuchError
+from twinform.compiler.input.xacro.definitions import Definitions
 from twinform.compiler.input.xacro.expression_values import DotDict, ExpressionRefusedError, NameLookup, Value, text_of
 from twinform.compiler.input.xacro.interpreter import Interpreter
 from twinform.compiler.input.xacro.places import FileLine, parse, place_of
@@ -47,6 +48,7 @@ class Expander:
         self.compiler = compiler
         self.file = file
         self.node: Any = None
+        self.definitions = Definitions(lambda: self.xacro.filestack or ())
         self.budget = Budget()
         self.interpreter = Interpreter(self.budget, self.xacro.NameSpace)
         self.substitutions = Substitutions(
@@ -138,7 +140,7 @@ class Expander:
                 # xacro hands expressions to Python's `eval` behind a list of forbidden names, which
                 # `python.vars(python.type(f))['__get__']` left.
                 "safe_eval": self.interpreter.evaluate,
-                **{name: self._watched(getattr(self.xacro, name, None)) for name in _WATCHED},
+                **{name: self._watched(name, getattr(self.xacro, name, None)) for name in _WATCHED},
             },
         )
         _replace(self.module, self.substitutions.replacements())
@@ -146,11 +148,17 @@ class Expander:
             for name in _BARRED:
                 setattr(module, name, _refuse)
 
-    def _watched(self, function: Any) -> Callable[..., Any]:
+    def _watched(self, name: str, function: Any) -> Callable[..., Any]:
         def call(node: Any, *rest: Any) -> Any:
             self.node = node
             self.budget.spend()
-            return function(node, *rest)
+            self.definitions.note(name, node)
+            # An exception leaves the calls that it came through.
+            is_call = name == "handle_macro_call" and self.definitions.begin_call(node)
+            result = function(node, *rest)
+            if is_call:
+                self.definitions.calls.pop()
+            return result
 
         return call
 

@@ -124,12 +124,24 @@ def _name(_: Interpreter, node: ast.Name, names: NameLookup) -> Value:
     try:
         return names[node.id]
     except KeyError as error:
-        raise NameError(f"name {node.id!r} is not defined") from error
+        raise NameError(f"name {node.id!r} is not defined", name=node.id) from error
 
 
 def _binary(interpreter: Interpreter, node: ast.BinOp, names: NameLookup) -> Value:
     left, right = interpreter.value(node.left, names), interpreter.value(node.right, names)
-    return binary(node.op, left, right, interpreter.budget)
+    try:
+        return binary(node.op, left, right, interpreter.budget)
+    except TypeError as error:
+        raise TypeError(_text_operand((node.left, left), (node.right, right)) or str(error)) from error
+
+
+def _text_operand(*operands: tuple[ast.expr, Value]) -> str:
+    """Say which operand is a text; empty where none is."""
+    for part, value in operands:
+        if isinstance(value, str):
+            name = f"{part.id} is the text {value!r}" if isinstance(part, ast.Name) else f"{value!r} is a text"
+            return f"{name}, not a number"
+    return ""
 
 
 def _unary(interpreter: Interpreter, node: ast.UnaryOp, names: NameLookup) -> Value:

@@ -12,11 +12,12 @@ FileLine = tuple[str, int]
 
 
 class BadFileError(Exception):
-    """A file that cannot be expanded whatever is in its macros."""
+    """A file that cannot be expanded whatever is in its macros; `is_syntax` says that it is not well-formed."""
 
-    def __init__(self, message: str, place: FileLine) -> None:
+    def __init__(self, message: str, place: FileLine, *, is_syntax: bool = False) -> None:
         super().__init__(message)
         self.place = place
+        self.is_syntax = is_syntax
 
 
 class _Keeper:
@@ -62,7 +63,7 @@ def parse(data: bytes, file: str) -> minidom.Document:
     try:
         return _Builder(file).parseString(data)
     except ExpatError as error:
-        raise BadFileError(f"not well-formed XML: {error}", (file, error.lineno)) from error
+        raise BadFileError(f"not well-formed XML: {error}", (file, error.lineno), is_syntax=True) from error
 
 
 def place_of(node: Any) -> FileLine | None:

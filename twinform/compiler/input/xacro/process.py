@@ -9,14 +9,13 @@ from types import FrameType
 from typing import Any
 
 from twinform.compiler.input.xacro.budget import ExcessError
-from twinform.compiler.input.xacro.channel import Compiler, MissingFileError, NotFoundError, WorkerChannel
+from twinform.compiler.input.xacro.channel import Compiler, TimeUpError, WorkerChannel
 from twinform.compiler.input.xacro.expander import Expander
+from twinform.compiler.input.xacro.failures import description
 from twinform.compiler.input.xacro.places import BadFileError, FileLine, places_below
 from twinform.confinement import confine, end_with_parent
 from twinform.confinement.resources import limits, set_limit
 
-_LONGEST = 1000
-"""Characters of a message, which repeats the expressions that it is about."""
 MEMORY = 2**29
 # Of 386 xacro files in the corpus one, a pendulum of 1,201 links, takes 9.3 s and is right; all
 # others take less than 0.4 s.
@@ -30,45 +29,6 @@ _MOST_REMARKS = 1000
 # Python imports these when it meets certain characters, and could not do so once the process is
 # confined.
 _NEEDED_LATER = ("unicodedata", "encodings.cp1252", "encodings.iso8859_15", "encodings.utf_16")
-
-
-class TimeUpError(Exception):
-    """The process has used up its time."""
-
-
-def description(error: BaseException) -> dict[str, str]:
-    """The message of an exception, and the macros through which it came."""
-    cause = _cause(error)
-    match cause:
-        case RecursionError():
-            return {"error": "macros or expressions go round without an end"}
-        case MemoryError():
-            return {"error": "an expression needs more memory than there is for it"}
-        case NotFoundError():
-            return {"error": _shortened(cause), "help": cause.advice}
-        case MissingFileError() | TimeUpError():
-            return {"error": _shortened(cause)}
-        case _:
-            return {"error": _with_macros(error)}
-
-
-def _shortened(error: BaseException) -> str:
-    text = " ".join(str(error).split()) or type(error).__name__
-    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
-
-
-def _with_macros(error: BaseException) -> str:
-    text = _shortened(error)
-    macros: list[Any] = getattr(error, "macros", [])
-    names = [macro.body.getAttribute("name") for macro in macros if macro.body is not None]
-    return f"{text} (in macro {', '.join(names)})" if names else text
-
-
-def _cause(error: BaseException) -> BaseException:
-    """The exception inside those that xacro wraps it in."""
-    while isinstance(inner := getattr(error, "exc", None), BaseException):
-        error = inner
-    return error
 
 
 def limit() -> None:
@@ -151,9 +111,9 @@ def _expanded(expander: Expander, arguments: dict[str, str]) -> dict[str, Any]:
         text = document.toprettyxml(indent="  ")
         text.encode()  # half of a surrogate pair is no text
     except BadFileError as error:
-        return {"error": str(error), "place": error.place}
+        return {"error": str(error), "place": error.place, "syntax": error.is_syntax}
     except Exception as error:  # noqa: BLE001 - an expression may raise anything, and it is the file's fault
-        return {**description(error), "place": expander.place()}
+        return {**description(error, expander.definitions), "place": expander.place()}
     return {"text": text, "places": places}
 
 

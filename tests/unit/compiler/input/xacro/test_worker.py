@@ -103,16 +103,16 @@ def test_what_is_printed_is_a_remark_with_its_place(expand: Expand) -> None:
 
 
 FAILURES = {
-    "an unknown macro": ("\n<xacro:wheel/>", "unknown macro name: xacro:wheel", 3),
-    "an unknown name": ('<link name="${radius}"/>', "name 'radius' is not defined", 2),
+    "an unknown macro": ("\n<xacro:wheel/>", "there is no macro 'wheel'", 3),
+    "an unknown name": ('<link name="${radius}"/>', "property 'radius' is not defined, in ${radius}", 2),
     "a macro in a macro": (
         '<xacro:macro name="m" params=""><link name="${x}"/></xacro:macro>\n<xacro:m/>',
-        "name 'x' is not defined",
+        "property 'x' is not defined (in macro 'm', called at r.xacro:3), in ${x}",
         2,
     ),
     "a macro that calls itself": (
         '<xacro:macro name="m" params=""><xacro:m/></xacro:macro>\n<xacro:m/>',
-        "macros or expressions go round without an end",
+        "macro 'm' calls itself without an end",
         2,
     ),
     "a hidden name": ('<link name="${().__class__}"/>', "an expression must not use '__class__'", 2),

@@ -1,0 +1,202 @@
+"""Reports mistakes in xacro files that expand without an error: what is defined for nothing, and slips in expressions.
+
+All of it is found in the texts, so that what stands in a branch that was not taken counts as well. What a file that
+others include defines may be used by them, so unused definitions are looked for in the outermost file only.
+"""
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
+
+from twinform.compiler.input.parsing import UnreadableError, parse
+from twinform.diagnostics import DiagnosticSink, Location, rules
+from twinform.lazy import lazy_pattern
+from twinform.schemas import XmlElement
+
+_EXPRESSION = lazy_pattern(r"\$\{[^}]*\}|\$\([^)]*\)")
+_WORD = lazy_pattern(r"[A-Za-z_]\w*")
+_BRACES = lazy_pattern(r"(?<![\w{])\{([A-Za-z_]\w*)\}")
+_ANGLE = lazy_pattern(r"(?<![\w.])(?:math\.)?(?P<call>(?P<function>sin|cos|tan)\(\s*(?P<angle>-?\d+(?:\.\d*)?)\s*\))")
+MACRO_PARAMETER = lazy_pattern(r"(?<![*^|])[*^|]*+(?P<name>[A-Za-z_][\w.]*)(?:\s*:?=\s*(?:'[^']*'|\"[^\"]*\"|\S+))?")
+"""One of the parameters of a macro, with its default."""
+_EFFECT = lazy_pattern(r"xacro\.|\.\w+\(")
+"""What a property can be defined for without being used, such as `${masses.append(mass)}`."""
+_DEFINES = frozenset({"arg", "macro", "property"})
+_FOR_OTHERS = frozenset({*_DEFINES, "include", "if", "unless", "material"})
+_WORDS = {"arg": "argument", "macro": "macro", "property": "property"}
+_MOST = 100
+"""So many findings of a kind are reported."""
+
+
+class _File(NamedTuple):
+    """A xacro file and its elements."""
+
+    name: str
+    elements: list[XmlElement]
+
+
+class _Definition(NamedTuple):
+    """A definition, and its place among the elements of its file."""
+
+    kind: str
+    name: str
+    element: XmlElement
+    number: int
+
+
+def report_mistakes(main: str, texts: Mapping[str, bytes], sink: DiagnosticSink) -> None:
+    """Report the mistakes in the files of an expansion, of which `main` is the outermost."""
+    files = [_File(name, list(root.iter("*"))) for name, root in _roots(texts)]
+    for file in files:
+        _report_overwritten(file, sink)
+        _report_degrees(file, sink)
+        _report_braces(file, _variables(files), sink)
+    own = next((file for file in files if file.name == main), None)
+    if own is not None and _makes_a_robot(own):
+        _report_unused(own, files, sink)
+
+
+def _roots(texts: Mapping[str, bytes]) -> Iterator[tuple[str, XmlElement]]:
+    for name, text in texts.items():
+        try:
+            yield name, parse(text, DiagnosticSink(name))
+        except UnreadableError:
+            continue
+
+
+def _kind(element: XmlElement) -> str:
+    """Return the name of an element of xacro, such as `property`; empty for any other element."""
+    uri, _, local = str(element.tag)[1:].rpartition("}")
+    return local if uri.endswith("xacro") else ""
+
+
+def _values(element: XmlElement) -> Iterator[str]:
+    """Yield the attributes of an element and the texts in it and behind it."""
+    yield from map(str, element.values())
+    yield from filter(None, (element.text, element.tail))
+
+
+def _words(text: str) -> set[str]:
+    """Return the words in the expressions of a text."""
+    return {word for expression in _EXPRESSION.findall(text) for word in _WORD.findall(expression)}
+
+
+def _used_in(elements: Iterable[XmlElement]) -> set[str]:
+    """Return all words that may be names which elements use, except those of macros."""
+    used: set[str] = set()
+    for element in elements:
+        kind = _kind(element)
+        for value in _values(element):
+            used |= _words(value)
+        if kind == "insert_block":
+            used.add(element.get("name") or "")
+        if kind == "property":  # its value may be an expression of another one
+            used.update(_WORD.findall(element.get("value") or element.get("default") or ""))
+        if kind == "macro" and "^" in (element.get("params") or ""):  # the parameter takes what a property holds
+            used.update(_WORD.findall(element.get("params") or ""))
+    return used
+
+
+def _definitions(file: _File) -> Iterator[_Definition]:
+    for number, element in enumerate(file.elements):
+        kind, name = _kind(element), (element.get("name") or "").removeprefix("xacro:")
+        if kind in _DEFINES and name and "$" not in name:
+            yield _Definition(kind, name, element, number)
+
+
+def _makes_a_robot(file: _File) -> bool:
+    """Whether a file has parts of a robot, and not only definitions for the files that include it."""
+    parts = [_kind(child) or child.tag for child in file.elements[0].iterchildren("*")]
+    return "name" in file.elements[0].attrib and any(part not in _FOR_OTHERS for part in parts)
+
+
+def _report_unused(own: _File, files: Iterable[_File], sink: DiagnosticSink) -> None:
+    """Report what a file defines and nothing in it and the files that it includes uses."""
+    everything = [element for file in files for element in file.elements]
+    used, called = _used_in(everything), {_kind(element).rpartition(".")[2] for element in everything}
+    if any(_kind(element) == "call" for element in everything):
+        called |= {word for element in everything for value in _values(element) for word in _WORD.findall(value)}
+    unused = [
+        each
+        for each in _definitions(own)
+        if each.name not in (called if each.kind == "macro" else used)
+        and not _EFFECT.search(each.element.get("value") or "")
+    ]
+    for each in unused[:_MOST]:
+        message = f"nothing uses the {_WORDS[each.kind]} {each.name!r}"
+        sink.report(rules.UNUSED_DEFINITION, message, _place(own, each.element), found=each.name)
+
+
+def _report_overwritten(file: _File, sink: DiagnosticSink) -> None:
+    """Report a property or macro that is defined again in the same place before anything can have used it."""
+    last: dict[tuple[str, str, XmlElement | None], _Definition] = {}
+    for each in _definitions(file):
+        if each.kind == "arg" or not _is_plain(each.element):
+            continue
+        key = (each.kind, each.name, each.element.getparent())
+        before = last.get(key)
+        last[key] = each
+        if before is None or _may_be_used(before, each, file):
+            continue
+        line = each.element.sourceline or 0
+        message = f"the {_WORDS[each.kind]} {each.name!r} is defined again in line {line}, and never used before"
+        sink.report(rules.OVERWRITTEN_DEFINITION, message, _place(file, before.element), found=each.name)
+
+
+def _is_plain(element: XmlElement) -> bool:
+    """Whether a definition always counts, in its own scope."""
+    return not any(name in element.attrib for name in ("default", "remove", "scope"))
+
+
+def _may_be_used(before: _Definition, after: _Definition, file: _File) -> bool:
+    inside = len(list(before.element.iter("*")))
+    between = file.elements[before.number + inside : after.number]
+    if any((kind := _kind(each)) and kind not in _DEFINES for each in between):
+        return True  # an include, a call or a condition, in which it may be used
+    return before.name in _used_in(between) | _words(after.element.get("value") or "")
+
+
+def _report_degrees(file: _File, sink: DiagnosticSink) -> None:
+    """Report angles in degrees that a function takes for radians."""
+    for element, expression in _expressions(file):
+        for found in _ANGLE.finditer(expression):
+            if abs(float(found["angle"])) > 2 * math.pi:
+                function, angle = found["function"], found["angle"]
+                message = f"{found['call']} takes {angle} radians, which is {float(angle) / (2 * math.pi):.1f} turns"
+                advice = f"write {function}(radians({angle})) if it is meant in degrees"
+                sink.report(rules.DEGREES_IN_EXPRESSION, message, _place(file, element), found=angle, help=advice)
+
+
+def _expressions(file: _File) -> Iterator[tuple[XmlElement, str]]:
+    for element in file.elements:
+        for value in _values(element):
+            for expression in _EXPRESSION.findall(value):
+                yield element, expression
+
+
+def _variables(files: Iterable[_File]) -> set[str]:
+    """Return the names of all properties and parameters."""
+    found: set[str] = set()
+    for file in files:
+        for each in _definitions(file):
+            if each.kind == "property":
+                found.add(each.name)
+            if each.kind == "macro":
+                found.update(one["name"] for one in MACRO_PARAMETER.finditer(each.element.get("params") or ""))
+    return found
+
+
+def _report_braces(file: _File, known: set[str], sink: DiagnosticSink) -> None:
+    """Report a property or parameter in braces without the dollar that makes an expression of them."""
+    for element in file.elements:
+        for value in map(str, (*element.values(), element.text or "")):
+            for name in _BRACES.findall(_EXPRESSION.sub(" ", value)):
+                if name in known:
+                    message = f"{{{name}}} is the text itself: an expression begins with a dollar"
+                    place = _place(file, element)
+                    advice = f"write ${{{name}}}"
+                    sink.report(rules.EXPRESSION_WITHOUT_DOLLAR, message, place, found=f"{{{name}}}", help=advice)
+
+
+def _place(file: _File, element: XmlElement) -> Location:
+    return Location(file.name, element.sourceline or 0)
