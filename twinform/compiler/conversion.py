@@ -28,6 +28,7 @@ from twinform.ir import Document, Format, Include
 from twinform.ir.verify import verify
 from twinform.notebooks import draw
 from twinform.passes import PassError, PassInstrumentation, Pipeline
+from twinform.passes.legalise.folded_parts import each_folded_once
 from twinform.passes.sdf_versions import has_early_frames
 from twinform.passes.shared.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.schemas import XmlElement
@@ -71,7 +72,7 @@ def convert_once(
     Raises:
         CompileError: the source, a pass or the result has an error.
     """
-    with garbage_collection_paused():
+    with garbage_collection_paused(), each_folded_once():
         # The tree of libxml2 takes as much memory as the document, or twice that; whoever wants it
         # parses the text again (`Conversion.source`).
         load_options = replace(load_options, keep_tree=False).read_by(request.sdf_version)

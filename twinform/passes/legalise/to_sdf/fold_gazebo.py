@@ -1,9 +1,9 @@
 """Folding `<gazebo>` elements into the links, joints and model that they refer to."""
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, TypeAlias, TypeVar, cast
 
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, Severity, rules
 from twinform.ir import Element, Format, Frame, GazeboExtension, Joint, Link, Model, Node, Opaque
@@ -11,6 +11,7 @@ from twinform.ir.record import field_value
 from twinform.passes.carriers.annotations import EXTENSION, came_from, is_synthesized, with_annotation
 from twinform.passes.carriers.carriers import DANGLING, OVERRULED, SECOND, Attributes, Keeper, pack, to_element
 from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.folded_parts import FoldedPart, folded_part
 from twinform.passes.legalise.material_annotations import with_look
 from twinform.passes.legalise.to_sdf.free_links import are_at_one_place, placing_frames
 from twinform.passes.legalise.to_sdf.gazebo_fields import (
@@ -39,6 +40,7 @@ from twinform.passes.legalise.to_sdf.gazebo_sorting import (
 from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_FIELDS, LINK_TAGS, MODEL_TAGS
 
 AnyNode = TypeVar("AnyNode", bound=Node)
+_FoldPart: TypeAlias = Callable[[Any, list[GazeboExtension]], Any]
 
 
 class FoldGazebo(ModelPass):
@@ -76,7 +78,8 @@ class _Fold:
         self.robot = model
         self.sink = sink
         self.carriers = carriers
-        self.annotations = carriers and not came_from(model, Format.SDF)  # SDF does not need them back
+        self.is_back = came_from(model, Format.SDF)
+        self.annotations = carriers and not self.is_back  # SDF does not need them back
         self.links = {link.name for link in model.links}
         self.joints = {joint.name for joint in model.joints}
         self.kept: list[Opaque] = []
@@ -88,8 +91,8 @@ class _Fold:
             self._shell(extension)
         model = self.robot.copy(
             extensions=(),
-            links=tuple(_each(self.robot.links, groups, self._link)),
-            joints=tuple(_each(self.robot.joints, groups, self._joint)),
+            links=tuple(self._each(self.robot.links, groups, self._link)),
+            joints=tuple(self._each(self.robot.joints, groups, self._joint)),
         )
         parts = self.links | self.joints
         for name, found in groups.items():
@@ -104,6 +107,39 @@ class _Fold:
                     )
         model = self._model(model, groups[""]) if "" in groups else model
         return model.copy(opaque=(*model.opaque, *self.kept)) if self.carriers else model
+
+    def _each(
+        self, nodes: Iterable[AnyNode], groups: dict[str, list[GazeboExtension]], fold: _FoldPart
+    ) -> Iterator[AnyNode]:
+        context = (
+            fold.__name__, self.robot.name, frozenset(self.links), frozenset(self.joints), self.is_back, self.carriers,
+            self.sink.file, self.sink.strict,
+        )  # fmt: skip
+        for node in nodes:
+            extensions = groups.get(str(getattr(node, "name", None)))
+            yield self._folded(node, extensions, context, fold) if extensions else node
+
+    def _folded(
+        self, node: AnyNode, extensions: list[GazeboExtension], context: tuple[object, ...], fold: _FoldPart
+    ) -> AnyNode:
+        apart = partial(self._apart, fold, node, extensions)
+        # behind an error less is read, so that nothing from there on is what it would be by itself
+        found = None if self.sink.has_errors else folded_part(node, extensions, context, apart)
+        if found is None:
+            return fold(node, extensions)
+        self.sink.extend(found.sink.diagnostics)
+        self.sink.entries += found.sink.entries
+        self.kept += found.kept
+        return cast("AnyNode", found.part)
+
+    def _apart(self, fold: _FoldPart, node: Node, extensions: list[GazeboExtension]) -> FoldedPart:
+        """A part, with what is found and kept on the way by itself."""
+        around = self.sink, self.kept
+        self.sink, self.kept = DiagnosticSink(file=self.sink.file, strict=self.sink.strict), []
+        try:
+            return FoldedPart(fold(node, extensions), self.sink, self.kept, (node, extensions))
+        finally:
+            self.sink, self.kept = around
 
     def _shell(self, extension: GazeboExtension) -> None:
         """Attributes and text of the element itself, and an element without content, which nothing comes of."""
@@ -203,7 +239,7 @@ class _Fold:
         for extension, elements in sorter.misplaced:
             self._misplaced(extension, elements, f"{extension.reference!r}" if extension.reference else "the model")
         for extension, elements in sorter.ignored:
-            if came_from(self.robot, Format.SDF):  # made so that libsdformat lets the links be
+            if self.is_back:  # made so that libsdformat lets the links be
                 continue
             message = ", ".join(f"<{element.name}>" for element in elements)
             self._keep(extension, elements, rules.URDF_ONLY, f"{message} has no effect: no link is lumped")
@@ -320,13 +356,6 @@ class _Fold:
         for place in dropped:
             self.sink.account(Fate.DROPPED, rules.GAZEBO_CONFLICT, message, place)
         return message
-
-
-def _each(
-    nodes: Iterable[Any], groups: dict[str, list[GazeboExtension]], fold: Callable[[Any, list[GazeboExtension]], Any]
-) -> Iterable[Any]:
-    for node in nodes:
-        yield fold(node, groups[node.name]) if node.name in groups else node
 
 
 def _written_pose(frame: Frame) -> str:
