@@ -41,7 +41,7 @@ from twinform.passes import Assets, Pass, Pipeline
 from twinform.passes.carriers.misplaced import without_misplaced
 from twinform.passes.carriers.token_mass import without_tokens
 from twinform.passes.legalise.changed_names import RestoreNames
-from twinform.passes.legalise.to_sdf import to_sdf
+from twinform.passes.legalise.to_sdf.sequence import to_sdf
 from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_urdf.restore_links import without_loose_floating
 from twinform.passes.legalise.to_urdf.select_model import Selector
