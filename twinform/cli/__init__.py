@@ -32,7 +32,7 @@ COMMANDS: Mapping[str, str] = {
     "passes": "List the passes, or print the page of one.",
     "explain": "Print the page of a rule, or list all rules.",
     "schema": "Print the schema of URDF, SDF or JSON.",
-    "clean": "Delete what is kept of earlier runs.",
+    "clean": "Delete the results of earlier runs of check and format.",
     "lsp": "Be the language server of an editor.",
 }
 """Every command and its summary, which the help shows without importing the command.

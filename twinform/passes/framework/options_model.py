@@ -6,8 +6,6 @@ from typing import Any, ClassVar
 
 from pydantic import BaseModel, ConfigDict
 
-from twinform.passes.framework.pass_base import Pass
-
 _COPIED = ("__module__", "__qualname__", "__doc__")
 
 
@@ -26,12 +24,12 @@ class Options(BaseModel):
 
 
 @cache
-def options_model(kind: type[Pass]) -> type[BaseModel]:
-    """The model of a class: its fields, validators, and the methods that validators call."""
-    if kind is Pass:
+def options_model(kind: type[Any], root: type[Any]) -> type[BaseModel]:
+    """The model of a class of passes, of which `root` is the first: fields, validators, and what validators call."""
+    if kind is root:
         return Options
     bases: tuple[type[Any], ...] = kind.__bases__
-    models = tuple(options_model(each) if issubclass(each, Pass) else each for each in bases)
+    models = tuple(options_model(each, root) if issubclass(each, root) else each for each in bases)
     own = {name: value for name, value in vars(kind).items() if name in _COPIED or _belongs(name)}
     metaclass: Any = type(Options)
     return metaclass(kind.__name__, models, own | {"__annotations__": get_annotations(kind)})
@@ -42,16 +40,16 @@ def _belongs(name: str) -> bool:
     return not (name.startswith(("__", "_abc_")) or hasattr(BaseModel, name))
 
 
-def validated(kind: type[Pass], options: Any) -> dict[str, Any]:
+def validated(kind: type[Any], root: type[Any], options: Any) -> dict[str, Any]:
     """The values of all options.
 
     Raises:
         ValidationError: an option is unknown, missing or wrong.
     """
-    return vars(options_model(kind).model_validate(options))
+    return vars(options_model(kind, root).model_validate(options))
 
 
-def defaults(kind: type[Pass]) -> dict[str, Any]:
+def defaults(kind: type[Any], root: type[Any]) -> dict[str, Any]:
     """The defaults of options and private attributes, as Pydantic has them."""
-    made = options_model(kind).model_construct()
+    made = options_model(kind, root).model_construct()
     return vars(made) | (made.__pydantic_private__ or {})

@@ -34,7 +34,7 @@ class _Fields:
     def __get__(self, instance: object, kind: "type[Pass]") -> "Mapping[str, FieldInfo]":
         from twinform.passes.framework.options_model import options_model  # noqa: PLC0415 - see `Pass`
 
-        return options_model(kind).model_fields
+        return options_model(kind, Pass).model_fields
 
 
 class Pass(_WithFields):
@@ -63,7 +63,7 @@ class Pass(_WithFields):
         from twinform.passes.framework.options_model import validated  # noqa: PLC0415 - see above
 
         kind = type(self)
-        vars(self).update(_defaults(kind) | validated(kind, options))
+        vars(self).update(_defaults(kind) | validated(kind, Pass, options))
 
     @classmethod  # pyright: ignore[reportArgumentType] - a class is a callable that makes its objects
     def unchecked(cls: Callable[Options, AnyPass], *_: Options.args, **options: Options.kwargs) -> AnyPass:
@@ -87,7 +87,7 @@ class Pass(_WithFields):
         """The options as data; `how` is what Pydantic's method of this name takes."""
         from twinform.passes.framework.options_model import options_model  # noqa: PLC0415 - see above
 
-        return options_model(type(self)).model_construct(None, **_options(self)).model_dump(**how)
+        return options_model(type(self), Pass).model_construct(None, **_options(self)).model_dump(**how)
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None) -> Self:
         """A copy with other options, which are not validated."""
@@ -139,7 +139,7 @@ def _defaults(kind: type[Pass]) -> dict[str, Any]:
         return found
     from twinform.passes.framework.options_model import defaults  # noqa: PLC0415 - see `Pass`
 
-    known = defaults(kind)
+    known = defaults(kind, Pass)
     # an option that has to be given has a field and no default
     return {name: known.get(name) if name in declared else value for name, value in found.items()}
 
