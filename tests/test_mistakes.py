@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 
 from twinform.compiler import check
-from twinform.compiler.input.finding_spans import with_columns
-from twinform.compiler.input.source_files import SourceFiles
+from twinform.compiler.input.finding_spans import SourceFiles, with_columns
 from twinform.diagnostics import Diagnostic, Severity
 
 _FOLDER = Path(__file__).parent / "mistakes"

@@ -18,8 +18,7 @@ from twinform.diagnostics import PhysicsChange
 from twinform.ir import Format
 from twinform.profiles import ConsumerVerdict as Taken
 from twinform.profiles import load, names
-from twinform.profiles.physics import of_ledger
-from twinform.profiles.remedies import remedies
+from twinform.profiles.remedies import of_ledger, remedies
 from twinform.testing import oracles
 
 OUT = output_files.OUT / "physics"

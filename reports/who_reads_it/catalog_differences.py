@@ -8,7 +8,7 @@ from reports.who_reads_it.sensor_sources import SensorSource
 from reports.who_reads_it.system_sources import Read, SystemSource
 from twinform.passes.plugins.catalog import sensors, systems
 from twinform.passes.plugins.catalog_types import Alternative, PluginKind, PluginParameter, SensorKind, TopicChannel
-from twinform.passes.plugins.topic_patterns import without_parentheses
+from twinform.passes.plugins.parameters import without_parentheses
 
 # Names are compared wherever they stand in a plugin: the path of an element goes through variables in
 # the C++. A difference needs a reason in known.toml, and a reason for what no release has any more is

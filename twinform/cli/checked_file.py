@@ -179,8 +179,8 @@ def _locate(loaded: LoadResult, found: tuple[Diagnostic, ...], least: Severity) 
     shown = tuple(each for each in found if each.severity >= least)
     if not shown:
         return FileFindings(loaded.path, found)
-    from twinform.compiler.input.finding_spans import with_columns  # noqa: PLC0415 - only findings have places
-    from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - as above
+    # only findings have places
+    from twinform.compiler.input.finding_spans import SourceFiles, with_columns  # noqa: PLC0415 - see above
 
     files = SourceFiles.of(loaded)
     others = tuple(each for each in found if each.severity < least)

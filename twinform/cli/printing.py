@@ -16,7 +16,7 @@ from twinform.diagnostics import Severity
 from twinform.diagnostics.reporters import NO_TEXTS, FileFindings, concise, printable, text
 
 if TYPE_CHECKING:
-    from twinform.compiler.input.source_files import SourceFiles
+    from twinform.compiler.input.finding_spans import SourceFiles
 
 
 Color = Literal["cyan", "red", "yellow"]
@@ -140,8 +140,8 @@ def locate(findings: FileFindings, files: "SourceFiles | None" = None) -> FileFi
     """Add columns and the texts of the files to findings; without findings nothing is read."""
     if not findings.diagnostics:
         return findings
-    from twinform.compiler.input.finding_spans import with_columns  # noqa: PLC0415 - only findings have places
-    from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - as above
+    # only findings have places
+    from twinform.compiler.input.finding_spans import SourceFiles, with_columns  # noqa: PLC0415 - see above
 
     files = files or SourceFiles()
     return FileFindings(findings.path, with_columns(findings.diagnostics, files), files)

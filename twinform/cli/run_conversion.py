@@ -182,7 +182,7 @@ class Options:
 def show_findings(source: InputSource, found: tuple[Diagnostic, ...], *, notes: bool, every: bool) -> bool:
     """Print the findings in a source on stderr; return whether none of them is an error."""
     if found:
-        from twinform.compiler.input.source_files import SourceFiles  # noqa: PLC0415 - only findings have places
+        from twinform.compiler.input.finding_spans import SourceFiles  # noqa: PLC0415 - only findings have places
 
         files = SourceFiles({source.name: source.content} if isinstance(source.content, bytes) else {})
         show(FileFindings(source.name, found), notes=notes, on_stderr=True, every=every, files=files)

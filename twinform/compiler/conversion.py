@@ -178,7 +178,7 @@ def _run_remedies(
     """Run the passes that consumers need, and put their changes of the physics into the ledger."""
     if not request.remedies:
         return document
-    from twinform.profiles.physics import physics_changes  # noqa: PLC0415 - see `run_conversion`
+    from twinform.profiles.remedies import physics_changes  # noqa: PLC0415 - see `run_conversion`
 
     for step in request.remedies.with_files(request.assets):
         before = document

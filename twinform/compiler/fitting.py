@@ -21,8 +21,7 @@ from twinform.diagnostics.rules import KEPT_PHYSICS
 from twinform.ir import Document, Format
 from twinform.passes import Pass, PassInstrumentation, Pipeline
 from twinform.profiles import Assessment, Judgment, Profile, ProfiledFile, assess, findings
-from twinform.profiles.physics import describe_change
-from twinform.profiles.remedies import in_order, remedies
+from twinform.profiles.remedies import describe_change, in_order, remedies
 
 # How often a conversion starts over; each time, a pass has brought something else to light.
 _ROUNDS = 5

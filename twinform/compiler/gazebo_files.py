@@ -7,8 +7,8 @@ from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Element, Format, Model, Opaque, Pose, World
 from twinform.passes.plugins.bridge_config import bridge_yaml, bridges
-from twinform.passes.plugins.ground_clearance import lowest_point
 from twinform.passes.plugins.sites import sensors_of
+from twinform.passes.plugins.wheels import lowest_point
 from twinform.passes.plugins.world_systems import (
     WorldRequirements,
     add_default_systems,

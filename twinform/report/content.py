@@ -9,10 +9,9 @@ from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
 from twinform.compiler.expand_includes import expand
 from twinform.compiler.graph import Graph, build_graph
-from twinform.compiler.input.finding_spans import with_columns
+from twinform.compiler.input.finding_spans import SourceFiles, with_columns
 from twinform.compiler.input.load_options import name_of_input
 from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, read
-from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.inspection import inspect
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.resolve_uris import SearchPath

@@ -19,10 +19,9 @@ from twinform.diagnostics import Diagnostic, Severity
 from twinform.ir.motion import spanning_tree
 from twinform.package_files import package_files
 from twinform.report.content import WORDS, Converted, ModelReport, ReportSubject
-from twinform.report.difference_sections import conversion, differences
 from twinform.report.findings_section import anchors, findings
 from twinform.report.markup import Markup, Part, breakable, count, element, fates, folded, image, join, table
-from twinform.report.number_sections import masses, meshes, reach, statistics
+from twinform.report.number_sections import conversion, differences, masses, meshes, reach, statistics
 
 # Browsers flatten elements nested deeper than about 500, and a chain of 1,000 links is nothing
 # unusual in tests. Below this level the rest is one list.

@@ -10,11 +10,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from twinform.compiler.fixing import with_fixes
-from twinform.compiler.input.finding_spans import with_columns
+from twinform.compiler.input.finding_spans import SourceFiles, with_columns
 from twinform.compiler.input.load_options import LoadOptions, LoadResult
 from twinform.compiler.input.loading import read
 from twinform.compiler.input.size_limits import Limits
-from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.inspection import inspect
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Policy, rules

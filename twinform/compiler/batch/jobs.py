@@ -21,9 +21,8 @@ from twinform.compiler.compare.comparison_reporters import REPORTERS, summary
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
 from twinform.compiler.expand_includes import expand
-from twinform.compiler.input.finding_spans import with_columns
+from twinform.compiler.input.finding_spans import SourceFiles, with_columns
 from twinform.compiler.input.loading import XACRO, LoadResult, read
-from twinform.compiler.input.source_files import SourceFiles
 from twinform.compiler.inspection import inspect
 from twinform.compiler.model_config import MANIFESTS, manifest, model_file
 from twinform.compiler.request import ConversionRequest

@@ -11,8 +11,7 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Model
 from twinform.lazy import lazy_pattern
-from twinform.passes.plugins.ground_clearance import base_link
-from twinform.passes.plugins.wheels import NotMeasuredError, Wheel, radius_of, separation_of, wheel
+from twinform.passes.plugins.wheels import NotMeasuredError, Wheel, base_link, radius_of, separation_of, wheel
 from twinform.passes.plugins.yaml_text import Value, yaml_text
 
 _RATE = 100

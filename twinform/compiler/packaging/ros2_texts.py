@@ -12,7 +12,7 @@ from twinform.dataclass import dataclass
 from twinform.ir import Document, Model
 from twinform.lazy import lazy_pattern
 from twinform.passes.plugins.bridge_config import Bridge, bridge_yaml
-from twinform.passes.plugins.ground_clearance import base_link, lowest_point
+from twinform.passes.plugins.wheels import base_link, lowest_point
 from twinform.passes.plugins.yaml_text import Value, yaml_text
 
 _FIXED = frozenset({"fixed", "floating", "planar"})

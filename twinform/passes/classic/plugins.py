@@ -13,14 +13,12 @@ from twinform.passes.classic.document_edits import DeferredEdits
 from twinform.passes.classic.migrate_sensors import SensorMigration, set_frame
 from twinform.passes.classic.moving import DroppedParameter, Moved
 from twinform.passes.classic.reporting import MigrationReport, accept_trial, needed_checks, trial_sink
-from twinform.passes.classic.systems import make_systems, unused_parameters, without_unread_parameters
+from twinform.passes.classic.systems import RosNames, make_systems, unused_parameters, without_unread_parameters
 from twinform.passes.classic.tables import MakeRow, Migration, migration_of
-from twinform.passes.classic.topics import RosNames
 from twinform.passes.plugins.catalog import is_ignition_name, modern_class, modern_file, systems_of_file
 from twinform.passes.plugins.catalog_types import Release
-from twinform.passes.plugins.ground_clearance import base_link
 from twinform.passes.plugins.sites import PluginSite, sensor_of
-from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
+from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError, base_link
 from twinform.schemas import format_value, parse_version
 
 # Fortress, in which the names of Ignition are the ones in use.

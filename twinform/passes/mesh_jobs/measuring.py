@@ -8,8 +8,7 @@ from twinform.ir.transform import common_exponent, times_power
 from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 from twinform.passes.mesh_jobs.libraries import Array, np, trimesh
 from twinform.passes.mesh_jobs.mesh_writing import appearance_of
-from twinform.passes.mesh_jobs.open_mesh import scene_of
-from twinform.passes.mesh_jobs.surface import UnusableMeshError, parts_of
+from twinform.passes.mesh_jobs.surface import UnusableMeshError, parts_of, scene_of
 
 _Triangles = Any
 """A `trimesh.Trimesh`."""

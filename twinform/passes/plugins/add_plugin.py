@@ -18,12 +18,11 @@ from twinform.passes.plugins.add_elements import (
 )
 from twinform.passes.plugins.catalog import releases, suggestion, system
 from twinform.passes.plugins.catalog_types import PluginKind
-from twinform.passes.plugins.ground_clearance import base_link
 from twinform.passes.plugins.parameters import names_in
 from twinform.passes.plugins.plugin_options import Fields, MissingError, SelectingPass, content_of, field_of, options_of
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sites import PluginSite, map_sensors
-from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError
+from twinform.passes.plugins.wheels import MEASURES, Measured, NotMeasuredError, base_link
 from twinform.passes.plugins.world_systems import (
     add_default_systems,
     add_systems,

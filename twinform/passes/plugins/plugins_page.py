@@ -4,11 +4,11 @@ import sys
 from collections.abc import Iterable, Iterator
 
 from twinform.diagnostics.generated_files import main
+from twinform.passes.plugins.add_sensor import addable, settings_of
 from twinform.passes.plugins.catalog import releases, ros_message, sensors, systems
 from twinform.passes.plugins.catalog_types import PluginKind, PluginParameter, SensorKind
+from twinform.passes.plugins.parameters import without_parentheses
 from twinform.passes.plugins.plugin_options import options_of
-from twinform.passes.plugins.sensor_settings import addable, settings_of
-from twinform.passes.plugins.topic_patterns import without_parentheses
 
 _INTRODUCTION = """\
 # Systems and sensors of Gazebo

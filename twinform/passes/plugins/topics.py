@@ -10,8 +10,7 @@ from twinform.ir.node import Node
 from twinform.lazy import lazy_pattern
 from twinform.passes.plugins.catalog import modern_class, systems_of_file
 from twinform.passes.plugins.catalog_types import PluginKind, Published, SensorKind, TopicChannel
-from twinform.passes.plugins.sites import PluginSite, plugins_of, sensors_of
-from twinform.passes.plugins.topic_patterns import (
+from twinform.passes.plugins.parameters import (
     as_valid_topic,
     fill_pattern,
     fill_topic_pattern,
@@ -20,6 +19,7 @@ from twinform.passes.plugins.topic_patterns import (
     qualified,
     without_parentheses,
 )
+from twinform.passes.plugins.sites import PluginSite, plugins_of, sensors_of
 from twinform.passes.plugins.world_systems import custom_type, kind_of_sensor
 from twinform.passes.shared.gazebo_tags import TRUE, lumped_joints, lumped_links
 

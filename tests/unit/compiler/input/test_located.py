@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import twinform
-from twinform.compiler.input.finding_spans import located, with_columns
-from twinform.compiler.input.source_files import SourceFiles
+from twinform.compiler.input.finding_spans import SourceFiles, located, with_columns
 from twinform.diagnostics import Diagnostic, Location, Severity
 from twinform.diagnostics.rules import UNKNOWN_ELEMENT
 

@@ -6,8 +6,8 @@ import twinform
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Element, Plugin
 from twinform.passes.classic.migrate_gazebo_classic import MigrateGazeboClassic
+from twinform.passes.classic.systems import RosNames
 from twinform.passes.classic.tables import migration_of
-from twinform.passes.classic.topics import RosNames
 from twinform.passes.plugins.catalog import classic_plugins, classic_plugins_of_file
 
 BOTH = {

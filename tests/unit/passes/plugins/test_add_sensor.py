@@ -12,10 +12,9 @@ from twinform.ir import Document, Sensor
 from twinform.ir.frames import FrameGraph
 from twinform.passes import PipelineError, parse_pipeline
 from twinform.passes.plugins.add_elements import frames_of
-from twinform.passes.plugins.add_sensor import AddSensor
+from twinform.passes.plugins.add_sensor import AddSensor, addable, settings_of
 from twinform.passes.plugins.catalog import sensor, sensors
 from twinform.passes.plugins.check_plugins import CheckPlugins
-from twinform.passes.plugins.sensor_settings import addable, settings_of
 from twinform.passes.plugins.sites import plugins_of, sensors_of
 from twinform.passes.plugins.topics import topics_of
 

@@ -9,7 +9,7 @@ from testbed.ledger_changes import applied
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Joint, Link, walk
 from twinform.passes import parse_pipeline
-from twinform.profiles.physics import of_ledger, physics_changes
+from twinform.profiles.remedies import of_ledger, physics_changes
 from twinform.testing.strategies import robots, sdf_models
 
 _PIPELINES = (

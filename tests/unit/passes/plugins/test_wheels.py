@@ -17,7 +17,7 @@ from twinform.ir import (
     Shape,
     Sphere,
 )
-from twinform.passes.plugins.ground_clearance import lowest_point
+from twinform.passes.plugins.wheels import lowest_point
 
 LYING, TILTED = (0.0, math.pi / 2, 0.0), (0.0, math.pi / 4, 0.0)
 CASES: dict[str, tuple[Shape, tuple[float, float, float] | None, float]] = {

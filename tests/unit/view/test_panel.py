@@ -9,8 +9,8 @@ pytest.importorskip("viser", reason="viser is not installed")
 from tests.browser.test_view import ARM
 from twinform.compiler import LoadOptions
 from twinform.view import read_subject
-from twinform.view.dragging import Drag, drag_of
 from twinform.view.figure import Figure
+from twinform.view.panel import Drag, drag_of
 from twinform.view.triangles import MeshDrawings
 
 
