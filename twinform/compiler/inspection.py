@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from twinform.compiler.input.allowances import report_unused
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.loading import LoadOptions, LoadResult
+from twinform.compiler.mistakes import report_mistakes
 from twinform.compiler.named_files import report_named_files
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Severity, did_you_mean, rules
 from twinform.diagnostics.rules import MISSING_INERTIAL, UNKNOWN_COLLISION
@@ -43,7 +44,8 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
     if loaded.accepted:
         report_massless(document, sink)
         report_contact_sensors(document, sink)
-    report_named_files(document, Path(loaded.path), load_options.search, loaded.tree, sink)
+    files = report_named_files(document, Path(loaded.path), load_options.search, loaded.tree, sink)
+    report_mistakes(document, loaded.tree, files, sink)
     whole = DiagnosticSink(loaded.path, load_options.strict, list(loaded.diagnostics), origins=dict(loaded.origins))
     whole.allows, whole.allowed = loaded.allowances, list(loaded.allowed)
     whole.extend_new(_with_lines(sink, loaded))

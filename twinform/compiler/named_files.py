@@ -8,6 +8,8 @@ from typing import NamedTuple
 from urllib.parse import unquote
 
 from twinform.compiler.input.finding_lines import PartFinder, line_of_text
+from twinform.compiler.mistakes.mesh_checks import find_mesh_fault, find_package_fault
+from twinform.compiler.mistakes.mesh_files import MeshFiles
 from twinform.compiler.resolve_uris import SearchPath, UriError, exists
 from twinform.diagnostics import DiagnosticSink, Location, nearest_name, rules
 from twinform.file_access import Readable
@@ -40,12 +42,13 @@ class _Missing(NamedTuple):
 
 def report_named_files(
     document: Document, path: Path, search: SearchPath, tree: XmlElement | None, sink: DiagnosticSink
-) -> None:
-    """Report each missing file once, where it is named first, and paths with backslashes.
+) -> MeshFiles:
+    """Report each missing or broken file once, where it is named first, and paths with backslashes.
 
     If nothing of a package, or nothing that is named by a path, is there, it is one finding. For a text that came from
-    no file, only backslashes are reported.
+    no file, only backslashes are reported. Returns the meshes that are there.
     """
+    files = MeshFiles(search.readable(path))
     uses = _uris_of(document)
     parts = None if tree is None else PartFinder(tree)
     wrong = [use for use in uses if "\\" in use.uri]
@@ -54,26 +57,56 @@ def report_named_files(
         hint = f"write '{use.uri.replace(chr(92), '/')}'"
         sink.report(rules.BACKSLASH_IN_PATH, message, _place(use, parts), found=use.uri, help=hint)
     if not exists(path):
-        return
+        return files
     found: set[str] = set()
     missing: defaultdict[str, list[_Missing]] = defaultdict(list)
     gone_before = 0
-    for use in (use for use in uses if "\\" not in use.uri and "$" not in use.uri):
-        gone = _look_for(use, path, search, asks=gone_before < _MOST_NEAR)
+    for use in (use for use in uses if use.uri and "\\" not in use.uri and "$" not in use.uri):
+        gone = _look_for(use, path, search, files, asks=gone_before < _MOST_NEAR)
         gone_before += gone is not None
         if gone is None:
+            _report_found(use, parts, (path, search, files), found, sink)
             found.add(_holder(use.uri))
         elif gone.near is not None:
             _report_missing((gone,), parts, sink)
-        # Packages and models that are not on this machine may be installed where the robot is. Of
-        # 1,489 corpus files, whose meshes were mostly left behind, 698 had 4,589 missing files: a
-        # finding for each would have hidden everything else, so a package of which nothing is there
-        # is one finding (777 in all).
-        elif not is_elsewhere(use.uri, search, path):
+        else:
             missing[_holder(use.uri)].append(gone)
     for holder, gone in missing.items():
+        if is_elsewhere(gone[0].use.uri, search, path):
+            _report_elsewhere(holder, gone, parts, sink)
+            continue
         for group in ((each,) for each in gone) if holder in found else (gone,):
             _report_missing(group, parts, sink)
+    return files
+
+
+def _report_elsewhere(holder: str, gone: list[_Missing], parts: PartFinder | None, sink: DiagnosticSink) -> None:
+    """Note a package that is not on this machine."""
+    # It may be installed where the robot is. Of 1,489 corpus files, whose meshes were mostly left
+    # behind, 698 had 4,589 missing files: a finding for each would have hidden everything else, so
+    # a package of which nothing is there is one finding (777 in all).
+    if not holder.startswith("package://"):
+        return
+    name = holder.removeprefix("package://")
+    files = "1 file of it" if len(gone) == 1 else f"{len(gone)} files of it"
+    message = f"package {name!r} is not on this machine: {files} cannot be checked"
+    hint = "source the workspace, or name its folder with --path DIR"
+    sink.report(rules.UNKNOWN_PACKAGE, message, _place(gone[0].use, parts), found=name, help=hint)
+
+
+def _report_found(
+    use: _Use,
+    parts: PartFinder | None,
+    around: tuple[Path, SearchPath, MeshFiles],
+    holders: set[str],
+    sink: DiagnosticSink,
+) -> None:
+    """Report what is wrong with a file that is there, and with its package, the first time that it is named."""
+    path, search, files = around
+    is_new = use.uri.startswith("package://") and _holder(use.uri) not in holders
+    faults = (find_package_fault(use.uri, search, path) if is_new else None, find_mesh_fault(use.uri, files))
+    for each in filter(None, faults):
+        sink.report(each.rule, each.message, _place(use, parts), found=use.uri, help=each.help)
 
 
 def _uris_of(document: Document) -> list[_Use]:
@@ -95,10 +128,12 @@ def _holder(uri: str) -> str:
     return f"{scheme}://{rest.partition('/')[0]}" if separator else ""
 
 
-def _look_for(use: _Use, path: Path, search: SearchPath, *, asks: bool) -> _Missing | None:
+def _look_for(use: _Use, path: Path, search: SearchPath, files: MeshFiles, *, asks: bool) -> _Missing | None:
     """Return a URI as missing; None for a file that is there, even where it must not be read."""
     try:
-        search.find(use.uri, path)
+        found = search.find(use.uri, path)
+        if use.kind == "mesh":
+            files.paths[use.uri] = found
     except UriError as error:
         if error.rule is rules.UNRESOLVED_URI:
             return _Missing(use, near_file(use.uri, search, path) if asks else None, error.help)

@@ -14,14 +14,17 @@ from twinform.diagnostics.rules import (
     EMPTY_ATTRIBUTE,
     FLAT_COLLISION,
     LATE_SENSOR,
+    LOOSENED_FIXED_JOINT,
     MODEL_JOINT_END,
     NARROW_VIEW,
     NESTED_IN_ENGINE,
+    PLUGIN_NOT_IN_RELEASE,
     RARE_JOINT_TYPE,
     RENAMED_COLLISION,
     THREADLESS_SCREW,
     TINY_NUMBER,
     UNCERTAIN_INERTIA,
+    UNSUPPORTED_SENSOR,
     UNTAGGED_SHAPE,
     UNUSABLE_AXIS,
     WEIGHTLESS_MOVER,
@@ -248,6 +251,22 @@ def find_mesh_formats(subject: ProfiledFile, sink: DiagnosticSink) -> None:
             sink.report(COLLADA_MESH, f"mesh {uri!r} is COLLADA{absent}", node.location, found=uri)
 
 
+def find_classic_parts(subject: ProfiledFile, sink: DiagnosticSink) -> None:
+    """Report plugins and sensors of Gazebo Classic."""
+    from twinform.profiles.classic_parts import report_classic_parts  # noqa: PLC0415 - it has many tables
+
+    if subject.document is not None:
+        report_classic_parts(subject.document, sink)
+
+
+def find_loosened_joints(subject: ProfiledFile, sink: DiagnosticSink) -> None:
+    """Report fixed joints that Gazebo makes revolute."""
+    from twinform.profiles.classic_parts import report_loosened_joints  # noqa: PLC0415 - see above
+
+    if subject.document is not None:
+        report_loosened_joints(subject.document, sink)
+
+
 class Detector(NamedTuple):
     """A function that looks for something, and the rules that it reports."""
 
@@ -256,6 +275,8 @@ class Detector(NamedTuple):
 
 
 DETECTORS = (
+    Detector(find_classic_parts, (PLUGIN_NOT_IN_RELEASE, UNSUPPORTED_SENSOR)),
+    Detector(find_loosened_joints, (LOOSENED_FIXED_JOINT,)),
     Detector(find_mesh_formats, (COLLADA_MESH,)),
     Detector(find_empty_attributes, (EMPTY_ATTRIBUTE,)),
     Detector(find_tiny_numbers, (TINY_NUMBER,)),

@@ -1,4 +1,4 @@
-"""What is looked for only under `--for`: meshes in COLLADA, wherever a model has them."""
+"""What is looked for only under `--for`: meshes in COLLADA, and what is of Gazebo Classic."""
 
 from pathlib import Path
 
@@ -46,3 +46,27 @@ def test_a_file_that_is_there_is_an_error_and_converted(tmp_path: Path) -> None:
     made = twinform.convert(robot, to="urdf", profiles="mujoco", keep_physics=True)
     assert "a.dae" not in made.text
     assert made.side_files[0].path == "meshes/a.obj"
+
+
+_CLASSIC = (
+    b'<robot name="r"><link name="a"/><link name="b"/>'
+    b'<joint name="j" type="fixed"><parent link="a"/><child link="b"/></joint>'
+    b'<gazebo reference="j"><disableFixedJointLumping>%s</disableFixedJointLumping></gazebo>'
+    b'<gazebo reference="a"><sensor name="s" type="%s"><plugin name="p" filename="%s"/></sensor></gazebo></robot>'
+)
+
+
+_OF_CLASSIC = {"loosened-fixed-joint", "plugin-not-in-release", "unsupported-sensor"}
+
+
+@pytest.mark.parametrize("profile", ["gazebo@harmonic", "mujoco"])
+def test_what_is_of_gazebo_classic_is_told_of_gazebo_alone(profile: str) -> None:
+    found = twinform.check(_CLASSIC % (b"true", b"ray", b"libgazebo_ros_laser.so"), profiles=profile).diagnostics
+    expected = _OF_CLASSIC if profile == "gazebo@harmonic" else set[str]()
+    assert {each.rule.name for each in found} & _OF_CLASSIC == expected
+
+
+def test_what_gazebo_takes_is_not_told() -> None:
+    text = _CLASSIC % (b"false", b"gpu_lidar", b"libmy_laser.so")
+    found = twinform.check(text, profiles="gazebo@harmonic").diagnostics
+    assert {each.rule.name for each in found} & _OF_CLASSIC == set()

@@ -179,6 +179,8 @@ _REFERENCES = (
     rules.UNKNOWN_MATERIAL,
     rules.UNKNOWN_REFERENCE,
     rules.PLUGIN_REFERENCE,
+    rules.MISSPELLED_INTERFACE,
+    rules.UNKNOWN_SENSOR_FRAME,
 )
 FIXERS: Fixers = {
     **{rule.name: _reference for rule in _REFERENCES},

@@ -139,7 +139,9 @@ _MOST_BRIGHT = 2
 
 
 def _angles_in_degrees(site: FindingSite) -> Fix | None:
-    """Convert the angles of a pose from degrees to radians."""
+    """Convert the angles of a pose or a lidar from degrees to radians."""
+    if site.element.tag in {"min_angle", "max_angle"}:
+        return _angles_of_lidar(site)
     if site.file.format == "urdf":
         angles = numbers_of(site.element.get("rpy"))
         if len(angles) != 3:
@@ -151,6 +153,20 @@ def _angles_in_degrees(site: FindingSite) -> Fix | None:
         return None
     value = f"{' '.join(numbers[:3])} {_radians(numbers_of(site.element.text)[3:])}"
     return unsafe("Write the angles in radians", *site.edit.set_text(site.element, value))
+
+
+def _angles_of_lidar(site: FindingSite) -> Fix | None:
+    """Write the angles of a lidar that are more than a turn in radians."""
+    holder = site.element.getparent()
+    ends = [] if holder is None else list(holder.iterchildren("min_angle", "max_angle"))
+    numbers = [(each, *numbers_of(each.text)) for each in ends]
+    edits = [
+        edit
+        for each, *angles in numbers
+        if len(angles) == 1 and abs(angles[0]) > math.tau
+        for edit in site.edit.set_text(each, text_of_number(round(math.radians(angles[0]), 9)))
+    ]
+    return unsafe("Write the angles in radians", *edits) if edits else None
 
 
 def _radians(angles: Sequence[float]) -> str:

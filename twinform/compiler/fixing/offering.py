@@ -90,9 +90,16 @@ class FixRegistryError(Exception):
 def fixers() -> Fixers:
     """Return our own fixers by the names of their rules."""
     # few files have a finding that can be fixed
-    from twinform.compiler.fixing import fix_joints, fix_names, fix_numbers, fix_plugins, fix_structure  # noqa: PLC0415
+    from twinform.compiler.fixing import (  # noqa: PLC0415 - see above
+        fix_joints,
+        fix_mistakes,
+        fix_names,
+        fix_numbers,
+        fix_plugins,
+        fix_structure,
+    )
 
-    modules = (fix_joints, fix_names, fix_numbers, fix_plugins, fix_structure)
+    modules = (fix_joints, fix_mistakes, fix_names, fix_numbers, fix_plugins, fix_structure)
     return {rule: fixer for module in modules for rule, fixer in module.FIXERS.items()}
 
 

@@ -102,8 +102,8 @@ def _verify_limit(joint: Joint, limit: Limit, sink: DiagnosticSink) -> None:
 
 def _is_in_degrees(lower: float, upper: float) -> bool:
     """Tell whether limits look like degrees: people write such numbers, and no robot has them in radians."""
-    most = max(-lower, upper)
-    return _MOST_TURNS < most <= _WHOLE_TURN and not lower % _STEP and not upper % _STEP
+    far = [abs(each) for each in (lower, upper) if abs(each) > _MOST_TURNS]
+    return bool(far) and max(far) <= _WHOLE_TURN and not any(each % _STEP for each in far)
 
 
 def verify_limits_there(joint: Joint, sink: DiagnosticSink, *, optional: bool) -> None:

@@ -2,28 +2,20 @@
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import DiagnosticSink, Location, Rule, rules
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.diagnostics.rules import UNBOUNDED_LIMIT
-from twinform.ir import Axis, Document, Format, Joint, Limit, rewrite
+from twinform.ir import Document, Format, Joint, Limit, rewrite
 from twinform.ir.defaults import UNLIMITED, with_range
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
-from twinform.passes.joints.tighten_limits import limit_location, soft_limits
+from twinform.passes.joints.limit_faults import LimitFinding, check_dynamics, check_soft_limits, limit_location
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 _TURNING = frozenset({"revolute", "universal", "revolute2"})
 _DRIVEN = _BOUNDED | {"continuous"}
-
-
-class _Finding(NamedTuple):
-    rule: Rule
-    message: str
-    where: Location
-    found: str
-    expected: str | None = None
 
 
 class CheckLimits(Pass):
@@ -65,7 +57,7 @@ class CheckLimits(Pass):
 
         return rewrite(document, Joint, look)
 
-    def _findings(self, joint: Joint, format_: Format) -> Iterator[_Finding]:
+    def _findings(self, joint: Joint, format_: Format) -> Iterator[LimitFinding]:
         for axis in (joint.axis, joint.axis2):
             if axis is None:
                 continue
@@ -73,10 +65,10 @@ class CheckLimits(Pass):
                 yield from self._range(joint, axis.limit or Limit(), format_)
             if joint.type in _DRIVEN:
                 yield from self._drive(joint, axis.limit or Limit())
-            yield from _check_dynamics(joint, axis)
-        yield from _check_soft_limits(joint)
+            yield from check_dynamics(joint, axis)
+        yield from check_soft_limits(joint)
 
-    def _range(self, joint: Joint, limit: Limit, format_: Format) -> Iterator[_Finding]:
+    def _range(self, joint: Joint, limit: Limit, format_: Format) -> Iterator[LimitFinding]:
         written = with_range(limit, format_) if format_ is Format.URDF and limit.source else limit
         lower, upper = written.lower, written.upper
         if lower is None or upper is None or not lower <= upper:
@@ -85,56 +77,27 @@ class CheckLimits(Pass):
         named = f"the limits of joint {joint.name!r} are {lower:g} and {upper:g}"
         if lower == upper:
             message = f"joint {joint.name!r} cannot move: both of its limits are {lower:g}"
-            yield _Finding(rules.EMPTY_RANGE, message, where, found)
+            yield LimitFinding(rules.EMPTY_RANGE, message, where, found)
         most = self.turns * math.tau
         if joint.type in _TURNING and most < max(-lower, upper) < UNLIMITED:
             message = f"joint {joint.name!r} turns from {lower:g} to {upper:g} rad; are these degrees?"
-            yield _Finding(rules.RANGE_IN_DEGREES, message, where, found, f"at most {most:.4g}")
+            yield LimitFinding(rules.RANGE_IN_DEGREES, message, where, found, f"at most {most:.4g}")
         if not lower <= 0 <= upper:
-            yield _Finding(rules.ZERO_OUT_OF_RANGE, f"{named}, and exclude its zero position", where, found)
+            yield LimitFinding(rules.ZERO_OUT_OF_RANGE, f"{named}, and exclude its zero position", where, found)
 
-    def _drive(self, joint: Joint, limit: Limit) -> Iterator[_Finding]:
+    def _drive(self, joint: Joint, limit: Limit) -> Iterator[LimitFinding]:
         where = limit_location(joint, limit)
         open_ends = [name for name in ("effort", "velocity") if _is_unlimited(getattr(limit, name))]
         if open_ends:
             message = f"joint {joint.name!r} has no limit of {' and '.join(open_ends)}"
-            yield _Finding(UNBOUNDED_LIMIT, message, where, "none")
+            yield LimitFinding(UNBOUNDED_LIMIT, message, where, "none")
         for name, most in (("effort", self.effort), ("velocity", self.velocity)):
             value = getattr(limit, name)
             if not _is_unlimited(value) and value > most:
                 message = f"joint {joint.name!r} has a limit of {name} of {value:g}, which is more than actuators reach"
-                yield _Finding(rules.IMPLAUSIBLE_LIMIT, message, where, f"{value:g}", f"at most {most:g}")
+                yield LimitFinding(rules.IMPLAUSIBLE_LIMIT, message, where, f"{value:g}", f"at most {most:g}")
 
 
 def _is_unlimited(value: float | None) -> bool:
     """Whether a limit is none: not written, negative (in SDF), or a value that stands for infinity."""
     return value is None or value < 0 or value >= UNLIMITED
-
-
-def _check_dynamics(joint: Joint, axis: Axis) -> Iterator[_Finding]:
-    if axis.dynamics is None:
-        return
-    for name in ("damping", "friction"):
-        value = getattr(axis.dynamics, name)
-        if value is not None and value < 0:
-            message = f"the {name} of joint {joint.name!r} is {value:g}"
-            yield _Finding(rules.NEGATIVE_DYNAMICS, message, axis.dynamics.location, f"{value:g}", "0 or more")
-
-
-def _check_soft_limits(joint: Joint) -> Iterator[_Finding]:
-    soft, limit = soft_limits(joint), joint.axis.limit if joint.axis else None
-    if soft is None:
-        return
-    written, where = str(soft), joint.location.at("safety_controller")
-    if _is_less(soft.upper, soft.lower):
-        message = f"the lower soft limit of joint {joint.name!r} is above the upper one: {written}"
-        yield _Finding(rules.SOFT_LIMIT_OUTSIDE, message, where, written)
-        return
-    hard = limit if joint.type in _BOUNDED else None
-    if hard and (_is_less(soft.lower, hard.lower) or _is_less(hard.upper, soft.upper)):
-        message = f"the soft limits of joint {joint.name!r}, {written}, are outside of the hard ones"
-        yield _Finding(rules.SOFT_LIMIT_OUTSIDE, message, where, written)
-
-
-def _is_less(one: float | None, other: float | None) -> bool:
-    return one is not None and other is not None and one < other

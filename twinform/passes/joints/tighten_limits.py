@@ -1,31 +1,17 @@
 """Move the limits of joints inward."""
 
 import math
-from collections.abc import Iterator
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import DiagnosticSink, Location
+from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import TIGHTENED_LIMIT, UNTIGHTENED_LIMIT
-from twinform.ir import Document, Element, Joint, Limit, Opaque, rewrite
-from twinform.passes.carriers.carriers import is_carrier, unpack
+from twinform.ir import Document, Joint, Limit, rewrite
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
+from twinform.passes.joints.limit_faults import SoftLimits, limit_location, soft_limits
 
-_ELEMENT = "safety_controller"
 _BOUNDED = frozenset({"revolute", "prismatic"})
-
-
-class SoftLimits(NamedTuple):
-    """The positions where a controller begins to brake, in rad or m; None where none is written."""
-
-    lower: float | None
-    upper: float | None
-
-    def __str__(self) -> str:
-        """The range as messages have it."""
-        lower, upper = ("open" if end is None else f"{end:g}" for end in self)
-        return f"{lower} to {upper}"
 
 
 class TightenLimits(Pass):
@@ -86,36 +72,3 @@ def _move_end(end: float | None, by: float) -> float | None:
 def _format_range(lower: float | None, upper: float | None) -> str:
     low, high = ("open" if end is None else f"{end:g}" for end in (lower, upper))
     return f"{low} to {high}"
-
-
-def soft_limits(joint: Joint) -> SoftLimits | None:
-    """The soft limits of a joint: `<safety_controller>` in URDF, a carrier in SDF; two zeros mean none."""
-    for element in _safety_controllers(joint):
-        lower, upper = (_parse_number(element.get(name)) for name in ("soft_lower_limit", "soft_upper_limit"))
-        if lower or upper:
-            return SoftLimits(lower, upper)
-    return None
-
-
-def _safety_controllers(joint: Joint) -> Iterator[Element]:
-    """Every safety controller of a joint, also in carriers."""
-    parts: list[Opaque] = []
-    for part in joint.opaque:
-        parts += unpack(part) if is_carrier(part, "urdf") else (part,)
-    for part in parts:
-        if part.element and part.element.name == _ELEMENT:
-            yield part.element
-
-
-def _parse_number(text: str | None) -> float | None:
-    """The number of an attribute; None for other texts, which are skipped as by other readers."""
-    try:
-        value = float(text) if text is not None else None
-    except ValueError:
-        return None
-    return value if value is not None and math.isfinite(value) else None
-
-
-def limit_location(joint: Joint, limit: Limit) -> Location:
-    """The location of a limit; of its joint where the limit is not written."""
-    return limit.location if limit.source else joint.location

@@ -24,6 +24,7 @@ __all__ = [
     "classic_plugins_of_file",
     "custom_sensor",
     "is_ignition_name",
+    "known_files",
     "modern_class",
     "modern_file",
     "nearest",
@@ -54,6 +55,8 @@ Family = Literal["noetic", "ros2"]
 _SYSTEM_FILE = lazy_pattern(r"(?:lib)?(?:ignition-gazebo|gz-sim)\d*-(.+?)(?:\.so|\.dylib|\.dll)?")
 _FILE = lazy_pattern(r"(?:lib)?(.+?)(?:\.so|\.dylib|\.dll)?")
 _IGNITION_CLASS = lazy_pattern(r"^(?:::)?(?:ignition::gazebo|gz::sim)(?:::v\d+)?::")
+_BLOCK_START = lazy_pattern(r"\n(?=[a-z])")
+_IN_FILE = lazy_pattern(r" file=(\S+)")
 
 
 class UnknownNameError(LookupError):
@@ -126,7 +129,7 @@ def system(name: str) -> PluginKind:
 
 def systems_of_file(file: str) -> tuple[PluginKind, ...]:
     """The systems in a file, in any spelling of its name; one file may contain several."""
-    return _systems_by_file().get(modern_file(file), ())
+    return _kinds_of_file("systems", modern_file(file))
 
 
 def system_of_class(name: str) -> PluginKind | None:
@@ -164,12 +167,14 @@ def classic_plugins(family: Family) -> dict[str, PluginKind]:
 def classic_plugins_of_file(file: str) -> dict[Family, PluginKind]:
     """The plugins in a file of Gazebo Classic, by the ROS that they are for: both have files of one name."""
     wanted = modern_file(file)
-    found: dict[Family, PluginKind] = {}
-    for family in ("noetic", "ros2"):
-        for kind in classic_plugins(family).values():
-            if modern_file(kind.file) == wanted:
-                found[family] = kind
-    return found
+    families: tuple[Family, ...] = ("noetic", "ros2")
+    return {each: kinds[-1] for each in families if (kinds := _kinds_of_file(f"classic/{each}.facts", wanted))}
+
+
+def known_files() -> list[str]:
+    """The current names of the files of all systems and of all plugins of Gazebo Classic."""
+    tables = ("systems", "classic/noetic.facts", "classic/ros2.facts")
+    return [file for table in tables for file in _blocks_by_file(table)]
 
 
 @cache
@@ -208,12 +213,29 @@ def ros_message(message: str) -> str | None:
     return str(found) if found is not None else None
 
 
+# `check` asks for the few plugins of a robot: to read all tables takes ten times as long as its check.
 @cache
-def _systems_by_file() -> dict[str, tuple[PluginKind, ...]]:
-    found: dict[str, tuple[PluginKind, ...]] = defaultdict(tuple)
-    for each in systems().values():
-        found[modern_file(each.file)] += (each,)
+def _kinds_of_file(table: str, file: str) -> tuple[PluginKind, ...]:
+    """Read the plugins in a file from one of the tables, and no others."""
+    blocks = _blocks_by_file(table).get(file)
+    return tuple(read_plugins("\n".join(blocks), _all_releases())) if blocks else ()
+
+
+@cache
+def _blocks_by_file(table: str) -> dict[str, list[str]]:
+    """The texts of the plugins in a table, or in all tables of a folder, by the files that the plugins are in."""
+    found = defaultdict[str, list[str]](list)
+    for text in _texts_of(table):
+        for block in _BLOCK_START.split(text):
+            if own := _IN_FILE.search(block.partition("\n")[0]):
+                found[modern_file(own[1])].append(block)
     return dict(found)
+
+
+def _texts_of(table: str) -> list[str]:
+    place = _data(*table.split("/"))
+    files = [place] if place.is_file() else sorted(place.iterdir(), key=lambda each: each.name)
+    return [each.read_text(encoding="utf-8") for each in files if each.name.endswith(".facts")]
 
 
 @cache
@@ -227,9 +249,8 @@ def _all_releases() -> tuple[str, ...]:
 
 
 def _read_tables(folder: str) -> Iterator[PluginKind]:
-    for file in sorted(_data(folder).iterdir(), key=lambda each: each.name):
-        if file.name.endswith(".facts"):
-            yield from read_plugins(file.read_text(encoding="utf-8"), _all_releases())
+    for text in _texts_of(folder):
+        yield from read_plugins(text, _all_releases())
 
 
 @cache

@@ -85,7 +85,7 @@ def _check_plugin(plugin: Plugin, site: PluginSite, release: str, names: ModelNa
     if not kinds:
         _check_unknown_file(plugin, sink)
         return
-    kind = _find_class(plugin, kinds, sink)
+    kind = find_class(plugin, kinds, sink)
     if release != _NATIVE_IGNITION and is_ignition_name(f"{plugin.filename} {plugin.name}"):
         found = kind or kinds[0]
         message = f"plugin {plugin.name!r} has a name from before Ignition became Gazebo"
@@ -124,8 +124,8 @@ def _check_needs(plugin: Plugin, kind: PluginKind, site: PluginSite, sink: Diagn
         sink.report(rules.MISSING_WORLD_SYSTEM, message, plugin.location, help=help_, related=(site.world.location,))
 
 
-def _find_class(plugin: Plugin, kinds: tuple[PluginKind, ...], sink: DiagnosticSink) -> PluginKind | None:
-    """The system that is meant: the one with the class name, or the only one in the file."""
+def find_class(plugin: Plugin, kinds: tuple[PluginKind, ...], sink: DiagnosticSink) -> PluginKind | None:
+    """The system that is meant, the one with the class name or the only one in the file; report a class of none."""
     if not plugin.name:
         return kinds[0] if len(kinds) == 1 else None
     name = modern_class(plugin.name)
@@ -178,12 +178,13 @@ def _check_sensor(sensor: Sensor, site: PluginSite, release: str, noted: set[str
             sink.report(rules.UNSUPPORTED_SENSOR, message, sensor.location, found=sensor.type)
         return
     if site.world is not None:
-        _check_sensor_world(sensor, kind, site.world, sink)
+        check_sensor_world(sensor, kind, site.world, sink)
         return
     report_needed_systems(sensor, kind, sensor.location, noted, sink)
 
 
-def _check_sensor_world(sensor: Sensor, kind: SensorKind, world: World, sink: DiagnosticSink) -> None:
+def check_sensor_world(sensor: Sensor, kind: SensorKind, world: World, sink: DiagnosticSink) -> None:
+    """Report what a sensor needs of its world and does not find."""
     needed = requirements_of(kind)
     for lacking in needed.systems:
         if not has_system(world, lacking):

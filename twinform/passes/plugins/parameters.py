@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
-from twinform.diagnostics import DiagnosticSink, Location, rules
+from twinform.diagnostics import DiagnosticSink, Location, Severity, rules
 from twinform.ir import Element, Model, Plugin
 from twinform.ir.scopes import scoped_models
 from twinform.lazy import lazy_pattern
@@ -37,10 +37,10 @@ class ModelNames:
 
 
 class ParameterContext(NamedTuple):
-    """What a plugin is compared with: its kind, the release, and the model whose parts it names."""
+    """What a plugin is compared with: its kind, the release (None for any), and the model whose parts it names."""
 
     kind: PluginKind
-    release: str
+    release: str | None
     model: Model | None
     names: ModelNames
     sink: DiagnosticSink
@@ -75,7 +75,7 @@ def _check_elements(
         row = next((each for each in rows if each.matches(element.name)), None)
         if row is None and context.kind.free:
             continue
-        if row is None or context.release not in row.releases:
+        if row is None or (context.release and context.release not in row.releases):
             _report_unknown(element.name, row, rows, context, at)
             continue
         counts[element.name] += 1
@@ -86,12 +86,18 @@ def _check_elements(
     present, on = {*counts}, {each.name for each in elements if (each.text or "").strip().lower() in TRUE}
     for row in rows:
         if (
-            (row.is_required_in(context.release) or row.beside in on)
+            (_is_needed(row, context) or row.beside in on)
             and not row.is_attribute
             and not any(row.matches(name) for name in present)
         ):
             message = f"{_short_name(context.kind)} needs <{row.name}>"
             context.sink.report(rules.PLUGIN_PARAMETER_COUNT, message, where, expected=row.name)
+
+
+def _is_needed(row: PluginParameter, context: ParameterContext) -> bool:
+    """Whether a plugin does not work without a parameter in the release, or else in any that has the plugin."""
+    releases = (context.release,) if context.release else context.kind.releases
+    return all(map(row.is_required_in, releases))
 
 
 def _is_foreign(name: str) -> bool:
@@ -147,13 +153,17 @@ def _report_unknown(
     name: str, row: PluginParameter | None, rows: Sequence[PluginParameter], context: ParameterContext, at: Location
 ) -> None:
     called = f"<{name}>" if not name.startswith("@") else f"the attribute {name[1:]!r}"
-    if row is not None:
+    if row is not None and context.release:
         message = f"{_short_name(context.kind)} does not read {called} in {context.release}"
     else:
         message = f"{_short_name(context.kind)} does not read {called}"
-    readable = [each.name for each in rows if context.release in each.releases and "[" not in each.name]
+    read = [each for each in rows if not context.release or context.release in each.releases]
+    readable = [each.name for each in read if "[" not in each.name]
     help_ = suggestion(name, readable)
-    context.sink.report(rules.UNKNOWN_PLUGIN_PARAMETER, message, at, found=name.lstrip("@"), help=help_)
+    # Whoever asks about a release wants to know all; elsewhere, what is no typo is mostly of another version.
+    severity = None if help_ or context.release else Severity.INFO
+    found = name.lstrip("@")
+    context.sink.report(rules.UNKNOWN_PLUGIN_PARAMETER, message, at, found=found, help=help_, severity=severity)
 
 
 def _short_name(kind: PluginKind) -> str:
