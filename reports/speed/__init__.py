@@ -3,6 +3,7 @@
 SECTIONS = {
     "performance": "How fast it is",
     "editor": "An editor at work",
+    "folders": "Folders and repositories",
     "batch": "Many models",
     "imports": "What commands import",
 }

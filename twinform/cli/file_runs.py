@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 VARIABLE = "TWINFORM_CACHE_DIR"
 """The environment variable that names the folder for results of earlier runs, or is `off`."""
-_MANY = 50
-"""From so many files on that have to be worked on, processes are worth their start."""
+_MUCH = 1.5
+"""Seconds of work that are worth starting processes: each takes 0.6 until it is as fast as this one."""
 _SECONDS = 600.0
 """The longest work on one file, in a process."""
 
@@ -42,7 +42,7 @@ run_options = group(
         "--jobs",
         type=click.IntRange(min=1),
         metavar="N",
-        help=f"How many files at a time; by default one for each processor where there is work on {_MANY} or more.",
+        help="How many files at a time; by default one for each processor where there is more than a second of work.",
     ),
     click.option("--no-cache", is_flag=True, help="Use no results of earlier runs, and keep none."),
     click.option(
@@ -90,6 +90,11 @@ class FileWork(Protocol[Made_co]):
         """Whether the result depends on nothing but files, options and our code."""
         ...
 
+    @property
+    def seconds(self) -> float:
+        """How long the work takes, more or less."""
+        ...
+
     def sharing(self, common: dict[Any, Any], /) -> Self:
         """Return the work with those of its parts that equal ones of other work in the process have: `common`."""
         ...
@@ -131,7 +136,8 @@ class FileRun:
         """
         known = [self._known(kind, task) for task in tasks]
         todo = [task for task, result in zip(tasks, known, strict=True) if result is None]
-        count = min(len(todo), self._jobs or (_processors() if len(todo) >= _MANY else 1))
+        is_much = sum(task.seconds for task in todo) >= _MUCH
+        count = min(len(todo), self._jobs or (_processors() if is_much else 1))
         made = self._in_processes(kind, todo, count) if count > 1 else map(self._here, todo)
         with closing(next(made) if each is None else each for each in known) as results:
             yield results
