@@ -21,6 +21,8 @@ def without_misplaced(node: AnyNode, sink: DiagnosticSink) -> AnyNode:
 
 
 def _without_misplaced(sink: DiagnosticSink, node: Node) -> Node:
+    if not node.opaque:
+        return node
     kept: list[Opaque] = []
     for part in node.opaque:
         if not is_misplaced(part, node):

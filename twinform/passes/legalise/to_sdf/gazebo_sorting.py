@@ -181,7 +181,7 @@ class Sorter:
         if element.name == "material":
             self.blobs.append(Blob("visual", (element,), extension, where, len(self.rest)))
             return
-        self._extra_attributes(element, where, ())
+        self._extra_attributes(element, extension, ())
         if element.text:
             message = f"text {element.text[:40]!r} in <{element.name}> of <gazebo>"
             self._notes.report(rules.STRAY_TEXT, message, where, found=element.text[:40])
@@ -192,14 +192,13 @@ class Sorter:
         self.blobs.append(Blob(element.name, element.children, inside, where, len(self.rest)))
 
     def _value(self, tag: Tag, element: Element, extension: GazeboExtension) -> None:
-        where = place_of(element, extension)
-        self._extra_attributes(element, where, ("value",))
+        self._extra_attributes(element, extension, ("value",))
         text = value_text(element)
         try:
             value = tag.read(text)
         except ValueError:
             message = f"<{element.name}> in <gazebo> is {text!r}; expected a value of its type"
-            self._notes.report(rules.INVALID_VALUE, message, where, found=text)
+            self._notes.report(rules.INVALID_VALUE, message, place_of(element, extension), found=text)
             return
         # libsdformat compares the text with a few words and takes all others for the same value, so
         # a slip changes the robot silently.
@@ -207,6 +206,7 @@ class Sorter:
             message = f"<{element.name}> in <gazebo> is {text!r}, which Gazebo takes for {str(value).lower()}"
             expected = "true or false"
             warning = Severity.ERROR if self._notes.strict else Severity.WARNING
+            where = place_of(element, extension)
             self._notes.report(rules.INVALID_VALUE, message, where, found=text, expected=expected, severity=warning)
         self._set(TagValue(tag, value, element, extension, len(self.rest)))
 
@@ -223,12 +223,13 @@ class Sorter:
             self.overruled.append(OverriddenTag(before.element, before.extension, message))
         self._read[key] = read
 
-    def _extra_attributes(self, element: Element, where: Location, known: tuple[str, ...]) -> None:
+    def _extra_attributes(self, element: Element, extension: GazeboExtension, known: tuple[str, ...]) -> None:
         for name, value in element.attributes:
             if name not in known:
                 message = f"{name!r} is not an attribute of <{element.name}> in <gazebo>"
-                self._notes.report(rules.UNKNOWN_ATTRIBUTE, message, where.at(f"@{name}"), found=value)
-                self._notes.account(Fate.DROPPED, rules.UNKNOWN_ATTRIBUTE, message, where.at(f"@{name}"))
+                where = place_of(element, extension).at(f"@{name}")
+                self._notes.report(rules.UNKNOWN_ATTRIBUTE, message, where, found=value)
+                self._notes.account(Fate.DROPPED, rules.UNKNOWN_ATTRIBUTE, message, where)
 
 
 def _decayed(read: TagValue) -> Element:
