@@ -40,11 +40,24 @@ def nearest_name(
     `alike` is how much of the two has to be the same, from 0 to 1; names of `but` are not meant. The order of what is
     known does not matter.
     """
-    folded = _folded(name) if len(name) <= _LONGEST else ""
     others = list(islice(known, _MOST_KNOWN + 1))
-    if not folded or len(others) > _MOST_KNOWN:
+    if len(name) > _LONGEST or len(others) > _MOST_KNOWN:
         return None
-    by_digits = _by_digits(frozenset(filter(None, others)))
+    names = frozenset(filter(None, others))
+    return _nearest_of(name, names, alike, but) if but else _nearest_known(name, names, alike)
+
+
+# A robot has the same unknown element in each of its joints.
+@lru_cache(maxsize=64)
+def _nearest_known(name: str, known: frozenset[str], alike: float) -> str | None:
+    return _nearest_of(name, known, alike, ())
+
+
+def _nearest_of(name: str, known: frozenset[str], alike: float, but: Collection[str | None]) -> str | None:
+    folded = _folded(name)
+    if not folded:
+        return None
+    by_digits = _by_digits(known)
     digits = _digits(folded)  # joint_1 is not a typo of joint_2
     groups = [by_digits.get(each, ()) for each in {"", digits}] if digits else by_digits.values()
     forms: dict[str, str] = {}
