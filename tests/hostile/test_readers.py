@@ -45,7 +45,7 @@ OTHERS = {
     "passes/meshes/convert_meshes.py": DATA,
     "passes/meshes/mesh_pass.py": "results of its own, in the cache of the user",
     "passes/plugins/catalog.py": DATA,
-    "passes/plugins/sensor_settings.py": DATA,
+    "passes/plugins/add_sensor.py": DATA,
     "profiles/profile.py": DATA,
     "profiles/reads_notation.py": DATA,
     "report/report_page.py": DATA,

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from twinform.compiler.input.xacro.process import limit
-from twinform.confinement import confine, resources, seccomp
+from twinform.confinement import confine, kernel, resources
 
 _ROOT = Path(__file__).parents[2]
 _TRIES = {
@@ -47,9 +47,9 @@ os.write(1, json.dumps([held, done]).encode())
 os._exit(0)
 """
 _LAYERS = {
-    "landlock": "landlock:renounce_files",
+    "landlock": "kernel:renounce_files",
     "resources": "resources:renounce_descriptors",
-    "seccomp": "seccomp:renounce_calls",
+    "seccomp": "kernel:renounce_calls",
 }
 _HELD = {
     "landlock": {"read", "write", "list", "make", "delete", "start", "become"},
@@ -96,9 +96,9 @@ def test_layers_hold_in_this_order_or_are_left_out(monkeypatch: pytest.MonkeyPat
         return call
 
     package = "twinform.confinement"
-    monkeypatch.setattr(f"{package}.landlock.renounce_files", renounce("landlock", holds=False))
+    monkeypatch.setattr(f"{package}.kernel.renounce_files", renounce("landlock", holds=False))
     monkeypatch.setattr(f"{package}.renounce_descriptors", renounce("resources", holds=True))
-    monkeypatch.setattr(f"{package}.seccomp.renounce_calls", renounce("seccomp", holds=True))
+    monkeypatch.setattr(f"{package}.kernel.renounce_calls", renounce("seccomp", holds=True))
     assert confine() == ["resources", "seccomp"]
     assert tried == ["landlock", "resources", "seccomp"]
 
@@ -111,20 +111,20 @@ def test_a_python_without_ctypes_is_held_to_limits(monkeypatch: pytest.MonkeyPat
         return True
 
     monkeypatch.setattr(f"{package}.renounce_descriptors", renounce)
-    monkeypatch.setitem(sys.modules, f"{package}.landlock", None)
+    monkeypatch.setitem(sys.modules, f"{package}.kernel", None)
     assert confine() == ["resources"]
 
 
 @pytest.mark.parametrize("threads", [False, True])
 @pytest.mark.parametrize("machine", ["x86_64", "aarch64"])
 def test_the_filter_lets_through_what_is_listed_and_no_other_call(machine: str, threads: bool) -> None:
-    program = list(seccomp.program(machine, threads=threads))
-    column = list(seccomp.ARCHITECTURES).index(machine)
-    calls = seccomp.CALLS | (seccomp.THREAD_CALLS if threads else {})
+    program = list(kernel.program(machine, threads=threads))
+    column = list(kernel.ARCHITECTURES).index(machine)
+    calls = kernel.CALLS | (kernel.THREAD_CALLS if threads else {})
     allowed = {numbers[column] for numbers in calls.values()}
     clone = (56, 220)[column] if threads else None
-    mapping = {numbers[column] for numbers in seccomp.MAPPING_CALLS.values()}
-    architecture = seccomp.ARCHITECTURES[machine]
+    mapping = {numbers[column] for numbers in kernel.MAPPING_CALLS.values()}
+    architecture = kernel.ARCHITECTURES[machine]
     for number in range(500):
         for protection in (0, 3, 4, 7):
             right = number in allowed or (number in mapping and not protection & 4)

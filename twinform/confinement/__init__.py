@@ -29,13 +29,12 @@ def confine(*, threads: bool = False) -> list[str]:
     # sandbox, and an expression reached the hook's own list.
     layers = {"resources": lambda: renounce_descriptors(threads=threads)}
     try:
-        landlock = import_module("twinform.confinement.landlock")
-        seccomp = import_module("twinform.confinement.seccomp")
+        kernel = import_module("twinform.confinement.kernel")
         # in this order: a ruleset needs a descriptor, and limits need a system call
         layers = {
-            "landlock": landlock.renounce_files,
+            "landlock": kernel.renounce_files,
             **layers,
-            "seccomp": lambda: seccomp.renounce_calls(threads=threads),
+            "seccomp": lambda: kernel.renounce_calls(threads=threads),
         }
     except ImportError:
         pass  # a Python without ctypes

@@ -56,11 +56,11 @@ def _replied(script: str) -> MeshResult:
 
 
 def test_it_opens_nothing_and_starts_nothing_but_threads() -> None:
-    from twinform.confinement import landlock  # noqa: PLC0415 - not everywhere
+    from twinform.confinement import kernel  # noqa: PLC0415 - not everywhere
 
     facts = _replied(_SCRIPT).facts
     kernel = subprocess.run(
-        [sys.executable, "-c", f"import {landlock.__name__} as l; print(l.renounce_files())"],
+        [sys.executable, "-c", f"import {kernel.__name__} as l; print(l.renounce_files())"],
         capture_output=True, text=True, check=True,
     )  # fmt: skip
     if kernel.stdout.strip() != "True":
