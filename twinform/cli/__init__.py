@@ -19,7 +19,7 @@ COMMANDS: Mapping[str, str] = {
     "fix": "Fix robot models in their files, and run passes on them.",
     "diff": "Say whether two files describe the same robot.",
     "merge": "Merge the edits of two people in a model file.",
-    "format": "Lay out the text of models, and change nothing else.",
+    "format": "Format the text of models, and change nothing else.",
     "advise": "Say which format to keep a robot in, and who takes it.",
     "stats": "Print in numbers what models are made of.",
     "view": "Show a robot or world in a browser, or two overlaid.",

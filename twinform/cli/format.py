@@ -167,7 +167,7 @@ def command(
     run: RunOptions,
     max_size: int | None,
 ) -> None:
-    """Lay out the text of models, and change nothing else.
+    """Format the text of models, and change nothing else.
 
     IN are URDF, SDF, xacro and other XML files, folders of them, or globs in quotes, and are written anew where they
     change; - is standard input, which goes to standard output. Comments and texts, and what they mean, stay as they

@@ -212,7 +212,7 @@ class FrameGraph:
         try:
             while vertex.depth < 0:
                 if vertex.visiting:
-                    raise _circle(path[path.index(vertex) :], "is given relative to")
+                    raise _circle(path[path.index(vertex) :], _RELATIVE)
                 vertex.visiting = True
                 path.append(vertex)
                 vertex = self._parent(vertex)
@@ -313,6 +313,9 @@ def _canonical(model: Model) -> str:
     return prefix + model.links[0].name if model.links else ""
 
 
+_RELATIVE = "is given relative to"
+
+
 def _circle(path: list[_Vertex], relation: str) -> FrameError:
     """The error for a circle of frames, at the first attribute in the file that makes it one."""
     places = [_place(vertex, relation) for vertex in path]
@@ -321,12 +324,13 @@ def _circle(path: list[_Vertex], relation: str) -> FrameError:
     turned = path[first:] + path[:first]
     names = [f"{vertex.kind} {vertex.name!r}" for vertex in turned[:6]]
     names += ["..."] if len(path) > len(names) else [names[0]]
-    return FrameError(rules.FRAME_CYCLE, f" {relation} ".join(names), places[first], turned[0].name)
+    message = f"the poses go round: {' -> '.join(names)}" if relation == _RELATIVE else f" {relation} ".join(names)
+    return FrameError(rules.FRAME_CYCLE, message, places[first], turned[0].name)
 
 
 def _place(vertex: _Vertex, relation: str) -> Location:
     """Where the vertex that something is relative or attached to is named; its own place, if none is."""
-    if relation == "is given relative to" and vertex.pose and vertex.pose.source:
+    if relation == _RELATIVE and vertex.pose and vertex.pose.source:
         return vertex.pose.location.at("@relative_to") if vertex.pose.relative_to else vertex.pose.location
     where = vertex.source.location if vertex.source else NOWHERE
     return where.at("@attached_to") if vertex.kind == "frame" and relation == "is attached to" else where

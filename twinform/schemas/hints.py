@@ -1,11 +1,11 @@
 """Hints for unknown elements and attributes: typos, names of the other format or of other tools, wrong places."""
 
 from collections import defaultdict
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from functools import cache
 
 from twinform.diagnostics import did_you_mean
-from twinform.schemas.facts import Fact, Table, table
+from twinform.schemas.facts import Fact, Table, Version, table
 from twinform.schemas.xml import XmlElement, prefix_of
 
 _INSTEAD = {
@@ -55,14 +55,19 @@ def hint_for_word(word: str, known: Collection[str]) -> str | None:
     return f"did you mean {same!r}?" if same in known else did_you_mean(word, known)
 
 
-def hint_for_element(format_: str, name: str, known: Collection[str], attributes: Collection[str]) -> str | None:
-    """For an element that is not known where it stands; the parent has the `known` ones, and attributes."""
+def hint_for_element(
+    format_: str, name: str, known: Collection[str], attributes: Collection[str], around: Sequence[str] = ()
+) -> str | None:
+    """For an element that is not known where it stands, below the elements `around` it, the nearest first.
+
+    The nearest one has the `known` children, and attributes.
+    """
     if name in attributes:
         return f"{format_.upper()} writes it as an attribute: {name}='...'"
     return (
         _INSTEAD.get((format_, name))
         or did_you_mean(name, known)
-        or _elsewhere(format_, name)
+        or _elsewhere(format_, name, around)
         or (f"it is an element of {_other(format_).upper()}" if name in _parents(_other(format_)) else None)
     )
 
@@ -78,11 +83,43 @@ def _other(format_: str) -> str:
     return "sdf" if format_ == "urdf" else "urdf"
 
 
-def _elsewhere(format_: str, name: str) -> str | None:
+def moved_to(format_: str, fact: Fact, around: Sequence[str], version: Version) -> str | None:
+    """For a value that a version has further out, in one of the elements `around` it."""
+    definitions = table(format_).definitions
+    for holder in around[1:]:
+        rows = definitions[holder].children if holder in definitions else ()
+        if fact.type and any(
+            row.name == fact.name and row.type == fact.type and row.exists_in(version) for row in rows
+        ):
+            return f"write it in <{holder}>, where it is now"
+    return None
+
+
+def _elsewhere(format_: str, name: str, around: Sequence[str]) -> str | None:
     parents = sorted(_parents(format_).get(name, ()))
+    if around[1:] and around[0] in parents:  # an element of the same name has it, in another place
+        others = sorted(_places_with(format_, around[0], name))
+        if not others or around[1] in others:
+            return None  # another version has it here
+        where = f"that of <{others[0]}> has" if len(others) == 1 else "others have"
+        return f"the <{around[0]}> of <{around[1]}> has no <{name}>; {where}"
     if not 0 < len(parents) <= _MOST_PARENTS:  # where it may stand in many they are no hint
         return None
     return f"it belongs in {' or '.join(f'<{parent}>' for parent in parents)}"
+
+
+def _places_with(format_: str, name: str, child: str) -> set[str]:
+    """Return the elements in which an element of a name may have a child."""
+    facts = table(format_)
+    found: set[str] = set()
+    pending = [(holder, row) for holder, fact in facts.definitions.items() for row in fact.children]
+    while pending:
+        holder, row = pending.pop()
+        inside = facts.resolve(row).children
+        if row.name == name and not row.dialect and any(each.name == child for each in inside):
+            found.add(holder)
+        pending.extend((row.name, each) for each in row.children)
+    return found
 
 
 @cache

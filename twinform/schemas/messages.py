@@ -7,7 +7,7 @@ from typing import TypedDict, Unpack
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, nearest_name, rules
 from twinform.schemas.facts import Fact, Version, print_version
-from twinform.schemas.hints import dialect_of, hint_for_attribute, hint_for_element, hint_for_word, words_of
+from twinform.schemas.hints import dialect_of, hint_for_attribute, hint_for_element, hint_for_word, moved_to, words_of
 from twinform.schemas.xml import Places, XmlElement, path_of
 
 _COLORS = frozenset({"color", "color4"})
@@ -87,15 +87,19 @@ def unknown_element(
 ) -> None:
     """An element that no version has here; its parent may have the `known` ones, and attributes."""
     context.tolerated.append((element, None))
-    parent = element.getparent()
-    holder = "the document" if parent is None else f"<{parent.tag}>"
+    name, around = str(element.tag), _around(element)
     context.report(
         rules.UNKNOWN_ELEMENT,
         element,
-        f"<{element.tag}> is not an element of {holder}",
-        found=str(element.tag),
-        help=hint_for_element(context.format, str(element.tag), known, attributes) if _is_shown(context) else None,
+        f"<{name}> is not an element of {f'<{around[0]}>' if around else 'the document'}",
+        found=name,
+        help=hint_for_element(context.format, name, known, attributes, around) if _is_shown(context) else None,
     )
+
+
+def _around(element: XmlElement) -> list[str]:
+    """List the names of the elements around one, the nearest first."""
+    return [str(each.tag) for each in element.iterancestors()]
 
 
 def unknown_attribute(
@@ -117,7 +121,9 @@ def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
     message = f"{what} {_when(context, fact)}"
     step = name if fact.is_attribute else ""
     severity = None if context.declared or context.sink.strict else Severity.INFO
-    context.report(rules.OUTSIDE_VERSION, element, message, step, found=name, severity=severity)
+    is_gone = not fact.is_attribute and fact.until < context.version
+    hint = moved_to(context.format, fact, _around(element), context.version) if is_gone else None
+    context.report(rules.OUTSIDE_VERSION, element, message, step, found=name, severity=severity, help=hint)
 
 
 def value_outside_version(context: Context, element: XmlElement, fact: Fact, word: str) -> None:

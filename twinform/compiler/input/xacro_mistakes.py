@@ -1,4 +1,4 @@
-"""Reports mistakes in xacro files that expand without an error: what is defined for nothing, and slips in expressions.
+"""Reports mistakes in xacro files that expand without an error: unused definitions, and errors in expressions.
 
 All of it is found in the texts, so that what stands in a branch that was not taken counts as well. What a file that
 others include defines may be used by them, so unused definitions are looked for in the outermost file only.

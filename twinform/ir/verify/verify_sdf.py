@@ -76,9 +76,9 @@ class _Verifier:
         """Verify a model outside of any world, which has nothing around it to be relative to."""
         verify_rotation(model.pose, self.sink)
         if model.pose is not None and model.pose.relative_to:
-            message = f"the pose of model {model.name!r} names a frame, and a model at the top has no frame around it"
-            where = model.pose.location.at("@relative_to")
-            self.sink.report(rules.DANGLING_FRAME, message, where, found=model.pose.relative_to)
+            frame, where = model.pose.relative_to, model.pose.location.at("@relative_to")
+            message = f"relative_to={frame!r} has no meaning for model {model.name!r}, which is not in a world"
+            self.sink.report(rules.DANGLING_FRAME, message, where, found=frame, help="delete it")
 
     def model_with_frames(self, model: Model) -> None:
         before = len(self.sink.diagnostics)

@@ -4,10 +4,11 @@ from typing import ClassVar
 
 from pydantic import Field
 
-from twinform.diagnostics import DiagnosticSink, rules
+from twinform.diagnostics import DiagnosticSink, did_you_mean, rules
 from twinform.ir import Document, Plugin, Sensor, World
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.plugins.catalog import (
+    classic_plugins,
     classic_plugins_of_file,
     is_ignition_name,
     modern_class,
@@ -145,8 +146,10 @@ def _check_unknown_file(plugin: Plugin, sink: DiagnosticSink) -> None:
         message = f"{kind.class_name} is in {kind.file}, not in {file}"
         sink.report(rules.WRONG_PLUGIN_CLASS, message, plugin.location, found=file, expected=kind.file)
     elif is_classic(file):
-        message = f"{file} is a plugin of Gazebo Classic"
-        sink.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=file)
+        known = [kind.file for family in ("noetic", "ros2") for kind in classic_plugins(family).values()]
+        hint = None if classic_plugins_of_file(file) else did_you_mean(file, known)
+        message = f"no plugin is known by the file {file}" if hint else f"{file} is a plugin of Gazebo Classic"
+        sink.report(rules.PLUGIN_NOT_IN_RELEASE, message, plugin.location, found=file, help=hint)
     elif modern_file(file).startswith("gz-sim-"):
         message = f"gz-sim has no {file}"
         help_ = suggestion(modern_file(file), [each.file for each in systems().values()])
