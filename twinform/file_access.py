@@ -233,9 +233,9 @@ def find_root(file: Path) -> Path:
     return min(nearest, key=lambda folder: len(folder.parts), default=own)
 
 
-def folders_around(file: Path) -> tuple[Path, ...]:
+def folders_around(file: Path, root: Path | None = None) -> tuple[Path, ...]:
     """Return the file's folder and those above it, up to its root, in which neighbors are searched."""
-    own, root = own_folder(file), find_root(file)
+    own, root = own_folder(file), root or find_root(file)
     folders = [own, *(folder for folder in own.parents if folder.is_relative_to(root))][:_MOST_SEARCHED]
     name = file.parent
     for place, folder in enumerate(folders):
@@ -280,6 +280,11 @@ def folders_above(folder: Path) -> Iterator[Path]:
             return
         elif each != folder:
             yield each
+
+
+def may_be_root(folder: Path) -> bool:
+    """Return whether a folder that somebody asks for can be a project: not their home, nor one that all users share."""
+    return next(folders_above(folder / "any"), None) is not None
 
 
 def has_any(folder: Path, names: tuple[str, ...]) -> bool:

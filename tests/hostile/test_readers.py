@@ -28,6 +28,7 @@ OTHERS = {
     "compiler/model_config.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/loading.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/expand_xacro.py": "calls `read_bytes` of `compiler/input/parsing.py`",
+    "compiler/input/xacro_parts.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/xacro/channel.py": NOWHERE,
     "compiler/observing.py": "a file that is being opened anyway",
     "compiler/batch/tar_reader.py": "the archive that the user has named",

@@ -2,25 +2,29 @@
 
 import os
 from collections import Counter
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from twinform.cli.checked_file import CheckedFile, CheckTask, Reporting
+from twinform.cli.check_plan import CheckPlan, folders_asked
+from twinform.cli.checked_file import CheckedFile, CheckTask, Reporting, is_elsewhere, is_unusable
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable, combine_options
 from twinform.cli.completion import files, pipelines
 from twinform.cli.config import settings_of
 from twinform.cli.config.config_defaults import RuleSettings
 from twinform.cli.file_runs import FileRun, RunOptions, open_file_run, run_options
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, reading_options
+from twinform.cli.model_files import is_checked
 from twinform.cli.printing import all_option, notes_option, plural, print_document, print_line, show
 from twinform.cli.project_options import OptionsByFile, consumers_option, pipeline_option, policy_options
 from twinform.compiler import LoadResult
 from twinform.compiler.input.load_options import ReadingOptions
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Policy, Safety, Severity
+from twinform.diagnostics import Diagnostic, Policy, Safety, Severity
 from twinform.diagnostics.reporters import REPORTERS, FileFindings
+from twinform.diagnostics.reporters.file_findings import cause_of
 from twinform.file_access import OutsideError, Readable
 
 if TYPE_CHECKING:
@@ -74,16 +78,14 @@ class BaselineFile:
         self.folder = os.path.abspath(file.parent)  # noqa: PTH100 - links stay links
         self.run = BaselineRun(_read_baseline(file, missing_ok=update), RelativeNames(self.folder))
 
-    def write(self, *, complete: bool) -> str:
-        """Update the file, if that was asked for and all files were read; return a message.
+    def write(self) -> str:
+        """Update the file, if that was asked for; return a message.
 
         Raises:
             Unusable: the file cannot be written.
         """
         if not self.update:
             return _count_gone(self.run.gone)
-        if not complete:
-            return f"{self.file} stays as it is, since not every file could be read"
         from twinform.compiler import write_atomically  # noqa: PLC0415 - few runs write one
 
         made = self.run.updated(lambda name: name.startswith("<") or _is_there(Path(self.folder, name)))
@@ -149,16 +151,42 @@ _STREAMED = _FOR_PEOPLE | {"github"}
 """Formats that are printed file by file; the others are one document."""
 
 
+class OnceInAllFiles:
+    """Leaves out findings about an included file that were reported before, for another robot or call of a macro."""
+
+    def __init__(self) -> None:
+        self.repeated = 0
+        self._seen: set[object] = set()
+
+    def is_new(self, finding: Diagnostic) -> bool:
+        """Whether a finding about an included file was not asked about before."""
+        where = finding.location
+        key = (os.path.abspath(where.file), where.line, cause_of(finding))  # noqa: PTH100 - many strings
+        is_new = key not in self._seen
+        self._seen.add(key)
+        self.repeated += not is_new
+        return is_new
+
+
 class CheckReport:
     """The report of a run in one format; it keeps no models, since there may be thousands."""
 
-    def __init__(self, style: str, *, notes: bool, every: bool = False, baseline: BaselineFile | None = None) -> None:
+    def __init__(
+        self,
+        style: str,
+        *,
+        notes: bool,
+        every: bool = False,
+        baseline: BaselineFile | None = None,
+        arguments: Iterable[str] = (),
+    ) -> None:
         self.style, self.notes, self.every, self.baseline = style, notes, every, baseline
+        self.unused, self.once = {*arguments}, OnceInAllFiles()
         self.on_stderr, self.fixed = False, 0
         self.fixes: Counter[Safety] = Counter()
         self.kept: list[FileFindings] = []
         self.counts: Counter[Severity] = Counter()
-        self.files = self.unreadable = self.unopened = self.allowed = self.known = 0
+        self.files = self.unreadable = self.unusable = self.waiting = self.allowed = self.known = 0
 
     def reporting(self, name: str, policy: Policy) -> Reporting:
         """Return what is to be reported of the findings of a file."""
@@ -172,16 +200,20 @@ class CheckReport:
 
     def add(self, checked: CheckedFile) -> None:
         """Report on one file."""
-        findings = checked.findings
+        findings = self._without_known(checked.findings)
         self.allowed += checked.allowed
         self.known += checked.known
         self.files += 1
         self.unreadable += checked.unreadable
-        self.unopened += not checked.opened
+        self.unusable += checked.unusable
+        self.waiting += checked.waits
+        if checked.unused is not None:
+            self.unused &= {*checked.unused}
         self.counts.update(each.severity for each in findings.diagnostics)
         self.fixes.update(each.fix.safety for each in findings.diagnostics if each.fix)
-        if self.baseline and not checked.unreadable:
-            self.baseline.run.add(findings.path, checked.baselined)
+        if self.baseline:
+            is_whole = not (checked.unreadable or checked.waits)
+            self.baseline.run.add((findings.path, *checked.parts) if is_whole else (), checked.baselined)
         if self.style in _FOR_PEOPLE:
             short = self.style == "concise"
             show(findings, notes=self.notes, on_stderr=self.on_stderr, every=self.every, short=short)
@@ -190,15 +222,33 @@ class CheckReport:
         else:
             self.kept.append(findings)
 
+    def _without_known(self, findings: FileFindings) -> FileFindings:
+        """Leave out what is known of files that others include: from another one of these, or from the baseline."""
+        kept = tuple(each for each in findings.diagnostics if not self._is_known(each, findings.path))
+        return findings if len(kept) == len(findings.diagnostics) else findings._replace(diagnostics=kept)
+
+    def _is_known(self, finding: Diagnostic, path: str) -> bool:
+        if not is_elsewhere(finding, path):
+            return False
+        if not self.once.is_new(finding):
+            return True
+        if self.baseline is None or self.baseline.run.unknown(path, [finding]):
+            is_kept = self.baseline is None or not self.baseline.update or finding.severity is Severity.INFO
+            return not is_kept
+        self.known += 1
+        return True
+
     def end(self) -> int:
         """Print the rest and the summary; return the exit code."""
         if self.style not in _STREAMED:
             print_document(REPORTERS[self.style](self.kept))
-        news = self.baseline.write(complete=not self.unopened) if self.baseline else ""
+        news = self.baseline.write() if self.baseline else ""
         print_line(self._summary(), err=True)
+        for name in sorted(self.unused):
+            print_line(f"no file has the argument {name!r}", err=True)
         if news:
             print_line(news, err=True)
-        if self.unreadable:
+        if self.unusable:
             return UNUSABLE
         return FINDINGS if self.counts[Severity.ERROR] else 0
 
@@ -206,6 +256,8 @@ class CheckReport:
         found = ", ".join(plural(self.counts[severity], word) for severity, word in _WORDS.items())
         more = (
             (self.unreadable, "could not be read"),
+            (self.waiting, "not checked, for want of arguments or packages"),
+            (self.once.repeated, "of the same places in other robots"),
             (self.allowed, "allowed"),
             (self.known, "in the baseline"),
             (self.fixed, "fixed"),
@@ -282,23 +334,28 @@ def command(
     """Find everything that is wrong with robot models.
 
     IN are URDF, SDF, xacro or JSON files, folders of them, or globs in quotes; - is standard input. Arguments of xacro
-    are written NAME:=VALUE. Exit code: 0 without errors, 1 with errors, 2 where a file could not be read.
+    are written NAME:=VALUE. Exit code: 0 without errors, 1 with errors, 2 where a file that is named cannot be opened.
     """
     exclusion = exclusion_of(ctx, exclude, force=force_exclude)
     fixes = fix or diff or fix_only
     if watch and (style != "text" or update_baseline or fixes or "-" in words):
         raise click.UsageError("--watch prints text, of files: leave --format, --update-baseline, --fix and - out")
     file_run = FileRun() if watch or fixes else open_file_run("check", words, run)
-    sources, arguments = model_inputs(words, exclusion, remember=file_run.remember)
-    options = OptionsByFile(ctx, arguments, reading, rules, check_passes, "check_passes", profiles)
+    sources, arguments = model_inputs(words, exclusion, is_checked, file_run.remember)
+    folders = folders_asked(words)
+    options = OptionsByFile(ctx, arguments, reading, rules, check_passes, "check_passes", profiles, folders)
+    plan = CheckPlan.of(sources, words, options.usual.load_options, file_run.remember)
+    given = arguments if len(plan.named) < len(sources) else ()
 
     def new_report() -> CheckReport:
-        return CheckReport(style, notes=notes, every=every, baseline=baseline_of(ctx, baseline, update=update_baseline))
+        known = baseline_of(ctx, baseline, update=update_baseline)
+        return CheckReport(style, notes=notes, every=every, baseline=known, arguments=given)
 
     def task(source: InputSource, report: CheckReport) -> CheckTask:
         load_options, policy, passes = options.of(source.name)
         reporting = report.reporting(source.name, policy)
-        return CheckTask(source, load_options, passes, bool(reading.get("expand_includes")), reporting)
+        role, named = plan.roles.get(source.name, "robot"), source.name in plan.named
+        return CheckTask(source, load_options, passes, bool(reading.get("expand_includes")), reporting, role, named)
 
     def look(content: str | bytes, name: str) -> LoadResult:
         return task(InputSource(content, name), report).look()
@@ -315,10 +372,10 @@ def command(
         def check(source: InputSource, report: CheckReport) -> None:
             report.add(task(source, report).do())
 
-        ctx.exit(watch_models(lambda: model_inputs(words, exclusion)[0], new_report, check))
+        ctx.exit(watch_models(lambda: model_inputs(words, exclusion, is_checked)[0], new_report, check))
     report = new_report()
     if fixes:
-        ctx.exit(_fix(sources, fixing, report, diff=diff, silent=diff or fix_only))
+        ctx.exit(_fix(sources, fixing, report, plan.named, diff=diff, silent=diff or fix_only))
     with file_run.on(CheckedFile, [task(source, report) for source in sources]) as results:
         for each in results:
             report.add(each)
@@ -330,6 +387,7 @@ def _fix(
     sources: "Sequence[InputSource]",
     fixing: "Callable[[InputSource], Fixing]",
     report: CheckReport,
+    named: frozenset[str],
     *,
     diff: bool,
     silent: bool,
@@ -342,7 +400,9 @@ def _fix(
         raise click.UsageError("the fixed text of standard input is printed: leave --format out, or give --diff")
     loaded, report.fixed = run_fixes(sources, fixing)
     if silent:
-        return UNUSABLE if any(each.unreadable for each in loaded) else FINDINGS if diff and report.fixed else 0
+        unusable = any(is_unusable(each, named=each.path in named) for each in loaded)
+        return UNUSABLE if unusable else FINDINGS if diff and report.fixed else 0
     for source, each in zip(sources, loaded, strict=True):
-        report.add(CheckedFile.of(each, report.reporting(source.name, fixing(source).policy)))
+        reporting = report.reporting(source.name, fixing(source).policy)
+        report.add(CheckedFile.of(each, reporting, named=source.name in named))
     return report.end()

@@ -1,18 +1,21 @@
 """What `check` reports about one file, as a value that can be sent from another process and kept as JSON."""
 
+import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from twinform.cli.check_plan import OUTSIDE, with_outside_faults
 from twinform.cli.command import Unusable
 from twinform.cli.inputs import InputSource, read_model
 from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, inspect
 from twinform.compiler.input.load_options import ReadingOptions
 from twinform.compiler.input.loading import XACRO
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Diagnostic, Fix, Location, Policy, Safety, Severity, rules
+from twinform.diagnostics import Diagnostic, Fix, Location, Policy, Rule, Safety, Severity, rules
 from twinform.diagnostics.diagnostic import Span, TextEdit
 from twinform.diagnostics.reporters import NO_TEXTS, FileFindings, FileTexts
 from twinform.diagnostics.rule_registry import find_rule
@@ -28,7 +31,8 @@ class Reporting:
     """What is reported of the findings of a file.
 
     Fixes are made for findings from the severity `fixed` on, and columns for those from `shown` on. Findings of the
-    `baseline` are left out; with `updates` all that a baseline can have.
+    `baseline` are left out; with `updates` all that a baseline can have. Those in files that others include may have
+    been reported before, so they stay, and whoever reports on all files decides about them.
     """
 
     policy: Policy
@@ -38,43 +42,60 @@ class Reporting:
     updates: bool = False
 
     def new(self, loaded: LoadResult, seen: tuple[Diagnostic, ...]) -> tuple[Diagnostic, ...]:
-        """Return the findings that are not known from the baseline; that of an unreadable file stays as it is."""
+        """Return the findings that are not known from the baseline."""
         if self.baseline is None:
             return seen
-        new = seen if loaded.unreadable else self.baseline.unknown(loaded.path, seen)
+        own = {id(each) for each in seen if not is_elsewhere(each, loaded.path)}
+        new = {id(each) for each in self.baseline.unknown(loaded.path, (each for each in seen if id(each) in own))}
         if self.updates:
-            return tuple(each for each in new if each.rule.fatal or each.severity is Severity.INFO)
-        return new
+            new = {id(each) for each in seen if each.severity is Severity.INFO}
+        return tuple(each for each in seen if id(each) in new or id(each) not in own)
+
+
+def is_elsewhere(finding: Diagnostic, path: str) -> bool:
+    """Whether a finding about a file is in another one, which that includes."""
+    where = finding.location
+    return bool(where.line and where.file) and where.file != path
 
 
 @dataclass(frozen=True, slots=True)
 class CheckedFile:
     """The findings of a file with columns and fixes, and the texts that they are about.
 
-    `opened` tells whether there was a file at all. `allowed` and `known` are the numbers of findings that are left out
-    by the rules or comments, and by the baseline; `baselined` counts those that a baseline can have.
+    `unusable` tells that the command was wrong: the file was named, and there is none. It `waits` where it could not be
+    expanded for want of arguments or packages. `allowed` and `known` are the numbers of findings that are left out by
+    the rules or comments, and by the baseline; `baselined` counts those that a baseline can have. `parts` are the files
+    that it includes, and `unused` the arguments that it does not ask for, unless it is none that can be expanded.
     """
 
     findings: FileFindings
     unreadable: bool = False
-    opened: bool = True
+    unusable: bool = False
+    waits: bool = False
     allowed: int = 0
     known: int = 0
     baselined: "Mapping[KnownFinding, int]" = field(default_factory=dict["KnownFinding", int])
+    parts: tuple[str, ...] = ()
+    unused: tuple[str, ...] | None = None
 
     @classmethod
-    def of(cls, loaded: LoadResult, reporting: Reporting) -> "CheckedFile":
-        """Make the report on a file that was read and inspected."""
-        seen = reporting.policy.apply(loaded.diagnostics)
+    def of(cls, loaded: LoadResult, reporting: Reporting, *, named: bool) -> "CheckedFile":
+        """Make the report on a file that was read and inspected, and that was `named` or found in a folder."""
+        unused = tuple(each.found or "" for each in loaded.diagnostics if each.rule is rules.UNUSED_ARGUMENT)
+        found = [each for each in loaded.diagnostics if named or each.rule is not rules.UNUSED_ARGUMENT]
+        waits = loaded.unreadable and any(each.rule in OUTSIDE for each in found)
+        seen = reporting.policy.apply(found)
         new = reporting.new(loaded, seen)
-        found = _with_fixes(loaded, new, reporting.fixed)
         return cls(
-            _locate(loaded, found, reporting.shown),
-            loaded.unreadable,
-            opened=not (loaded.unreadable and loaded.content is None),
-            allowed=len(loaded.allowed) + len(loaded.diagnostics) - len(seen),
+            _locate(loaded, _with_fixes(loaded, new, reporting.fixed), reporting.shown),
+            loaded.unreadable and not waits,
+            is_unusable(loaded, named=named),
+            waits,
+            allowed=len(loaded.allowed) + len(found) - len(seen),
             known=len(seen) - len(new),
             baselined=dict(reporting.baseline.found) if reporting.baseline else {},
+            parts=tuple(_parts_of(loaded)) if reporting.baseline else (),
+            unused=unused if loaded.origins else None,
         )
 
     @classmethod
@@ -83,7 +104,7 @@ class CheckedFile:
         found = Diagnostic(
             rules.UNREADABLE_FILE, f"the file could not be checked: {why}", Location(path), Severity.ERROR
         )
-        return cls(FileFindings(path, (found,)), unreadable=True, opened=False)
+        return cls(FileFindings(path, (found,)), unreadable=True)
 
     def to_json(self) -> list[Any]:
         """Return the report as lists and texts, with the pieces of the files that reports quote."""
@@ -91,12 +112,15 @@ class CheckedFile:
         return [
             self.findings.path,
             self.unreadable,
-            self.opened,
+            self.unusable,
+            self.waits,
             self.allowed,
             self.known,
             [[list(known), count] for known, count in self.baselined.items()],
             [row_of_diagnostic(each) for each in found],
             QuotedTexts.of(self.findings).to_json(),
+            list(self.parts),
+            None if self.unused is None else list(self.unused),
         ]
 
     @classmethod
@@ -106,10 +130,11 @@ class CheckedFile:
         Raises:
             ValueError, TypeError, LookupError: it was something else.
         """
-        path, unreadable, opened, allowed, known, baselined, found, texts = row
+        path, unreadable, unusable, waits, allowed, known, baselined, found, texts, parts, unused = row
         counts = _known_findings(baselined) if baselined else {}
         findings = FileFindings(path, tuple(map(diagnostic_of_row, found)), QuotedTexts.from_json(texts))
-        return cls(findings, unreadable, opened, allowed, known, counts)
+        arguments = None if unused is None else tuple(unused)
+        return cls(findings, unreadable, unusable, waits, allowed, known, counts, tuple(parts), arguments)
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,6 +146,8 @@ class CheckTask:
     passes: "Pipeline | None"
     expands_includes: bool
     reporting: Reporting
+    role: str = "robot"
+    named: bool = True
 
     @property
     def name(self) -> str:
@@ -153,9 +180,21 @@ class CheckTask:
             click.UsageError: a pass changes the model.
             Unusable: a pass is at fault.
         """
+        if self.role != "part":
+            loaded = self._look_at_robot()
+            if self.role == "robot" or not loaded.unreadable:
+                return loaded
+        from twinform.compiler.input.xacro_parts import check_part  # noqa: PLC0415 - few files are parts
+
+        return check_part(Path(self.source.name), self.load_options)
+
+    def _look_at_robot(self) -> LoadResult:
         reading: ReadingOptions = {"expand_includes": self.expands_includes}
+        read = read_model(self.source, self.load_options, reading)
+        if not self.load_options.strict:
+            read = with_outside_faults(read, named=self.named)
         try:
-            return inspect(read_model(self.source, self.load_options, reading), self.load_options, self.passes)
+            return inspect(read, self.load_options, self.passes)
         except ReadOnlyPassError as error:
             raise click.UsageError(str(error)) from error
         except PassError as error:
@@ -163,7 +202,18 @@ class CheckTask:
 
     def do(self) -> CheckedFile:
         """Check the file."""
-        return CheckedFile.of(self.look(), self.reporting)
+        return CheckedFile.of(self.look(), self.reporting, named=self.named)
+
+
+def is_unusable(loaded: LoadResult, *, named: bool) -> bool:
+    """Whether a file was named that is none, or xacro is not installed: then the command was wrong, and not a file."""
+    reasons = {each.rule for each in loaded.diagnostics} if loaded.unreadable else set[Rule]()
+    is_none = named and loaded.content is None and not os.path.isfile(loaded.path)  # noqa: PTH113 - is_file raises for a long name
+    return rules.XACRO_MISSING in reasons or (is_none and rules.UNREADABLE_FILE in reasons)
+
+
+def _parts_of(loaded: LoadResult) -> set[str]:
+    return {place.file for origins in loaded.origins.values() for place in origins.places} - {loaded.path}
 
 
 def _known_findings(rows: list[Any]) -> "dict[KnownFinding, int]":

@@ -42,8 +42,8 @@ class ResolvedOptions(NamedTuple):
 class OptionsByFile:
     """Resolves the options for each file; all share the search path, with what it knows of folders.
 
-    `option` is the name of the option for the passes. `profiles` are those of the consumers of the files. `usual` are
-    the options of a file without settings of its own.
+    `option` is the name of the option for the passes. `profiles` are those of the consumers of the files. `asked` are
+    the folders whose models are asked for. `usual` are the options of a file without settings of its own.
     """
 
     ctx: click.Context
@@ -53,13 +53,15 @@ class OptionsByFile:
     passes: "Pipeline | None"
     option: str = "passes"
     profiles: "tuple[Profile, ...]" = ()
+    asked: "tuple[Path, ...]" = ()
     usual: ResolvedOptions = field(init=False)
 
     def __post_init__(self) -> None:
         policy = policy_of(self.ctx, self.rules)
-        self.usual = ResolvedOptions(
-            load_options_of(self.arguments, self.reading, policy, self.profiles), policy, self.passes
-        )
+        load_options = load_options_of(self.arguments, self.reading, policy, self.profiles)
+        if self.asked:
+            load_options = replace(load_options, search=replace(load_options.search, asked=self.asked))
+        self.usual = ResolvedOptions(load_options, policy, self.passes)
 
     def of(self, name: str) -> ResolvedOptions:
         """Return the options for a file.
@@ -93,7 +95,7 @@ def policy_of(ctx: click.Context, typed: RuleSettings, own: OwnSettings = NO_OWN
     """Return the policy for a file: typed rules win over its `own` settings, and these over those of the project.
 
     Raises:
-        ConfigError: the configuration names an unknown rule, or allows a fatal one.
+        ConfigError: the configuration names an unknown rule.
     """
     project = settings_of(ctx)
     policy = Policy()
@@ -141,7 +143,7 @@ def _rule_problem(name: str, option: str) -> str:
             return f"no rule is called {name}{nearest(name, list(known_rules()))}"
     except RuleRegistryError as error:
         raise Unusable(str(error)) from error
-    return f"{name} is fatal, and cannot be allowed" if option == "allow" and found.rule.fatal else ""
+    return ""
 
 
 policy_options = group(

@@ -16,6 +16,7 @@ from twinform.compiler.mistakes import report_mistakes
 from twinform.compiler.named_files import report_named_files
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Severity, did_you_mean, rules
 from twinform.diagnostics.rules import MISSING_INERTIAL, UNKNOWN_COLLISION
+from twinform.diagnostics.suppressions import NO_SUPPRESSIONS
 from twinform.ir import Document, Element, Format, Model
 from twinform.passes.carriers.annotations import find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import PART
@@ -36,7 +37,7 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
     """
     document = loaded.document
     if document is None:
-        return loaded
+        return _with_allowed(loaded, load_options)
     file = loaded.text_name
     sink = DiagnosticSink(file, load_options.strict)
     report_driven_joints(document, sink)
@@ -69,6 +70,17 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
             report_unused(loaded.allowances, whole)
     ordered = sorted(whole.diagnostics, key=lambda each: each.location.line)
     return replace(loaded, diagnostics=tuple(ordered), allowed=tuple(whole.allowed))
+
+
+def _with_allowed(loaded: LoadResult, load_options: LoadOptions) -> LoadResult:
+    """Leave out what is allowed of the findings about a file that has no model."""
+    whole = DiagnosticSink(loaded.path, load_options.strict, list(loaded.diagnostics), allowed=list(loaded.allowed))
+    allowances = loaded.allowances or load_options.allowances(loaded.path, loaded.origins)
+    if any(each.rule is rules.XACRO_REFUSED for each in loaded.diagnostics):
+        allowances.files[loaded.path] = NO_SUPPRESSIONS  # nothing of the file is looked at
+    allowances.checked, allowances.tolerant = True, load_options.tolerant
+    allowances.settle(whole)
+    return replace(loaded, diagnostics=tuple(whole.diagnostics), allowed=tuple(whole.allowed))
 
 
 def _with_lines(sink: DiagnosticSink, loaded: LoadResult) -> list[Diagnostic]:

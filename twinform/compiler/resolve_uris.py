@@ -13,7 +13,7 @@ from twinform.compiler.observing import Memo
 from twinform.compiler.ros_packages import MODEL_CONFIG, PackageIndex, package_name
 from twinform.dataclass import dataclass
 from twinform.diagnostics import rules
-from twinform.file_access import OutsideError, Readable, find_root, folders_around, neighborhood
+from twinform.file_access import OutsideError, Readable, find_root, folders_around, neighborhood, own_folder
 from twinform.passes import AssetError
 
 _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH", "GAZEBO_MODEL_PATH")
@@ -38,7 +38,8 @@ class SearchPath:
     `own` folders come from the caller and are searched first. `models` contain a folder for each model, `packages` one
     for each package, and `workspaces` packages at any depth. The folders around the file with the URI come last. `seen`
     are the files that were found or read, so that none of them is overwritten. `unsaved` has the contents of files,
-    by real path, that are open in an editor; they are used instead of those on the disk.
+    by real path, that are open in an editor; they are used instead of those on the disk. `asked` are folders that the
+    caller wants all models of: what lies in one of them may lead to all else in it.
     """
 
     own: tuple[Path, ...] = ()
@@ -46,6 +47,7 @@ class SearchPath:
     packages: tuple[Path, ...] = ()
     workspaces: tuple[Path, ...] = ()
     fuel: tuple[Path, ...] = ()
+    asked: tuple[Path, ...] = ()
     index: PackageIndex = field(default_factory=PackageIndex, compare=False, repr=False)
     seen: set[Path] = field(default_factory=set[Path], compare=False, repr=False)
     unsaved: Mapping[str, bytes] = field(default_factory=dict[str, bytes], compare=False, repr=False)
@@ -90,14 +92,25 @@ class SearchPath:
 
     def readable(self, file: Path) -> Readable:
         """Return the files that may be read because `file` leads to them, and `file` itself."""
-        near = self._readable.get(
-            file.parent, lambda: Readable.of(file, (*self._roots(), *self.fuel), self._environment_roots())
-        )
+        near = self._readable.get(file.parent, lambda: self._find_readable(file))
         return near.for_neighbor(file.name)
+
+    def _find_readable(self, file: Path) -> Readable:
+        named = (*self._roots(), *self.fuel, *self._asked_around(file))
+        return Readable.of(file, named, self._environment_roots())
+
+    def _asked_around(self, file: Path) -> tuple[Path, ...]:
+        """Return the folders that the caller asked for and that a file lies in."""
+        return tuple(each for each in self.asked if own_folder(file).is_relative_to(each.absolute()))
 
     def surroundings(self, file: Path) -> SearchFolders:
         """Return the folders around a file; they are kept, since a world may have a URI in each of its lines."""
-        return self._around.get(file.parent, lambda: SearchFolders(folders_around(file), neighborhood(find_root(file))))
+        return self._around.get(file.parent, lambda: self._find_surroundings(file))
+
+    def _find_surroundings(self, file: Path) -> SearchFolders:
+        asked = (each.absolute() for each in self._asked_around(file))
+        root = min((find_root(file), *asked), key=lambda each: len(each.parts))
+        return SearchFolders(folders_around(file, root), neighborhood(root))
 
     def unsaved_of(self, path: str | Path) -> bytes | None:
         """Return the content of a file that is open in an editor; None for other files."""
@@ -119,13 +132,14 @@ class SearchPath:
         if name == "..":
             raise UriError(rules.URI_LEAVES_FOLDER, f"{uri!r} leads out of the folders of models and packages")
         around, neighbors = self.surroundings(beside)
-        candidates = self._candidates(name, (*around, neighbors) if neighbors else around)
+        folders = (*around, neighbors) if neighbors else around
+        candidates = self._candidates(name, folders, self._asked_around(beside))
         found = self._first_readable(uri, (folder / inner for folder in candidates), beside)
         if found is None:
             raise self._not_found(uri, (*self._roots(), *around))
         return found
 
-    def _candidates(self, name: str, around: tuple[Path, ...]) -> Iterator[Path]:
+    def _candidates(self, name: str, around: tuple[Path, ...], asked: tuple[Path, ...]) -> Iterator[Path]:
         """Yield every folder that a name may mean, the most likely first."""
         # A folder called like the model comes first, as in Gazebo and ROS; folders that a
         # package.xml or a model.config calls so come after, and the cache of Fuel last of all.
@@ -144,6 +158,8 @@ class SearchPath:
             yield from self.index.named(name, root)
         for folder in around:
             yield from self.index.directly_in(name, folder)
+        for root in asked:
+            yield from self.index.named(name, root)
         yield from fuel_addresses.models_named(name, self.fuel)
 
     def _roots(self) -> tuple[Path, ...]:

@@ -33,13 +33,12 @@ class BaselineError(ValueError):
 
 
 class KnownFinding(NamedTuple):
-    """The key of a known finding; `place` is set if the finding is in another file than the checked one."""
+    """The key of a known finding; `file` is the one that it is in, whichever other file includes that."""
 
     file: str
     rule: str
     path: str
     message: str
-    place: str = ""
 
 
 Relative = Callable[[str], str]
@@ -120,20 +119,23 @@ class BaselineRun:
         name = self.relative(path)
         return BaselineRun(Baseline(self.baseline.by_file.get(name, {})), self.relative)
 
-    def add(self, path: str, found: Mapping[KnownFinding, int]) -> None:
-        """Add the findings of a file, which were compared with the baseline elsewhere."""
-        self.files.add(self.relative(path))
+    def add(self, files: Iterable[str], found: Mapping[KnownFinding, int]) -> None:
+        """Add the findings of files, which were compared with the baseline elsewhere.
+
+        `files` are those in which there is nothing else: the checked file and those that it includes, but none where it
+        could not be read, so that what the baseline has of it stays.
+        """
+        self.files.update(map(self.relative, files))
         self.found.update(found)
 
     def unknown(self, path: str, diagnostics: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
-        """Return the findings of a file that the baseline lacks; notes and fatal errors are never in one."""
-        self.files.add(self.relative(path))
-        return tuple(each for each in diagnostics if not self._is_known(path, each))
+        """Return the findings about the file at `path` that the baseline lacks; notes are never in one."""
+        return tuple(each for each in diagnostics if not self._is_known(each, path))
 
-    def _is_known(self, path: str, diagnostic: Diagnostic) -> bool:
-        if diagnostic.rule.fatal or diagnostic.severity is Severity.INFO:
+    def _is_known(self, diagnostic: Diagnostic, path: str) -> bool:
+        if diagnostic.severity is Severity.INFO:
             return False
-        known = known_by(path, diagnostic, self.relative)
+        known = known_by(diagnostic, path, self.relative)
         self.found[known] += 1
         return self.found[known] <= self.baseline.counts.get(known, 0)
 
@@ -149,27 +151,24 @@ class BaselineRun:
         return Baseline({known: count for known, count in whole.counts.items() if exists(known.file)})
 
 
-def known_by(path: str, diagnostic: Diagnostic, relative: Relative) -> KnownFinding:
-    """Return the key of a finding about a file."""
+def known_by(diagnostic: Diagnostic, path: str, relative: Relative) -> KnownFinding:
+    """Return the key of a finding about the file at `path`."""
     where = diagnostic.location
-    place = relative(where.file) if where.file and where.file != path else ""
     # Other tools keep hashes, which nobody can review, or lines, which move with every edit. The
     # price: a message that is reworded in a new version makes its finding new.
     message = _LINES.sub(r"\1 N", diagnostic.message)[:_LONGEST]
-    return KnownFinding(relative(path), diagnostic.rule.name, _PLACES.sub("", where.path), message, place)
+    return KnownFinding(relative(where.file or path), diagnostic.rule.name, _PLACES.sub("", where.path), message)
 
 
 def _row(known: KnownFinding, count: int) -> dict[str, object]:
-    row: dict[str, object] = {name: value for name, value in known._asdict().items() if value or name != "place"}
-    return row if count == 1 else {**row, "count": count}
+    return known._asdict() if count == 1 else {**known._asdict(), "count": count}
 
 
 def _parsed(row: object, line: int) -> tuple[KnownFinding, int]:
     cells = cast("dict[str, Any]", row) if isinstance(row, dict) else {}
     count = cells.pop("count", 1)
-    *required, optional = KnownFinding._fields
-    if not {*required} <= {*cells} <= {*required, optional}:
-        words = f"a finding is an object with {', '.join(required)}, and perhaps {optional} and count"
+    if {*cells} != {*KnownFinding._fields}:
+        words = f"a finding is an object with {', '.join(KnownFinding._fields)}, and perhaps count"
         raise BaselineError(words, line)
     if not all(isinstance(each, str) for each in cells.values()) or type(count) is not int or count < 1:
         raise BaselineError("what a finding is known by is text, and its count a positive whole number", line)

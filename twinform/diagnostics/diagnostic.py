@@ -144,8 +144,8 @@ class Rule:
     """A kind of finding. Its name describes the thing found, reads well after "allow", and is never used again.
 
     `strict` is the severity under `--strict`; it is the plain one where it is not given. `fix` says how safe
-    its fixes are at best, if there are any. What is `fatal` leaves nothing to go on with, and cannot be allowed.
-    What is `unsound` is no tree: `check` may allow it, and nothing can be made of it.
+    its fixes are at best, if there are any. What is `fatal` leaves nothing to go on with, and
+    what is `unsound` is no tree: `check` may allow both, and nothing can be made of them.
     The other fields are the rule's page, as `twinform explain` prints it; two rules are not told apart by it.
     """
 

@@ -31,7 +31,7 @@ _OPTIONS = {Safety.SAFE: "`--fix`", Safety.UNSAFE: "`--unsafe-fixes`", Safety.DI
 def severity_words(rule: Rule) -> str:
     """How bad it is, and how bad under `--strict` where that differs."""
     if rule.fatal:
-        return f"{rule.severity}, which cannot be allowed"
+        return f"{rule.severity}, which `check` alone may allow"
     if rule.strict in {None, rule.severity}:
         return str(rule.severity)
     return f"{rule.severity}, {rule.strict} under --strict"

@@ -162,7 +162,7 @@ class _PositionScan:
         try:
             self.parser.Parse(self.data, True)
         except expat.ExpatError as error:
-            raise UnplacedError(str(error)) from error
+            raise UnplacedError(str(error), error.lineno, error.offset + 1) from error
         finally:
             # it holds this object by its handlers: Python would look for such a circle only after many more texts
             del self.parser

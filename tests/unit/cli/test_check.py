@@ -15,10 +15,10 @@ from .conftest import GOOD, Run
         (["good"], 0),
         (["warned"], 0),
         (["wrong"], 1),
-        (["broken"], 2),
+        (["broken"], 1),
         (["missing"], 2),
         (["good", "wrong"], 1),
-        (["wrong", "broken", "good"], 2),
+        (["wrong", "broken", "good"], 1),
     ],
 )
 def test_exit_code_is_that_of_the_worst_file(run: Run, folder: Path, names: list[str], code: int) -> None:

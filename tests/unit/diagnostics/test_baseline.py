@@ -9,7 +9,7 @@ from twinform.diagnostics.baseline import Baseline, BaselineError, BaselineRun, 
 from twinform.diagnostics.rules import DANGLING_LINK, NOT_WELL_FORMED
 
 _TEXTS = st.text(st.characters(codec="utf-8"), max_size=8)
-_FINDINGS = st.builds(KnownFinding, _TEXTS, _TEXTS, _TEXTS, _TEXTS, _TEXTS)
+_FINDINGS = st.builds(KnownFinding, _TEXTS, _TEXTS, _TEXTS, _TEXTS)
 
 
 def _finding(message: str = "gone", line: int = 3, path: str = "/robot/joint[2]", file: str = "a.urdf") -> Diagnostic:
@@ -18,7 +18,7 @@ def _finding(message: str = "gone", line: int = 3, path: str = "/robot/joint[2]"
 
 def _run(*findings: Diagnostic, known: Baseline | None = None) -> BaselineRun:
     run = BaselineRun(known or Baseline(), lambda name: PurePosixPath(name).as_posix())
-    run.unknown("a.urdf", findings)
+    run.unknown("a.urdf", findings, ["a.urdf"])
     return run
 
 
@@ -54,20 +54,20 @@ def test_each_finding_has_a_line_and_they_are_sorted() -> None:
 )  # fmt: skip
 def test_a_finding_that_moved_is_the_same(moved: Diagnostic) -> None:
     known = _run(_finding()).updated(lambda _: True)
-    assert BaselineRun(known, str).unknown("a.urdf", [moved]) == ()
+    assert BaselineRun(known, str).unknown("a.urdf", [moved], ["a.urdf"]) == ()
 
 
 def test_numbers_of_lines_in_messages_do_not_matter_and_other_words_do() -> None:
     known = _run(_finding("as in line 4, column 2")).updated(lambda _: True)
-    assert BaselineRun(known, str).unknown("a.urdf", [_finding("as in line 9, column 1")]) == ()
-    assert BaselineRun(known, str).unknown("a.urdf", [_finding("as in row 4")])
-    assert BaselineRun(known, str).unknown("b.urdf", [_finding("as in line 4, column 2", file="b.urdf")])
+    assert BaselineRun(known, str).unknown("a.urdf", [_finding("as in line 9, column 1")], ["a.urdf"]) == ()
+    assert BaselineRun(known, str).unknown("a.urdf", [_finding("as in row 4")], ["a.urdf"])
+    assert BaselineRun(known, str).unknown("b.urdf", [_finding("as in line 4, column 2", file="b.urdf")], ["b.urdf"])
 
 
 def test_one_more_of_a_kind_is_a_new_one() -> None:
     known = _run(_finding(), _finding()).updated(lambda _: True)
     again = [_finding(line=line) for line in (1, 2, 3)]
-    assert BaselineRun(known, str).unknown("a.urdf", again) == (again[2],)
+    assert BaselineRun(known, str).unknown("a.urdf", again, ["a.urdf"]) == (again[2],)
 
 
 def test_what_does_not_occur_any_more_is_counted_for_the_files_that_were_seen() -> None:
@@ -78,12 +78,12 @@ def test_what_does_not_occur_any_more_is_counted_for_the_files_that_were_seen() 
     assert not run.updated(lambda name: name != "b.urdf").counts
 
 
-def test_notes_and_fatal_errors_are_in_no_baseline() -> None:
+def test_fatal_errors_are_in_a_baseline_and_notes_are_not() -> None:
     fatal = Diagnostic(NOT_WELL_FORMED, "cut off", Location("a.urdf", 1), Severity.ERROR)
     note = Diagnostic(DANGLING_LINK, "by the way", Location("a.urdf", 1), Severity.INFO)
     run = _run(fatal, note)
-    assert not run.found
-    assert run.unknown("a.urdf", [fatal, note]) == (fatal, note)
+    assert [known.rule for known in run.found] == ["not-well-formed"]
+    assert BaselineRun(run.updated(lambda _: True), str).unknown("a.urdf", [fatal, note], ["a.urdf"]) == (note,)
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ from twinform.storage.writing import is_below
 
 Hold = Literal["nothing to hold", "lowers a limit", "inside its folder", "known passes", "only if trusted"]
 HELD: Mapping[str, Hold] = {
-    "allow": "nothing to hold",  # errors cannot be allowed
+    "allow": "nothing to hold",  # it hides findings of `check`, which --no-config shows
     "baseline": "inside its folder",
     "carriers": "nothing to hold",
     "check-passes": "known passes",

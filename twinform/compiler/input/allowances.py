@@ -27,7 +27,7 @@ class Allowances:
     keys of findings that were left out, by which they are recognized at later stages, where their lines differ.
 
     Allowed warnings are always left out. Allowed errors are left out where the caller is `tolerant` and there is a
-    model in spite of them; unsound ones only once the file is `checked`, when nothing more will be made of it.
+    model in spite of them; fatal and unsound ones only once the file is `checked`, when nothing will be made of it.
     """
 
     file: str
@@ -41,7 +41,7 @@ class Allowances:
 
     def __call__(self, diagnostic: Diagnostic) -> bool:
         """Whether a finding is allowed."""
-        if diagnostic.rule.fatal or (diagnostic.is_error and not self._tolerates(diagnostic.rule)):
+        if diagnostic.is_error and not self._tolerates(diagnostic.rule):
             return False
         if diagnostic.rule.name in self.rules or self._key(diagnostic) in self.known:
             return True
@@ -58,7 +58,7 @@ class Allowances:
         # looked for a link that is not there, and one went round a loop forever. What is no tree
         # can therefore be silenced in `check` only. `load`, `diff` and `stats` are never tolerant:
         # their callers count on documents without errors.
-        return self.tolerant and (self.checked or not rule.unsound)
+        return self.tolerant and (self.checked or not (rule.unsound or rule.fatal))
 
     def read(self, text: bytes, sink: DiagnosticSink) -> None:
         """Read the suppressions of the file itself from its text, and report what is wrong with them."""
@@ -139,8 +139,6 @@ def _name_problems(name: str) -> Iterator[tuple[str, str | None]]:
         found = find_rule(name)
         if found is None:
             yield f"no rule is called {name!r}", did_you_mean(name, rules()) or "`twinform explain` lists the rules"
-        elif found.rule.fatal:
-            yield f"{name} is fatal, and cannot be allowed", None
     except RuleRegistryError as error:
         yield f"{name!r} is not known: {error}", None
 

@@ -23,6 +23,13 @@ from twinform.compiler.input.parsing import UnreadableError, parse, read_bytes
 from twinform.compiler.input.size_limits import LARGEST
 from twinform.compiler.input.xacro_files import AllowedFiles, DeniedError, variable
 from twinform.compiler.input.xacro_mistakes import report_mistakes
+from twinform.compiler.input.xacro_needs import (
+    absent_packages,
+    report_missing_arguments,
+    report_missing_packages,
+    shown_message,
+    shown_name,
+)
 from twinform.compiler.observing import note_failure, note_variable
 from twinform.compiler.resolve_uris import SearchPath, UriError
 from twinform.dataclass import dataclass
@@ -57,10 +64,14 @@ _REMARKS = {"warning: ": rules.XACRO_WARNING, "error: ": rules.XACRO_WARNING}
 
 @dataclass(frozen=True, slots=True)
 class Expansion:
-    """The expanded text, and where the elements on its lines were written."""
+    """The expanded text, and where the elements on its lines were written.
+
+    `texts` are the places of texts that stand in another file than the element around them.
+    """
 
     text: bytes
     origins: LineOrigins
+    texts: Mapping[str, Location]
 
 
 def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expansion:
@@ -76,8 +87,9 @@ def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expan
     _report_remarks(outcome, sink)
     if "text" not in outcome:
         if not (outcome.get("syntax") and _report_syntax(outcome["place"][0], path, load_options, sink)):
-            _report_failure(outcome, sink)
+            _report_failure(outcome, path, load_options, sink)
         raise UnreadableError
+    report_missing_packages(outcome["absent"], sink)
     for name in outcome["unused"]:
         message = f"the argument {name!r} is not one of the file's"
         sink.report(rules.UNUSED_ARGUMENT, message, Location(line=1), found=name)
@@ -90,20 +102,30 @@ def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expan
     # Nodes of the IR keep the lines of the expanded text, which are the ones that the `xacro`
     # command prints and by which the writer orders children. Findings name the file that the author
     # can edit first.
-    return Expansion(text, _origins(text, outcome["places"]))
+    texts = {text: Location(shown_name(file, sink.file), line) for text, file, line in outcome["texts"]}
+    return Expansion(text, _origins(text, outcome["places"], sink.file), texts)
 
 
-def _report_failure(outcome: Mapping[str, Any], sink: DiagnosticSink) -> None:
+def _report_failure(outcome: Mapping[str, Any], path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> None:
     if "missing" in outcome:
         advice = "run: pip install 'twinform[xacro]'"
         message = f"this is a xacro file, and xacro is not installed ({outcome['missing']})"
         sink.report(rules.XACRO_MISSING, message, Location(line=1), help=advice)
         return
     file, line = outcome["place"]
+    absent = list(outcome.get("absent", ()))
+    if outcome.get("rule") == rules.MISSING_ARGUMENT.name:
+        where = Location(shown_name(file, sink.file), line)
+        report_missing_arguments(path, outcome["argument"], where, load_options, sink)
+    if outcome.get("rule") == rules.MISSING_PACKAGE.name or absent:
+        report_missing_packages([*absent, *absent_packages(path, load_options)], sink)
+    if outcome.get("rule") in {rules.MISSING_ARGUMENT.name, rules.MISSING_PACKAGE.name}:
+        return
     found = _EXPAT.search(outcome["error"])
     column = int(found[1]) + 1 if found else 0
     advice = _meant_name(outcome) or outcome.get("help")
-    sink.report(rules.XACRO_ERROR, outcome["error"], Location(file, line, "", column), help=advice or None)
+    where = Location(shown_name(file, sink.file), line, "", column)
+    sink.report(rules.XACRO_ERROR, shown_message(outcome["error"], sink.file), where, help=advice or None)
 
 
 def _report_syntax(file: str, path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> bool:
@@ -119,7 +141,8 @@ def _report_syntax(file: str, path: Path, load_options: LoadOptions, sink: Diagn
     prefix = _PREFIX.search(first.message)
     advice = f'add xmlns:{prefix[1]}="{usual_namespace(prefix[1])}" to the root element' if prefix else first.help
     words = first.message.replace(", repaired:", ":", 1)
-    sink.report(rules.NOT_WELL_FORMED, words, first.location, help=advice)
+    where = first.location._replace(file=shown_name(file, sink.file))
+    sink.report(rules.NOT_WELL_FORMED, words, where, help=advice)
     return True
 
 
@@ -145,10 +168,10 @@ def _report_remarks(outcome: Mapping[str, Any], sink: DiagnosticSink) -> None:
     for text, file, line in outcome.get("remarks", ()):
         start = next((start for start in _REMARKS if text.startswith(start)), "")
         rule = _REMARKS.get(start, rules.XACRO_MESSAGE)
-        sink.report(rule, text.removeprefix(start), Location(file, line))
+        sink.report(rule, text.removeprefix(start), Location(shown_name(file, sink.file), line))
 
 
-def _origins(text: bytes, places: list[tuple[str, int] | None]) -> LineOrigins:
+def _origins(text: bytes, places: list[tuple[str, int] | None], main: str) -> LineOrigins:
     """Elements are in the same order in the expanded text and in the list of places."""
     parser = etree.XMLParser(remove_comments=True, remove_pis=True, resolve_entities=False, no_network=True)
     try:
@@ -156,7 +179,10 @@ def _origins(text: bytes, places: list[tuple[str, int] | None]) -> LineOrigins:
     except etree.XMLSyntaxError:
         return LineOrigins()  # reading the text will say what is wrong with it
     pairs = zip(root.iter(), places, strict=False)
-    return LineOrigins.of((element.sourceline or 0, Location(*place)) for element, place in pairs if place)
+    names = {file: shown_name(file, main) for file in {place[0] for place in places if place}}
+    return LineOrigins.of(
+        (element.sourceline or 0, Location(names[place[0]], place[1])) for element, place in pairs if place
+    )
 
 
 def _ask_worker(path: Path, load_options: LoadOptions) -> dict[str, Any]:
@@ -324,7 +350,8 @@ class _Conversation:
                 self.files.require_readable(str(file))  # the process may say anything about where it is
                 return {"path": str(self.search.find(uri, file).absolute())}  # links keep their names
             except UriError as error:
-                answer = {"error": error.message, "help": error.help or ""}
+                absent = error.rule is rules.UNRESOLVED_URI
+                answer = {"error": error.message, "help": error.help or "", **({"absent": "yes"} if absent else {})}
         return answer
 
     def _variable(self, name: str) -> str | None:

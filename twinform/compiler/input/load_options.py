@@ -212,8 +212,8 @@ class LoadResult:
 
     @property
     def accepted(self) -> bool:
-        """Whether there is no error."""
-        return not any(diagnostic.is_error for diagnostic in self.diagnostics)
+        """Whether there is a document, and no error."""
+        return self.document is not None and not any(diagnostic.is_error for diagnostic in self.diagnostics)
 
 
 def expanded_name(file: str) -> str:

@@ -3,7 +3,7 @@
 import errno
 import gc
 import os
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -47,7 +47,7 @@ from twinform.compiler.input.parsing import (
 from twinform.compiler.input.size_limits import LIFTED_LIMITS, USUAL_LIMITS, Limits, excess_of_json
 from twinform.compiler.input.take_comments import may_have_comments, take_comments
 from twinform.compiler.output.source_comments import Comments
-from twinform.diagnostics import DiagnosticSink, Location, rules
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, rules
 from twinform.ir import Document, Format
 from twinform.ir.record import amend
 from twinform.ir.verify import verify
@@ -198,7 +198,7 @@ def _read_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> 
     allowances = load_options.allowances(sink.file, sink.origins)
     allowances.read(_unexpanded(path, load_options), sink)
     loaded = _read_text(expansion.text, DiagnosticSink(name, sink.strict), load_options, allowances)
-    sink.extend(loaded.diagnostics)
+    sink.extend(_at_its_text(each, expansion.texts) for each in loaded.diagnostics)
     allowances.settle(sink)
     allowed = (*loaded.allowed, *sink.allowed)
     return replace(loaded, path=sink.file, diagnostics=tuple(sink.diagnostics), origins=sink.origins, allowed=allowed)
@@ -208,6 +208,12 @@ def _unexpanded(path: Path, load_options: LoadOptions) -> bytes:
     """Return the text of a xacro file that was read before, or nothing where it cannot be read any more."""
     unsaved = load_options.search.unsaved_of(path)
     return content_of(path, load_options.limits) if unsaved is None else unsaved
+
+
+def _at_its_text(finding: Diagnostic, texts: Mapping[str, Location]) -> Diagnostic:
+    """Move a finding about a text to the included file that has it; it was reported where the element around it is."""
+    place = texts.get(finding.found or "") if finding.rule is rules.STRAY_TEXT else None
+    return replace(finding, location=place._replace(path=finding.location.path)) if place else finding
 
 
 def load(source: str | Path, **options: Unpack[FileOptions]) -> Document:

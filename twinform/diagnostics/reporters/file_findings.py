@@ -97,7 +97,7 @@ def grouped(diagnostics: Iterable[Diagnostic], *, every: bool = False) -> list[G
         return [Group(each) for each in listed]
     causes: dict[object, list[int]] = defaultdict(list)
     for number, each in enumerate(listed):
-        causes[_cause(each)].append(number)
+        causes[cause_of(each)].append(number)
     groups: dict[int, Group] = {}
     for numbers in causes.values():
         found = [listed[number] for number in numbers]
@@ -108,7 +108,8 @@ def grouped(diagnostics: Iterable[Diagnostic], *, every: bool = False) -> list[G
     return [group for _, group in sorted(groups.items())]
 
 
-def _cause(finding: Diagnostic) -> object:
+def cause_of(finding: Diagnostic) -> object:
+    """Return what is equal for findings of one cause in one file: all but the place and the names that lead to it."""
     message = finding.message
     for name in {name for name in _NAME.findall(finding.location.path) if name and name != finding.found}:
         message = message.replace(f"'{name}'", "''")

@@ -56,10 +56,15 @@ def test_what_is_no_tree_is_allowed_by_check_and_cannot_be_converted(rule: str) 
         twinform.convert(text, to="sdf")
 
 
-def test_an_error_without_which_there_is_no_model_stays_and_says_so() -> None:
+def test_an_error_without_which_there_is_no_model_is_allowed_in_check_and_stays_in_a_conversion() -> None:
     source = b"""<robot name="r"><!-- twinform: allow-file invalid-value --><link name="a"/>
     <joint name="j" type="turning"><parent link="a"/><child link="b"/></joint></robot>"""
-    (found,) = [each for each in twinform.check(source).diagnostics if each.is_error]
+    checked = twinform.check(source)
+    assert (checked.document, checked.accepted) == (None, False)
+    assert not [each for each in checked.diagnostics if each.is_error]
+    with pytest.raises(CompileError) as caught:
+        twinform.convert(source, to="sdf")
+    (found,) = [each for each in caught.value.diagnostics if each.is_error]
     assert found.rule.name == "invalid-value"
     assert "it is allowed, and stays: without this part there is no model" in (found.help or "")
 

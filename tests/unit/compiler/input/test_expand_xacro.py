@@ -62,7 +62,7 @@ def test_packages_are_found_in_the_folders_given(robot: Path) -> None:
 def test_a_package_that_is_nowhere_is_an_error_on_its_line(robot: Path) -> None:
     checked = twinform.check(robot)
     error = next(each for each in checked.diagnostics if each.is_error)
-    assert (error.rule.name, error.location.file, error.location.line) == ("xacro-error", str(robot), 3)
+    assert (error.rule.name, error.location.file, error.location.line) == ("missing-package", str(robot), 3)
     assert "looked in" in (error.help or "")
 
 

@@ -60,6 +60,10 @@ class NotFoundError(Exception):
         self.advice = advice
 
 
+class AbsentError(NotFoundError):
+    """A package is nowhere."""
+
+
 class TooMuchError(NotFoundError):
     """More was asked for than is answered: nothing of the file is expanded, whatever it has instead."""
 
@@ -99,7 +103,7 @@ class WorkerChannel:
         if "missing" in answer:
             raise MissingFileError(answer["missing"])
         if "error" in answer:
-            refusal = TooMuchError if answer.get("ends") else NotFoundError
+            refusal = TooMuchError if answer.get("ends") else AbsentError if answer.get("absent") else NotFoundError
             raise refusal(answer["error"], answer["help"])
         return answer
 

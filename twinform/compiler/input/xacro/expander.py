@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 from xml.dom import minidom
 
 from twinform.compiler.input.xacro.budget import Budget, require_length
-from twinform.compiler.input.xacro.channel import Compiler, MissingFileError, NotFoundError, TooMuchError
+from twinform.compiler.input.xacro.channel import AbsentError, Compiler, MissingFileError, NotFoundError, TooMuchError
 from twinform.compiler.input.xacro.definitions import Definitions
 from twinform.compiler.input.xacro.expression_values import DotDict, ExpressionRefusedError, NameLookup, Value, text_of
 from twinform.compiler.input.xacro.interpreter import Interpreter
@@ -33,13 +33,15 @@ _WATCHED = ("eval_all", "check_attrs", "grab_property", "grab_macro", "process_i
 # Taken away from xacro's modules, so that a use of them that is not replaced fails instead of
 # running.
 _BARRED = ("compile", "eval", "exec", "open")
+_PACKAGE = "package://"
 
 
 class Expander:
     """Expands one file, and is what the functions of its expressions know of it.
 
     The YAML library takes longer to import than all else. Without `yaml`, a file that reads data makes
-    `lacks_yaml` true, and its expansion fails.
+    `lacks_yaml` true, and its expansion fails. `absent` are the packages that are nowhere, with the
+    place that asks for them and advice.
     """
 
     def __init__(self, compiler: Compiler, file: str, *, yaml: bool = True) -> None:
@@ -59,6 +61,7 @@ class Expander:
         self.names = vocabulary(theirs, self._functions(), self.budget, self.xacro.warning)
         self.data_files = self._data_files() if yaml else None
         self.lacks_yaml = False
+        self.absent: dict[str, tuple[str, int, str]] = {}
         self.beside: Callable[[str], str] = self.xacro.abs_filename_spec
         self.print_location: Callable[[], None] = self.xacro.print_location
         self._replace()
@@ -73,11 +76,23 @@ class Expander:
 
     def argument(self, name: str) -> str:
         """An argument of the file, as text."""
-        return self.xacro.substitution_args_context["arg"][name]
+        arguments: Mapping[str, str] = self.xacro.substitution_args_context["arg"]
+        if name not in arguments:
+            raise self.module.ArgException(name)
+        return arguments[name]
 
     def path(self, name: str) -> str:
         """What a file name means in the file that is being read."""
-        return self._find(name) if name.startswith("package://") else self.beside(name)
+        if not name.startswith(_PACKAGE):
+            return self.beside(name)
+        try:
+            return self._find(name)
+        except AbsentError as error:
+            package = name.removeprefix(_PACKAGE).partition("/")[0]
+            self._package(package)
+            if package in self.absent:
+                raise
+            raise NotFoundError(str(error), error.advice) from error
 
     def data(self, name: str) -> Value:
         """The content of a data file."""
@@ -173,7 +188,12 @@ class Expander:
             raise self.xacro.XacroException(exc=error, suffix=f"when evaluating '{text}'") from error
 
     def _package(self, name: str) -> str:
-        return self._find(f"package://{name}")
+        """Where a package is; its address where it is nowhere, which will do for all but the files in it."""
+        try:
+            return self._find(f"{_PACKAGE}{name}")
+        except AbsentError as error:
+            self.absent.setdefault(name, (*self.place(), error.advice))
+            return f"{_PACKAGE}{name}"
 
     def _find(self, uri: str) -> str:
         return self.compiler.find(uri, (self.xacro.filestack or [None])[-1] or self.file)
@@ -335,6 +355,8 @@ class Substitutions:
 
     def _converted(self, arguments: Mapping[str, str], name: str) -> Value:
         """An argument as a number or a truth value where its text is one."""
+        if name not in arguments:
+            raise self.module.ArgException(name)
         return self.module.convert_value(arguments[name], "auto")
 
 

@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from twinform.compiler.input.xacro.channel import MissingFileError, NotFoundError, TimeUpError
+from twinform.compiler.input.xacro.channel import AbsentError, MissingFileError, NotFoundError, TimeUpError
 from twinform.compiler.input.xacro.definitions import Definitions
 from twinform.compiler.input.xacro.places import FileLine
 
@@ -26,10 +26,14 @@ def description(error: BaseException, definitions: Definitions) -> Description:
             return {"error": definitions.circle() or "macros or expressions go round without an end"}
         case MemoryError():
             return {"error": "an expression needs more memory than there is for it"}
+        case AbsentError():
+            return {"error": "", "rule": "missing-package"}
         case NotFoundError():
             return {"error": _shortened(str(cause)), "help": cause.advice}
         case MissingFileError() | TimeUpError():
             return {"error": _shortened(str(cause))}
+        case Exception() if type(cause).__name__ == "ArgException":
+            return {"error": "", "rule": "missing-argument", "argument": _shortened(str(cause))}
         case NameError(name=str(name)):
             return _unknown_property(name, str(error), definitions)
         case _:

@@ -46,6 +46,14 @@ class _Builder(expatbuilder.ExpatBuilderNS):
         element: Any = self.curNode
         element.setUserData(_KEY, (self.file, self.getParser().CurrentLineNumber), _KEEPER)
 
+    def character_data_handler_cdata(self, data: str) -> None:
+        super().character_data_handler_cdata(data)
+        text: Any = self.curNode.lastChild
+        if not data.isspace() and text is not None and text.getUserData(_KEY) is None:
+            # expat reports a text where it ends
+            line = self.getParser().CurrentLineNumber - data.lstrip().count("\n")
+            text.setUserData(_KEY, (self.file, line), _KEEPER)
+
     def start_doctype_decl_handler(self, *args: Any, **more: Any) -> None:
         raise BadFileError(
             "the document has a DOCTYPE; none is allowed", (self.file, self.getParser().CurrentLineNumber)
@@ -83,3 +91,18 @@ def places_below(root: Any) -> Iterator[FileLine | None]:
         element = stack.pop()
         yield element.getUserData(_KEY)
         stack.extend(node for node in reversed(element.childNodes) if node.nodeType == node.ELEMENT_NODE)
+
+
+def included_texts(root: Any) -> Iterator[tuple[str, str, int]]:
+    """The texts that were written in another file than the element that they are in now, with their places."""
+    for element in root.getElementsByTagName("*"):
+        yield from _texts_in(element)
+    yield from _texts_in(root)
+
+
+def _texts_in(element: Any) -> Iterator[tuple[str, str, int]]:
+    around = element.getUserData(_KEY)
+    for node in element.childNodes:
+        source = node.getUserData(_KEY) if node.nodeType == node.TEXT_NODE else None
+        if source and around and source[0] != around[0] and not node.data.isspace():
+            yield (node.data.strip(), *source)

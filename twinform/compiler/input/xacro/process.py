@@ -5,6 +5,7 @@ import signal
 import sys
 from collections.abc import Callable
 from importlib import import_module
+from itertools import islice
 from types import FrameType
 from typing import Any
 
@@ -12,7 +13,7 @@ from twinform.compiler.input.xacro.budget import ExcessError
 from twinform.compiler.input.xacro.channel import Compiler, TimeUpError, WorkerChannel
 from twinform.compiler.input.xacro.expander import Expander
 from twinform.compiler.input.xacro.failures import description
-from twinform.compiler.input.xacro.places import BadFileError, FileLine, places_below
+from twinform.compiler.input.xacro.places import BadFileError, FileLine, included_texts, places_below
 from twinform.confinement import confine, end_with_parent
 from twinform.confinement.resources import limits, set_limit
 
@@ -100,7 +101,8 @@ def run(compiler: Compiler, confine: Callable[[], object] = confine) -> dict[str
     if expander.lacks_yaml:
         return {"lacks": "yaml"}
     noted = [[text, *place] for text, place in remarks.found]
-    return {**outcome, "remarks": noted, "unused": sorted(arguments.unused)}
+    absent = [[name, *place] for name, place in expander.absent.items()]
+    return {**outcome, "remarks": noted, "unused": sorted(arguments.unused), "absent": absent}
 
 
 def _expanded(expander: Expander, arguments: dict[str, str]) -> dict[str, Any]:
@@ -108,13 +110,14 @@ def _expanded(expander: Expander, arguments: dict[str, str]) -> dict[str, Any]:
         document = expander.expand(arguments)
         root = document.documentElement
         places = [] if root is None else list(places_below(root))
+        texts = [] if root is None else list(islice(included_texts(root), _MOST_REMARKS))
         text = document.toprettyxml(indent="  ")
         text.encode()  # half of a surrogate pair is no text
     except BadFileError as error:
         return {"error": str(error), "place": error.place, "syntax": error.is_syntax}
     except Exception as error:  # noqa: BLE001 - an expression may raise anything, and it is the file's fault
         return {**description(error, expander.definitions), "place": expander.place()}
-    return {"text": text, "places": places}
+    return {"text": text, "places": places, "texts": texts}
 
 
 def main() -> None:

@@ -1,0 +1,203 @@
+"""`twinform check DIR` on what a repository is made of: robots, the files that they include, arguments and packages."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from .conftest import Run
+
+pytest.importorskip("xacro")
+
+_HEAD = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"'
+_ROBOT = f'{_HEAD} name="r">'
+_PART = f"{_HEAD}>"
+
+
+@pytest.fixture
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def _findings(run: Run, *words: str) -> list[tuple[str, str, str, int]]:
+    done = run("check", *words, "--format", "json", "--notes")
+    return [
+        (row["rule"], row["severity"], row.get("file") or file["path"], row["line"])
+        for file in json.loads(done.stdout)["files"]
+        for row in file["diagnostics"]
+        if row["severity"] != "info"
+    ]
+
+
+def _include(name: str) -> str:
+    return f'<xacro:include filename="{name}"/>'
+
+
+def test_a_part_is_checked_where_it_is_included_and_not_as_a_robot(run: Run, here: Path) -> None:
+    Path("arm.urdf.xacro").write_text(
+        f'{_ROBOT}<xacro:arg name="side" default="left"/><link name="torso"/>\n{_include("part.xacro")}</robot>'
+    )
+    joint = '<joint name="c" type="fixed"><parent link="{}"/><child link="$(arg side)"/></joint>'
+    Path("part.xacro").write_text(f'{_ROBOT}<link name="$(arg side)"/>\n{joint.format("torso")}</robot>')
+    assert _findings(run, ".") == []
+    Path("part.xacro").write_text(f'{_ROBOT}<link name="$(arg side)"/>\n{joint.format("torsoo")}</robot>')
+    assert _findings(run, ".") == [("dangling-link", "error", "part.xacro", 2)]
+
+
+def test_one_fault_in_a_part_is_one_finding_however_many_robots_include_it(run: Run, here: Path) -> None:
+    for name in ("one", "two", "three"):
+        Path(f"{name}.urdf.xacro").write_text(f'{_ROBOT}{_include("part.xacro")}<link name="base"/></robot>')
+    Path("part.xacro").write_text(f'{_PART}<link name="arm"/>\n\n oops\n<joint name="j" type="fixed">'
+                                  '<parent link="base"/><child link="arm"/></joint></robot>')  # fmt: skip
+    assert _findings(run, ".") == [("stray-text", "warning", "part.xacro", 3)]
+    assert "2 of the same places in other robots" in run("check", ".").stderr
+    assert run("check", ".", "--baseline", "known.json", "--update-baseline").exit_code == 0
+    Path("one.urdf.xacro").unlink()
+    assert run("check", ".", "--baseline", "known.json").stdout == ""
+
+
+def test_a_macro_that_is_called_twice_has_its_fault_once(run: Run, here: Path) -> None:
+    Path("r.urdf.xacro").write_text(
+        f'{_ROBOT}{_include("wheel.xacro")}<link name="base"/>'
+        '<xacro:wheel name="left"/><xacro:wheel name="right"/></robot>'
+    )
+    joint = '<joint name="${name}" type="fixed"><parent link="base"/><child link="${name}"/></joint>'
+    Path("wheel.xacro").write_text(
+        f'{_PART}<xacro:macro name="wheel" params="name">\n<link name="${{name}}"><colour/></link>{joint}'
+        "</xacro:macro></robot>"
+    )
+    assert _findings(run, ".") == [("unknown-element", "warning", "wheel.xacro", 2)]
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ("<xacro:macro name='m' params='a'>\n<link name='${a +}'/></xacro:macro>", 2, "'a +' is no expression"),
+        ("\n<xacro:macro params='a'/>", 2, "<xacro:macro> has no attribute 'name'"),
+        ("\n<xacro:include/>", 2, "<xacro:include> has no attribute 'filename'"),
+        ("<xacro:property name='p' value='${1'/>", 1, "has no closing brace"),
+        ("<xacro:macro name='a.b'/>", 1, "a macro cannot be called 'a.b'"),
+        ("\n<link", 2, "not well-formed"),
+    ],
+)
+def test_a_file_of_macros_is_checked_as_one(run: Run, here: Path, text: str, line: int, words: str) -> None:
+    Path("macros.xacro").write_text(f"{_PART}{text}</robot>")
+    done = run("check", ".")
+    assert (done.exit_code, f"macros.xacro:{line}:" in done.stdout, words in done.stdout) == (1, True, True)
+    assert "link" not in done.stdout.replace("<link", "").partition("[")[0]
+    assert run("check", ".", "--allow", "xacro-error").exit_code == 0
+
+
+def test_macros_without_a_fault_are_no_robot_and_no_error(run: Run, here: Path) -> None:
+    Path("macros.xacro").write_text(
+        f"{_PART}<xacro:property name='r' value='${{arg(1) &gt; 0 and\n 2}}'/>"
+        "<xacro:macro name='m' params='a b:=1'><link name='${a}_$(arg side)'/></xacro:macro></robot>"
+    )
+    Path("empty.urdf").write_text("<robot><!-- a place for what others add --></robot>")
+    Path("groups.srdf.xacro").write_text(f'{_ROBOT}<xacro:groups/><group name="arm"/></robot>')
+    Path("plane.world").write_text("define floorplan model ( boundary 1 )")
+    done = run("check", ".")
+    assert (done.exit_code, done.stdout) == (0, "")
+    assert done.stderr == "3 files: 0 errors, 0 warnings, 0 notes\n"
+
+
+def test_a_circle_of_includes_names_its_files(run: Run, here: Path) -> None:
+    Path("a.urdf.xacro").write_text(f'{_ROBOT}<link name="l"/>\n{_include("more/b.xacro")}</robot>')
+    Path("more").mkdir()
+    Path("more/b.xacro").write_text(f"{_PART}\n\n{_include('../a.urdf.xacro')}</robot>")
+    assert _findings(run, ".") == [("xacro-error", "error", "more/b.xacro", 3)]
+    words = "a.urdf.xacro includes more/b.xacro, which includes a.urdf.xacro"
+    assert words in run("check", ".").stdout
+
+
+def test_paths_are_relative_to_where_the_check_began(run: Run, here: Path) -> None:
+    Path("bot/urdf").mkdir(parents=True)
+    Path("bot/package.xml").write_text("<package><name>bot</name></package>")
+    Path("bot/urdf/r.urdf.xacro").write_text(f"{_ROBOT}{_include('$(find bot)/urdf/part.xacro')}</robot>")
+    Path("bot/urdf/part.xacro").write_text(f"{_PART}\n<link name='a'><colour/></link></robot>")
+    assert _findings(run, ".") == [("unknown-element", "warning", "bot/urdf/part.xacro", 2)]
+    sarif = json.loads(run("check", "bot", "--format", "sarif").stdout)["runs"][0]["results"]
+    places = [each["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] for each in sarif]
+    assert places == ["bot/urdf/part.xacro"]
+
+
+def test_a_package_is_found_in_the_folder_that_is_checked(run: Run, here: Path) -> None:
+    Path("src/one/urdf").mkdir(parents=True)
+    Path("src/deep/er/two-ros").mkdir(parents=True)
+    Path("src/deep/er/two-ros/package.xml").write_text("<package><name>two</name></package>")
+    Path("src/deep/er/two-ros/part.xacro").write_text(f"{_PART}<link name='a'/></robot>")
+    Path("src/one/urdf/r.urdf.xacro").write_text(f"{_ROBOT}{_include('$(find two)/part.xacro')}</robot>")
+    assert _findings(run, "src") == []
+    assert _findings(run, "src/one") == [("missing-package", "warning", "src/one/urdf/r.urdf.xacro", 1)]
+
+
+def test_missing_arguments_are_named_all_at_once_with_what_to_write(run: Run, here: Path) -> None:
+    Path("urdf").mkdir()
+    Path("urdf/arm.urdf.xacro").write_text(
+        f"{_ROBOT}\n<xacro:arg name='given' default='1'/><link name='$(arg dof)_$(arg given)'/>"
+        f"{_include('part.xacro')}</robot>"
+    )
+    Path("urdf/part.xacro").write_text(f"{_PART}<link name='$(arg side)'/><!-- $(arg none) --></robot>")
+    Path("package.xml").write_text("<package><name>arm</name></package>")
+    Path("launch").mkdir()
+    Path("launch/view.launch.py").write_text(
+        "raise SystemExit('run')\n"
+        "DeclareLaunchArgument('dof', description='joints', default_value='7')\n'arm.urdf.xacro'"
+    )
+    done = run("check", "urdf/arm.urdf.xacro")
+    assert done.exit_code == 1
+    assert "urdf/arm.urdf.xacro:2:" in done.stdout
+    assert "error: the arguments 'dof', 'side' have no values [missing-argument]" in done.stdout
+    assert "pass dof:=7 side:=VALUE (values from view.launch.py)" in done.stdout
+    assert '<xacro:arg name="dof" default="..."/>' in done.stdout
+    assert 'match = ["arm.urdf.xacro"], arguments = { dof = "7", side = "..." }' in done.stdout
+    assert run("check", "urdf/arm.urdf.xacro", "--allow", "missing-argument").exit_code == 0
+    done = run("check", ".")
+    assert (done.exit_code, "warning: the arguments" in done.stdout) == (0, True)
+    assert "1 not checked, for want of arguments or packages" in done.stderr
+    assert run("check", ".", "--deny", "missing-argument").exit_code == 1
+    Path("twinform.toml").write_text('[[files]]\nmatch = ["arm.urdf.xacro"]\narguments = { dof = "7", side = "left" }')
+    assert "missing-argument" not in run("check", ".").stdout
+
+
+def test_a_package_that_is_missing_for_a_text_hides_nothing_else(run: Run, here: Path) -> None:
+    Path("r.urdf.xacro").write_text(
+        f"{_ROBOT}<link name='a'><colour/></link>\n<gazebo><plugin name='p' filename='libp.so'>"
+        "<file>$(find nowhere)/control.yaml</file></plugin></gazebo></robot>"
+    )
+    found = {(rule, severity, line) for rule, severity, _, line in _findings(run, "r.urdf.xacro")}
+    assert {("missing-package", "warning", 2), ("unknown-element", "warning", 1)} <= found
+    done = run("convert", "r.urdf.xacro", "--to", "sdf")
+    assert (done.exit_code, "error: package 'nowhere' is not found" in done.stderr) == (1, True)
+
+
+def test_arguments_of_a_folder_are_for_the_files_that_have_them(run: Run, here: Path) -> None:
+    Path("one.urdf.xacro").write_text(f"{_ROBOT}<link name='$(arg side)'/></robot>")
+    Path("two.urdf.xacro").write_text(f"{_ROBOT}<link name='b'/></robot>")
+    assert _findings(run, ".", "side:=left") == []
+    assert "unused-argument" in run("check", "two.urdf.xacro", "side:=left").stdout
+    assert "no file has the argument 'sdie'" in run("check", ".", "sdie:=left", "side:=left").stderr
+
+
+def test_a_file_that_is_no_model_is_a_finding_and_a_path_that_is_none_is_wrong_usage(run: Run, here: Path) -> None:
+    Path("broken.urdf").write_text("<robot")
+    Path("gone.urdf").symlink_to("nowhere.urdf")
+    assert run("check", ".").exit_code == 1
+    assert run("check", ".", "--allow", "not-well-formed", "--allow", "unreadable-file").exit_code == 0
+    assert run("check", ".", "--baseline", "known.json", "--update-baseline").exit_code == 0
+    assert run("check", ".", "--baseline", "known.json").exit_code == 0
+    assert run("check", "broken.urdf").exit_code == 1
+    assert run("check", "nowhere.urdf").exit_code == 2
+
+
+def test_links_of_strangers_lead_to_no_file_outside(run: Run, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (here / "project").mkdir()
+    monkeypatch.chdir(here / "project")
+    secret = here / "key.xacro"
+    secret.write_text(f"{_PART}<xacro:include filename='more.xacro'/><xacro:macro/></robot>")
+    Path("link.xacro").symlink_to(secret)
+    Path("r.urdf.xacro").write_text(f"{_ROBOT}<link name='a'/>{_include(str(secret))}</robot>")
+    done = run("check", ".")
+    assert "<xacro:macro" not in done.stdout
+    assert done.stdout.count("outside of the folders") == 2

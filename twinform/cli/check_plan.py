@@ -1,0 +1,78 @@
+"""What `twinform check` does with each file: whether it is a robot or a part of others, and who named it."""
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from twinform.cli.model_files import XACRO
+from twinform.dataclass import dataclass
+from twinform.diagnostics import Severity, rules
+from twinform.file_access import may_be_root
+
+if TYPE_CHECKING:
+    from twinform.cli.inputs import InputSource, Remember
+    from twinform.compiler import LoadOptions, LoadResult
+    from twinform.diagnostics import Diagnostic
+
+
+OUTSIDE = frozenset({rules.MISSING_ARGUMENT, rules.MISSING_PACKAGE})
+"""Faults that are not in the file."""
+
+
+@dataclass(frozen=True, slots=True)
+class CheckPlan:
+    """The roles of files, as the include graph calls them; a file that is not in `roles` is a robot. `named` are those that were typed."""
+
+    roles: Mapping[str, str]
+    named: frozenset[str]
+
+    @classmethod
+    def of(
+        cls,
+        sources: "Sequence[InputSource]",
+        words: Sequence[str],
+        load_options: "LoadOptions",
+        remember: "Remember" = lambda _, make: make(),
+    ) -> "CheckPlan":
+        """Read how the files include each other, unless nothing of xacro is to be looked at.
+
+        `remember` may know it from an earlier run.
+        """
+        typed = {os.path.abspath(word) for word in words}  # noqa: PTH100 - links stay links
+        named = frozenset(each.name for each in sources if os.path.abspath(each.name) in typed)  # noqa: PTH100 - as above
+        files = [each.content for each in sources if isinstance(each.content, str) and _may_be_part(each.content)]
+        if not files or load_options.xacro is False:
+            return cls({}, named)
+
+        def read() -> list[str]:
+            from twinform.compiler.input.include_graph import IncludeGraph  # noqa: PLC0415 - few files are xacro
+
+            return list(IncludeGraph(load_options.search).roles(files).values())
+
+        roles = remember(("roles", files, load_options.search), read)
+        return cls(dict(zip(files, roles, strict=True)), named)
+
+
+def with_outside_faults(loaded: "LoadResult", *, named: bool) -> "LoadResult":
+    """Return what was read, with warnings where arguments or packages are missing, which is no fault of the file.
+
+    They stay errors where somebody has named the file and nothing in it could be checked.
+    """
+    if named and loaded.document is None:
+        return loaded
+    return replace(loaded, diagnostics=tuple(map(_as_warning, loaded.diagnostics)))
+
+
+def _as_warning(finding: "Diagnostic") -> "Diagnostic":
+    return replace(finding, severity=Severity.WARNING) if finding.rule in OUTSIDE else finding
+
+
+def folders_asked(words: Sequence[str]) -> tuple[Path, ...]:
+    """Return the folders of a command line, in which packages are looked for as in a workspace."""
+    return tuple(Path(word) for word in words if os.path.isdir(word) and may_be_root(Path(word).absolute()))  # noqa: PTH112 - is_dir raises where a name is too long
+
+
+def _may_be_part(name: str) -> bool:
+    return name.lower().endswith((XACRO, ".urdf"))
