@@ -345,11 +345,12 @@ def command(
     folders = folders_asked(words)
     options = OptionsByFile(ctx, arguments, reading, rules, check_passes, "check_passes", profiles, folders)
     plan = CheckPlan.of(sources, words, options.usual.load_options, file_run.remember)
-    given = arguments if len(plan.named) < len(sources) else ()
 
     def new_report() -> CheckReport:
         known = baseline_of(ctx, baseline, update=update_baseline)
-        return CheckReport(style, notes=notes, every=every, baseline=known, arguments=given)
+        return CheckReport(
+            style, notes=notes, every=every, baseline=known, arguments=plan.shared(arguments, len(sources))
+        )
 
     def task(source: InputSource, report: CheckReport) -> CheckTask:
         load_options, policy, passes = options.of(source.name)
@@ -372,15 +373,25 @@ def command(
         def check(source: InputSource, report: CheckReport) -> None:
             report.add(task(source, report).do())
 
-        ctx.exit(watch_models(lambda: model_inputs(words, exclusion, is_checked)[0], new_report, check))
+        def find() -> "Sequence[InputSource]":
+            nonlocal plan
+            found = model_inputs(words, exclusion, is_checked)[0]
+            plan = CheckPlan.of(found, words, options.usual.load_options)
+            return found
+
+        ctx.exit(watch_models(find, new_report, check))
     report = new_report()
     if fixes:
         ctx.exit(_fix(sources, fixing, report, plan.named, diff=diff, silent=diff or fix_only))
-    with file_run.on(CheckedFile, [task(source, report) for source in sources]) as results:
+    _check(file_run, [task(source, report) for source in sources], report)
+    ctx.exit(report.end())
+
+
+def _check(file_run: FileRun, tasks: "Sequence[CheckTask]", report: CheckReport) -> None:
+    with file_run.on(CheckedFile, tasks) as results:
         for each in results:
             report.add(each)
     file_run.end()
-    ctx.exit(report.end())
 
 
 def _fix(

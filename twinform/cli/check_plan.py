@@ -1,7 +1,7 @@
 """What `twinform check` does with each file: whether it is a robot or a part of others, and who named it."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,10 +23,14 @@ OUTSIDE = frozenset({rules.MISSING_ARGUMENT, rules.MISSING_PACKAGE})
 
 @dataclass(frozen=True, slots=True)
 class CheckPlan:
-    """The roles of files, as the include graph calls them; a file that is not in `roles` is a robot. `named` are those that were typed."""
+    """The roles of files as the include graph calls them, by name; others are robots. `named` files were typed."""
 
     roles: Mapping[str, str]
     named: frozenset[str]
+
+    def shared(self, arguments: Iterable[str], files: int) -> Iterable[str]:
+        """Return the arguments that some of so many files may have no use for, since it was found in a folder."""
+        return arguments if len(self.named) < files else ()
 
     @classmethod
     def of(

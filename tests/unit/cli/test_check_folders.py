@@ -213,14 +213,14 @@ def watching(tmp_path: Path) -> Generator[Watching]:
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="there Ctrl-C is no signal to one process")
 def test_what_changes_is_checked_again_until_ctrl_c(watching: Watching, tmp_path: Path) -> None:
-    watching.wait_for("2 files: 0 errors, 0 warnings, 0 notes\nwatching 2 files; Ctrl-C ends\n")
+    watching.wait_for("3 files: 0 errors, 0 warnings, 0 notes\nwatching 3 files; Ctrl-C ends\n")
     parts = tmp_path / "parts.xacro"
     parts.write_text(parts.read_text().replace("<link", "<color/><link"))
     watching.wait_for("[unknown-element]")
-    watching.wait_for("1 file: 0 errors, 1 warning, 0 notes\n")
+    watching.wait_for("2 files: 0 errors, 1 warning, 0 notes\n")
     (tmp_path / "new.urdf").write_text(WRONG)
     watching.wait_for("new.urdf:3:4: error: ")
-    watching.wait_for("watching 3 files; Ctrl-C ends\n")
+    watching.wait_for("watching 4 files; Ctrl-C ends\n")
     watching.process.send_signal(signal.SIGINT)
     assert watching.process.wait(timeout=60) == 130
 

@@ -18,7 +18,8 @@ def _finding(message: str = "gone", line: int = 3, path: str = "/robot/joint[2]"
 
 def _run(*findings: Diagnostic, known: Baseline | None = None) -> BaselineRun:
     run = BaselineRun(known or Baseline(), lambda name: PurePosixPath(name).as_posix())
-    run.unknown("a.urdf", findings, ["a.urdf"])
+    run.unknown("a.urdf", findings)
+    run.add(["a.urdf"], {})
     return run
 
 
@@ -54,20 +55,20 @@ def test_each_finding_has_a_line_and_they_are_sorted() -> None:
 )  # fmt: skip
 def test_a_finding_that_moved_is_the_same(moved: Diagnostic) -> None:
     known = _run(_finding()).updated(lambda _: True)
-    assert BaselineRun(known, str).unknown("a.urdf", [moved], ["a.urdf"]) == ()
+    assert BaselineRun(known, str).unknown("a.urdf", [moved]) == ()
 
 
 def test_numbers_of_lines_in_messages_do_not_matter_and_other_words_do() -> None:
     known = _run(_finding("as in line 4, column 2")).updated(lambda _: True)
-    assert BaselineRun(known, str).unknown("a.urdf", [_finding("as in line 9, column 1")], ["a.urdf"]) == ()
-    assert BaselineRun(known, str).unknown("a.urdf", [_finding("as in row 4")], ["a.urdf"])
-    assert BaselineRun(known, str).unknown("b.urdf", [_finding("as in line 4, column 2", file="b.urdf")], ["b.urdf"])
+    assert BaselineRun(known, str).unknown("a.urdf", [_finding("as in line 9, column 1")]) == ()
+    assert BaselineRun(known, str).unknown("a.urdf", [_finding("as in row 4")])
+    assert BaselineRun(known, str).unknown("b.urdf", [_finding("as in line 4, column 2", file="b.urdf")])
 
 
 def test_one_more_of_a_kind_is_a_new_one() -> None:
     known = _run(_finding(), _finding()).updated(lambda _: True)
     again = [_finding(line=line) for line in (1, 2, 3)]
-    assert BaselineRun(known, str).unknown("a.urdf", again, ["a.urdf"]) == (again[2],)
+    assert BaselineRun(known, str).unknown("a.urdf", again) == (again[2],)
 
 
 def test_what_does_not_occur_any_more_is_counted_for_the_files_that_were_seen() -> None:
@@ -83,7 +84,7 @@ def test_fatal_errors_are_in_a_baseline_and_notes_are_not() -> None:
     note = Diagnostic(DANGLING_LINK, "by the way", Location("a.urdf", 1), Severity.INFO)
     run = _run(fatal, note)
     assert [known.rule for known in run.found] == ["not-well-formed"]
-    assert BaselineRun(run.updated(lambda _: True), str).unknown("a.urdf", [fatal, note], ["a.urdf"]) == (note,)
+    assert BaselineRun(run.updated(lambda _: True), str).unknown("a.urdf", [fatal, note]) == (note,)
 
 
 @pytest.mark.parametrize(
