@@ -66,12 +66,12 @@ _REMARKS = {"warning: ": rules.XACRO_WARNING, "error: ": rules.XACRO_WARNING}
 class Expansion:
     """The expanded text, and where the elements on its lines were written.
 
-    `texts` are the places of texts that stand in another file than the element around them.
+    `strays` are the places of texts that stand in another file than the element around them.
     """
 
     text: bytes
     origins: LineOrigins
-    texts: Mapping[str, Location]
+    strays: Mapping[str, Location]
 
 
 def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expansion:
@@ -93,7 +93,7 @@ def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expan
     for name in outcome["unused"]:
         message = f"the argument {name!r} is not one of the file's"
         sink.report(rules.UNUSED_ARGUMENT, message, Location(line=1), found=name)
-    report_mistakes(str(path), outcome["texts"], sink)
+    report_mistakes(sink.file, {shown_name(file, sink.file): each for file, each in outcome["texts"].items()}, sink)
     text = outcome["text"].encode()
     if len(text) > LARGEST:
         message = f"the expanded file has {len(text):,} bytes; the limit is {LARGEST:,}"
@@ -102,8 +102,8 @@ def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expan
     # Nodes of the IR keep the lines of the expanded text, which are the ones that the `xacro`
     # command prints and by which the writer orders children. Findings name the file that the author
     # can edit first.
-    texts = {text: Location(shown_name(file, sink.file), line) for text, file, line in outcome["texts"]}
-    return Expansion(text, _origins(text, outcome["places"], sink.file), texts)
+    strays = {text: Location(shown_name(file, sink.file), line) for text, file, line in outcome["strays"]}
+    return Expansion(text, _origins(text, outcome["places"], sink.file), strays)
 
 
 def _report_failure(outcome: Mapping[str, Any], path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> None:

@@ -198,7 +198,7 @@ def _read_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> 
     allowances = load_options.allowances(sink.file, sink.origins)
     allowances.read(_unexpanded(path, load_options), sink)
     loaded = _read_text(expansion.text, DiagnosticSink(name, sink.strict), load_options, allowances)
-    sink.extend(_at_its_text(each, expansion.texts) for each in loaded.diagnostics)
+    sink.extend(_at_its_text(each, expansion.strays) for each in loaded.diagnostics)
     allowances.settle(sink)
     allowed = (*loaded.allowed, *sink.allowed)
     return replace(loaded, path=sink.file, diagnostics=tuple(sink.diagnostics), origins=sink.origins, allowed=allowed)

@@ -110,14 +110,14 @@ def _expanded(expander: Expander, arguments: dict[str, str]) -> dict[str, Any]:
         document = expander.expand(arguments)
         root = document.documentElement
         places = [] if root is None else list(places_below(root))
-        texts = [] if root is None else list(islice(included_texts(root), _MOST_REMARKS))
+        strays = [] if root is None else list(islice(included_texts(root), _MOST_REMARKS))
         text = document.toprettyxml(indent="  ")
         text.encode()  # half of a surrogate pair is no text
     except BadFileError as error:
         return {"error": str(error), "place": error.place, "syntax": error.is_syntax}
     except Exception as error:  # noqa: BLE001 - an expression may raise anything, and it is the file's fault
         return {**description(error, expander.definitions), "place": expander.place()}
-    return {"text": text, "places": places, "texts": texts}
+    return {"text": text, "places": places, "strays": strays}
 
 
 def main() -> None:
