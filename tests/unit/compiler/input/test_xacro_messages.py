@@ -82,11 +82,6 @@ CASES = {
         "r.urdf.xacro:2: property 'a' is defined by itself: a -> a",
         'lazy_eval="false" takes the value that a property has before',
     ),
-    "an argument in eval": (
-        '<link name="$(eval side + 1)"/>',
-        "r.urdf.xacro:2: argument 'side' is not defined, in $(eval side + 1)",
-        None,
-    ),
     "another case in an included file": (
         '<xacro:include filename="broken.xacro"/>',
         "broken.xacro:3: not well-formed XML: </xacro:if> ends the <xacro:If> of line 2",

@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from importlib import import_module
 from pathlib import Path
+from posixpath import normpath
 from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 from xml.dom import minidom
@@ -200,11 +201,20 @@ class Expander:
 
     def _parse(self, _: object, filename: str) -> minidom.Document:
         """What xacro's own function does, with lines."""
+        filename = self._known_name(filename)
         try:
             return parse(self.compiler.read(filename), filename)
         except MissingFileError as error:
             self.xacro.filestack.pop()
             raise self.xacro.XacroException(exc=error) from error
+
+    def _known_name(self, filename: str) -> str:
+        """The name by which a file is open that is included again, so that names in a circle do not grow."""
+        stack: list[str] = self.xacro.filestack
+        here = normpath(filename)
+        known = next((each for each in stack[:-1] if normpath(each) == here), filename)
+        stack[-1:] = [known]
+        return known
 
 
 def _replace(module: ModuleType, replacements: Mapping[str, Any]) -> None:
