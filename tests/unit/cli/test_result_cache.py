@@ -76,6 +76,11 @@ def _retarget(path: Path) -> None:
     path.symlink_to(other)
 
 
+def _work(*_: object) -> None:
+    """Stand for work that must not be done."""
+    pytest.fail("it was done again")
+
+
 _Change = Callable[[Path], object]
 _CHANGES: Mapping[str, _Change] = {
     "edit": lambda path: path.write_text(path.read_text().replace("a", "b", 1)),
@@ -153,12 +158,8 @@ def test_nothing_is_read_again_where_nothing_has_changed(
 ) -> None:
     found = _same_findings(run)
     _same_findings(run)  # the files were young, so their contents were compared
-
-    def work(*_: object) -> None:
-        pytest.fail("it was done again")
-
-    monkeypatch.setattr("twinform.cli.checked_file.CheckTask.do", work)
-    monkeypatch.setattr("twinform.cli.inputs.discover", work)
+    monkeypatch.setattr("twinform.cli.checked_file.CheckTask.do", _work)
+    monkeypatch.setattr("twinform.cli.inputs.discover", _work)
     assert run("check", ".", "--format", "json", "--expand-includes").stdout == found
 
 
@@ -240,6 +241,24 @@ def test_a_file_alone_is_not_kept_and_clean_deletes(workspace: Path, run: Run) -
     assert "deleted 1 file" in run("clean").stderr
     assert [each.name for each in (workspace / "cache").iterdir()] == ["notes.txt"]
     assert stat.S_IMODE((workspace / "cache").stat().st_mode) & 0o022 == 0
+
+
+def test_format_knows_what_is_formatted_until_it_changes(
+    workspace: Path, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def both() -> tuple[int, str, str]:
+        kept, anew = run("format", ".", "--diff"), run("format", ".", "--diff", "--no-cache")
+        assert (kept.exit_code, kept.stdout, kept.stderr) == (anew.exit_code, anew.stdout, anew.stderr)
+        return kept.exit_code, kept.stdout, kept.stderr
+
+    assert both()[0] == 1
+    assert run("format", ".").exit_code == 0
+    assert both()[0] == 0
+    (workspace / "ws/crate/model.sdf").write_text("<sdf  version='1.9'/>")
+    assert "-<sdf  version" in both()[1]
+    found = run("format", ".", "--diff").stdout
+    monkeypatch.setattr("twinform.cli.format.formatted", _work)
+    assert run("format", ".", "--diff").stdout == found
 
 
 def test_two_runs_keep_the_results_of_both(workspace: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
