@@ -17,6 +17,8 @@ OTHERS = {
     "cli/fix.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "cli/format.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "cli/inputs.py": "streams that were named as such",
+    "cli/git_driver.py": "looks for git in the folders of PATH",
+    "cli/merge.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "cli/process.py": NOWHERE,
     "cli/view.py": "opens a browser",
     "compiler/batch/archives.py": "the archive that the user has named, and a temporary folder",

@@ -1,5 +1,6 @@
 """Sets up git to merge models by their elements, and to show what changed in them without their layout."""
 
+import os
 import shutil
 import subprocess
 import sys
@@ -60,7 +61,9 @@ def _add_attributes(path: Path) -> int:
 
 
 def _git(folder: Path, *arguments: str) -> str:
-    program = shutil.which("git")
+    # A git in the folder that one happens to be in is a file of strangers, whatever PATH says.
+    folders = [each for each in os.environ.get("PATH", os.defpath).split(os.pathsep) if os.path.isabs(each)]  # noqa: PTH117
+    program = shutil.which("git", path=os.pathsep.join(folders))
     if program is None:
         raise Unusable("git is not installed")
     done = subprocess.run(  # noqa: S603 - git itself, with arguments of ours
