@@ -4,7 +4,7 @@ import os
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
@@ -15,6 +15,7 @@ from twinform.cli.completion import files, pipelines
 from twinform.cli.config import settings_of
 from twinform.cli.config.config_defaults import RuleSettings
 from twinform.cli.file_runs import FileRun, RunOptions, open_file_run, run_options
+from twinform.cli.flags import group
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, reading_options
 from twinform.cli.model_files import is_checked
 from twinform.cli.printing import all_option, notes_option, plural, print_document, print_line, show
@@ -151,6 +152,25 @@ _STREAMED = _FOR_PEOPLE | {"github"}
 """Formats that are printed file by file; the others are one document."""
 
 
+class ExitOptions(NamedTuple):
+    """What the exit code depends on besides errors, and whether the rules that were found are counted."""
+
+    max_warnings: int | None = None
+    exit_zero: bool = False
+    statistics: bool = False
+
+
+USUAL_EXIT = ExitOptions()
+exit_options = group(
+    "exit_options",
+    ExitOptions,
+    click.option("--max-warnings", type=click.IntRange(min=0), metavar="N", help="Exit code 1 with more warnings."),
+    click.option("--exit-zero", is_flag=True, help="Exit code 0 whatever is found in the files."),
+    click.option("--statistics", is_flag=True, help="Say how often each rule was found."),
+)
+"""Gives a command `--max-warnings`, `--exit-zero` and `--statistics`, as `exit_options`."""
+
+
 class OnceInAllFiles:
     """Leaves out findings about an included file that were reported before, for another robot or call of a macro."""
 
@@ -179,8 +199,10 @@ class CheckReport:
         every: bool = False,
         baseline: BaselineFile | None = None,
         arguments: Iterable[str] = (),
+        exit_options: ExitOptions = USUAL_EXIT,
     ) -> None:
         self.style, self.notes, self.every, self.baseline = style, notes, every, baseline
+        self.exit, self.by_rule = exit_options, Counter[str]()
         self.unused, self.once = {*arguments}, OnceInAllFiles()
         self.on_stderr, self.fixed = False, 0
         self.fixes: Counter[Safety] = Counter()
@@ -210,6 +232,8 @@ class CheckReport:
         if checked.unused is not None:
             self.unused &= {*checked.unused}
         self.counts.update(each.severity for each in findings.diagnostics)
+        least = Severity.INFO if self.notes else Severity.WARNING
+        self.by_rule.update(each.rule.name for each in findings.diagnostics if each.severity >= least)
         self.fixes.update(each.fix.safety for each in findings.diagnostics if each.fix)
         if self.baseline:
             is_whole = not (checked.unreadable or checked.waits)
@@ -244,13 +268,18 @@ class CheckReport:
             print_document(REPORTERS[self.style](self.kept))
         news = self.baseline.write() if self.baseline else ""
         print_line(self._summary(), err=True)
+        for rule, count in self.by_rule.most_common() if self.exit.statistics else ():
+            print_line(f"{count:>6}  {rule}", err=True)
         for name in sorted(self.unused):
             print_line(f"no file has the argument {name!r}", err=True)
         if news:
             print_line(news, err=True)
         if self.unusable:
             return UNUSABLE
-        return FINDINGS if self.counts[Severity.ERROR] else 0
+        excess = self.exit.max_warnings is not None and self.counts[Severity.WARNING] > self.exit.max_warnings
+        if excess:
+            print_line(f"more warnings than --max-warnings {self.exit.max_warnings}", err=True)
+        return FINDINGS if (self.counts[Severity.ERROR] or excess) and not self.exit.exit_zero else 0
 
     def _summary(self) -> str:
         found = ", ".join(plural(self.counts[severity], word) for severity, word in _WORDS.items())
@@ -306,6 +335,7 @@ EXAMPLES = {
 @click.option("--unsafe-fixes", is_flag=True, help="Fix what is a guess too, or may make another robot of a file.")
 @click.option("--diff", is_flag=True, help="Print what --fix would change, and write nothing; exit code 1 if anything.")
 @click.option("--fix-only", is_flag=True, help="Fix, and report nothing of what is left.")
+@exit_options
 @run_options
 @reading_options
 @click.pass_context
@@ -328,6 +358,7 @@ def command(
     unsafe_fixes: bool,
     diff: bool,
     fix_only: bool,
+    exit_options: ExitOptions,
     run: RunOptions,
     reading: ReadingOptions,
 ) -> None:

@@ -18,7 +18,7 @@ from twinform.cli.inputs import load_options_of
 from twinform.compiler import LoadOptions
 from twinform.compiler.input.load_options import FileOptions
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Policy
+from twinform.diagnostics import Policy, did_you_mean
 from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule
 from twinform.diagnostics.rule_registry import rules as known_rules
 
@@ -135,12 +135,11 @@ def _check_rules(_ctx: click.Context, option: click.Parameter, names: tuple[str,
 
 def _rule_problem(name: str, option: str) -> str:
     """Say what is wrong with a rule in `allow` or `deny`; empty if nothing is."""
-    from twinform.passes.framework.pass_options import nearest  # noqa: PLC0415 - most names are those of rules
-
     try:
         found = find_rule(name)
         if found is None:
-            return f"no rule is called {name}{nearest(name, list(known_rules()))}"
+            near = did_you_mean(name, known_rules()) or "`twinform explain` lists the rules"
+            return f"no rule is called {name}; {near}"
     except RuleRegistryError as error:
         raise Unusable(str(error)) from error
     return ""

@@ -20,11 +20,12 @@ EXAMPLES = {
     "Write an XML schema for an editor": "twinform schema sdf --version 1.9 -o sdf.xsd",
     "One for xacro files, and those that it imports": "twinform schema urdf --xacro -o robot.xsd",
     "The JSON Schema of documents": "twinform schema json",
+    "The JSON Schema of twinform.toml": "twinform schema config -o twinform.schema.json",
 }
 
 
 @click.command("schema", cls=Command, examples=EXAMPLES)
-@click.argument("language", metavar="urdf|sdf|json", type=click.Choice(["urdf", "sdf", "json"]))
+@click.argument("language", metavar="urdf|sdf|json|config", type=click.Choice(["urdf", "sdf", "json", "config"]))
 @click.option("--version", metavar="V", help="The version of the format; the newest where it is not given.")
 @click.option(
     "--xsd",
@@ -48,7 +49,7 @@ EXAMPLES = {
 @click.pass_context
 def command(
     ctx: click.Context,
-    language: Literal["urdf", "sdf", "json"],
+    language: Literal["urdf", "sdf", "json", "config"],
     version: str | None,
     xsd: Literal["1.0", "1.1"],
     *,
@@ -56,19 +57,18 @@ def command(
     xacro: bool,
     output: Path,
 ) -> None:
-    """Print the schema of URDF, SDF or JSON.
+    """Print the schema of URDF, SDF, JSON or the configuration.
 
-    That of URDF and SDF is an XML schema, that of documents as JSON a JSON Schema. XML schemas are strict: they take
-    the syntax of one version. A lenient one is for editors of files that are not. In XSD 1.0 it takes no elements that
-    it does not know; in XSD 1.1 it does. For xacro files, the schemas of xacro's own elements are written beside it.
+    That of URDF and SDF is an XML schema, those of documents as JSON and of twinform.toml are JSON Schemas. XML schemas
+    are strict: they take the syntax of one version. A lenient one is for editors of files that are not. In XSD 1.0 it
+    takes no elements that it does not know; in XSD 1.1 it does. For xacro files, the schemas of xacro's own elements
+    are written beside it.
     """
     asked = ctx.get_parameter_source("xsd") is ParameterSource.COMMANDLINE
-    if language == "json":
+    if language in {"json", "config"}:
         if version is not None or asked or lenient or xacro:
             raise click.UsageError("--version, --xsd, --lenient and --xacro are for urdf and sdf")
-        from twinform.compiler.output.json import json_schema_text  # noqa: PLC0415 - most schemas are in XSD
-
-        _write({output: json_schema_text()})
+        _write({output: _json_schema(language)})
         return
     facts = table(language)
     if version is not None and version not in facts.versions:
@@ -80,6 +80,16 @@ def command(
         _write(_for_xacro(language, wanted, output))
     else:
         _write({output: (lenient_schema_text if lenient else schema_text)(language, wanted, xsd)})
+
+
+def _json_schema(language: str) -> str:
+    if language == "config":
+        from twinform.cli.config.settings import settings_schema_text  # noqa: PLC0415 - most schemas are in XSD
+
+        return settings_schema_text()
+    from twinform.compiler.output.json import json_schema_text  # noqa: PLC0415 - as above
+
+    return json_schema_text()
 
 
 def _for_xacro(language: str, version: Version, output: Path) -> dict[Path, str]:

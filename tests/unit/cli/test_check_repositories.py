@@ -199,3 +199,27 @@ def test_links_of_strangers_lead_to_no_file_outside(run: Run, here: Path, monkey
     done = run("check", ".")
     assert "<xacro:macro" not in done.stdout
     assert done.stdout.count("outside of the folders") == 2
+
+
+def test_the_exit_code_is_as_it_was_asked_for(run: Run, here: Path) -> None:
+    Path("a.urdf").write_text("<robot name='r'><link name='a'><colour/><colour/></link></robot>")
+    Path("b.urdf").write_text("<robot name='r'/>")
+    assert run("check", "a.urdf", "--max-warnings", "2").exit_code == 0
+    done = run("check", "a.urdf", "--max-warnings", "1")
+    assert (done.exit_code, "more warnings than --max-warnings 1" in done.stderr) == (1, True)
+    assert run("check", ".", "--exit-zero", "--max-warnings", "0").exit_code == 0
+    assert run("check", "nowhere.urdf", "--exit-zero").exit_code == 2
+    assert "     2  unknown-element\n" in run("check", ".", "--statistics").stderr
+
+
+def test_an_unknown_rule_is_answered_in_a_line(run: Run, here: Path) -> None:
+    Path("a.urdf").write_text("<robot name='r'><link name='a'/></robot>")
+    for name, words in (("unknwn-element", "did you mean 'unknown-element'?"), ("qqq", "`twinform explain` lists")):
+        done = run("check", "a.urdf", "--allow", name)
+        assert (done.exit_code, words in done.stderr, len(done.stderr) < 400) == (2, True, True)
+
+
+def test_the_configuration_has_a_schema(run: Run, here: Path) -> None:
+    schema = json.loads(run("schema", "config").stdout)
+    assert {"allow", "extend-exclude", "for", "files", "max-size"} <= schema["properties"].keys()
+    assert schema["additionalProperties"] is False

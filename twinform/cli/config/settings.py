@@ -16,6 +16,7 @@ from twinform.passes.framework.pipeline_text import TableError, parse_tables
 from twinform.passes.framework.syntax import KEY
 from twinform.request_options import RequestOptions
 
+_SCHEMA_LANGUAGE = "https://json-schema.org/draft/2020-12/schema"
 _MOST = 1000
 """The most entries of a list in a configuration."""
 Texts = Annotated[list[str], Field(max_length=_MOST)]
@@ -102,6 +103,14 @@ class ProjectSettings(_OptionSettings):
         given = {name: getattr(self, name) for name in names} | dict(self.format)
         given["profiles"] = ",".join(self.profiles) or None
         return {name: value for name, value in given.items() if value is not None}
+
+
+def settings_schema_text() -> str:
+    """Return the JSON Schema of `twinform.toml`, for editors."""
+    import json  # noqa: PLC0415 - few runs print it
+
+    schema = {"$schema": _SCHEMA_LANGUAGE, **ProjectSettings.model_json_schema(by_alias=True), "title": "twinform.toml"}
+    return json.dumps(schema, indent=2) + "\n"
 
 
 def parse_settings(path: Path, found: Table) -> ProjectSettings:
