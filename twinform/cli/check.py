@@ -380,7 +380,12 @@ def command(
     def new_report() -> CheckReport:
         known = baseline_of(ctx, baseline, update=update_baseline)
         return CheckReport(
-            style, notes=notes, every=every, baseline=known, arguments=plan.shared(arguments, len(sources))
+            style,
+            notes=notes,
+            every=every,
+            baseline=known,
+            arguments=plan.shared(arguments, len(sources)),
+            exit_options=exit_options,
         )
 
     def task(source: InputSource, report: CheckReport) -> CheckTask:

@@ -18,7 +18,7 @@ from twinform.cli.inputs import load_options_of
 from twinform.compiler import LoadOptions
 from twinform.compiler.input.load_options import FileOptions
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Policy, did_you_mean
+from twinform.diagnostics import Policy
 from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule
 from twinform.diagnostics.rule_registry import rules as known_rules
 
@@ -138,8 +138,11 @@ def _rule_problem(name: str, option: str) -> str:
     try:
         found = find_rule(name)
         if found is None:
-            near = did_you_mean(name, known_rules()) or "`twinform explain` lists the rules"
-            return f"no rule is called {name}; {near}"
+            from difflib import get_close_matches  # noqa: PLC0415 - most names are those of rules
+
+            near = get_close_matches(name, known_rules(), n=1)
+            words = f"did you mean {near[0]}?" if near else "`twinform explain` lists the rules"
+            return f"no rule is called {name}; {words}"
     except RuleRegistryError as error:
         raise Unusable(str(error)) from error
     return ""
