@@ -3,6 +3,7 @@
 import contextlib
 import shlex
 import shutil
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -65,7 +66,7 @@ def test_every_command_has_examples(run: Run, name: str) -> None:
 def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the files that the examples name."""
     made = tmp_path_factory.mktemp("files")
-    for name in ("robot.urdf", "models/a.urdf"):
+    for name in ("robot.urdf", "models/a.urdf", "base.urdf", "ours.urdf", "theirs.urdf"):
         (made / name).parent.mkdir(exist_ok=True)
         (made / name).write_text(GOOD)
     (made / "arm.urdf.xacro").write_text(_XACRO)
@@ -75,6 +76,8 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
         crate.mkdir()
         (crate / "model.config").write_text(_CONFIG)
         (crate / "model.sdf").write_text(sdf)
+    if shutil.which("git"):
+        subprocess.run(["git", "init", "--quiet"], cwd=made, check=True)
     (made / "out").mkdir()
     (made / "out" / "a.sdf").write_text(sdf)
     for part in range(1, 5):
