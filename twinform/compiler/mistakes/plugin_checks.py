@@ -6,8 +6,14 @@ What only a release of Gazebo can tell is left to the pass `check-plugins`: a re
 from twinform.compiler.mistakes.wheel_checks import report_wheels
 from twinform.diagnostics import DiagnosticSink, Location, nearest_name, rules
 from twinform.ir import Document, Element, Plugin, World
-from twinform.passes.classic.systems import ros2_kind
-from twinform.passes.plugins.catalog import LATEST, classic_plugins_of_file, known_files, modern_file, systems_of_file
+from twinform.passes.plugins.catalog import (
+    LATEST,
+    classic_plugins_of_file,
+    known_files,
+    modern_file,
+    ros2_kind,
+    systems_of_file,
+)
 from twinform.passes.plugins.catalog_types import PluginKind
 from twinform.passes.plugins.check_plugins import check_sensor_world, find_class
 from twinform.passes.plugins.parameters import ModelNames, ParameterContext, check_parameters

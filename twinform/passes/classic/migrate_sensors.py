@@ -19,9 +19,9 @@ from twinform.passes.classic.moving import (
     truth_of,
 )
 from twinform.passes.classic.reporting import MigrationReport, accept_trial, needed_checks, trial_sink
-from twinform.passes.classic.systems import RosNames, ros2_kind, unused_parameters, without_unread_parameters
+from twinform.passes.classic.systems import RosNames, unused_parameters, without_unread_parameters
 from twinform.passes.classic.tables import ClassicSensorRow, Migration, migration_of, unread_parts
-from twinform.passes.plugins.catalog import sensors
+from twinform.passes.plugins.catalog import ros2_kind, sensors
 from twinform.passes.plugins.catalog_types import Release
 from twinform.passes.plugins.sites import PluginSite, sensor_element, sensor_of
 from twinform.schemas import format_value

@@ -11,7 +11,7 @@ from twinform.ir import Element, Plugin
 from twinform.lazy import lazy_pattern
 from twinform.passes.classic.moving import DroppedParameter, Moved, add_child, truth_of
 from twinform.passes.classic.tables import Migration, SystemRow
-from twinform.passes.plugins.catalog import classic_plugins_of_file, system
+from twinform.passes.plugins.catalog import ros2_kind, system
 from twinform.passes.plugins.catalog_types import PluginKind
 from twinform.passes.plugins.sites import PluginSite
 
@@ -145,8 +145,6 @@ _UNHEARD = "=odom_unheard"
 """The topic for odometry that is off in ROS."""
 _UNREAD = "the plugin of Gazebo Classic does not read it either"
 _UNREAD_BY_ROS2 = "the plugin for ROS 2 does not read it either"
-# The element with the settings of a node, which only plugins for ROS 2 have.
-_ROS = "ros"
 
 
 def make_systems(
@@ -274,24 +272,6 @@ def _without_repeats(lost: list[DroppedParameter]) -> list[DroppedParameter]:
     for each in lost:
         seen.setdefault(id(each.parameter), each)
     return list(seen.values())
-
-
-def ros2_kind(plugin: Plugin) -> PluginKind | None:
-    """The kind of a plugin for ROS 2; None if it is, or may be, for ROS 1.
-
-    A plugin is for ROS 2 if it has `<ros>`, or if its file or its parameters only exist there.
-    """
-    kinds = classic_plugins_of_file(plugin.filename or "")
-    if "ros2" not in kinds:
-        return None
-    written = {child.name for child in plugin.content}
-    new = {row.name for row in kinds["ros2"].parameters}
-    old = {row.name for row in kinds["noetic"].parameters} if "noetic" in kinds else set[str]()
-    # Files of gazebo_ros_pkgs have one name for ROS 1 and ROS 2, and many robots keep parameters of
-    # both in one plugin. A mixture counts as ROS 1 unless <ros> says otherwise: nothing that was
-    # read then gets lost.
-    is_new = _ROS in written or not old or (bool(written & new - old) and not written & old - new)
-    return kinds["ros2"] if is_new else None
 
 
 def without_unread_parameters(plugin: Plugin) -> Plugin:

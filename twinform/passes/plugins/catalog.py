@@ -13,6 +13,7 @@ from importlib import resources
 from importlib.resources.abc import Traversable
 from typing import Any, Literal
 
+from twinform.ir import Plugin
 from twinform.lazy import lazy_pattern
 from twinform.passes.plugins.catalog_types import PluginKind, Published, Release, SensorKind, read_plugins
 
@@ -30,6 +31,7 @@ __all__ = [
     "nearest",
     "release",
     "releases",
+    "ros2_kind",
     "ros_message",
     "sensor",
     "sensors",
@@ -260,6 +262,25 @@ def _read_toml(name: str) -> dict[str, Any]:
 
 def _data(*path: str) -> Traversable:
     return resources.files("twinform.passes.plugins").joinpath("data", *path)
+
+
+def ros2_kind(plugin: Plugin) -> PluginKind | None:
+    """The kind of a plugin for ROS 2; None if it is, or may be, for ROS 1.
+
+    A plugin is for ROS 2 if it has `<ros>`, or if its file or its parameters only exist there.
+    """
+    kinds = classic_plugins_of_file(plugin.filename or "")
+    if "ros2" not in kinds:
+        return None
+    written = {child.name for child in plugin.content}
+    new = {row.name for row in kinds["ros2"].parameters}
+    old = {row.name for row in kinds["noetic"].parameters} if "noetic" in kinds else set[str]()
+    # Files of gazebo_ros_pkgs have one name for ROS 1 and ROS 2, and many robots keep parameters of
+    # both in one plugin. A mixture counts as ROS 1 unless <ros> says otherwise: nothing that was
+    # read then gets lost.
+    # <ros> holds the settings of a node, which only plugins for ROS 2 have.
+    is_new = "ros" in written or not old or (bool(written & new - old) and not written & old - new)
+    return kinds["ros2"] if is_new else None
 
 
 def _make_release(name: str, row: dict[str, Any]) -> Release:
