@@ -1,5 +1,6 @@
 """Checks of `<ros2_control>` and `<transmission>`: repeated and misspelled names, values, and mimic joints."""
 
+from collections import Counter
 from collections.abc import Iterator
 
 from twinform.compiler.mistakes.tree_places import number_of, place_of, tag_of, text_of
@@ -24,6 +25,7 @@ _CLASSES = (
 # A driver's own interface is less alike: torque, gain, current.
 _TYPO = 0.8
 _CLASS_TYPO = 0.9
+_TWICE = 2
 _SLACK = 1e-3
 """How far limits may differ by rounding, relative to their size."""
 
@@ -52,8 +54,11 @@ def report_control(document: Document, tree: XmlElement, sink: DiagnosticSink) -
 
 def _report_repeated(what: str, elements: list[XmlElement], sink: DiagnosticSink) -> None:
     first: dict[str, XmlElement] = {}
+    counts = Counter(element.get("name") for element in elements)
     for element in elements:
         name = element.get("name")
+        if what == "actuator" and counts[name] > _TWICE:  # one motor that pulls the tendons of many joints
+            continue
         if name and first.setdefault(name, element) is not element:
             message = f"{what} {name!r} stands here twice; was it copied from line {first[name].sourceline}?"
             sink.report(

@@ -14,8 +14,8 @@ _HEAVY = 50000.0
 """A mass in the boxes around shapes, kg/m^3."""
 _LARGE = 300.0
 _SMALL = 1e-3
-_DUMMY = 0.01
-"""A body below this mass, kg, has an inertia that nobody feels."""
+_FELT = 0.03
+"""A sum of moments, kg m^2, below which no inertia is too large: nobody feels it, and it keeps a simulation stable."""
 _OFF = 0.5
 """How far a center of mass may be away from the link, m."""
 
@@ -36,7 +36,7 @@ def _is_suspect(link: Link, inertial: Inertial, files: MeshFiles) -> bool:
     """Tell cheaply whether a mass or inertia may be far from what the shapes of a link suggest."""
     holders = (*link.collisions, *link.visuals)
     mass, inertia = inertial.mass, inertial.inertia
-    if not holders or mass is None or mass < _DUMMY or inertia is None:
+    if not holders or not mass or mass < 0 or inertia is None:
         return False
     sizes = [_size(each, files) for each in holders]
     known = [each for each in sizes if each is not None]
@@ -46,7 +46,7 @@ def _is_suspect(link: Link, inertial: Inertial, files: MeshFiles) -> bool:
     thin, wide = min(map(min, known)), sum(map(max, known)) + sum(map(_offset, holders))
     volume = min(math.prod(each) for each in known)
     return (
-        trace > _LARGE * mass * thin * thin / 4
+        trace > max(_LARGE * mass * thin * thin / 4, _FELT)
         or 0 < trace < _SMALL * mass * wide * wide
         or mass > _HEAVY * volume
         or _offset(inertial) > _OFF

@@ -4,14 +4,17 @@ import math
 from collections.abc import Iterator
 
 from twinform.compiler.mistakes.mesh_files import MeshFiles
-from twinform.diagnostics import DiagnosticSink, Location, Severity, rules
-from twinform.ir import Collision, Document, Dynamics, Format, Joint, Limit, Link, Mesh, Pose, Shape, Visual
+from twinform.diagnostics import DiagnosticSink, Severity, rules
+from twinform.ir import Collision, Document, Dynamics, Format, Inertial, Joint, Limit, Link, Mesh, Pose, Shape, Visual
 from twinform.ir.bounds import bounds
 from twinform.passes.shared.moving_bodies import movable_models
 
-# Of 1,448 corpus files, the longest offset in a URDF robot is 15 m, and the longest way of a slider 15 m.
-_FAR = 20.0
-"""An offset or a way that no robot has, m."""
+# Of 1,448 corpus files, the longest offset in a robot of URDF is 15 m, but for a model that was made to be large, and
+# the longest way of a slider 15 m.
+_FAR = 40.0
+"""An offset that no robot has, m."""
+_LONG = 20.0
+"""A way that no slider has, m."""
 _FACTOR = 50.0
 """How much larger than its collision a visual can be."""
 _LARGE = 3.0
@@ -31,7 +34,8 @@ def report_scale(document: Document, files: MeshFiles, sink: DiagnosticSink) -> 
                 odd.add(id(link))
             _report_link_offsets(link, document.format, sink)
         for joint in model.joints:
-            _report_offset(joint.pose, f"joint {joint.name!r}", joint.location, sink)
+            if _is_far(joint.pose):
+                _report_offset(joint, f"joint {joint.name!r}", sink)
             _report_limits(joint, document.format, sink)
     return odd
 
@@ -97,21 +101,27 @@ def _size(shape: Shape, files: MeshFiles) -> float | None:
 
 
 def _report_link_offsets(link: Link, format_: Format, sink: DiagnosticSink) -> None:
-    if format_ is Format.SDF:  # in URDF a link has no pose of its own
-        _report_offset(link.pose, f"link {link.name!r}", link.location, sink)
-    if link.inertial:
-        _report_offset(link.inertial.pose, f"the center of mass of link {link.name!r}", link.inertial.location, sink)
+    if format_ is Format.SDF and _is_far(link.pose):  # in URDF a link has no pose of its own
+        _report_offset(link, f"link {link.name!r}", sink)
+    if link.inertial and _is_far(link.inertial.pose):
+        _report_offset(link.inertial, f"the center of mass of link {link.name!r}", sink)
     for shape in (*link.visuals, *link.collisions):
-        kind = "visual" if isinstance(shape, Visual) else "collision"
-        _report_offset(shape.pose, f"a {kind} of link {link.name!r}", shape.location, sink)
+        if _is_far(shape.pose):
+            kind = "visual" if isinstance(shape, Visual) else "collision"
+            _report_offset(shape, f"a {kind} of link {link.name!r}", sink)
 
 
-def _report_offset(pose: Pose | None, what: str, otherwise: Location, sink: DiagnosticSink) -> None:
-    if pose is None or pose.xyz is None or max(map(abs, pose.xyz)) < _FAR:
+def _is_far(pose: Pose | None) -> bool:
+    return pose is not None and pose.xyz is not None and max(map(abs, pose.xyz)) >= _FAR
+
+
+def _report_offset(placed: Collision | Inertial | Joint | Link | Visual, what: str, sink: DiagnosticSink) -> None:
+    pose = placed.pose
+    if pose is None or pose.xyz is None:
         return
     far = max(pose.xyz, key=abs)
     message = f"{what} is {far:g} m off; are these millimeters?"
-    where = pose.location if pose.source else otherwise
+    where = (pose if pose.source else placed).location
     hint = f"write meters, such as {' '.join(f'{each / 1000:g}' for each in pose.xyz)}"
     sink.report(rules.IMPLAUSIBLE_OFFSET, message, where, found=f"{far:g}", expected=f"less than {_FAR:g}", help=hint)
 
@@ -134,7 +144,10 @@ def _report_limits(joint: Joint, format_: Format, sink: DiagnosticSink) -> None:
         from twinform.passes.joints.limit_faults import find_faults  # noqa: PLC0415 - few joints have either
 
         for each in find_faults(joint):
-            sink.report(each.rule, each.message, each.where, found=each.found, expected=each.expected)
+            severity = Severity.INFO if each.may_be_meant else None
+            sink.report(
+                each.rule, each.message, each.where, found=each.found, expected=each.expected, severity=severity
+            )
 
 
 def _is_negative(dynamics: Dynamics) -> bool:
@@ -159,7 +172,7 @@ def _odd_limits(joint: Joint, limit: Limit) -> Iterator[tuple[str, str]]:
         yield "velocity", f"{message}; are these {other}?"
     for name in ("lower", "upper") if joint.type == "prismatic" else ():
         way = getattr(limit, name)
-        if way is not None and _FAR < abs(way) < math.inf and not _is_power_of_ten(way):
+        if way is not None and _LONG < abs(way) < math.inf and not _is_power_of_ten(way):
             yield name, f"joint {joint.name!r} slides as far as {way:g} m; are these millimeters?"
 
 

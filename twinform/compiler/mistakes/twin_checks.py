@@ -139,32 +139,35 @@ def _axis(joint: Joint, at: Transform, format_: Format) -> Vector3:
 
 def _report_place(each: _Twins, sink: DiagnosticSink) -> bool:
     """Report twins that are at one place, and such that are mirrored but for the distance."""
-    left, right = each.left_at.translation, each.right_at.translation
-    if each.left.type == "fixed":
+    found = _place_fault(each)
+    if found is None:
         return False
+    message, hint = found
+    odd, other = (each.left, each.right) if each.left_at.translation[1] < 0 else (each.right, each.left)
+    where, related = (odd.pose or odd).location, (other.pose or other).location
+    names = f"joints {each.right.name!r} and {each.left.name!r}"
+    sink.report(rules.UNLIKE_TWIN, f"{names} {message}", where, help=hint, related=(related,))
+    return True
+
+
+def _place_fault(each: _Twins) -> tuple[str, str] | None:
+    """Find what is wrong with the places of twins, as the end of a sentence, and what the mistake may be."""
+    left, right = each.left_at.translation, each.right_at.translation
     differ = [at for at in range(3) if abs(left[at] - right[at]) > _SAME]
-    where = (each.right.pose or each.right).location
-    related = ((each.left.pose or each.left).location,)
-    names = f"{each.right.name!r} and {each.left.name!r}"
     # Two fingers may turn about one bolt in the middle; y is to the left.
     if not differ and abs(left[1]) > _ASIDE:
-        message = (
-            f"joints {names} are at the same place, {abs(left[1]):g} m to the {'left' if left[1] > 0 else 'right'}"
+        side = "left" if left[1] > 0 else "right"
+        return (
+            f"are at the same place, {abs(left[1]):g} m to the {side}",
+            "is a minus missing in one of their <origin>?",
         )
-        hint = "is a minus missing in one of their <origin>?"
-        if left[1] < 0:
-            (where,), related = related, (where,)
-        sink.report(rules.UNLIKE_TWIN, message, where, help=hint, related=related)
-        return True
-    if len(differ) == 1:
+    if len(differ) == 1 and _turns_freely(each.right):
         one, other = left[differ[0]], right[differ[0]]
         near, far = sorted((abs(one), abs(other)))
-        if one * other < 0 and far > _RATIO * near and _turns_freely(each.right):
+        if one * other < 0 and far > _RATIO * near:
             axis = "xyz"[differ[0]]
-            message = f"joints {names} are mirrored, but {abs(other):g} m and {abs(one):g} m off along {axis}"
-            sink.report(rules.UNLIKE_TWIN, message, where, help="is a digit missing?", related=related)
-            return True
-    return False
+            return f"are mirrored, but {abs(other):g} m and {abs(one):g} m off along {axis}", "is a digit missing?"
+    return None
 
 
 def _report_slide(each: _Twins, format_: Format, sink: DiagnosticSink) -> bool:

@@ -13,13 +13,14 @@ _BOUNDED = frozenset({"revolute", "prismatic"})
 
 
 class LimitFinding(NamedTuple):
-    """What is wrong with a limit, before it is reported."""
+    """What is wrong with a limit, before it is reported; `may_be_meant` is whether it may be an idiom."""
 
     rule: Rule
     message: str
     where: Location
     found: str
     expected: str | None = None
+    may_be_meant: bool = False
 
 
 class SoftLimits(NamedTuple):
@@ -66,7 +67,9 @@ def check_soft_limits(joint: Joint) -> Iterator[LimitFinding]:
     hard = limit if joint.type in _BOUNDED else None
     if hard and (_is_less(soft.lower, hard.lower) or _is_less(hard.upper, soft.upper)):
         message = f"the soft limits of joint {joint.name!r}, {written}, are outside of the hard ones"
-        yield LimitFinding(rules.SOFT_LIMIT_OUTSIDE, message, where, written)
+        # Beyond both of the hard ones, a soft limit is switched off, as in the robots of the DRC.
+        is_off = _is_less(soft.lower, hard.lower) and _is_less(hard.upper, soft.upper)
+        yield LimitFinding(rules.SOFT_LIMIT_OUTSIDE, message, where, written, may_be_meant=is_off)
 
 
 def _is_less(one: float | None, other: float | None) -> bool:
