@@ -1,6 +1,7 @@
 """Verifies references of SDF by name: whether what is named is there, and is one thing only."""
 
 from collections.abc import Callable, Collection, Iterable, Iterator
+from functools import cached_property
 
 from twinform.diagnostics import DiagnosticSink, Rule, Severity, did_you_mean, rules
 from twinform.ir.document import World
@@ -163,7 +164,24 @@ _DEFAULT = "__default__"
 """What SDF takes for the name of a collision that is not written."""
 
 
-def verify_sensors(link: Link, model: Model, sink: DiagnosticSink) -> None:
+class NamedCollisions:
+    """The collisions that contact sensors of a model can name; they are looked for when the first sensor names one."""
+
+    def __init__(self, model: Model) -> None:
+        self._model = model
+
+    @cached_property
+    def names(self) -> frozenset[str]:
+        """The names of all collisions in the model and those nested in it."""
+        return frozenset(one.name or "" for _, link in scoped_links(self._model) for one in link.collisions)
+
+    @cached_property
+    def are_all_known(self) -> bool:
+        """Whether no include could have more of them."""
+        return not any(nested_includes(self._model))
+
+
+def verify_sensors(link: Link, collisions: NamedCollisions, sink: DiagnosticSink) -> None:
     """Report sensors of a link whose parameters are not those of their type."""
     for sensor in link.sensors:
         _verify_content(sensor, sink)
@@ -171,7 +189,7 @@ def verify_sensors(link: Link, model: Model, sink: DiagnosticSink) -> None:
             message = f"sensor {sensor.name!r} belongs in a joint, whose force it measures; it is on link {link.name!r}"
             sink.report(rules.MISPLACED_SENSOR, message, sensor.location, found="force_torque")
         if sensor.type == "contact":
-            _verify_contact(sensor, model, sink)
+            _verify_contact(sensor, collisions, sink)
 
 
 def verify_joint_sensors(model: Model, sink: DiagnosticSink) -> None:
@@ -193,14 +211,12 @@ def _verify_content(sensor: Sensor, sink: DiagnosticSink) -> None:
             sink.report(rules.SENSOR_MISMATCH, message, part.location, found=f"<{name}>", expected=expected)
 
 
-def _verify_contact(sensor: Sensor, model: Model, sink: DiagnosticSink) -> None:
-    known: set[str] | None = None
+def _verify_contact(sensor: Sensor, collisions: NamedCollisions, sink: DiagnosticSink) -> None:
     for part, step, name in _texts(sensor.opaque, "contact", "collision"):
-        if known is None:
-            known = {one.name or "" for _, link in scoped_links(model) for one in link.collisions}
-        if name.rpartition("::")[2] not in known and name != _DEFAULT and not any(nested_includes(model)):
+        own_name = name.rpartition("::")[2]
+        if own_name not in collisions.names and name != _DEFAULT and collisions.are_all_known:
             message = f"contact sensor {sensor.name!r} names the collision {name!r}, which does not exist"
-            hint = did_you_mean(name.rpartition("::")[2], known)
+            hint = did_you_mean(own_name, collisions.names)
             sink.report(rules.UNKNOWN_COLLISION, message, part.location.at(step), found=name, help=hint)
 
 

@@ -15,7 +15,13 @@ from twinform.ir.scopes import SCOPE, outer_models, scoped_models
 from twinform.ir.verify.verify_bodies import verify_inertial, verify_rotation, verify_shapes
 from twinform.ir.verify.verify_joints import report_loops, verify_joint, verify_mimics
 from twinform.ir.verify.verify_names import Kinds, report_names, report_reserved, report_scope, report_scoped_elements
-from twinform.ir.verify.verify_references import References, verify_grippers, verify_joint_sensors, verify_sensors
+from twinform.ir.verify.verify_references import (
+    NamedCollisions,
+    References,
+    verify_grippers,
+    verify_joint_sensors,
+    verify_sensors,
+)
 
 # In these versions links and joints are no frames yet, and two with one name are only bad style.
 _BEFORE_FRAMES = frozenset({"1.2", "1.3", "1.4", "1.5", "1.6"})
@@ -92,8 +98,9 @@ class _Verifier:
         report_scope(kinds, self.shared, sink)
         self._reserved((*kinds, ("include", model.includes)))
         references = self._references(model)
+        collisions = NamedCollisions(model)
         for link in model.links:
-            self._link(link, model)
+            self._link(link, collisions)
         for joint in model.joints:
             self._joint(joint)
         report_loops(model.joints, sink, Severity.INFO)
@@ -118,7 +125,7 @@ class _Verifier:
             message = f"joint {joint.name!r} has the child 'world'"
             self.sink.report(rules.WORLD_CHILD, message, joint.location.at("child"))
 
-    def _link(self, link: Link, model: Model) -> None:
+    def _link(self, link: Link, collisions: NamedCollisions) -> None:
         every = (
             ("visual", link.visuals),
             ("collision", link.collisions),
@@ -134,7 +141,7 @@ class _Verifier:
         verify_inertial(link, MOMENT[Format.SDF], self.sink)
         verify_shapes(link, self.sink, geometry_is_required=False)
         if link.sensors:
-            verify_sensors(link, model, self.sink)
+            verify_sensors(link, collisions, self.sink)
 
     def _siblings(self, link: Link) -> None:
         """Report a visual and a collision with one name, which only `gz sdf --check` minds."""
