@@ -4,11 +4,11 @@ Offsets count characters of the text, from 0; lines and columns count from 1. Po
 for them, by expat, which knows where each tag begins.
 """
 
-import re
-from bisect import bisect_right
+from bisect import bisect_left
 from collections.abc import Iterator
 from dataclasses import field
 from functools import cached_property
+from itertools import accumulate, islice
 from typing import NamedTuple
 from xml.parsers import expat
 
@@ -19,7 +19,8 @@ from twinform.text.tokens import COMMENT, INSTRUCTION, SECTION, UnplacedError
 
 _ATTRIBUTE = lazy_pattern(r"""\s+([^\s=<>/"']+)\s*=\s*("[^"]*"|'[^']*')""")
 _NAME = lazy_pattern(r"</?([^\s<>/]+)")
-_END_OF_TAG = lazy_pattern(r"\s*/?>")
+_REST_OF_TAG = r"[^<>\"']*+(?:\"[^\"]*+\"[^<>\"']*+|'[^']*+'[^<>\"']*+)*+>"
+_START_TAG = lazy_pattern(f"<{_REST_OF_TAG}")
 
 
 class LineColumn(NamedTuple):
@@ -41,17 +42,32 @@ class AttributeSpan(NamedTuple):
 class ElementSpan:
     """The position of an element.
 
-    `end_tag` is None for `<element/>`. `asides` are the comments and processing instructions directly in it.
+    `end_tag` is None for `<element/>`. `asides` are the comments and processing instructions directly in it. Name and
+    attributes are looked for when somebody asks for them, which nobody does for most elements of a file.
     """
 
+    text: str = field(repr=False, compare=False)
     start_tag: Span
-    name: Span
-    attributes: dict[str, AttributeSpan]
     end_tag: Span | None = None
     children: list["ElementSpan"] = field(default_factory=list["ElementSpan"])
     asides: list[Span] = field(default_factory=list[Span])
     _places: dict[str, Span] | None = field(default=None, init=False, repr=False, compare=False)
     """The first place of each text directly in it, once somebody has asked for one."""
+    _attributes: dict[str, AttributeSpan] | None = field(default=None, init=False, repr=False, compare=False)
+
+    @property
+    def name(self) -> Span:
+        """The name in the start tag, with its prefix."""
+        found = _NAME.match(self.text, self.start_tag.start)
+        assert found is not None  # noqa: S101 - a start tag has a name
+        return Span(*found.span(1))
+
+    @property
+    def attributes(self) -> dict[str, AttributeSpan]:
+        """The attributes by their names, declarations of namespaces included."""
+        if self._attributes is None:
+            self._attributes = _attributes(self.text, self.name.end)
+        return self._attributes
 
     @property
     def whole(self) -> Span:
@@ -112,23 +128,50 @@ def indentation(text: str, offset: int) -> str | None:
     return text[start:offset] if not start or text[start - 1] == "\n" else None
 
 
-class Lines:
-    """The lines of a text."""
+_BLOCK = 1024
+_END_OF_LINE = lazy_pattern(r"\n|\r(?!\n)")
 
+
+class Lines:
+    """The lines of a text. Each ends with a line feed, a carriage return, or both."""
+
+    # A list of all lines of ten million would fill 400 MB, and few of them are asked for. So line
+    # ends are counted in blocks of the text.
     def __init__(self, text: str) -> None:
-        self._starts = [0, *(found.end() for found in re.finditer(r"\r\n|\n|\r", text))]
+        self._text = text
+        self._has_returns = "\r" in text
+        counts = (self._count(start, start + _BLOCK) for start in range(0, len(text), _BLOCK))
+        self._before = [*accumulate(counts, initial=0)]
+
+    def _count(self, start: int, end: int) -> int:
+        """Count the line ends of which the last character lies between two offsets."""
+        count = self._text.count("\n", start, end)
+        if self._has_returns:
+            count += self._text.count("\r", start, end) - self._text.count("\r\n", start, end + 1)
+        return count
 
     def place(self, offset: int) -> LineColumn:
         """The line and column of an offset."""
-        line = bisect_right(self._starts, offset)
-        return LineColumn(line, offset - self._starts[line - 1] + 1)
+        block = min(offset // _BLOCK, len(self._before) - 1)
+        line = self._before[block] + self._count(block * _BLOCK, offset) + 1
+        return LineColumn(line, offset - self.start(line) + 1)
 
     def start(self, line: int) -> int:
-        """Where a line begins."""
-        return self._starts[line - 1]
+        """Where a line begins.
+
+        Raises:
+            IndexError: there is no such line.
+        """
+        if not 1 <= line <= len(self):
+            raise IndexError(f"there is no line {line}")
+        if line == 1:
+            return 0
+        block = bisect_left(self._before, line - 1) - 1
+        ends = _END_OF_LINE.finditer(self._text, block * _BLOCK)
+        return next(islice(ends, line - 2 - self._before[block], None)).end()
 
     def __len__(self) -> int:
-        return len(self._starts)
+        return self._before[-1] + 1
 
 
 def spans(text: str) -> ElementSpan:
@@ -190,7 +233,7 @@ class _PositionScan:
     def _end(self, _: str) -> None:
         element = self.open.pop()
         start = self._here()
-        if not element.start_tag.of(self.text).endswith("/>"):
+        if not self.text.endswith("/>", 0, element.start_tag.end):
             element.end_tag = Span(start, self.text.index(">", start) + 1)
 
     def _comment(self, _: str) -> None:
@@ -210,22 +253,21 @@ class _PositionScan:
 
 def start_tag(text: str, start: int) -> ElementSpan:
     """Find the start tag at an offset, as an element without content."""
-    found = _NAME.match(text, start)
+    found = _START_TAG.match(text, start)
     assert found is not None  # noqa: S101 - expat has found a tag there
-    name, here = Span(*found.span(1)), found.end()
+    return ElementSpan(text, Span(start, found.end()))
+
+
+def _attributes(text: str, here: int) -> dict[str, AttributeSpan]:
+    """Find the attributes in a start tag from an offset on."""
     attributes: dict[str, AttributeSpan] = {}
     while found := _ATTRIBUTE.match(text, here):
         (begin, end), here = found.span(2), found.end()
         attributes[found[1]] = AttributeSpan(Span(found.start(1), end), Span(*found.span(1)), Span(begin + 1, end - 1))
-    end = _END_OF_TAG.match(text, here)
-    assert end is not None  # noqa: S101 - as above
-    return ElementSpan(Span(start, end.end()), name, attributes)
+    return attributes
 
 
-_TOKEN = lazy_pattern(
-    rf"(?P<aside>{COMMENT}|{INSTRUCTION})|{SECTION}"
-    r"|<(?P<end>/)?[^\s<>/!?][^<>\"']*+(?:\"[^\"]*+\"[^<>\"']*+|'[^']*+'[^<>\"']*+)*+>"
-)
+_TOKEN = lazy_pattern(rf"(?P<aside>{COMMENT}|{INSTRUCTION})|{SECTION}|<(?P<end>/)?[^\s<>/!?]{_REST_OF_TAG}")
 _TAG_NAME = lazy_pattern(r"<([^\s<>/]+)")
 _MOST = 4000
 """So many tags are looked at for one element: a hostile file has hundreds of them around a million others."""

@@ -163,7 +163,7 @@ class TextSurroundings:
 
     def layout_inside(self, place: ElementSpan) -> ElementLayout:
         """Return the layout of new children of an element: like the ones that it has."""
-        shown = [self._indent(child.whole.start) for child in place.children]
+        shown = (self._indent(child.start_tag.start) for child in place.children)
         own = next((indent for indent in shown if indent is not None), None)
         if own is not None:
             return ElementLayout(own, self.step)
@@ -181,9 +181,11 @@ class TextSurroundings:
 def _usual_step(text: str, root: ElementSpan) -> str:
     """Return how much deeper the first indented element is than the one around it."""
     for element in root.walk():
-        own = indentation(text, element.whole.start)
+        own = indentation(text, element.start_tag.start)
+        if own is None:
+            continue
         for child in element.children:
-            inner = indentation(text, child.whole.start)
-            if own is not None and inner is not None and inner.startswith(own) and inner != own:
+            inner = indentation(text, child.start_tag.start)
+            if inner is not None and inner.startswith(own) and inner != own:
                 return inner[len(own) :]
     return _STEP
