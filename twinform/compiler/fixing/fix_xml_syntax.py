@@ -122,13 +122,12 @@ def _hyphens(finding: Diagnostic, file: FixableFile) -> Fix | None:
     """Separate the hyphens in the comment that ends on the line of the finding, or is around it."""
     if "comments" not in file.memo:
         file.memo["comments"] = _comments_by_line(file)
-    edits = file.memo["comments"].get(finding.location.line)
-    return safe("Put blanks between the hyphens of the comment", *edits) if edits else None
+    return file.memo["comments"].get(finding.location.line)
 
 
-def _comments_by_line(file: FixableFile) -> dict[int, list[TextEdit]]:
-    """Return the edits that separate the hyphens of the first comment with some on each line."""
-    found: dict[int, list[TextEdit]] = {}
+def _comments_by_line(file: FixableFile) -> dict[int, Fix]:
+    """Return the fix that separates the hyphens of the first comment with some on each line."""
+    found: dict[int, Fix] = {}
     for comment in _COMMENT.finditer(file.text):
         inside, start = comment["inside"], comment.start("inside")
         edits = [
@@ -139,7 +138,8 @@ def _comments_by_line(file: FixableFile) -> dict[int, list[TextEdit]]:
             edits.append(TextEdit(Span(start + len(inside), start + len(inside)), " "))
         if edits:
             first, last = (file.lines.place(offset).line for offset in (comment.start(), comment.end() - 1))
-            found.update((line, edits) for line in range(first, last + 1) if line not in found)
+            fix = safe("Put blanks between the hyphens of the comment", *edits)
+            found.update((line, fix) for line in range(first, last + 1) if line not in found)
     return found
 
 
@@ -160,9 +160,9 @@ def _prefix(finding: Diagnostic, file: FixableFile) -> Fix | None:
 def _single_colons(file: FixableFile) -> Fix | None:
     if "colons" not in file.memo:
         tags = _in_markup(_TAG, file.text)
-        file.memo["colons"] = [TextEdit(Span(found.end() - 2, found.end() - 1), "") for found in tags]
-    edits = file.memo["colons"]
-    return safe("Write one colon behind the prefix", *edits) if edits else None
+        edits = [TextEdit(Span(found.end() - 2, found.end() - 1), "") for found in tags]
+        file.memo["colons"] = safe("Write one colon behind the prefix", *edits) if edits else None
+    return file.memo["colons"]
 
 
 _OF_REPAIRS: TextFixers = {
@@ -302,20 +302,19 @@ def _doctype(_: Diagnostic, file: FixableFile) -> Fix | None:
 def _tabbed_numbers(finding: Diagnostic, file: FixableFile) -> Fix | None:
     """Write blanks for the tabs and new lines in the numbers that begin on the line."""
     if "tabbed" not in file.memo:
-        file.memo["tabbed"] = _tabbed_edits(file)
-    edits = file.memo["tabbed"].get(finding.location.line, ())
-    return safe("Put blanks between the numbers", *edits) if edits else None
+        file.memo["tabbed"] = _tabbed_fixes(file)
+    return file.memo["tabbed"].get(finding.location.line)
 
 
-def _tabbed_edits(file: FixableFile) -> dict[int, list[TextEdit]]:
-    """Return the edits of numbers with tabs and new lines, by the lines on which they begin."""
+def _tabbed_fixes(file: FixableFile) -> dict[int, Fix]:
+    """Return a fix for all numbers with tabs and new lines that begin on a line, by line."""
     found: defaultdict[int, list[TextEdit]] = defaultdict(list)
     for attribute in (each for place in file.edit.places.values() for each in place.attributes.values()):
         value = attribute.value.of(file.text)
         if _BREAK.search(value) and _NUMBERS.fullmatch(value):
             line = file.lines.place(attribute.name.start).line
             found[line].append(TextEdit(attribute.value, " ".join(value.split())))
-    return found
+    return {line: safe("Put blanks between the numbers", *edits) for line, edits in found.items()}
 
 
 def _old_root(_: Diagnostic, file: FixableFile) -> Fix | None:
