@@ -48,7 +48,7 @@ def print_text(text: str, *, err: bool = False, nl: bool = True) -> None:
     # Escaping where a name is printed gets forgotten somewhere, so a test makes sure that commands
     # print through this module alone. The diff of a file with such characters cannot be applied as
     # printed; -o and --in-place are for that.
-    safe = text if text.isprintable() else "".join(map(_escape, text))
+    safe = text if text.isprintable() else text.translate({ord(each): _escape(each) for each in set(text)})
     click.echo(safe.encode(encoding, "backslashreplace").decode(encoding), err=err, nl=nl)
 
 

@@ -75,7 +75,8 @@ def printable(text: str) -> str:
     """Escape every character that a terminal would obey or could not show."""
     if text.isprintable():
         return text
-    return "".join(each if each.isprintable() else each.encode("unicode_escape").decode() for each in text)
+    unprintable = (each for each in set(text) if not each.isprintable())
+    return text.translate({ord(each): each.encode("unicode_escape").decode() for each in unprintable})
 
 
 _FEWEST = 3
