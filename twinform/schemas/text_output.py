@@ -216,19 +216,22 @@ class TextOutput:
 
     def _filled(self, node: Any, indent: str, attributes: str, body: str, content: Iterable[Any]) -> tuple[str, str]:
         """Return the attributes and the body of a node with its content and its untyped parts."""
+        pieces = [body]
         for element in content:
             made = self._element(element, indent, self._names)
-            body += _behind(body, made, indent)
+            pieces.append(_behind(pieces[-1], made, indent))
         for number, part in enumerate(node.opaque):
             if part.at or part.element is None:  # few are; the others take the short way
-                attributes, body = self._added(attributes, body, indent, _Additions.of(node.opaque[number:]))
+                additions = _Additions.of(node.opaque[number:])
+                attributes, body = self._added(attributes, "".join(pieces), indent, additions)
+                pieces = [body]
                 break
             made = self._element(part.element, indent, self._names, self._mark(part))
-            body += _behind(body, made, indent)
+            pieces.append(_behind(pieces[-1], made, indent))
         for child, write in self._late.pop(id(node), ()) if self._late else ():
             made = write(child, self, indent)
-            body += _behind(body, made, indent)
-        return attributes, body
+            pieces.append(_behind(pieces[-1], made, indent))
+        return attributes, "".join(pieces)
 
     def _mark(self, part: Any) -> str:
         if self.parts is None or part.source is None:
@@ -288,11 +291,11 @@ class TextOutput:
         if self.arrange:
             first, late = self.arrange(element, [(child, None) for child in children])
             children = [child for child, _ in (*first, *late)]
-        body = "" if text is None or text.isspace() else in_text(text)
+        pieces = ["" if text is None or text.isspace() else in_text(text)]
         for child in children:
             made = self._element(child, indent, names)
-            body += _behind(body, made, indent)
-        return body
+            pieces.append(_behind(pieces[-1], made, indent))
+        return "".join(pieces)
 
     def _declared_in(self, element: Any, names: _PrefixNames) -> tuple[_PrefixNames, str]:
         """Names where an untyped element declares namespaces: its own is the default, if all names in it have one."""
