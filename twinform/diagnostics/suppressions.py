@@ -25,7 +25,9 @@ USAGE = "write 'twinform: allow RULE, RULE - reason', or 'allow-file' for all of
 _FEW = 20
 """A suppression that covers fewer lines is looked up by line; findings are held to all others."""
 MOST = 1000
-"""So many suppressions of a file count: a hostile file has a million."""
+"""So many rules count in the suppressions of a file: a hostile file has a million."""
+_LONGEST = 2**16
+"""The longest suppression, in characters; one with all rules has 6,000."""
 
 
 class Suppression(NamedTuple):
@@ -91,12 +93,13 @@ def parse_suppressions(comments: Iterable[tuple[str, int, int, int]]) -> Suppres
     """The suppressions in comments: of each its text, its line, and the first and last line of what it is about."""
     entries: list[Suppression] = []
     flaws: list[Flaw] = []
+    count = 0
     for text, line, first, last in (each for each in comments if is_meant(each[0])):
-        if len(entries) + len(flaws) >= MOST:
-            return Suppressions(
-                tuple(entries), (*flaws, Flaw(line, f"more than {MOST} suppressions: the rest is ignored"))
-            )
         found = _parsed(text, line, first, last)
+        count += 1 if isinstance(found, Flaw) else len(found.rules)
+        if count > MOST:
+            flaws.append(Flaw(line, f"more than {MOST} suppressions: the rest is ignored"))
+            break
         if isinstance(found, Flaw):
             flaws.append(found)
         else:
@@ -105,6 +108,8 @@ def parse_suppressions(comments: Iterable[tuple[str, int, int, int]]) -> Suppres
 
 
 def _parsed(text: str, line: int, first: int, last: int) -> Suppression | Flaw:
+    if len(text) > _LONGEST:
+        return Flaw(line, f"this comment is no suppression: it has more than {_LONGEST:,} characters")
     begin = _OURS.match(text)
     words = _WORDS.fullmatch(text, begin.end()) if begin else None
     if words is None:
