@@ -1,5 +1,12 @@
-"""How much work a command does: the number of function calls in Python and C, which no other program disturbs."""
+"""How much work a command does, in figures that no other program disturbs.
 
+One is the number of function calls in Python and C. It does not show what a call does inside C: a set of all names that
+is made again for each element, or a slice of a long line. The other one is the number of bytes that a command
+allocates, which shows every copy. Neither shows how long C searches in a list or a text.
+"""
+
+import tracemalloc
+from collections.abc import Callable, Iterator
 from cProfile import Profile
 from math import log2
 from pathlib import Path
@@ -27,13 +34,66 @@ COMMANDS = {
 }
 
 
-def growth(command: str, document: GrowingDocument, folder: Path, line_end: str = "\n") -> float:
+def count_calls(*arguments: str) -> int:
+    """Run a command line and count the calls of functions.
+
+    Raises:
+        Exception: the command failed with it.
+    """
+    profile = Profile()
+    _run(profile, arguments)
+    return sum(each.callcount for each in profile.getstats())
+
+
+def count_bytes(*arguments: str) -> int:
+    """Run a command line and count the bytes that it allocates, whether they are freed soon or not.
+
+    The profile takes them for its time, so its statistics tell which function allocates how much.
+
+    Raises:
+        Exception: the command failed with it.
+    """
+    tracemalloc.start()
+    try:
+        profile = Profile(_allocated().__next__, 1.0)
+        _run(profile, arguments)
+    finally:
+        tracemalloc.stop()
+    return round(sum(each.inlinetime for each in profile.getstats()))
+
+
+def growth(
+    command: str,
+    document: GrowingDocument,
+    folder: Path,
+    line_end: str = "\n",
+    count: Callable[..., int] = count_calls,
+) -> float:
     """Return the exponent by which the work of a command grows when a document doubles: 1 is linear."""
-    _count_calls_on(command, document.format, _write(document, 1, folder, line_end))  # imports and caches
-    shorter, longer = (
-        _count_calls_on(command, document.format, _write(document, size, folder, line_end)) for size in SIZES
-    )
+    paths = [_write(document, size, folder, line_end) for size in (1, *SIZES)]
+    _, shorter, longer = (count(*_arguments(command, document.format, path)) for path in paths)  # first: imports
     return log2(longer / shorter)
+
+
+def _allocated() -> Iterator[int]:
+    """Yield the bytes that were allocated until now: between two calls, the most that there was more than before."""
+    allocated = before = 0
+    while True:
+        now, peak = tracemalloc.get_traced_memory()
+        allocated += peak - before
+        before = now
+        tracemalloc.reset_peak()
+        yield allocated
+
+
+def _run(profile: Profile, arguments: tuple[str, ...]) -> None:
+    profile.enable()
+    try:
+        result = CliRunner().invoke(main, arguments)
+    finally:
+        profile.disable()
+    if result.exception and not isinstance(result.exception, SystemExit):
+        raise result.exception
 
 
 def _write(document: GrowingDocument, size: int, folder: Path, line_end: str) -> Path:
@@ -42,7 +102,7 @@ def _write(document: GrowingDocument, size: int, folder: Path, line_end: str) ->
     return path
 
 
-def _count_calls_on(command: str, format: str, path: Path) -> int:
+def _arguments(command: str, format: str, path: Path) -> list[str]:
     other = "sdf" if format == "urdf" else "urdf"
     places = {
         "IN": path,
@@ -51,22 +111,4 @@ def _count_calls_on(command: str, format: str, path: Path) -> int:
         "JSON": path.with_name("out.json"),
         "REPORT": path.with_name("report.md"),
     }
-    arguments = [str(places.get(each, each)) for each in COMMANDS[command]]
-    return count_calls(*arguments)
-
-
-def count_calls(*arguments: str) -> int:
-    """Run a command line and count the calls of functions.
-
-    Raises:
-        Exception: the command failed with it.
-    """
-    profile = Profile()
-    profile.enable()
-    try:
-        result = CliRunner().invoke(main, arguments)
-    finally:
-        profile.disable()
-    if result.exception and not isinstance(result.exception, SystemExit):
-        raise result.exception
-    return sum(each.callcount for each in profile.getstats())
+    return [str(places.get(each, each)) for each in COMMANDS[command]]
