@@ -28,6 +28,12 @@ class GrowingDocument:
             )
         return line_end.join([*made, last])
 
+    def write(self, folder: Path, size: int, line_end: str = "\n") -> Path:
+        """Write the document with `size` parts into a folder."""
+        path = folder / f"in{size}.{self.format}"
+        path.write_text(self.text(size, line_end), encoding="utf-8")
+        return path
+
 
 def growing_documents() -> list[GrowingDocument]:
     """Return all documents, those of URDF first."""
@@ -44,3 +50,16 @@ def _with_parts(line: str, parts: dict[str, str]) -> str:
     for name, part in parts.items():
         line = line.replace(f"{{{name}}}", part)
     return line
+
+
+def write_folder(folder: Path, size: int) -> Path:
+    """Make a folder of files whose meshes are missing, in a package and in the folder."""
+    folder.mkdir()
+    for number in range(size):
+        meshes = "".join(
+            f'<visual><geometry><mesh filename="{place}/part{number}.stl"/></geometry></visual>'
+            for place in ("package://near", "meshes", ".")
+        )
+        text = f'<robot name="r"><link name="a">{meshes}</link></robot>'
+        (folder / f"robot{number}.urdf").write_text(text, encoding="utf-8")
+    return folder

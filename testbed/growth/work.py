@@ -6,7 +6,7 @@ allocates, which shows every copy. Neither shows how long C searches in a list o
 """
 
 import tracemalloc
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from cProfile import Profile
 from math import log2
 from pathlib import Path
@@ -70,8 +70,8 @@ def growth(
     count: Callable[..., int] = count_calls,
 ) -> float:
     """Return the exponent by which the work of a command grows when a document doubles: 1 is linear."""
-    paths = [_write(document, size, folder, line_end) for size in (1, *SIZES)]
-    _, shorter, longer = (count(*_arguments(command, document.format, path)) for path in paths)  # first: imports
+    paths = [document.write(folder, size, line_end) for size in (1, *SIZES)]
+    _, shorter, longer = (count(*arguments_on(command, path)) for path in paths)  # the first one imports modules
     return log2(longer / shorter)
 
 
@@ -86,23 +86,28 @@ def _allocated() -> Iterator[int]:
         yield allocated
 
 
-def _run(profile: Profile, arguments: tuple[str, ...]) -> None:
+def _run(profile: Profile, arguments: Sequence[str]) -> None:
     profile.enable()
     try:
-        result = CliRunner().invoke(main, arguments)
+        run_command(arguments)
     finally:
         profile.disable()
+
+
+def run_command(arguments: Sequence[str]) -> None:
+    """Run a command line.
+
+    Raises:
+        Exception: the command failed with it.
+    """
+    result = CliRunner().invoke(main, arguments)
     if result.exception and not isinstance(result.exception, SystemExit):
         raise result.exception
 
 
-def _write(document: GrowingDocument, size: int, folder: Path, line_end: str) -> Path:
-    path = folder / f"in{size}.{document.format}"
-    path.write_text(document.text(size, line_end), encoding="utf-8")
-    return path
-
-
-def _arguments(command: str, format: str, path: Path) -> list[str]:
+def arguments_on(command: str, path: Path) -> list[str]:
+    """Return the arguments of a command on a document; results are written beside it."""
+    format = path.suffix[1:]
     other = "sdf" if format == "urdf" else "urdf"
     places = {
         "IN": path,
