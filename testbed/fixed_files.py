@@ -9,7 +9,7 @@ import twinform
 from twinform.compiler import LoadOptions, LoadResult, inspect, read
 from twinform.compiler.fixing import FixResult, apply_fixes_by
 from twinform.compiler.fixing.fix_rounds import kind_of
-from twinform.diagnostics import Safety, Span
+from twinform.diagnostics import Safety, Severity, Span
 from twinform.text import SourceText, UndecodableError
 
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
@@ -41,7 +41,8 @@ def fixed_file(name: str, data: bytes) -> FixedFile:
         return inspect(read(text, load_options, name=name), load_options)
 
     safe, unsafe = apply_fixes_by(look, data), apply_fixes_by(look, data, unsafe=True)
-    same = _same(data, safe.data, name) if safe.data != data and look(data).accepted else None
+    keeps = all(each.fix and each.fix.keeps for each in safe.applied)
+    same = _same(data, safe.data, name) if safe.data != data and keeps and look(data).accepted else None
     faults = [*_faults(look, data, safe, unsafe=False), *(f"unsafe: {each}" for each in _faults(look, data, unsafe))]
     if same is False:
         faults.append("another robot after safe fixes")
@@ -81,12 +82,12 @@ def _faults(
     again = apply_fixes_by(look, fixed.data, unsafe=unsafe)
     if again.data != fixed.data:
         yield f"a second run changes it: {again.applied[0].rule.name}"
-    errors = [sum(each.is_error for each in loaded.diagnostics) for loaded in (before, fixed.left)]
-    new = Counter(map(kind_of, fixed.left.diagnostics)) - Counter(map(kind_of, before.diagnostics))
-    if before.accepted and new:
+    seen = (each for each in fixed.left.diagnostics if each.severity > Severity.INFO)
+    new = Counter(map(kind_of, seen)) - Counter(map(kind_of, before.diagnostics))
+    if new and not before.unreadable:
         yield f"new findings: {sorted(new)[:3]}"
-    if errors[1] > errors[0] and not before.unreadable:
-        yield "more errors than before"
+    if before.accepted and fixed.left.accepted and _same(data, fixed.data, before.path) is False and not fixed.changes:
+        yield "another robot without a word"
     if before.document is not None and fixed.left.document is None:
         yield "cannot be read any more"
     yield from _against_text(data, fixed)

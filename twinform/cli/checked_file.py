@@ -11,7 +11,7 @@ import click
 from twinform.cli.check_plan import OUTSIDE, with_outside_faults
 from twinform.cli.command import Unusable
 from twinform.cli.inputs import InputSource, read_model
-from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, inspect
+from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, as_refused, inspect
 from twinform.compiler.input.load_options import ReadingOptions
 from twinform.compiler.input.loading import XACRO
 from twinform.dataclass import dataclass
@@ -194,7 +194,7 @@ class CheckTask:
         if not self.load_options.strict:
             read = with_outside_faults(read, named=self.named)
         try:
-            return inspect(read, self.load_options, self.passes)
+            return as_refused(inspect(read, self.load_options, self.passes))
         except ReadOnlyPassError as error:
             raise click.UsageError(str(error)) from error
         except PassError as error:

@@ -16,14 +16,23 @@ from twinform.cli.model_files import is_plain
 from twinform.cli.printing import notes_option, plural, print_line, show
 from twinform.cli.project_options import pipeline_option, policy_of, policy_options
 from twinform.cli.rewriting import Rewrite, show_differences, write_back
-from twinform.compiler import CompileError, ConversionRequest, Language, LoadOptions, LoadResult, inspect, read
-from twinform.compiler.fixing import FixResult, apply_fixes_by
+from twinform.compiler import (
+    CompileError,
+    ConversionRequest,
+    Language,
+    LoadOptions,
+    LoadResult,
+    as_refused,
+    inspect,
+    read,
+)
+from twinform.compiler.fixing import ANOTHER_ROBOT, FixResult, Refused, apply_fixes_by
 from twinform.compiler.in_place import convert_in_place
 from twinform.compiler.input.load_options import FileOptions
 from twinform.compiler.input.loading import XACRO
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Diagnostic, DiagnosticSink, Policy, Severity
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Policy, Safety, Severity
 from twinform.diagnostics.reporters import FileFindings
 from twinform.passes import FilesPass, PassError, Pipeline
 
@@ -84,7 +93,13 @@ def fix_source(source: InputSource, fixing: Fixing) -> FixedSource:
         return FixedSource(LoadResult(source.name, None, tuple(sink.diagnostics), unreadable=True), None, [], 0)
     if data is None:
         return FixedSource(fixing.look(source.content, source.name), None, [], 0)
-    found = apply_fixes_by(lambda text: fixing.look(text, source.name), data, unsafe=fixing.unsafe, wanted=fixing.wants)
+    found = apply_fixes_by(
+        lambda text: fixing.look(text, source.name),
+        data,
+        unsafe=fixing.unsafe,
+        wanted=fixing.wants,
+        load_options=fixing.load_options,
+    )
     rewrite = Rewrite(source, data, found.data)
     return FixedSource(
         found.left, rewrite, _describe(source.name, found, "would fix" if fixing.diff else "fixed"), len(found.applied)
@@ -105,16 +120,34 @@ def _read_fixable(source: InputSource, sink: DiagnosticSink, load_options: LoadO
     return read_bytes(path, sink, load_options.limits, load_options.search.readable(path))
 
 
+_MOST_SHOWN = 20
+
+
 def _describe(name: str, found: FixResult, verb: str) -> list[str]:
-    """Say how many findings were fixed in a file, by rule, and how many fixes were taken back."""
+    """Say what was fixed in a file by rule, what was guessed, how the robot differs, and what was not fixed."""
     counts = Counter(each.rule.name for each in found.applied)
     shown = ", ".join(f"{count} x {rule}" for rule, count in counts.most_common())
     lines = [f"{name}: {verb} {shown}"] if counts else []
-    if found.refused:
-        words = "fix was" if len(found.refused) == 1 else "fixes were"
-        rules = ", ".join(dict.fromkeys(each.finding.rule.name for each in found.refused))
-        lines.append(f"{name}: {len(found.refused)} {words} taken back for what would be found then: {rules}")
-    return lines
+    guesses = [each for each in found.applied if each.fix and each.fix.safety is not Safety.SAFE]
+    lines += _first(name, [f"unsafe: {_title(each)}" for each in guesses])
+    lines += _first(name, [f"the robot differs: {each}" for each in found.changes])
+    return lines + _first(name, [f"not fixed: {_title(each.finding)}: {_reason(each)}" for each in found.refused])
+
+
+def _title(finding: Diagnostic) -> str:
+    title = finding.fix.title if finding.fix else finding.message
+    return f"line {finding.location.line}: {title} [{finding.rule.name}]"
+
+
+def _reason(refused: Refused) -> str:
+    if refused.new == (ANOTHER_ROBOT,):
+        return "another robot would come of it"
+    return f"{', '.join(refused.new)} would be found then"
+
+
+def _first(name: str, lines: list[str]) -> list[str]:
+    more = [f"{name}: and {len(lines) - _MOST_SHOWN} more"] if len(lines) > _MOST_SHOWN else []
+    return [*(f"{name}: {line}" for line in lines[:_MOST_SHOWN]), *more]
 
 
 Report = Callable[[str, tuple[Diagnostic, ...]], None]
@@ -168,7 +201,7 @@ def command(
     policy, load_options = policy_of(ctx, rules), load_options_of(arguments, reading)
 
     def look(content: str | bytes, name: str) -> LoadResult:
-        return inspect(read(content, load_options, name=name), load_options)
+        return as_refused(inspect(read(content, load_options, name=name), load_options))
 
     def report(name: str, diagnostics: tuple[Diagnostic, ...]) -> None:
         show(FileFindings(name, policy.apply(diagnostics)), notes=notes, on_stderr=True)

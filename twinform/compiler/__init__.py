@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from twinform.compiler.dumping import dump, dumps
     from twinform.compiler.expand_includes import expand
     from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, load, loads, read
-    from twinform.compiler.inspection import inspect
+    from twinform.compiler.inspection import as_refused, inspect
     from twinform.compiler.request import ConversionRequest
     from twinform.compiler.resolve_uris import SearchPath, UriError
     from twinform.compiler.split_world import SplitWorld, split
@@ -30,7 +30,7 @@ else:
             "twinform.compiler.conversion_error": "CompileError ReadOnlyPassError",
             "twinform.compiler.expand_includes": "expand",
             "twinform.compiler.input.loading": "Input LoadOptions LoadResult load loads read",
-            "twinform.compiler.inspection": "inspect",
+            "twinform.compiler.inspection": "as_refused inspect",
             "twinform.schemas": "DEFAULT_SDF_VERSION",
             "twinform.storage.writing": "write_all_atomically write_atomically",
             "twinform.compiler.request": "ConversionRequest",
@@ -55,6 +55,7 @@ __all__ = [
     "SplitWorld",
     "UrdfVersion",
     "UriError",
+    "as_refused",
     "check",
     "convert",
     "dump",

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Unpack
 
 from twinform.compiler.input.load_options import CheckOptions, Input, LoadResult, checking_options
 from twinform.compiler.input.loading import read
-from twinform.compiler.inspection import inspect
+from twinform.compiler.inspection import as_refused, inspect
 from twinform.option import require_options
 
 if TYPE_CHECKING:
@@ -42,4 +42,4 @@ def check(
         from twinform.compiler.expand_includes import expand  # noqa: PLC0415 - most checks read one file
 
         loaded = expand(loaded, load_options)
-    return inspect(loaded, load_options, passes)
+    return as_refused(inspect(loaded, load_options, passes))

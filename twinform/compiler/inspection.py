@@ -4,17 +4,18 @@ A conversion does without them; its passes report what becomes of such parts.
 """
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from twinform.compiler.input.allowances import report_unused
+from twinform.compiler.input.consequences import without_consequences
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.loading import LoadOptions, LoadResult
 from twinform.compiler.mistakes import report_mistakes
 from twinform.compiler.named_files import report_named_files
-from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Severity, did_you_mean, rules
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Rule, Severity, did_you_mean, rules
 from twinform.diagnostics.rules import MISSING_INERTIAL, UNKNOWN_COLLISION
 from twinform.diagnostics.suppressions import NO_SUPPRESSIONS
 from twinform.ir import Document, Element, Format, Model
@@ -35,20 +36,24 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
         ReadOnlyPassError: a pass would change the document.
         PassError: a pass is at fault.
     """
-    document = loaded.document
+    document = loaded.document or (loaded.recovered and loaded.recovered.document)
     if document is None:
         return _with_allowed(loaded, load_options)
     file = loaded.text_name
     sink = DiagnosticSink(file, load_options.strict)
     report_driven_joints(document, sink)
     # These checks take a fifth of the time of `check` where the files are there.
-    if loaded.accepted:
+    report_contact_sensors(document, sink)
+    if not any(each.rule.unsound and each.is_error for each in (*loaded.diagnostics, *loaded.allowed)):
         report_massless(document, sink)
-        report_contact_sensors(document, sink)
     files = report_named_files(document, Path(loaded.path), load_options.search, loaded.tree, sink)
     report_mistakes(document, loaded.tree, files, sink)
+    if loaded.recovered:
+        sink.diagnostics = without_consequences(sink.diagnostics, loaded.diagnostics, loaded.recovered.stand_ins)
     whole = DiagnosticSink(loaded.path, load_options.strict, list(loaded.diagnostics), origins=dict(loaded.origins))
     whole.allows, whole.allowed = loaded.allowances, list(loaded.allowed)
+    worse = {(each.rule, each.location.path) for each in sink.diagnostics}
+    whole.diagnostics = [each for each in whole.diagnostics if not _is_note_of(each, worse)]
     whole.extend_new(_with_lines(sink, loaded))
     if passes and loaded.accepted:
         from twinform.compiler.read_only_passes import run_read_only  # noqa: PLC0415 - few runs have passes
@@ -62,7 +67,8 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
 
         report_for_consumers(loaded, load_options, whole)
     if loaded.allowances:
-        loaded.allowances.checked = True
+        # what was put back for a conversion may be allowed in a check
+        loaded.allowances.checked, loaded.allowances.tolerant = True, load_options.tolerant
         loaded.allowances.settle(whole)
         # Errors keep other findings from being looked for, so a suppression of one of these would
         # seem unused.
@@ -81,6 +87,19 @@ def _with_allowed(loaded: LoadResult, load_options: LoadOptions) -> LoadResult:
     allowances.checked, allowances.tolerant = True, load_options.tolerant
     allowances.settle(whole)
     return replace(loaded, diagnostics=tuple(whole.diagnostics), allowed=tuple(whole.allowed))
+
+
+def as_refused(loaded: LoadResult) -> LoadResult:
+    """Make errors of the findings for which readers that a file is for refuse it; a conversion does not go by them."""
+    if not any(each.refused and not each.is_error for each in loaded.diagnostics):
+        return loaded
+    found = (replace(each, severity=Severity.ERROR) if each.refused else each for each in loaded.diagnostics)
+    return replace(loaded, diagnostics=tuple(found))
+
+
+def _is_note_of(finding: Diagnostic, worse: Collection[tuple[Rule, str]]) -> bool:
+    """Whether a finding is a note about what was found to be worse than that, once it was seen what moves."""
+    return finding.severity is Severity.INFO and (finding.rule, finding.location.path) in worse
 
 
 def _with_lines(sink: DiagnosticSink, loaded: LoadResult) -> list[Diagnostic]:
@@ -183,13 +202,20 @@ def report_massless(document: Document, sink: DiagnosticSink) -> None:
             )
         return
     for each in neighbors(document):
-        if any(link.inertial for link in each.child):
+        if any(link.inertial and link.inertial.mass != 0 for link in each.child):
             continue
-        moved = next(link for link in each.child if link.name == each.joint.child)
+        moved = next((link for link in each.child if link.name == each.joint.child), None)
+        if moved is None:  # the joint names a link that is not there, and something else fixes a body to that name
+            continue
         if is_synthesized(moved) or find_annotation(moved, PART):  # synthesized for a joint that URDF does not have
             continue
         others = tuple(link.location for link in each.child if link is not moved)
         joined = f", nor has any of the {len(others)} fixed to it" if others else ""
+        if moved.inertial is not None:
+            message = f"joint {each.joint.name!r} moves link {moved.name!r}, whose mass is 0{joined}"
+            where = moved.inertial.location
+            sink.report(rules.NON_POSITIVE_MASS, message, where, found="0", expected="more than 0", related=others)
+            continue
         message = f"joint {each.joint.name!r} moves link {moved.name!r}, which has no <inertial>{joined}"
         sink.report(
             MISSING_INERTIAL, message, moved.location, expected="<inertial>", help=_ADD_INERTIAL, related=others

@@ -1,7 +1,7 @@
 """Missing files that a model names: meshes, textures and includes, and paths that only Windows reads."""
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from posixpath import normpath
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from twinform.compiler.input.finding_lines import PartFinder, line_of_text
 from twinform.compiler.mistakes.mesh_checks import find_mesh_fault, find_package_fault
 from twinform.compiler.mistakes.mesh_files import MeshFiles
 from twinform.compiler.resolve_uris import SearchPath, UriError, exists
-from twinform.diagnostics import DiagnosticSink, Location, nearest_name, rules
+from twinform.diagnostics import DiagnosticSink, Location, is_typo, near_names, rules, suggest
 from twinform.file_access import Readable
 from twinform.ir import Document
 from twinform.passes.shared.document_uris import Kind, map_uris
@@ -33,10 +33,10 @@ class _Use(NamedTuple):
 
 
 class _Missing(NamedTuple):
-    """A URI that leads nowhere, a similar name, and where was looked."""
+    """A URI that leads nowhere, similar names, and where was looked."""
 
     use: _Use
-    near: str | None
+    near: Sequence[str]
     looked: str | None
 
 
@@ -67,7 +67,7 @@ def report_named_files(
         if gone is None:
             _report_found(use, parts, (path, search, files), found, sink)
             found.add(_holder(use.uri))
-        elif gone.near is not None:
+        elif gone.near:
             _report_missing((gone,), parts, sink)
         else:
             missing[_holder(use.uri)].append(gone)
@@ -136,7 +136,7 @@ def _look_for(use: _Use, path: Path, search: SearchPath, files: MeshFiles, *, as
             files.paths[use.uri] = found
     except UriError as error:
         if error.rule is rules.UNRESOLVED_URI:
-            return _Missing(use, near_file(use.uri, search, path) if asks else None, error.help)
+            return _Missing(use, near_files(use.uri, search, path) if asks else (), error.help)
     return None
 
 
@@ -146,7 +146,7 @@ def _report_missing(missing: Iterable[_Missing], parts: PartFinder | None, sink:
     message = f"the {_WORDS[use.kind]} {use.uri!r} is not there"
     if others:
         message += f", nor is anything else of {_holder(use.uri) or 'what is named by a path'}: {len(others)} more"
-    hint = f"did you mean {first.near!r}?" if first.near else first.looked
+    hint = suggest(first.near) or first.looked
     related = tuple(each.use.where for each in others)
     sink.report(rules.MISSING_FILE, message, _place(use, parts), found=use.uri, help=hint, related=related)
 
@@ -159,8 +159,6 @@ def _place(use: _Use, parts: PartFinder | None) -> Location:
 # Models and packages are often not on this machine at all, so only a very similar name is taken for
 # the intended one.
 _ALIKE = 0.75
-_FEW = 3
-"""Letters that are in one of two names and not in the other."""
 _NAMED = frozenset({"model", "package"})
 _SCHEMES = ("file", "http", "https", "model", "package")
 
@@ -176,30 +174,20 @@ def is_elsewhere(uri: str, search: SearchPath, beside: Path) -> bool:
     return _package_folder(name, search, beside) is None
 
 
-def near_file(uri: str, search: SearchPath, beside: Path) -> str | None:
-    """Return what was probably meant by the first part of a URI that is not there."""
+def near_files(uri: str, search: SearchPath, beside: Path) -> Sequence[str]:
+    """Return what may have been meant by the first part of a URI that is not there."""
     scheme, separator, rest = uri.partition("://")
     if separator and scheme not in _SCHEMES:
-        near = nearest_name(scheme, _SCHEMES, _ALIKE)
-        return f"{near}://" if near and _is_typo(scheme, near) else None
+        return [f"{each}://" for each in near_names(scheme, _SCHEMES, _ALIKE) if is_typo(scheme, each)]
     path = normpath(unquote(rest)) if separator else normpath(uri)
     if scheme not in _NAMED or not separator:
         return _near_below(beside.parent, path, search, beside)
     name, _, inner = path.partition("/")
     folder = _package_folder(name, search, beside)
     if folder is None:
-        near = nearest_name(name, _known_names(scheme, search, beside), _ALIKE)
-        return near if near and _is_typo(name, near) else None
+        known = _known_names(scheme, search, beside)
+        return [each for each in near_names(name, known, _ALIKE) if is_typo(name, each)]
     return _near_below(folder, inner, search, beside)
-
-
-def _is_typo(name: str, near: str) -> bool:
-    """Whether only a letter or two differ: a longer name is mostly another model of the same family."""
-    from difflib import SequenceMatcher  # noqa: PLC0415 - few files are missing
-
-    same = sum(block.size for block in SequenceMatcher(None, name, near, autojunk=False).get_matching_blocks())
-    # `ball_valve_wall` is another model and not a misspelt `ball_valve`.
-    return len(name) + len(near) - 2 * same <= _FEW
 
 
 def _package_folder(name: str, search: SearchPath, beside: Path) -> Path | None:
@@ -209,16 +197,25 @@ def _package_folder(name: str, search: SearchPath, beside: Path) -> Path | None:
         return None
 
 
-def _near_below(folder: Path, path: str, search: SearchPath, beside: Path) -> str | None:
-    """Return the name of a file that is similar to the first part of a path that is not there."""
+def _near_below(folder: Path, path: str, search: SearchPath, beside: Path) -> Sequence[str]:
+    """Return the names of files that are similar to the first part of a path that is not there."""
     for part in path.split("/"):
         if not exists(folder / part):
-            suffix = Path(part).suffix.lower()
-            alike = search.index.listing(folder).by_suffix.get(suffix, ())
+            alike = search.index.listing(folder).by_suffix.get(Path(part).suffix.lower(), ())
             # a file from elsewhere must learn of no names but those around it
-            return nearest_name(part, alike) if Readable.of(beside).allows(folder) else None
+            return _near_parts(part, alike) if Readable.of(beside).allows(folder) else ()
         folder = folder / part
-    return None
+    return ()
+
+
+def _near_parts(part: str, names: Iterable[str]) -> Sequence[str]:
+    """Return the files or folders with a similar name; the suffix, which is the same, makes no two names similar."""
+    stem = Path(part).stem
+    stems: defaultdict[str, list[str]] = defaultdict(list)
+    for name in names:
+        stems[Path(name).stem].append(name)
+    near = (stem,) if stem in stems else near_names(stem, stems)
+    return [name for each in near for name in stems[each]]
 
 
 def _known_names(scheme: str, search: SearchPath, beside: Path) -> Iterator[str]:

@@ -14,7 +14,15 @@ from twinform.diagnostics.diagnostic import (
     Span,
     TextEdit,
 )
-from twinform.diagnostics.did_you_mean import did_you_mean, meant_name, nearest_name
+from twinform.diagnostics.did_you_mean import (
+    did_you_mean,
+    is_misspelt,
+    is_typo,
+    meant_name,
+    near_names,
+    nearest_name,
+    suggest,
+)
 from twinform.diagnostics.ledger import Fate, Ledger, LedgerEntry, PhysicsChange, ValueChange
 from twinform.diagnostics.sink import HEAD, DiagnosticSink, Policy, SideFile
 
@@ -41,6 +49,10 @@ __all__ = [
     "ValueChange",
     "catalog",
     "did_you_mean",
+    "is_misspelt",
+    "is_typo",
     "meant_name",
+    "near_names",
     "nearest_name",
+    "suggest",
 ]

@@ -121,11 +121,16 @@ class Safety(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Fix:
-    """Edits of the text that fix a finding; `title` says what they do as a command to a person."""
+    """Edits of the text that fix a finding; `title` says what they do as a command to a person.
+
+    A fix that `keeps` the robot is not made where another one comes of it. Others are meant to change what readers
+    take a file for: guesses, and values that stand in the file where no reader looks.
+    """
 
     title: str
     edits: tuple[TextEdit, ...]
     safety: Safety = Safety.SAFE
+    keeps: bool = True
 
 
 class Severity(IntEnum):
@@ -170,7 +175,9 @@ class Rule:
 class Diagnostic:
     """One problem in one place. The message stands alone; `found` and `expected` repeat its two halves for programs.
 
-    Who asks for it puts in the `fix` (`compiler/fixing/`); no stage that finds something makes one.
+    Who asks for it puts in the `fix` (`compiler/fixing/`); no stage that finds something makes one. A finding is
+    `refused` where a reader that the file is for refuses it for that, or no robot can be so: `check` makes an error of
+    it, and what can still be converted is.
     """
 
     rule: Rule
@@ -182,6 +189,7 @@ class Diagnostic:
     help: str | None = None
     related: tuple[Location, ...] = ()
     fix: Fix | None = None
+    refused: bool = False
 
     @property
     def is_error(self) -> bool:

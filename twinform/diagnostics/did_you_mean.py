@@ -16,18 +16,50 @@ _MOST_KNOWN = 1000
 _MOST_COMPARED = 200
 """The most names that are compared letter by letter."""
 _ALIKE = 0.6
-"""How much of two names is the same where one may be meant for the other, as `difflib` measures it."""
-_ASKS = lazy_pattern(r"did you mean (?P<quote>['\"]?)(?P<name>.+)(?P=quote)\?", re.DOTALL)
+"""The share of a name's letters that are right where one name may be meant for another."""
+_MOST_SHOWN = 3
+_MOST_TYPOS = 3
+_LETTERS_PER_TYPO = 4
+_ASKS = lazy_pattern(r"did you mean (?P<quote>['\"]?)(?P<name>(?:(?!(?P=quote) or ).)+)(?P=quote)\?", re.DOTALL)
+_WORDS = lazy_pattern(r"[A-Z]+(?![a-z])|[A-Z]?[^\W\d_A-Z]+")
+"""The words in a name: `front_leftWheel` has three."""
+_ABBREVIATION = 2
+"""The most letters of a word that is a key, such as `l`, `RF` or `x`: another one is another part."""
+_SIDES = """
+    left right front rear back hind upper lower inner outer top bottom min max first second parent child
+    roll pitch yaw visual collision
+"""
+_OPPOSITES = frozenset(_SIDES.split())
 
 
 def did_you_mean(name: str, known: Iterable[str | None], but: Collection[str | None] = ()) -> str | None:
-    """Return the sentence that suggests a known name, `but` none of these; None if no name is near."""
-    near = nearest_name(name, known, but=but)
-    return f"did you mean {near!r}?" if near else None
+    """Return the sentence that suggests known names, `but` none of these; None if no name is near."""
+    others = list(islice(known, _MOST_KNOWN + 1))
+    return suggest(near_names(name, others, but=but) or _longer_or_shorter(name, others, but))
+
+
+def _longer_or_shorter(name: str, known: Sequence[str | None], but: Collection[str | None]) -> tuple[str, ...]:
+    """Return the only known name that has a word more or less, such as `elbow` for `elbow_joint`."""
+    words = _words(name) if len(name) <= _LONGEST and len(known) <= _MOST_KNOWN else frozenset[str]()
+    if not words:
+        return ()
+    others = {each for each in known if each and each not in but and len(each) <= _LONGEST}
+    alike = [each for each in others if words < (found := _words(each)) or (found and found < words)]
+    found = [each for each in alike if _digits(each) == _digits(name) and not names_another(name, each)]
+    return tuple(found) if len(found) == 1 else ()
+
+
+def _words(name: str) -> frozenset[str]:
+    return frozenset(each.lower() for each in _WORDS.findall(name))
+
+
+def suggest(names: Sequence[str]) -> str | None:
+    """Return the sentence that suggests one of several names; None if there are none."""
+    return f"did you mean {' or '.join(map(repr, names[:_MOST_SHOWN]))}?" if names else None
 
 
 def meant_name(sentence: str | None) -> str | None:
-    """Return the name that such a sentence suggests; None for any other help."""
+    """Return the name that such a sentence suggests; None where it suggests several, and for any other help."""
     found = _ASKS.fullmatch(sentence or "")
     return found["name"] if found else None
 
@@ -35,39 +67,96 @@ def meant_name(sentence: str | None) -> str | None:
 def nearest_name(
     name: str, known: Iterable[str | None], alike: float = _ALIKE, *, but: Collection[str | None] = ()
 ) -> str | None:
-    """Return the known name that was probably meant: capitals and separators count least, then letters.
+    """Return the known name that was probably meant, if no other one is nearly as near."""
+    near = near_names(name, known, alike, but=but)
+    return near[0] if len(near) == 1 else None
 
-    `alike` is how much of the two has to be the same, from 0 to 1; names of `but` are not meant. The order of what is
-    known does not matter.
+
+def near_names(
+    name: str, known: Iterable[str | None], alike: float = _ALIKE, *, but: Collection[str | None] = ()
+) -> tuple[str, ...]:
+    """Return the known names that may be meant: a single one where all others are at least twice as far away.
+
+    Capitals and separators count nothing. `alike` is the share of letters that has to be right, from 0 to 1; names of
+    `but` are not meant. The order of what is known does not matter.
     """
     others = list(islice(known, _MOST_KNOWN + 1))
     if len(name) > _LONGEST or len(others) > _MOST_KNOWN:
-        return None
+        return ()
     names = frozenset(filter(None, others))
-    return _nearest_of(name, names, alike, but) if but else _nearest_known(name, names, alike)
+    return _near_of(name, names, alike, but) if but else _near_known(name, names, alike)
 
 
 # A robot has the same unknown element in each of its joints.
 @lru_cache(maxsize=64)
-def _nearest_known(name: str, known: frozenset[str], alike: float) -> str | None:
-    return _nearest_of(name, known, alike, ())
+def _near_known(name: str, known: frozenset[str], alike: float) -> tuple[str, ...]:
+    return _near_of(name, known, alike, ())
 
 
-def _nearest_of(name: str, known: frozenset[str], alike: float, but: Collection[str | None]) -> str | None:
+def _near_of(name: str, known: frozenset[str], alike: float, but: Collection[str | None]) -> tuple[str, ...]:
     folded = _folded(name)
     if not folded:
-        return None
+        return ()
     by_digits = _by_digits(known)
     digits = _digits(folded)  # joint_1 is not a typo of joint_2
     groups = [by_digits.get(each, ()) for each in {"", digits}] if digits else by_digits.values()
-    forms: dict[str, str] = {}
+    forms: dict[str, list[str]] = {}
     for other, form in sorted(pair for group in groups for pair in group):
-        if other != name and other not in but and _may_be(len(other), len(folded)):
-            forms.setdefault(form, other)
+        if other != name and other not in but and _may_be(len(other), len(folded)) and not names_another(name, other):
+            forms.setdefault(form, []).append(other)
     if folded in forms:
-        return forms[folded]
-    near = _nearest(folded, islice(forms, _MOST_COMPARED), alike)
-    return forms[near] if near else None
+        return tuple(forms[folded])
+    from twinform.diagnostics.edit_distance import nearest_words  # noqa: PLC0415 - most files have no typo
+
+    near = nearest_words(folded, islice(forms, _MOST_COMPARED), alike)
+    return tuple(other for _, form in near for other in forms[form])
+
+
+def is_misspelt(name: str, meant: str) -> bool:
+    """Whether the name of a part or file is another one with a single typing mistake inside of one of its words.
+
+    Words differ at their ends, and from each other in short words and in the first letter, where two parts do: `l_uleg`
+    and `l_lleg`, `propeller_cw` and `propeller_ccw`, `finger` and `fingers`. Of 1,274 meshes that were taken away from
+    232 robots of the corpus, 29 others were found without this, and none with it.
+    """
+    if _folded(name).replace("_", "") == _folded(meant).replace("_", ""):
+        return True
+    words, others = (_WORDS.findall(text) for text in (name, meant))
+    wrong = [(a.lower(), b.lower()) for a, b in zip(words, others, strict=False) if a.lower() != b.lower()]
+    if _digits(name) != _digits(meant) or len(words) != len(others) or len(wrong) != 1:
+        return False
+    ((word, other),) = wrong
+    if sorted(word) == sorted(other):
+        return is_typo(word, other)
+    inside = word[0] == other[0] and word[-1] == other[-1]
+    return inside and max(len(word), len(other)) >= _LETTERS_PER_TYPO and is_typo(word, other)
+
+
+def is_typo(name: str, meant: str) -> bool:
+    """Whether so few letters differ that a fix may write one word of a format for another."""
+    from twinform.diagnostics.edit_distance import edit_distance  # noqa: PLC0415 - few files have a typo
+
+    most = min(_MOST_TYPOS, max(1, len(name) // _LETTERS_PER_TYPO))
+    return edit_distance(_folded(name), _folded(meant), most) <= most
+
+
+def names_another(name: str, other: str) -> bool:
+    """Whether two similar names are those of two parts: left and right, `leg_RF` and `leg_LF`, `arm` and `arm_x`.
+
+    Two exchanged letters are a typing mistake all the same.
+    """
+    words, others = ([each.lower() for each in _WORDS.findall(text)] for text in (name, other))
+    if len(words) != len(others):
+        added, gone = Counter(others) - Counter(words), Counter(words) - Counter(others)
+        more = added or gone
+        return not (added and gone) and all(len(each) <= _ABBREVIATION for each in more)
+    return any(map(_are_keys, words, others))
+
+
+def _are_keys(word: str, other: str) -> bool:
+    if word == other or sorted(word) == sorted(other):
+        return False
+    return (word in _OPPOSITES and other in _OPPOSITES) or len(word) == len(other) <= _ABBREVIATION
 
 
 # A file with a thousand unknown names asks for each of them among the same known ones.
@@ -80,32 +169,6 @@ def _by_digits(known: frozenset[str]) -> Mapping[str, Sequence[tuple[str, str]]]
             form = _folded(each)
             groups[_digits(form)].append((each, form))
     return groups
-
-
-def _nearest(name: str, others: Iterable[str], alike: float) -> str:
-    """Return the most similar name; of several the last in the alphabet, empty if none is similar enough.
-
-    Which letters there are bounds how much alike two names can be. The order of letters takes much longer to compare,
-    so that is done from the highest bound on, until no other name can be nearer.
-    """
-    from difflib import SequenceMatcher  # noqa: PLC0415 - most files have no typo
-
-    matcher = SequenceMatcher(b=name)
-    letters = Counter(name)
-    bounds = [(_most_alike(name, letters, each), each) for each in others]
-    best = alike, ""
-    for bound, other in sorted((pair for pair in bounds if pair[0] >= alike), reverse=True):
-        if bound < best[0]:
-            break
-        matcher.set_seq1(other)
-        best = max(best, (matcher.ratio(), other))
-    return best[1]
-
-
-def _most_alike(name: str, letters: Mapping[str, int], other: str) -> float:
-    """Return an upper bound of similarity, by the letters that two names share: `quick_ratio` of `difflib`."""
-    shared = sum(map(min, letters.values(), map(other.count, letters)))
-    return 2 * shared / (len(name) + len(other))
 
 
 def _folded(name: str) -> str:

@@ -75,6 +75,7 @@ class DiagnosticSink:
         help: str | None = None,
         related: tuple[Location, ...] = (),
         severity: Severity | None = None,
+        refused: bool = False,
     ) -> None:
         """Add a diagnostic; without a given severity, the rule and the mode decide.
 
@@ -83,7 +84,9 @@ class DiagnosticSink:
         message, found = _shortened(message), _shortened(found) if found else found
         severity = severity or rule.severity_in(strict=self.strict)
         where = self._complete(location)
-        diagnostic = self._traced(Diagnostic(rule, message, where, severity, found, expected, help, related))
+        diagnostic = self._traced(
+            Diagnostic(rule, message, where, severity, found, expected, help, related, None, refused)
+        )
         self._add(diagnostic)
 
     def takes(self, severity: Severity) -> bool:

@@ -19,6 +19,7 @@ from twinform.schemas.value_readers import (
     keep_text,
     own_field,
     required_words,
+    stand_in,
     stripped,
     text_reader,
 )
@@ -160,14 +161,19 @@ class ElementReader:
             attributes[name](element, name, text, node, context)
         for field, name, row in self._asked:
             if field not in node and element.get(name) is None:
-                messages.missing_attribute(context, element, row)
-                context.broken |= field in self._required
+                self._missing(element, field, row, node, context)
         if self._read_text is not None:
             self._read_text(element, node, context)
         elif (self._free or not context.simple) and (stray := element.text) and stray.strip(BLANKS):
             self._stray(element, stray, node, context)
         if len(element) or self._needed:
             self._read_children(element, node, context)
+
+    def _missing(self, element: XmlElement, field: str | None, row: Fact, node: Data, context: Context) -> None:
+        """Report an attribute that is not there, and fill its field if there is no node without it."""
+        messages.missing_attribute(context, element, row)
+        if field is not None and field in self._required:
+            stand_in(node, field, self._required[field], context)
 
     def _other_attribute(self, element: XmlElement, name: str, text: str, node: Data, context: Context) -> None:
         """Read an attribute that the table does not have."""
@@ -228,7 +234,7 @@ class ElementReader:
             keep_content(child, node, self._content, context)
             return
         if not self._free and (self._read_text is not None or str(child.tag)[0] != "{"):
-            messages.unknown_element(context, child, self._children.rows, self._attributes.rows)
+            messages.unknown_element(context, child, self._children.rows, self._attributes.rows, self._once)
         elif not self._free:
             messages.prefixed_element(context, child)
         if self._keep:

@@ -2,15 +2,18 @@
 
 from collections.abc import Collection
 from dataclasses import field
-from typing import TypedDict, Unpack
+from typing import NamedTuple, TypedDict, Unpack
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, nearest_name, rules
-from twinform.schemas.facts import Fact, Version, print_version
+from twinform.schemas.facts import Fact, Version, parse_version, print_version, versions_of
 from twinform.schemas.hints import dialect_of, hint_for_attribute, hint_for_element, hint_for_word, moved_to, words_of
 from twinform.schemas.xml import Places, XmlElement, path_of
 
 _COLORS = frozenset({"color", "color4"})
+_FREE_NUMBERS = frozenset({"slip1", "slip2"})
+"""Numbers of SDF whose range its description does not have; libsdformat refuses the others, and no body is negative."""
+_SIZES = frozenset({"box", "capsule", "cylinder", "mass", "sphere"})
 _ESSENTIAL = frozenset({"parent", "child"})
 """Elements without which no reader, not even the most forgiving, makes sense of the file."""
 
@@ -34,6 +37,15 @@ class FindingDetails(TypedDict, total=False):
     expected: str | None
     help: str | None
     severity: Severity | None
+    refused: bool
+
+
+class StandIn(NamedTuple):
+    """A field of a node with a value that is not in the file; `name` is that of the node, if it has one."""
+
+    path: str
+    field: str
+    name: str
 
 
 @dataclass(slots=True)
@@ -50,7 +62,8 @@ class Context:
     is true inside of what the readers of the robot itself skip: nothing there is an error. `declared` is whether the
     version is the file's own; where it is not, old syntax is nothing to warn of. `header` holds what the root
     element has about the document rather than about its node. `broken` is whether some node lacks what its class needs,
-    so that there is no document; then there is a finding as well.
+    so that the document is good for checks only; then there is a finding as well. `stand_ins` are the values that such
+    nodes have instead, where they are no likely guesses.
     """
 
     sink: DiagnosticSink
@@ -66,6 +79,7 @@ class Context:
     outside: list[tuple[XmlElement, Fact]] = field(default_factory=list[tuple[XmlElement, Fact]])
     header: dict[str, object] = field(default_factory=dict[str, object])
     broken: bool = False
+    stand_ins: list[StandIn] = field(default_factory=list[StandIn])
     places: Places = field(default_factory=dict[XmlElement, int], repr=False)
 
     def report(
@@ -83,9 +97,13 @@ class Context:
 
 
 def unknown_element(
-    context: Context, element: XmlElement, known: Collection[str], attributes: Collection[str] = ()
+    context: Context,
+    element: XmlElement,
+    known: Collection[str],
+    attributes: Collection[str] = (),
+    once: Collection[str] = (),
 ) -> None:
-    """An element that no version has here; its parent may have the `known` ones, and attributes."""
+    """An element that no version has here; its parent may have the `known` ones, some only `once`, and attributes."""
     context.tolerated.append((element, None))
     name, around = str(element.tag), _around(element)
     context.report(
@@ -93,7 +111,9 @@ def unknown_element(
         element,
         f"<{name}> is not an element of {f'<{around[0]}>' if around else 'the document'}",
         found=name,
-        help=hint_for_element(context.format, name, known, attributes, around) if _is_shown(context) else None,
+        help=hint_for_element(context.format, name, _free(element.getparent(), known, once), attributes, around)
+        if _is_shown(context)
+        else None,
     )
 
 
@@ -102,13 +122,26 @@ def _around(element: XmlElement) -> list[str]:
     return [str(each.tag) for each in element.iterancestors()]
 
 
+def _free(parent: XmlElement | None, known: Collection[str], once: Collection[str]) -> Collection[str]:
+    """Return the known children of an element without those that it has already and may have only once."""
+    if parent is None or not once or len(parent) > _MOST_NEIGHBORS:
+        return known
+    taken = {str(each.tag) for each in parent}.intersection(once)
+    return [name for name in known if name not in taken]
+
+
+_MOST_NEIGHBORS = 200
+"""In a hostile file a thousand unknown elements may stand beside a hundred thousand others."""
+
+
 def unknown_attribute(
     context: Context, element: XmlElement, name: str, known: Collection[str], children: Collection[str] = ()
 ) -> None:
     """An attribute that no version has here; the element may have the `known` ones, and children."""
     context.tolerated.append((element, name))
     message = f"{name!r} is not an attribute of <{element.tag}>"
-    hint = hint_for_attribute(context.format, name, known, children) if _is_shown(context) else None
+    free = [each for each in known if each not in element.attrib] if _is_shown(context) else ()
+    hint = hint_for_attribute(context.format, name, free, children) if _is_shown(context) else None
     context.report(rules.UNKNOWN_ATTRIBUTE, element, message, f"@{name}", found=name, help=hint)
 
 
@@ -251,10 +284,10 @@ def missing_text(context: Context, element: XmlElement, expected: str) -> None:
     context.report(rules.MISSING_ELEMENT, element, message, found="", expected=expected)
 
 
-def blank_value(context: Context, element: XmlElement, expected: str) -> None:
-    """A value that was left blank where that means something."""
+def blank_value(context: Context, element: XmlElement, expected: str, *, refused: bool) -> None:
+    """A value that was left blank where that means something; `refused` is whether libsdformat asks for it."""
     message = f"<{element.tag}> is empty; expected {expected}"
-    context.report(rules.BLANK_VALUE, element, message, found="", expected=expected)
+    context.report(rules.BLANK_VALUE, element, message, found="", expected=expected, refused=refused)
 
 
 def repeated(context: Context, element: XmlElement) -> None:
@@ -306,7 +339,11 @@ def out_of_range(context: Context, element: XmlElement, fact: Fact, value: float
     message = f"{subject} is {value:g}; expected {bound}"
     step = fact.name if attribute else ""
     hint = "divide by 255" if fact.type in _COLORS and value > 1 else None
-    context.report(rules.OUT_OF_RANGE, element, message, step, found=f"{value:g}", expected=bound, help=hint)
+    refused = str(element.tag) in _SIZES and value < 0
+    if context.format == "sdf":  # which libsdformat reads by its newest description
+        refused = fact.name not in _FREE_NUMBERS and fact.exists_in(parse_version(versions_of("sdf")[-1]))
+    details: FindingDetails = {"found": f"{value:g}", "expected": bound, "help": hint, "refused": refused}
+    context.report(rules.OUT_OF_RANGE, element, message, step, **details)
 
 
 def stray_text(context: Context, element: XmlElement, text: str, after: XmlElement | None) -> None:

@@ -6,13 +6,14 @@ from typing import Any, Literal, get_args, get_origin
 
 from lxml import etree
 
-from twinform.diagnostics import Source
+from twinform.diagnostics import Source, meant_name
 from twinform.ir import Element, Node, Opaque
 from twinform.ir.record import fields_of, filler, maker
 from twinform.ir.tree_walks import classes_in
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Version
-from twinform.schemas.messages import Context
+from twinform.schemas.hints import hint_for_word
+from twinform.schemas.messages import Context, StandIn
 from twinform.schemas.value_types import ValueType
 from twinform.schemas.xml import BLANKS, XmlElement, is_blank
 
@@ -54,6 +55,19 @@ def required_words(kind: type[Node]) -> Mapping[str, tuple[str, ...]]:
         for name, each in fields_of(kind).items()
         if each.default is MISSING and name != _FORMAT
     }
+
+
+def stand_in(node: Data, field: str, words: tuple[str, ...], context: Context, guess: str | None = None) -> None:
+    """Fill a required field that the file leaves open, so that the rest can be checked.
+
+    The value is the `guess`, or else the first of the allowed words, or an empty name.
+    """
+    context.broken = True
+    node[field] = guess or (words[0] if words else "")
+    if guess is None:
+        source: Source = node["source"]
+        name = source.key if isinstance(source.key, str) else ""
+        context.stand_ins.append(StandIn(source.path, field, name))
 
 
 def node_class(holder: type[Node], field: str, kind: str | None = None) -> type[Node]:
@@ -193,8 +207,8 @@ def attribute_reader(
             store(element, node, value, text, context)
         elif keep:
             keep_attribute(element, node, at, context, (name, text))
-        if words and value not in words:
-            context.broken = True
+        if words and value not in words and row.place:
+            stand_in(node, row.place, words, context, meant_name(hint_for_word(str(value), row.enum)))
 
     return read
 
@@ -251,7 +265,8 @@ def _report_text(row: Fact, value_type: ValueType, element: XmlElement, context:
     if row.needs_text:
         messages.missing_text(context, element, value_type.expected)
     elif row.type != "pose":
-        messages.blank_value(context, element, value_type.expected)
+        # libsdformat reads no empty text into a value that its description requires (Param.cc, ValueFromStringImpl)
+        messages.blank_value(context, element, value_type.expected, refused=context.format == "sdf" and row.required)
     return False
 
 
@@ -263,7 +278,7 @@ def _blank_check(row: Fact, value_type: ValueType, others: Check | None) -> Chec
     def check(element: XmlElement, value: str, context: Context) -> None:
         # an empty parameter of URDF is a value like others
         if not value and context.format == "sdf":
-            messages.blank_value(context, element, value_type.expected)
+            messages.blank_value(context, element, value_type.expected, refused=False)
         if others is not None:
             others(element, value, context)
 

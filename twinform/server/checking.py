@@ -14,7 +14,7 @@ from twinform.compiler.input.finding_spans import SourceFiles, with_columns
 from twinform.compiler.input.load_options import LoadOptions, LoadResult
 from twinform.compiler.input.loading import read
 from twinform.compiler.input.size_limits import Limits
-from twinform.compiler.inspection import inspect
+from twinform.compiler.inspection import as_refused, inspect
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Policy, rules
 from twinform.text.formatting import FormatOptions
@@ -46,7 +46,9 @@ def no_settings(_: Path) -> EditorSettings:
 
 
 # Missing in a xacro file that others include, so these are not reported there.
-_OF_WHOLE_ROBOTS = frozenset({rules.EMPTY_MODEL.name, rules.MISSING_ATTRIBUTE.name, rules.MISSING_ELEMENT.name})
+_OF_WHOLE_ROBOTS = frozenset(
+    each.name for each in (rules.EMPTY_MODEL, rules.MISSING_ATTRIBUTE, rules.MISSING_ELEMENT, rules.NO_LINKS)
+)
 
 
 class CheckJob(NamedTuple):
@@ -75,7 +77,7 @@ class Checked:
 def check(job: CheckJob) -> Checked:
     """Check a document as `twinform check` does."""
     load_options = job.load_options
-    loaded = inspect(read(str(job.path), load_options), load_options)
+    loaded = as_refused(inspect(read(str(job.path), load_options), load_options))
     found = job.settings.policy.apply(_locate_findings(loaded, job.unsaved))
     if job.is_part:
         found = tuple(each for each in found if not _is_of_whole_robot(each))

@@ -280,7 +280,7 @@ def test_sarif_has_columns_and_fixes() -> None:
     region = {"startLine": 1, "startColumn": 3, "endLine": 1, "endColumn": 5}
     assert result["locations"][0]["physicalLocation"]["region"] == region
     (fix,) = result["fixes"]
-    assert fix["description"] == {"text": "write 2"}
+    assert (fix["description"], fix["properties"]) == ({"text": "write 2 (unsafe)"}, {"safety": "unsafe"})
     (change,) = fix["artifactChanges"]
     assert change["artifactLocation"] == {"uri": "a.urdf"}
     assert change["replacements"][0] == {"deletedRegion": region, "insertedContent": {"text": "2"}}

@@ -47,8 +47,9 @@ def place(found: types.Diagnostic) -> tuple[int, int, int, int]:
 def test_findings_stand_at_the_piece_that_is_wrong_and_go_when_it_is_right(tmp_path: Path) -> None:
     async def steps(one: Editor) -> None:
         uri = one.open(tmp_path / "robot.urdf", ROBOT)
-        (found,) = await one.diagnostics(uri)
+        found, *others = await one.diagnostics(uri)
         assert (found.code, place(found), found.source) == ("invalid-value", (2, 24, 2, 28), "twinform")
+        assert codes(others) == ["dangling-link"]
         version = one.change(uri, ((2, 27, 2, 28), "ed"), ((1, 2, 1, 2), '<link name="arm"/>'))
         assert codes(await one.diagnostics(uri, version)) == []
         one.close(uri)
@@ -169,7 +170,7 @@ def test_hostile_documents_are_findings_and_the_server_stays(tmp_path: Path) -> 
             assert any(each.severity == types.DiagnosticSeverity.Error for each in found), name
             one.close(uri)
         uri = one.open(tmp_path / "robot.urdf", ROBOT)
-        assert codes(await one.diagnostics(uri)) == ["invalid-value"]
+        assert codes(await one.diagnostics(uri)) == ["invalid-value", "dangling-link"]
 
     run(tmp_path, steps)
 
@@ -205,9 +206,9 @@ def test_a_file_of_60_megabytes_is_a_message(tmp_path: Path) -> None:
         (found,) = await one.diagnostics(uri, version)
         assert found.message.startswith("the file has more than 4 MiB")
         small = one.open(tmp_path / "robot.urdf", ROBOT)
-        assert codes(await one.diagnostics(small)) == ["invalid-value"]
+        assert codes(await one.diagnostics(small)) == ["invalid-value", "dangling-link"]
         version = one.change(uri, ROBOT)
-        assert codes(await one.diagnostics(uri, version)) == ["invalid-value"]
+        assert codes(await one.diagnostics(uri, version)) == ["invalid-value", "dangling-link"]
 
     run(tmp_path, steps)
 

@@ -23,7 +23,7 @@ from twinform.compiler.driver import run_conversion
 from twinform.compiler.expand_includes import expand
 from twinform.compiler.input.finding_spans import SourceFiles, with_columns
 from twinform.compiler.input.loading import XACRO, LoadResult, read
-from twinform.compiler.inspection import inspect
+from twinform.compiler.inspection import as_refused, inspect
 from twinform.compiler.model_config import MANIFESTS, manifest, model_file
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.split_world import split
@@ -125,7 +125,7 @@ class Check:
         """Check the model."""
         del content  # it is read by its path
         name, loaded = str(task.path), _load(task, expand_includes=self.expand_includes)
-        seen = self.policy.apply(inspect(loaded, task.load_options, self.passes).diagnostics)
+        seen = self.policy.apply(as_refused(inspect(loaded, task.load_options, self.passes)).diagnostics)
         seen = with_columns(seen, SourceFiles.of(loaded)) if seen else seen
         if loaded.unreadable or any(each.is_error for each in seen):
             return _refuse(CompileError(seen, unreadable=loaded.unreadable), Policy(), name)

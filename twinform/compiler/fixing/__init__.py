@@ -1,7 +1,16 @@
 """Fixes of findings: the edits that rules offer, and how they are applied until nothing changes."""
 
-from twinform.compiler.fixing.fix_rounds import FixResult, Refused, apply_fixes, apply_fixes_by
+from twinform.compiler.fixing.fix_rounds import ANOTHER_ROBOT, FixResult, Refused, apply_fixes, apply_fixes_by
 from twinform.compiler.fixing.offering import with_fixes
 from twinform.compiler.fixing.site import FindingSite, Fixer
 
-__all__ = ["FindingSite", "FixResult", "Fixer", "Refused", "apply_fixes", "apply_fixes_by", "with_fixes"]
+__all__ = [
+    "ANOTHER_ROBOT",
+    "FindingSite",
+    "FixResult",
+    "Fixer",
+    "Refused",
+    "apply_fixes",
+    "apply_fixes_by",
+    "with_fixes",
+]

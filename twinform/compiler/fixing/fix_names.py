@@ -1,13 +1,12 @@
 """Fixes of names: misspelt tags, attributes, references and paths, names that SDF refuses, and materials."""
 
+from pathlib import PurePosixPath
+
 from twinform.compiler.fixing.site import FindingSite, FixableFile, Fixers, TextFixers, safe, unsafe
-from twinform.diagnostics import Diagnostic, Fix, TextEdit, meant_name, nearest_name, rules
+from twinform.diagnostics import Diagnostic, Fix, TextEdit, is_misspelt, is_typo, meant_name, rules
 from twinform.schemas import XmlElement
 from twinform.text import same_element
 
-# How much of two words has to be the same for a tag to be taken for the other one; with less, the
-# help only asks.
-_SURE = 0.72
 _ENDS = frozenset({"parent", "child"})
 """Elements that name a link, also where a joint has its name."""
 
@@ -16,7 +15,7 @@ def _unknown_element(site: FindingSite) -> Fix | None:
     meant = meant_name(site.finding.help)
     old = str(site.element.tag)
     parent = site.element.getparent()
-    if not meant or parent is None or nearest_name(old, [meant], _SURE) is None:
+    if not meant or parent is None or not is_typo(old, meant):
         return None
     row = site.file.row_of(parent)
     own = next((each for each in row.children if each.name == meant), None) if row else None
@@ -27,7 +26,9 @@ def _unknown_element(site: FindingSite) -> Fix | None:
 
 def _unknown_attribute(site: FindingSite) -> Fix | None:
     meant, old = meant_name(site.finding.help), site.attribute
-    if not meant or not old or meant in site.element.attrib or old not in site.element.attrib:
+    if not meant or not old or not is_typo(old, meant) or meant in site.element.attrib:
+        return None
+    if old not in site.element.attrib:
         return None
     return unsafe(f"Write {meant} instead of {old}", site.edit.rename_attribute(site.element, old, meant))
 
@@ -37,7 +38,7 @@ def _reference(site: FindingSite) -> Fix | None:
     # The name is read out of the help sentence: a field of its own in `Diagnostic` would have to be
     # filled in at forty places and say what the sentence says.
     meant, found = meant_name(site.finding.help), site.finding.found
-    if not meant or not found:
+    if not meant or not found or not is_misspelt(found.rpartition("::")[2], meant):
         return None
     edits = _write_name(site, found, meant)
     # A near name is a guess, however near.
@@ -98,7 +99,8 @@ def _unnamed_material(site: FindingSite) -> Fix | None:
 
 
 def _bare_material(site: FindingSite) -> Fix | None:
-    if site.element.tag != "material" or not _is_at_top(site.element):
+    # a misspelt <color> is no color
+    if site.element.tag != "material" or not _is_at_top(site.element) or len(site.element):
         return None
     return safe("Delete the material, which says nothing", site.edit.remove(site.element))
 
@@ -137,20 +139,32 @@ def _missing_file(finding: Diagnostic, file: FixableFile) -> Fix | None:
     """Write another scheme, or a similar name for a part of the path."""
     found, meant = finding.found or "", meant_name(finding.help)
     new = _replace_part(found, meant) if meant else None
-    edits = _write_uri(file, found, new) if new else ()
+    edits = _write_uri(file, found, new) if new and not _are_of_two_kinds(file, found, new) else ()
     return unsafe(f"Write {new!r}", *edits) if edits else None
+
+
+_SHAPES = frozenset({"collision", "visual"})
+
+
+def _are_of_two_kinds(file: FixableFile, found: str, new: str) -> bool:
+    """Whether one file is that of visuals only, and the other one that of collisions only."""
+    kinds = [
+        {str(holder.tag) for element, _ in file.values.get(uri, ()) for holder in element.iterancestors(*_SHAPES)}
+        for uri in (found, new)
+    ]
+    return all(kinds) and kinds[0].isdisjoint(kinds[1])
 
 
 def _replace_part(uri: str, meant: str) -> str | None:
     """Replace the part of a URI that is most similar to what is meant."""
-    from difflib import SequenceMatcher  # noqa: PLC0415 - few files are missing
-
     scheme, separator, rest = uri.partition("://")
     if meant.endswith("://"):
         return f"{meant}{rest}" if separator else None
     parts = rest.split("/") if separator else uri.split("/")
-    likeness = [SequenceMatcher(None, part.lower(), meant.lower()).ratio() for part in parts]
-    at = max(range(len(parts)), key=likeness.__getitem__)
+    stem = PurePosixPath(meant).stem
+    at = next((number for number, part in enumerate(parts) if is_misspelt(PurePosixPath(part).stem, stem)), None)
+    if at is None:
+        return None
     parts[at] = meant
     return f"{scheme}{separator}{'/'.join(parts)}" if separator else "/".join(parts)
 

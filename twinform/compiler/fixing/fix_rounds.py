@@ -1,20 +1,26 @@
-"""Applies fixes until nothing changes. A fix that causes a new finding, or breaks the file, is taken back."""
+"""Applies fixes until nothing changes. A fix that causes a new finding, or another robot by mistake, is taken back."""
 
 from bisect import bisect_left, insort
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import field
+from typing import TYPE_CHECKING
 
+from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.fixing.offering import with_fixes
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
-from twinform.compiler.inspection import inspect
+from twinform.compiler.inspection import as_refused, inspect
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit
+from twinform.diagnostics import Diagnostic, Fix, Safety, Severity, Span, TextEdit
 from twinform.diagnostics.sink import MOST
 from twinform.lazy import lazy_pattern
 from twinform.text import SourceText, apply
 
+if TYPE_CHECKING:
+    from twinform.compiler.compare import Difference
+
 MOST_ROUNDS = 100
+ANOTHER_ROBOT = "another robot"
 _MOST_CHECKS = 200
 _LEAST_CHECKS = 10
 # Which of a hundred fixes makes a file worse is found by halving, and each half is read again: so
@@ -32,7 +38,7 @@ Look = Callable[[bytes], LoadResult]
 
 @dataclass(frozen=True, slots=True)
 class Refused:
-    """A fix that was taken back, and the rules of the findings that it would have caused."""
+    """A fix that was taken back, and the rules of the findings that it would have caused, or `ANOTHER_ROBOT`."""
 
     finding: Diagnostic
     new: tuple[str, ...]
@@ -40,13 +46,17 @@ class Refused:
 
 @dataclass(frozen=True, slots=True)
 class FixResult:
-    """The fixed bytes, the findings that were fixed, in order, and what is found now."""
+    """The fixed bytes, the findings that were fixed, in order, and what is found now.
+
+    `changes` say how the robot differs from the one before, where that could be read.
+    """
 
     data: bytes
     applied: tuple[Diagnostic, ...]
     left: LoadResult
     rounds: int
     refused: tuple[Refused, ...] = ()
+    changes: tuple[str, ...] = ()
 
 
 def apply_fixes(
@@ -60,17 +70,32 @@ def apply_fixes(
     """Apply the fixes of a file, of all rules or only of some; `name` is its path."""
 
     def look(text: bytes) -> LoadResult:
-        return inspect(read(text, load_options, name=name), load_options)
+        return as_refused(inspect(read(text, load_options, name=name), load_options))
 
-    return apply_fixes_by(look, data, unsafe=unsafe, wanted=lambda each: rules is None or each.rule.name in rules)
+    return apply_fixes_by(
+        look,
+        data,
+        unsafe=unsafe,
+        wanted=lambda each: rules is None or each.rule.name in rules,
+        load_options=load_options,
+    )
 
 
 def apply_fixes_by(
-    look: Look, data: bytes, *, unsafe: bool = False, wanted: Callable[[Diagnostic], bool] = lambda _: True
+    look: Look,
+    data: bytes,
+    *,
+    unsafe: bool = False,
+    wanted: Callable[[Diagnostic], bool] = lambda _: True,
+    load_options: LoadOptions | None = None,
 ) -> FixResult:
-    """Apply the fixes of wanted findings in rounds, until `look` finds nothing more that can be fixed."""
-    state = _State(data, look(data))
-    fixing = _FixRun(look, Safety.UNSAFE if unsafe else Safety.SAFE, wanted)
+    """Apply the fixes of wanted findings in rounds, until `look` finds nothing more that can be fixed.
+
+    The robots before and after are compared with what their files include, which `load_options` say where to find.
+    """
+    first = state = _State(data, look(data))
+    load_options = load_options or LoadOptions()
+    fixing = _FixRun(look, Safety.UNSAFE if unsafe else Safety.SAFE, wanted, load_options)
     while fixing.rounds < MOST_ROUNDS:
         offered = _most_severe(fixing.offered(state.loaded))
         if not offered:
@@ -80,7 +105,10 @@ def apply_fixes_by(
         if after is state:
             continue  # what was refused is not tried again, so that there is less each time
         state = after
-    return FixResult(state.data, tuple(fixing.applied), state.loaded, fixing.rounds, tuple(fixing.refused))
+    applied, refused = tuple(fixing.applied), tuple(fixing.refused)
+    keeps = all(each.fix and each.fix.keeps for each in applied)
+    changes = () if keeps else _differences(first.loaded, state.loaded, load_options)
+    return FixResult(state.data, applied, state.loaded, fixing.rounds, refused, changes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +126,7 @@ class _FixRun:
     look: Look
     most: Safety
     wanted: Callable[[Diagnostic], bool]
+    load_options: LoadOptions
     rounds: int = 0
     checks: int = 0
     applied: list[Diagnostic] = field(default_factory=list[Diagnostic])
@@ -118,14 +147,19 @@ class _FixRun:
     def applied_to(self, state: _State, offered: Sequence[Diagnostic]) -> _State:
         """Apply the fixes that do not overlap and make nothing worse."""
         good: list[Group] = []
-        pending, best = [[*_without_overlaps(offered)]], state
+        groups = [*_without_overlaps(offered)]
+        # those that keep the robot are compared with what was before the others
+        pending = [[each for each in groups if not _keeps(each)], [each for each in groups if _keeps(each)]]
+        pending, best = [*filter(None, pending)], state
         while pending:
             groups = pending.pop()
             if self.checks >= _most_checks(state.data):
                 self._refuse(groups, ("too-many-tries",))
                 continue
             after = self._apply_groups(state, [*good, *groups])
-            new = _new_rules(best.loaded, after.loaded, groups)
+            new = _new_rules(best.loaded, after.loaded, min(group[0].severity for group in groups))
+            if not new and _keeps(groups[0]) and _differences(best.loaded, after.loaded, self.load_options):
+                new = (ANOTHER_ROBOT,)
             if not new:
                 good, best = [*good, *groups], after
             elif len(groups) > 1:
@@ -149,6 +183,29 @@ class _FixRun:
         data = source.with_text(apply(source.text, edits)).data
         self.checks += 1
         return _State(data, self.look(data))
+
+
+def _keeps(group: Group) -> bool:
+    return group[0].fix is not None and group[0].fix.keeps
+
+
+def _differences(before: LoadResult, after: LoadResult, load_options: LoadOptions) -> tuple[str, ...]:
+    """Return how two robots differ, in words; nothing where one of them cannot be read or compared."""
+    robots = [each if each.accepted else each.document for each in (before, after)]
+    if None in robots:
+        return ()
+    from twinform.compiler.compare import compare_files  # noqa: PLC0415 - few files are fixed
+
+    try:
+        one, other = (each for each in robots if each is not None)
+        return tuple(map(_in_words, compare_files(one, other, load_options).counted))
+    except CompileError:
+        return ()
+
+
+def _in_words(change: "Difference") -> str:
+    what = " ".join(filter(None, (change.group, change.name and repr(change.name), change.aspect)))
+    return f"{what}: {change.a.text or 'nothing'}, now {change.b.text or 'nothing'}"
 
 
 def _most_checks(data: bytes) -> int:
@@ -186,11 +243,10 @@ def _most_severe(offered: Sequence[Diagnostic]) -> list[Diagnostic]:
     return [each for each in offered if each.is_error] or [*offered]
 
 
-def _new_rules(before: LoadResult, after: LoadResult, groups: Sequence[Group]) -> tuple[str, ...]:
-    """Return the rules of the findings that fixes have caused.
+def _new_rules(before: LoadResult, after: LoadResult, least: Severity) -> tuple[str, ...]:
+    """Return the rules of the findings that were not there before, without notes where something worse was fixed.
 
-    Where an error is fixed, more of the file is checked, and hidden mistakes are found. So after several fixes, all
-    errors that they fix have to be gone; after a single one, there must not be more errors than before.
+    Of a text that was no XML, only what could be read so far was known: it is enough that more can be read.
     """
     if before.unreadable or after.unreadable:
         return (
@@ -199,15 +255,9 @@ def _new_rules(before: LoadResult, after: LoadResult, groups: Sequence[Group]) -
             else _error_rules(after)
         )
     is_cut_off = len(before.diagnostics) >= MOST  # what is found now may have been there beyond the limit
-    seen = (each for each in after.diagnostics if each.is_error or not is_cut_off)
+    least = Severity.ERROR if is_cut_off else min(least, Severity.WARNING)
+    seen = (each for each in after.diagnostics if each.severity >= least)
     new = Counter(map(kind_of, seen)) - Counter(map(kind_of, before.diagnostics))
-    if not new:
-        return ()
-    if groups[0][0].is_error:
-        errors = [sum(each.is_error for each in loaded.diagnostics) for loaded in (before, after)]
-        gone = sum(map(len, groups)) if len(groups) > 1 else 0
-        if errors[1] <= errors[0] - gone:
-            return ()
     return tuple(sorted({rule for rule, _ in new}))
 
 

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from twinform.compiler.fixing.fix_names import free_name
 from twinform.compiler.fixing.fix_numbers import guesses, numbers_of, text_of_number
-from twinform.compiler.fixing.site import FindingSite, Fixers, display, safe, unsafe
-from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit, rules
+from twinform.compiler.fixing.site import FindingSite, Fixers, careful, display, revealing, safe, unsafe
+from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit, is_typo, nearest_name, rules
 from twinform.schemas import VALUE_TYPES, Fact, parse_version, print_version, table, versions_of
 from twinform.text import same_element
 
@@ -23,7 +23,7 @@ def _missing_attribute(site: FindingSite) -> Fix | None:
     name = (site.finding.expected or "").removeprefix("@")
     if not name or name in site.element.attrib:
         return None
-    moved = _text_as_attribute(site, name)
+    moved = _text_as_attribute(site, name) or _misspelt_attribute(site, name)
     if moved is not None:
         return moved
     if name in _ZERO and site.element.tag == "inertia":
@@ -37,6 +37,18 @@ def _missing_attribute(site: FindingSite) -> Fix | None:
         called = free_name(site.file, str(site.element.tag))
         return unsafe(f'Write name="{called}"', site.edit.set_attribute(site.element, name, called))
     return None
+
+
+def _misspelt_attribute(site: FindingSite, name: str) -> Fix | None:
+    """Call the only attribute with a typing mistake in it by its name."""
+    row = site.file.row_of(site.element)
+    known = {each.name[1:] for each in row.attributes} if row else set[str]()
+    free = known.difference(map(str, site.element.keys()))
+    unknown = (key for key in map(str, site.element.keys()) if key not in known)
+    near = [key for key in unknown if is_typo(key, name) and nearest_name(key, free) == name]
+    if len(near) != 1:
+        return None
+    return unsafe(f"Write {name} instead of {near[0]}", site.edit.rename_attribute(site.element, near[0], name))
 
 
 def _text_as_attribute(site: FindingSite, name: str) -> Fix | None:
@@ -69,11 +81,16 @@ def _is_valid(fact: Fact, text: str, format_: str) -> bool:
 def _defaulted_attribute(site: FindingSite) -> Fix | None:
     """Write the default of an attribute, or delete an element without effect where there is no default."""
     name = site.finding.expected or ""
+    misspelt = _misspelt_attribute(site, name[1:])
+    if misspelt is not None:
+        return misspelt
     row = site.file.row_of(site.element)
     fact = next((each for each in row.attributes if each.name == name), None) if row else None
     if fact is None:
         return None
     if fact.default is None:
+        if site.element.attrib or len(site.element):
+            return None  # something is written, and means something to somebody
         return safe(f"Delete the empty <{site.element.tag}>", site.edit.remove(site.element))
     value = fact.default
     return safe(f'Write {name[1:]}="{value}"', site.edit.set_attribute(site.element, name[1:], value))
@@ -108,10 +125,29 @@ def _repeated_element(site: FindingSite) -> Fix | None:
 
 
 def _blank_value(site: FindingSite) -> Fix | None:
+    """Write the default, or the value of an attribute as URDF has it, such as `<mass value="1"/>`."""
     row = site.file.row_of(site.element)
-    if row is None or row.default is None or len(site.element):
+    if row is None or len(site.element):
+        return None
+    if site.element.attrib:
+        return _attribute_as_text(site, row)
+    if row.default is None:
         return None
     return safe(f"Write the default, {row.default}", *site.edit.set_text(site.element, row.default))
+
+
+def _attribute_as_text(site: FindingSite, row: Fact) -> Fix | None:
+    """Make the only attribute of an element its text, where the format has no such attribute."""
+    (name, value), *others = site.element.items()
+    written = value.strip()
+    if (
+        others
+        or any(each.name == f"@{name}" for each in row.attributes)
+        or not _is_valid(row, written, site.file.format)
+    ):
+        return None
+    edits = (site.edit.remove_attribute(site.element, name), *site.edit.set_text(site.element, written))
+    return revealing(f"Write <{site.element.tag}>{written}</{site.element.tag}>", *edits)
 
 
 def _stray_text(site: FindingSite) -> Fix | None:
@@ -168,7 +204,8 @@ def _outside_version(site: FindingSite) -> Fix | None:
     version = site.file.memo["version"]
     if version is None:
         return None
-    return unsafe(f"Declare version {version}", site.edit.set_attribute(site.file.root, "version", version))
+    # From SDF 1.5 on an axis is in the frame of its joint, and with other versions other things change.
+    return careful(f"Declare version {version}", site.edit.set_attribute(site.file.root, "version", version))
 
 
 def _first_fitting_version(site: FindingSite) -> str | None:
@@ -210,7 +247,7 @@ def _unknown_version(site: FindingSite) -> Fix | None:
         if version in known:
             return safe(f"Declare version {version}", site.edit.set_attribute(site.element, "version", version))
     edit = site.edit.set_attribute(site.element, "version", known[-1])
-    return unsafe(f"Declare version {known[-1]}, as which it is read", edit)
+    return careful(f"Declare version {known[-1]}, as which it is read", edit)
 
 
 FIXERS: Fixers = {

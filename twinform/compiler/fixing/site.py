@@ -173,8 +173,18 @@ def safe(title: str, *edits: TextEdit) -> Fix:
     return Fix(title, edits, Safety.SAFE)
 
 
+def revealing(title: str, *edits: TextEdit) -> Fix:
+    """Make a safe fix that writes what stands in the file already, so that readers find it."""
+    return Fix(title, edits, Safety.SAFE, keeps=False)
+
+
 def unsafe(title: str, *edits: TextEdit) -> Fix:
     """Make a fix that may change the robot, or is a guess."""
+    return Fix(title, edits, Safety.UNSAFE, keeps=False)
+
+
+def careful(title: str, *edits: TextEdit) -> Fix:
+    """Make an unsafe fix that is not made where another robot comes of it."""
     return Fix(title, edits, Safety.UNSAFE)
 
 

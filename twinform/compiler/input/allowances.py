@@ -16,7 +16,7 @@ from twinform.file_access import Readable
 
 _MARKS = tuple(("twinform".encode(code), "urn:twinform:".encode(code)) for code in ("utf-8", "utf-16-le", "utf-16-be"))
 """The word that begins a suppression, and the namespace that has the word too, in each encoding."""
-_WITHOUT_MODEL = "without this part there is no model, and nothing else could be checked"
+_WITHOUT_MODEL = "without this part there is no model"
 
 
 @dataclass(slots=True)

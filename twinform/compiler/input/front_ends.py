@@ -34,11 +34,9 @@ _make_pose = maker(Pose)
 _make_document = maker(Document)
 
 
-def build_urdf(root: XmlElement, context: Context) -> Document | None:
-    """Build the document of a `<robot>` without its namespaces; None where errors leave gaps in it."""
+def build_urdf(root: XmlElement, context: Context) -> Document:
+    """Build the document of a `<robot>` without its namespaces."""
     data = reader("urdf", context.version).read(root, context)
-    if context.broken:
-        return None
     model = _make_model(data)
     _relate_poses(model)
     values = {"format": Format.URDF, "models": (model,), "source": model.source, **context.header}
@@ -63,10 +61,10 @@ def _relate_poses(model: Model) -> None:
             amend(link, "pose", _make_pose({"relative_to": name}))
 
 
-def build_sdf(root: XmlElement, context: Context) -> Document | None:
-    """Build the document of an `<sdf>` without its namespaces; None where errors leave gaps in it."""
+def build_sdf(root: XmlElement, context: Context) -> Document:
+    """Build the document of an `<sdf>` without its namespaces."""
     data = reader("sdf", context.version).read(root, context)
-    return None if context.broken else _make_document({"format": Format.SDF, **data})
+    return _make_document({"format": Format.SDF, **data})
 
 
 def check_extensions(document: Document, sink: DiagnosticSink) -> None:
@@ -138,7 +136,7 @@ def _trimmer() -> Callable[[int], int] | None:
     return getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None
 
 
-ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Document | None]]] = {
+ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Document]]] = {
     "robot": ("urdf", build_urdf),
     "sdf": ("sdf", build_sdf),
 }
@@ -159,17 +157,14 @@ def lower_tree(
     document = build_document(build, root, context)
     if errors:
         validate(root, context, "libxml2", errors)
-    if document is not None:
-        amend(document, "namespaces", namespaces_of(root, None))
-    return document
+    amend(document, "namespaces", namespaces_of(root, None))
+    return None if context.broken else document
 
 
-def build_document(
-    build: Callable[[XmlElement, Context], Document | None], root: XmlElement, context: Context
-) -> Document | None:
-    """Build the document of a tree with a front end; None where errors leave gaps in it."""
+def build_document(build: Callable[[XmlElement, Context], Document], root: XmlElement, context: Context) -> Document:
+    """Build the document of a tree with a front end; where the context is `broken` then, it is good for checks only."""
     document = build(root, context)
-    if document is None and not context.sink.has_errors:
+    if context.broken and not context.sink.has_errors:
         raise ValueError(f"{context.file}: some part lacks what it needs, and nothing was reported")
     return document
 
@@ -185,7 +180,8 @@ def declared_version(root: XmlElement, format_: str, sink: DiagnosticSink) -> Ve
     newest = known[-1]
     if declared is not None:
         message = f"{format_.upper()} has no version {declared!r}; read as {newest}"
-        sink.report(rules.UNKNOWN_VERSION, message, where, found=declared, expected=", ".join(known))
+        refused = declared.strip() not in known
+        sink.report(rules.UNKNOWN_VERSION, message, where, found=declared, expected=", ".join(known), refused=refused)
     return parse_version(newest)
 
 

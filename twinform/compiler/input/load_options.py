@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypedDict
+from typing import TYPE_CHECKING, Annotated, NamedTuple, TypedDict
 
 from twinform.compiler.input.allowances import Allowances
 from twinform.compiler.input.size_limits import LARGEST, MOST_TAGS, USUAL_LIMITS, Limits, parse_size
@@ -14,6 +14,7 @@ from twinform.diagnostics import Diagnostic, DiagnosticSink, LedgerEntry, LineOr
 from twinform.ir import Document, count_parts
 from twinform.option import Option, given
 from twinform.schemas import DEFAULT_SDF_VERSION, Engine, XmlElement
+from twinform.schemas.messages import StandIn
 
 if TYPE_CHECKING:
     from twinform.profiles import Profile
@@ -155,6 +156,13 @@ def checking_options(options: CheckOptions) -> LoadOptions:
     return LoadOptions.of(options, allow=allow, profiles=profiles, tolerant=True)
 
 
+class Recovered(NamedTuple):
+    """A document in which values stand for what could not be read: it can be checked, and nothing else made of it."""
+
+    document: Document
+    stand_ins: tuple[StandIn, ...]
+
+
 @dataclass(frozen=True, slots=True)
 class LoadResult:
     """The document of a file, and what was found in it.
@@ -165,7 +173,8 @@ class LoadResult:
     the lines of an expanded text to where they were written. Where includes were expanded, `included` is the size of
     their files, `entries` what became of parts of them, and `mixed` means that the files may be of several versions.
     `allowed` are the findings that the caller or a comment in a file allows, and `allowances` decide about further
-    findings. `comments` are those of the file, where they are kept.
+    findings. `comments` are those of the file, where they are kept. Where some part lacks what it needs, there is no
+    document, and what could be `recovered` of it.
     """
 
     path: str
@@ -182,6 +191,7 @@ class LoadResult:
     allowed: tuple[Diagnostic, ...] = ()
     allowances: Allowances | None = field(default=None, repr=False, compare=False)
     comments: Comments | None = field(default=None, repr=False, compare=False)
+    recovered: Recovered | None = field(default=None, repr=False, compare=False)
 
     @property
     def text_name(self) -> str:

@@ -11,6 +11,7 @@ from typing import Unpack
 
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.input.allowances import Allowances, content_of
+from twinform.compiler.input.consequences import without_consequences
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.front_ends import (
     LARGE,
@@ -27,6 +28,7 @@ from twinform.compiler.input.load_options import (
     Input,
     LoadOptions,
     LoadResult,
+    Recovered,
     expanded_name,
     name_of_input,
     parts_of,
@@ -61,9 +63,6 @@ from twinform.schemas import (
     validate,
 )
 
-_CONSEQUENCES = frozenset(
-    {rules.MISSING_LIMIT, rules.PARTIAL_LIMIT, rules.SEVERAL_ROOTS, rules.EMPTY_MODEL, rules.UNKNOWN_MATERIAL}
-)
 _JSON = lazy_pattern(rb"(\xef\xbb\xbf)?\s*\{")
 """How a JSON document begins."""
 XACRO = ".xacro"
@@ -125,32 +124,33 @@ def _read_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, all
     try:
         if _JSON.match(text):
             return _read_json(text, sink, load_options, allowances)
-        document, tree, size, comments = read_document(text, sink, load_options, allowances)
+        document, context, tree, size, comments = read_document(text, sink, load_options, allowances)
     except UnreadableError:
         return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True, content=text)
-    if document is not None and not sink.has_errors:
-        read = len(sink.diagnostics)
-        verify(document, sink)
-        if document.format is Format.URDF:
-            check_extensions(document, sink)
-        if len(sink.diagnostics) > read:
-            whole = read_tree_again(text) if tree is None else tree
-            sink.diagnostics[read:] = with_exact_lines(sink.diagnostics[read:], whole, sink.file)
+    found = DiagnosticSink(file=sink.file, strict=sink.strict)
+    verify(document, found)
+    if document.format is Format.URDF:
+        check_extensions(document, found)
+    if found.diagnostics:
+        kept = without_consequences(found.diagnostics, sink.diagnostics, context.stand_ins)
+        whole = read_tree_again(text) if tree is None else tree
+        sink.extend_new(with_exact_lines(kept, whole, sink.file))
     allowances.settle(sink)
-    if document is None:
+    if context.broken:
         allowances.put_back(sink)
-    found = tuple(sorted(sink.diagnostics, key=lambda each: each.location.line))
+    ordered = tuple(sorted(sink.diagnostics, key=lambda each: each.location.line))
     tree = tree if load_options.keep_tree else None
     return LoadResult(
         sink.file,
-        document,
-        found,
+        None if context.broken else document,
+        ordered,
         tree=tree,
         content=text,
         tree_size=size,
         allowed=tuple(sink.allowed),
         allowances=allowances,
         comments=comments,
+        recovered=Recovered(document, tuple(context.stand_ins)) if context.broken else None,
     )
 
 
@@ -251,11 +251,11 @@ def _accepted_document(loaded: LoadResult) -> Document:
 
 def read_document(
     text: bytes, sink: DiagnosticSink, load_options: LoadOptions, allowances: Allowances
-) -> tuple[Document | None, XmlElement | None, int | None, Comments | None]:
+) -> tuple[Document, Context, XmlElement | None, int | None, Comments | None]:
     """Read an XML text: return its document, its tree, the size of a tree that need not be kept, and the comments.
 
-    The tree of a large text is used up where it need not be kept. Where the text has errors, there may still be a
-    document.
+    The tree of a large text is used up where it need not be kept. Where the context is `broken`, the document is good
+    for checks only.
 
     Raises:
         UnreadableError: the text is not XML.
@@ -284,12 +284,9 @@ def read_document(
     document = build_document(build, used_up(root) if is_used_up else root, context)
     if errors:
         validate(root, context, engine, errors)
-    if document is not None:
-        amend(document, "namespaces", namespaces)
-        allowances.settle(sink)
-        if sink.has_errors:
-            _verify_partial(document, read_tree_again(text) if is_used_up else root, sink)
-    return document, None if is_used_up else root, size, comments
+    amend(document, "namespaces", namespaces)
+    allowances.settle(sink)
+    return document, context, None if is_used_up else root, size, comments
 
 
 def read_tree(
@@ -317,17 +314,6 @@ def read_tree(
 def read_tree_again(text: bytes, *, keep_comments: bool = False) -> XmlElement:
     """Parse a text that `read_tree` has accepted before, without limits on its size."""
     return read_tree(text, DiagnosticSink(), LIFTED_LIMITS, keep_comments=keep_comments)[0]
-
-
-def _verify_partial(document: Document, root: XmlElement, sink: DiagnosticSink) -> None:
-    """Check names and references after an error too, so that the author sees all mistakes at once.
-
-    Findings that may only follow from what could not be read are left out.
-    """
-    found = DiagnosticSink(file=sink.file, strict=sink.strict)
-    verify(document, found)
-    kept = (each for each in found.diagnostics if each.rule not in _CONSEQUENCES)
-    sink.extend(with_exact_lines(kept, root, sink.file))
 
 
 def _is_plain(text: bytes, sink: DiagnosticSink) -> bool:

@@ -6,7 +6,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from twinform.diagnostics.catalog import HOME, catalog, rule_address
-from twinform.diagnostics.diagnostic import Diagnostic, Location, Rule, Severity
+from twinform.diagnostics.diagnostic import Diagnostic, Location, Rule, Safety, Severity
 from twinform.diagnostics.reporters.file_findings import FileFindings, placed_edits
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -110,7 +110,10 @@ def _fixes(diagnostic: Diagnostic, file: FileFindings) -> list[dict[str, object]
     ]
     artifact = {"uri": _uri(diagnostic.location.file or file.path)}
     changes = [{"artifactLocation": artifact, "replacements": replacements}]
-    return [{"description": {"text": diagnostic.fix.title}, "artifactChanges": changes}]
+    # SARIF has no field for it, and a reader that shows only the text has to know it too.
+    safety = str(diagnostic.fix.safety)
+    title = diagnostic.fix.title if diagnostic.fix.safety is Safety.SAFE else f"{diagnostic.fix.title} ({safety})"
+    return [{"description": {"text": title}, "artifactChanges": changes, "properties": {"safety": safety}}]
 
 
 def _uri(file: str) -> str:

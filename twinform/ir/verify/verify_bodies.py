@@ -14,6 +14,8 @@ from twinform.ir.visual import Collision, Visual
 # files cut digits off and are refused for it: 26 of 1,448 in the corpus. `check` warns of exactly
 # these.
 _ROUNDING = 5e-15
+_BEYOND_ROUNDING = 1e-3
+"""The share of the trace by which a moment below zero is none that was cut off."""
 _HELP = "correct the numbers, or let --passes balance-inertia write the nearest that a body can have"
 # Far above what rounding does to the minors of a matrix, relative to powers of its trace.
 _DOUBT = 1e-12
@@ -37,13 +39,21 @@ def verify_inertial(link: Link, default: float | None, sink: DiagnosticSink) -> 
         severity = Severity.INFO if mass == 0 else None
         where = inertial.location
         expected = "finite" if mass > 0 else "more than 0"
-        sink.report(rules.NON_POSITIVE_MASS, message, where, found=f"{mass:g}", expected=expected, severity=severity)
+        sink.report(
+            rules.NON_POSITIVE_MASS,
+            message,
+            where,
+            found=f"{mass:g}",
+            expected=expected,
+            severity=severity,
+            refused=mass != 0,
+        )
     matrix = inertia_matrix(inertial.inertia, default)
     if inertial.auto and not link.collisions:
         message = f"the inertia of link {link.name!r} is to come from its collisions, and it has none"
         sink.report(rules.INERTIA_FROM_NOTHING, message, inertial.location, expected="<collision>")
     if matrix is not None and not inertial.auto and not is_plain(matrix):
-        report_moments(link, inertial, matrix, _ROUNDING, sink)
+        report_moments(link, inertial, matrix, _ROUNDING, sink, in_sdf=default is not None)
 
 
 def inertia_matrix(inertia: Inertia | None, default: float | None) -> Symmetric | None:
@@ -70,15 +80,24 @@ def is_plain(matrix: Symmetric) -> bool:
 
 
 def report_moments(
-    link: Link, inertial: Inertial, matrix: Symmetric, eps: float, sink: DiagnosticSink, *, least: float | None = None
+    link: Link,
+    inertial: Inertial,
+    matrix: Symmetric,
+    eps: float,
+    sink: DiagnosticSink,
+    *,
+    least: float | None = None,
+    in_sdf: bool = False,
 ) -> None:
     """Report principal moments below zero, or one that exceeds the sum of the others by more than `eps` of the trace.
 
-    `least` is the part of the trace that each moment has to exceed; where it is None, they may be zero.
+    `least` is the part of the trace that each moment has to exceed; where it is None, they may be zero. libsdformat
+    refuses all of them in SDF (Link.cc: "has invalid inertia"); in URDF, what may come from rounding is no error.
     """
     where = _place(inertial)
     if not all(map(math.isfinite, matrix)):
-        _report(rules.INDEFINITE_INERTIA, f"the inertia of link {link.name!r} is not finite", where, sink)
+        message = f"the inertia of link {link.name!r} is not finite"
+        _report(rules.INDEFINITE_INERTIA, message, where, sink, refused=in_sdf)
         return
     smallest, middle, largest = relative_moments(matrix)
     trace = abs(smallest + middle + largest)
@@ -86,14 +105,17 @@ def report_moments(
     listed = ", ".join(f"{moment:.6g}" for moment in moments)
     if smallest <= least * trace if least is not None else smallest < -eps * trace:
         message = f"the inertia of link {link.name!r} is not positive definite: its principal moments are {listed}"
-        _report(rules.INDEFINITE_INERTIA, message, where, sink, listed, "all more than 0")
+        refused = in_sdf or smallest < -_BEYOND_ROUNDING * trace
+        _report(rules.INDEFINITE_INERTIA, message, where, sink, listed, "all more than 0", refused=refused)
     elif largest - smallest - middle > eps * trace:
         message = (
             f"the inertia of link {link.name!r} is physically impossible: "
             f"the principal moments {listed} violate the triangle inequality"
         )
         expected = f"at most {moments[0] + moments[1]:.6g}"
-        _report(rules.IMPOSSIBLE_INERTIA, f"{message}; Gazebo refuses it", where, sink, listed, expected)
+        _report(
+            rules.IMPOSSIBLE_INERTIA, f"{message}; Gazebo refuses it", where, sink, listed, expected, refused=in_sdf
+        )
 
 
 def _report(
@@ -103,9 +125,13 @@ def _report(
     sink: DiagnosticSink,
     found: str | None = None,
     expected: str | None = None,
+    *,
+    refused: bool = False,
 ) -> None:
     if not sink.has(rule, where):  # a pass that is stricter looks again at what `check` has looked at
-        sink.report(rule, message, where, found=found, expected=expected, help=_HELP if found else None)
+        sink.report(
+            rule, message, where, found=found, expected=expected, help=_HELP if found else None, refused=refused
+        )
 
 
 def _place(inertial: Inertial) -> Location:

@@ -97,7 +97,10 @@ def _verify_limit(joint: Joint, limit: Limit, sink: DiagnosticSink) -> None:
     if limit.effort == 0 or limit.velocity == 0:
         which = " and ".join(word for word in ("effort", "velocity") if getattr(limit, word) == 0)
         message = f"joint {joint.name!r} has the limit 0 for {which}; a controller that obeys it cannot move it"
-        sink.report(rules.ZERO_LIMIT, message, limit.location, found="0")
+        # exporters write all four; two of them are an idiom for "unknown"
+        is_locked = joint.type in _LIMITED and not any((limit.lower, limit.upper, limit.effort, limit.velocity))
+        severity = Severity.WARNING if is_locked else None
+        sink.report(rules.ZERO_LIMIT, message, limit.location, found="0", severity=severity)
 
 
 def _is_in_degrees(lower: float, upper: float) -> bool:
@@ -132,7 +135,8 @@ def verify_mimics(joints: Iterable[Joint], sink: DiagnosticSink) -> None:
             leaders[joint.name] = (mimic and mimic.joint) or ""
             continue
         message = f"joint {joint.name!r} mimics {mimic.joint!r}, {what}"
-        hint = None if mimic.joint in known else did_you_mean(mimic.joint or "", known, but=(joint.name,))
+        movable = (each.name for each in joints if each.type in _FREEDOMS)
+        hint = None if mimic.joint in known else did_you_mean(mimic.joint or "", movable, but=(joint.name,))
         sink.report(rules.UNKNOWN_LEADER, message, mimic.location, found=mimic.joint, help=hint)
     _report_circles(followers, leaders, sink)
 

@@ -1,6 +1,6 @@
 """Verifies references of SDF by name: whether what is named is there, and is one thing only."""
 
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 
 from twinform.diagnostics import DiagnosticSink, Rule, Severity, did_you_mean, rules
@@ -36,6 +36,7 @@ class References:
         self.own = MODEL if isinstance(holder, Model) else WORLD
         self.sink = sink
         self._holder = holder
+        self._moved = {joint.child for joint in holder.joints}
         self._inner_frames = _NONE
 
     def verify(self) -> None:
@@ -108,7 +109,13 @@ class References:
         elif name != self.own:
             what = f"joint {joint.name!r} has the {end} {name!r}, but there is no such link or frame in the "
             message = what + ("model" if self.own == MODEL else "world")
-            self._look_up(rules.DANGLING_LINK, message, (joint, end), name, (joint.parent, joint.child))
+
+            def hint() -> str | None:
+                # nothing is the child of two joints
+                taken = {*self._moved, joint.parent} if end == "child" else {joint.parent, joint.child}
+                return did_you_mean(name, self.scope.names("link", "frame", "model"), but=taken)
+
+            self._look_up(rules.DANGLING_LINK, message, (joint, end), name, hint)
 
     def _pose(self, placed: _Placed) -> None:
         pose = placed.pose
@@ -126,14 +133,18 @@ class References:
     def _frame(self, name: str | None, node: Sourced, step: str) -> None:
         if name and name != self.own:
             own = node.name if isinstance(node, Frame | Link | Joint) else None
-            self._look_up(rules.DANGLING_FRAME, f"there is no frame {name!r}", (node, step), name, (own,))
+
+            def hint() -> str | None:
+                return did_you_mean(name, self.scope.names(), but=(own,))
+
+            self._look_up(rules.DANGLING_FRAME, f"there is no frame {name!r}", (node, step), name, hint)
 
     def _look_up(
-        self, rule: Rule, message: str, part: tuple[Sourced, str], name: str, taken: Collection[str | None] = ()
+        self, rule: Rule, message: str, part: tuple[Sourced, str], name: str, hint: Callable[[], str | None]
     ) -> None:
         """Report a name that means nothing, or two things.
 
-        `part` is where it stands, whose path is dear and made only then; `taken` are names that it is not a typo of.
+        `part` is where it stands, whose path is dear and made only then, as the hint is.
         """
         found = self.scope.find(name)
         if found is not None and not (found == "twice" and self.one_scope):
@@ -141,8 +152,7 @@ class References:
         node, step = part
         where = node.location.at(step)
         if found is None:
-            hint = did_you_mean(name, self.scope.names(), but=taken)
-            self.sink.report(rule, message, where, found=name, help=hint)
+            self.sink.report(rule, message, where, found=name, help=hint())
         else:
             message = f"{name!r} is the name of two things, so this reference is ambiguous"
             self.sink.report(rules.AMBIGUOUS_FRAME, message, where, found=name)

@@ -109,7 +109,9 @@ class _Verifier:
         verify_joint_sensors(model, sink)
         verify_grippers(model, references.is_link, sink)
         if not (model.links or model.models or model.includes or model.static):
-            sink.report(rules.EMPTY_MODEL, f"model {model.name!r} has no link", model.location, expected="<link>")
+            sink.report(
+                rules.EMPTY_MODEL, f"model {model.name!r} has no link", model.location, expected="<link>", refused=True
+            )
         for nested in model.models:
             self.model(nested)
 

@@ -22,8 +22,9 @@ def verify_robot(model: Model, sink: DiagnosticSink, *, optional: bool) -> None:
         report_names(kind, nodes, sink)
     _report_materials(model, sink)
     links = {link.name for link in model.links}
+    moved = {joint.child for joint in model.joints}
     for joint in model.joints:
-        _verify_joint(joint, links, sink)
+        _verify_joint(joint, links, moved, sink)
         verify_rotation(joint.pose, sink)
         verify_limits_there(joint, sink, optional=optional)
     verify_mimics(model.joints, sink)
@@ -44,11 +45,13 @@ def verify_robot(model: Model, sink: DiagnosticSink, *, optional: bool) -> None:
             sink.report(rules.UNKNOWN_REFERENCE, message, where, found=extension.reference, help=hint)
 
 
-def _verify_joint(joint: Joint, links: set[str], sink: DiagnosticSink) -> None:
+def _verify_joint(joint: Joint, links: set[str], moved: set[str | None], sink: DiagnosticSink) -> None:
     for end, name in (("parent", joint.parent), ("child", joint.child)):
         if name is not None and name not in links:
             message = f"joint {joint.name!r} has the {end} {name!r}, but there is no such link"
-            hint = did_you_mean(name, links, but=(joint.parent, joint.child))
+            # a link has one parent only
+            free = links - moved if end == "child" else links
+            hint = did_you_mean(name, free, but=(joint.parent, joint.child))
             sink.report(rules.DANGLING_LINK, message, joint.location.at(end), found=name, help=hint)
     verify_joint(joint, sink)
     for part in joint.opaque:

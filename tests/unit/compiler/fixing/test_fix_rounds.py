@@ -57,6 +57,29 @@ def test_a_guess_is_made_only_if_asked_for() -> None:
     assert apply_fixes(text, LoadOptions(), unsafe=True).data == text.replace(b"bsae", b"base")
 
 
+AXIS = b"""<sdf version="1.4"><model name="m"><link name="a"/>
+<link name="b"><pose>0 0 1 0 0 1.5708</pose><enable_wind>1</enable_wind></link>
+<joint name="j" type="revolute"><parent>a</parent><child>b</child><axis><xyz>1 0 0</xyz></axis></joint></model></sdf>"""
+
+
+def test_a_version_in_which_axes_turn_is_not_declared() -> None:
+    fixed = apply_fixes(AXIS, LoadOptions(), unsafe=True, rules={"outside-version"})
+    assert (fixed.data, [each.new for each in fixed.refused]) == (AXIS, [("another robot",)])
+    straight = AXIS.replace(b"0 0 1.5708", b"0 0 0")
+    assert b'version="1.6"' in apply_fixes(straight, LoadOptions(), unsafe=True, rules={"outside-version"}).data
+
+
+def test_what_a_guess_changes_is_said() -> None:
+    text = b"""<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent link='a'/>
+    <child link='b'/><axis xyz='1 0 0'/><limit lower='1' upper='-1' effort='1' velocity='1'/></joint></robot>"""
+    fixed = apply_fixes(text, LoadOptions(), unsafe=True)
+    assert [each.rule.name for each in fixed.applied] == ["lower-above-upper"]
+    assert [each.partition(":")[0] for each in fixed.changes] == [
+        "joint 'j' axis/limit/lower",
+        "joint 'j' axis/limit/upper",
+    ]
+
+
 @pytest.mark.parametrize(
     "text",
     [
