@@ -15,10 +15,9 @@ from twinform.passes.plugins.catalog import (
     systems_of_file,
 )
 from twinform.passes.plugins.catalog_types import PluginKind
-from twinform.passes.plugins.check_plugins import check_sensor_world, find_class
-from twinform.passes.plugins.parameters import ModelNames, ParameterContext, check_parameters
+from twinform.passes.plugins.parameters import ModelNames, ParameterContext, check_parameters, find_class
 from twinform.passes.plugins.sites import PluginSite, plugins_of, sensors_of
-from twinform.passes.plugins.world_systems import kind_of_sensor
+from twinform.passes.plugins.world_systems import check_sensor_world, kind_of_sensor
 
 _FRAMES = frozenset({
     "frameName", "frame_name", "robotBaseFrame", "robot_base_frame", "frame_id", "child_frame_id", "bodyName",

@@ -11,7 +11,6 @@ from twinform.passes.plugins.catalog import (
     classic_plugins,
     classic_plugins_of_file,
     is_ignition_name,
-    modern_class,
     modern_file,
     releases,
     suggestion,
@@ -20,18 +19,16 @@ from twinform.passes.plugins.catalog import (
     systems,
     systems_of_file,
 )
-from twinform.passes.plugins.catalog_types import PluginKind, SensorKind
-from twinform.passes.plugins.parameters import ModelNames, ParameterContext, check_parameters
+from twinform.passes.plugins.catalog_types import PluginKind
+from twinform.passes.plugins.parameters import ModelNames, ParameterContext, check_parameters, find_class
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sites import PluginSite, plugins_of, sensors_of
 from twinform.passes.plugins.world_systems import (
-    has_element,
-    has_system,
+    check_sensor_world,
     kind_of_sensor,
     missing_defaults,
     missing_system_for,
     report_needed_systems,
-    requirements_of,
     system_xml,
 )
 
@@ -125,19 +122,6 @@ def _check_needs(plugin: Plugin, kind: PluginKind, site: PluginSite, sink: Diagn
         sink.report(rules.MISSING_WORLD_SYSTEM, message, plugin.location, help=help_, related=(site.world.location,))
 
 
-def find_class(plugin: Plugin, kinds: tuple[PluginKind, ...], sink: DiagnosticSink) -> PluginKind | None:
-    """The system that is meant, the one with the class name or the only one in the file; report a class of none."""
-    if not plugin.name:
-        return kinds[0] if len(kinds) == 1 else None
-    name = modern_class(plugin.name)
-    found = next((kind for kind in kinds if kind.class_name == name), None)
-    if found is None:
-        classes = " or ".join(kind.class_name for kind in kinds)
-        message = f"{plugin.filename} has no class {plugin.name}; the name has to be {classes}"
-        sink.report(rules.WRONG_PLUGIN_CLASS, message, plugin.location, found=plugin.name, expected=classes)
-    return found or (kinds[0] if len(kinds) == 1 else None)
-
-
 def _check_unknown_file(plugin: Plugin, sink: DiagnosticSink) -> None:
     """Check a file that belongs to no system: it may be a plugin of the user, or a mistake."""
     file = plugin.filename or ""
@@ -184,22 +168,3 @@ def _check_sensor(sensor: Sensor, site: PluginSite, release: str, noted: set[str
         check_sensor_world(sensor, kind, site.world, sink)
         return
     report_needed_systems(sensor, kind, sensor.location, noted, sink)
-
-
-def check_sensor_world(sensor: Sensor, kind: SensorKind, world: World, sink: DiagnosticSink) -> None:
-    """Report what a sensor needs of its world and does not find."""
-    needed = requirements_of(kind)
-    for lacking in needed.systems:
-        if not has_system(world, lacking):
-            message = f"sensor {sensor.name!r} needs {lacking.class_name}, and world {world.name!r} has none"
-            sink.report(
-                rules.MISSING_WORLD_SYSTEM,
-                message,
-                sensor.location,
-                help=f"add {system_xml(lacking)} to the world",
-                related=(world.location,),
-            )
-    for name in needed.elements:
-        if not has_element(world, name):
-            message = f"sensor {sensor.name!r} needs <{name}>, and world {world.name!r} has none"
-            sink.report(rules.MISSING_WORLD_SYSTEM, message, sensor.location, related=(world.location,))

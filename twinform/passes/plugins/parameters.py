@@ -12,7 +12,7 @@ from twinform.diagnostics import DiagnosticSink, Location, Severity, rules
 from twinform.ir import Element, Model, Plugin
 from twinform.ir.scopes import scoped_models
 from twinform.lazy import lazy_pattern
-from twinform.passes.plugins.catalog import suggestion
+from twinform.passes.plugins.catalog import modern_class, suggestion
 from twinform.passes.plugins.catalog_types import PluginKind, PluginParameter
 from twinform.passes.shared.gazebo_tags import TRUE
 from twinform.schemas import parse_value
@@ -297,3 +297,16 @@ def without_parentheses(pattern: str) -> str:
 
 def _available_values(place: re.Match[str], values: Mapping[str, str]) -> list[str]:
     return [values[name] for name in place[1].split("|") if name in values]
+
+
+def find_class(plugin: Plugin, kinds: tuple[PluginKind, ...], sink: DiagnosticSink) -> PluginKind | None:
+    """The system that is meant, the one with the class name or the only one in the file; report a class of none."""
+    if not plugin.name:
+        return kinds[0] if len(kinds) == 1 else None
+    name = modern_class(plugin.name)
+    found = next((kind for kind in kinds if kind.class_name == name), None)
+    if found is None:
+        classes = " or ".join(kind.class_name for kind in kinds)
+        message = f"{plugin.filename} has no class {plugin.name}; the name has to be {classes}"
+        sink.report(rules.WRONG_PLUGIN_CLASS, message, plugin.location, found=plugin.name, expected=classes)
+    return found or (kinds[0] if len(kinds) == 1 else None)

@@ -130,3 +130,22 @@ def system_xml(kind: PluginKind) -> str:
 def has_element(world: World, name: str) -> bool:
     """Whether a world has an untyped element of this name."""
     return any(part.element is not None and part.element.name == name and not part.at for part in world.opaque)
+
+
+def check_sensor_world(sensor: Sensor, kind: SensorKind, world: World, sink: DiagnosticSink) -> None:
+    """Report what a sensor needs of its world and does not find."""
+    needed = requirements_of(kind)
+    for lacking in needed.systems:
+        if not has_system(world, lacking):
+            message = f"sensor {sensor.name!r} needs {lacking.class_name}, and world {world.name!r} has none"
+            sink.report(
+                rules.MISSING_WORLD_SYSTEM,
+                message,
+                sensor.location,
+                help=f"add {system_xml(lacking)} to the world",
+                related=(world.location,),
+            )
+    for name in needed.elements:
+        if not has_element(world, name):
+            message = f"sensor {sensor.name!r} needs <{name}>, and world {world.name!r} has none"
+            sink.report(rules.MISSING_WORLD_SYSTEM, message, sensor.location, related=(world.location,))
