@@ -13,12 +13,12 @@ from copy import deepcopy
 from typing import NamedTuple
 
 from twinform.compiler.input.parsing import UnreadableError, parse
-from twinform.compiler.input.size_limits import USUAL_LIMITS, Limits
+from twinform.compiler.input.size_limits import LIFTED_LIMITS, USUAL_LIMITS, Limits
 from twinform.diagnostics import DiagnosticSink
 from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement
 from twinform.text import SourceText, UndecodableError, UnplacedError, merge, patch, spans
-from twinform.text.alignment import elements, known_by
+from twinform.text.alignment import ElementContents, elements, known_by
 from twinform.text.line_merging import (
     Hunk,
     Pieces,
@@ -141,6 +141,7 @@ class _Merging:
     def __init__(self, texts: _Texts, trees: _Trees, marker_size: int) -> None:
         self.texts, self.trees, self.marker_size = texts, trees, marker_size
         self.comments = _CommentMerging(texts, trees)
+        self.made: dict[XmlElement, SourceText] = {}
 
     def merged(self, find_problems: FindProblems) -> MergedFile:
         """Merge the files."""
@@ -171,7 +172,9 @@ class _Merging:
         return min((ours | theirs) - base - set(_comments(_pieces(merged))), default="")
 
     def _patched(self, tree: XmlElement) -> SourceText:
-        return patch(self.texts.ours, self.trees.ours, tree)
+        if tree not in self.made:
+            self.made[tree] = patch(self.texts.ours, self.trees.ours, tree)
+        return self.made[tree]
 
     def _problems(self, text: SourceText, find_problems: FindProblems) -> list[Problem]:
         """Find what is wrong in the merged text, and was in neither side."""
@@ -231,26 +234,36 @@ class _CommentMerging:
     def __init__(self, texts: _Texts, trees: _Trees) -> None:
         # The base with their elements and its own comments: what it lacks of `theirs` are comments and layout.
         self.before = _pieces(patch(texts.base, trees.base, trees.theirs).text)
+        # A tag that differs in its quotes and blanks only is the same.
+        known = {_spelled(piece): piece for piece in self.before}
+        theirs = [known.get(_spelled(piece), piece) for piece in _pieces(texts.theirs.text)]
         self.after = [
             piece
-            for own, other in changed_pieces(self.before, _pieces(texts.theirs.text))
+            for own, other in changed_pieces(self.before, theirs)
             for piece in (own if _comments(own) == _comments(other) else other)
         ]
 
     def merged(self, text: SourceText, *, theirs: bool) -> str:
         """Merge the comments into a text; `theirs` says which side counts where both have changed one."""
-        pieces = _pieces(text.text)
+        if self.before == self.after:
+            return text.text
 
         def choose(hunk: Hunk) -> Pieces:
             return _with_comments(hunk, theirs=theirs)
 
-        made = "".join(merge_pieces(self.before, pieces, self.after, choose))
-        return made if _bare(made) == _bare(text.text) else text.text
+        made = "".join(merge_pieces(self.before, _pieces(text.text), self.after, choose))
+        return made if _same_content(text.with_text(made), text) else text.text
 
 
 def _pieces(text: str) -> list[str]:
     """Split a text into comments, tags, and what is between them."""
     return [piece for piece in _PIECES.split(text) if piece]
+
+
+def _spelled(piece: str) -> str:
+    """Return a tag in one of its spellings, and anything else as it is."""
+    is_tag = piece.startswith("<") and not piece.startswith("<!")
+    return " ".join(piece.replace("'", '"').replace("/>", " />").split()) if is_tag else piece
 
 
 def _comments(pieces: Pieces) -> list[str]:
@@ -268,6 +281,10 @@ def _with_comments(hunk: Hunk, *, theirs: bool) -> list[str]:
     return [*added, *(piece for piece in hunk.ours if piece not in gone)]
 
 
-def _bare(text: str) -> list[str]:
-    """Return what a text says without comments and blanks."""
-    return [each.strip() for each in _pieces(text) if each.strip() and not each.startswith("<!--")]
+def _same_content(one: SourceText, other: SourceText) -> bool:
+    """Whether two texts differ in comments and layout only."""
+    contents = ElementContents()
+    try:
+        return contents.number(_tree(one, LIFTED_LIMITS)) == contents.number(_tree(other, LIFTED_LIMITS))
+    except UnmergeableError:
+        return False
