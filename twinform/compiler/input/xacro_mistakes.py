@@ -5,7 +5,8 @@ others include defines may be used by them, so unused definitions are looked for
 """
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from twinform.compiler.input.parsing import UnreadableError, parse
@@ -47,10 +48,11 @@ class _Definition(NamedTuple):
 def report_mistakes(main: str, texts: Mapping[str, bytes], sink: DiagnosticSink) -> None:
     """Report the mistakes in the files of an expansion, of which `main` is the outermost."""
     files = [_File(name, list(root.iter("*"))) for name, root in _roots(texts)]
+    variables = _variables(files)
     for file in files:
         _report_overwritten(file, sink)
         _report_degrees(file, sink)
-        _report_braces(file, _variables(files), sink)
+        _report_braces(file, variables, sink)
     own = next((file for file in files if file.name == main), None)
     if own is not None and _makes_a_robot(own):
         _report_unused(own, files, sink)
@@ -130,13 +132,14 @@ def _report_unused(own: _File, files: Iterable[_File], sink: DiagnosticSink) -> 
 def _report_overwritten(file: _File, sink: DiagnosticSink) -> None:
     """Report a property or macro that is defined again in the same place before anything can have used it."""
     last: dict[tuple[str, str, XmlElement | None], _Definition] = {}
+    uses = _Uses(file)
     for each in _definitions(file):
         if each.kind == "arg" or not _is_plain(each.element):
             continue
         key = (each.kind, each.name, each.element.getparent())
         before = last.get(key)
         last[key] = each
-        if before is None or _may_be_used(before, each, file):
+        if before is None or uses.may_be_between(before, each):
             continue
         line = each.element.sourceline or 0
         message = f"the {_WORDS[each.kind]} {each.name!r} is defined again in line {line}, and never used before"
@@ -148,12 +151,31 @@ def _is_plain(element: XmlElement) -> bool:
     return not any(name in element.attrib for name in ("default", "remove", "scope"))
 
 
-def _may_be_used(before: _Definition, after: _Definition, file: _File) -> bool:
-    inside = len(list(before.element.iter("*")))
-    between = file.elements[before.number + inside : after.number]
-    if any((kind := _kind(each)) and kind not in _DEFINES for each in between):
-        return True  # an include, a call or a condition, in which it may be used
-    return before.name in _used_in(between) | _words(after.element.get("value") or "")
+class _Uses:
+    """Where the elements of a file use names, by their numbers."""
+
+    def __init__(self, file: _File) -> None:
+        self._others: list[int] = []
+        """Includes, calls and conditions, in which anything may be used."""
+        self._words: dict[str, list[int]] = {}
+        for number, element in enumerate(file.elements):
+            if (kind := _kind(element)) and kind not in _DEFINES:
+                self._others.append(number)
+            for word in _used_in((element,)):
+                self._words.setdefault(word, []).append(number)
+
+    def may_be_between(self, before: _Definition, after: _Definition) -> bool:
+        """Tell whether anything may use a definition before another one takes its place."""
+        end = before.number + sum(1 for _ in before.element.iter("*"))
+        if _is_any(self._others, end, after.number) or _is_any(self._words.get(before.name, ()), end, after.number):
+            return True
+        return before.name in _words(after.element.get("value") or "")
+
+
+def _is_any(numbers: Sequence[int], start: int, end: int) -> bool:
+    """Tell whether any of some numbers in order lies in a range."""
+    place = bisect_left(numbers, start)
+    return place < len(numbers) and numbers[place] < end
 
 
 def _report_degrees(file: _File, sink: DiagnosticSink) -> None:
