@@ -1,6 +1,6 @@
 """Options that a configuration has as well: rules, pipelines and consumers, for the project and for single files."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
@@ -19,6 +19,7 @@ from twinform.compiler import LoadOptions
 from twinform.compiler.input.load_options import FileOptions
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Policy
+from twinform.diagnostics.diagnostic import GROUPS
 from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule
 from twinform.diagnostics.rule_registry import rules as known_rules
 
@@ -122,8 +123,17 @@ def _require_known(project: Project, rules: RuleSettings) -> None:
 
 def override_policy(before: Policy, rules: RuleSettings) -> Policy:
     """Add rules to a policy, in which they win over the rules that it has."""
-    allow, deny = frozenset(rules.allow), frozenset(rules.deny)
+    allow, deny = _rules_of(rules.allow, but=rules.deny), _rules_of(rules.deny, but=rules.allow)
     return Policy((before.allow - deny) | allow, (before.deny - allow) | deny)
+
+
+def _rules_of(names: Sequence[str], *, but: Sequence[str]) -> frozenset[str]:
+    """Return rules that are named by themselves or by their groups; `but` are named otherwise, and win over groups."""
+    groups = {*GROUPS}.intersection(names)
+    if not groups:
+        return frozenset(names)
+    others = {name for name, each in known_rules().items() if each.rule.group in groups}
+    return frozenset({*names, *others}) - groups - ({*but} - {*names})
 
 
 def _check_rules(_ctx: click.Context, option: click.Parameter, names: tuple[str, ...]) -> tuple[str, ...]:
@@ -135,12 +145,14 @@ def _check_rules(_ctx: click.Context, option: click.Parameter, names: tuple[str,
 
 def _rule_problem(name: str, option: str) -> str:
     """Say what is wrong with a rule in `allow` or `deny`; empty if nothing is."""
+    if name in GROUPS:
+        return ""
     try:
         found = find_rule(name)
         if found is None:
             from difflib import get_close_matches  # noqa: PLC0415 - most names are those of rules
 
-            near = get_close_matches(name, known_rules(), n=1)
+            near = get_close_matches(name, [*GROUPS, *known_rules()], n=1)
             words = f"did you mean {near[0]}?" if near else "`twinform explain` lists the rules"
             return f"no rule is called {name}; {words}"
     except RuleRegistryError as error:
@@ -148,19 +160,23 @@ def _rule_problem(name: str, option: str) -> str:
     return ""
 
 
+_POLICIES = (
+    (("--allow", "--ignore", "allow"), "Leave out findings of a rule or group"),
+    (("--deny",), "Make findings of a rule or group errors"),
+)
 policy_options = group(
     "rules",
     RuleSettings,
     *(
         click.option(
-            f"--{name}",
+            *names,
             metavar="RULE",
             multiple=True,
             help=f"{text}; repeatable.",
             callback=_check_rules,
             shell_complete=rule_names,
         )
-        for name, text in (("allow", "Leave out findings of a rule"), ("deny", "Make findings of a rule errors"))
+        for names, text in _POLICIES
     ),
 )
 """Gives a command `--allow` and `--deny`, which add to the rules of the configuration."""

@@ -13,10 +13,12 @@ def rule(
     fix: Safety | None = None,
     fatal: bool = False,
     unsound: bool = False,
+    group: str = "structure",
 ) -> Rule:
     """Make a rule whose page is a file of `rules/`."""
     made = _BuiltInRule.__new__(_BuiltInRule)
-    _fill(made, {"name": name, "severity": severity, "strict": strict, "fix": fix, "fatal": fatal, "unsound": unsound})
+    levels = {"severity": severity, "strict": strict, "fix": fix}
+    _fill(made, {"name": name, **levels, "fatal": fatal, "unsound": unsound, "group": group})
     return made
 
 

@@ -144,6 +144,22 @@ class Severity(IntEnum):
         return self.name.lower()
 
 
+GROUPS = (
+    "structure",
+    "references",
+    "physics",
+    "limits",
+    "meshes",
+    "plugins",
+    "sensors",
+    "control",
+    "xacro",
+    "portability",
+    "style",
+)
+"""The groups of rules, each of which has one."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rule:
     """A kind of finding. Its name describes the thing found, reads well after "allow", and is never used again.
@@ -165,6 +181,7 @@ class Rule:
     fix: Safety | None = None
     fatal: bool = False
     unsound: bool = False
+    group: str = field(default="structure", compare=False, repr=False)
 
     def severity_in(self, *, strict: bool) -> Severity:
         """The severity of a finding in this mode."""

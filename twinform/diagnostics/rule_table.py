@@ -5,7 +5,7 @@
 
 import sys
 
-from twinform.diagnostics.diagnostic import Safety, Severity
+from twinform.diagnostics.diagnostic import GROUPS, Safety, Severity
 from twinform.diagnostics.generated_files import main
 from twinform.diagnostics.rule_files import read_head, rule_names
 
@@ -26,8 +26,14 @@ _VALUES = {
     "fix": {str(each): f"Safety.{each.name}" for each in Safety},
     "fatal": {"true": "True"},
     "unsound": {"true": "True"},
+    "group": {each: f'"{each}"' for each in GROUPS},
 }
 """What a head may have, and what that is in Python."""
+
+
+_USUAL = ("group", "structure")
+_LONGEST = 121
+"""Of a line, with its end."""
 
 
 def rule_table() -> str:
@@ -50,9 +56,11 @@ def rule_line(name: str, head: dict[str, str]) -> str:
             raise ValueError(f"{name}.md has `{key}: {value}`; a head has {_VALUES}")
     if "severity" not in head:
         raise ValueError(f"{name}.md has no severity")
-    options = "".join(f", {key}={_VALUES[key][head[key]]}" for key in _VALUES if key in head and key != "severity")
-    severity = _SEVERITIES[head["severity"]]
-    return f'{name.upper().replace("-", "_")} = rule("{name}", {severity}{options})\n'
+    keys = (key for key in _VALUES if key in head and key != "severity" and (key, head[key]) != _USUAL)
+    options = "".join(f", {key}={_VALUES[key][head[key]]}" for key in keys)
+    start, inside = f"{name.upper().replace('-', '_')} = rule(", f'"{name}", {_SEVERITIES[head["severity"]]}{options}'
+    line = f"{start}{inside})\n"
+    return line if len(line) <= _LONGEST else f"{start}\n    {inside}\n)\n"
 
 
 if __name__ == "__main__":

@@ -223,3 +223,15 @@ def test_the_configuration_has_a_schema(run: Run, here: Path) -> None:
     schema = json.loads(run("schema", "config").stdout)
     assert {"allow", "extend-exclude", "for", "files", "max-size"} <= schema["properties"].keys()
     assert schema["additionalProperties"] is False
+
+
+def test_groups_of_rules_are_allowed_and_denied_and_rules_win_over_them(run: Run, here: Path) -> None:
+    Path("a.urdf").write_text("<robot name='r'><link name='a'><colour/></link></robot>")
+    assert run("check", "a.urdf", "--ignore", "structure").stdout == ""
+    assert run("check", "a.urdf", "--allow", "physics").stdout != ""
+    assert run("check", "a.urdf", "--deny", "structure").exit_code == 1
+    assert run("check", "a.urdf", "--deny", "structure", "--allow", "unknown-element").exit_code == 0
+    assert run("check", "a.urdf", "--allow", "structure", "--deny", "unknown-element").exit_code == 1
+    Path("twinform.toml").write_text("allow = ['structure']")
+    assert run("check", "a.urdf").stdout == ""
+    assert "did you mean physics?" in run("check", "a.urdf", "--allow", "physcs").stderr
