@@ -16,8 +16,9 @@ _FREEDOMS = {
 """How many axes a type of joint moves about or along; the others have none."""
 _LIMITED = frozenset({"revolute", "prismatic"})
 # Limits of more than two turns are usual for winches and wheels. Of those that are whole multiples
-# of five up to 360, the corpus has ten joints of five grippers with -20 to 20, and nothing else.
+# of five up to 360, the corpus has ten joints of five grippers with -20 to 20, which are meant.
 _MOST_TURNS = 4 * math.pi
+_MOST_MEANT = 20
 _WHOLE_TURN = 360
 # Limits in degrees are mostly multiples of this; those of a winch in radians hardly ever.
 _STEP = 5
@@ -106,7 +107,7 @@ def _verify_limit(joint: Joint, limit: Limit, sink: DiagnosticSink) -> None:
 def _is_in_degrees(lower: float, upper: float) -> bool:
     """Tell whether limits look like degrees: people write such numbers, and no robot has them in radians."""
     far = [abs(each) for each in (lower, upper) if abs(each) > _MOST_TURNS]
-    return bool(far) and max(far) <= _WHOLE_TURN and not any(each % _STEP for each in far)
+    return bool(far) and _MOST_MEANT < max(far) <= _WHOLE_TURN and not any(each % _STEP for each in far)
 
 
 def verify_limits_there(joint: Joint, sink: DiagnosticSink, *, optional: bool) -> None:
