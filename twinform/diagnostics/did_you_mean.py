@@ -40,17 +40,17 @@ def did_you_mean(name: str, known: Iterable[str | None], but: Collection[str | N
 
 def _longer_or_shorter(name: str, known: Sequence[str | None], but: Collection[str | None]) -> tuple[str, ...]:
     """Return the only known name that has a word more or less, such as `elbow` for `elbow_joint`."""
-    words = _words(name) if len(name) <= _LONGEST and len(known) <= _MOST_KNOWN else frozenset[str]()
-    if not words:
+    if len(name) > _LONGEST or len(known) > _MOST_KNOWN or "::" in name:
         return ()
+    words = _words(name)
     others = {each for each in known if each and each not in but and len(each) <= _LONGEST}
-    alike = [each for each in others if words < (found := _words(each)) or (found and found < words)]
+    alike = [each for each in others if (found := _words(each)) and words and (words < found or found < words)]
     found = [each for each in alike if _digits(each) == _digits(name) and not names_another(name, each)]
     return tuple(found) if len(found) == 1 else ()
 
 
 def _words(name: str) -> frozenset[str]:
-    return frozenset(each.lower() for each in _WORDS.findall(name))
+    return frozenset(each.lower() for each in _WORDS.findall(name) if len(each) > _ABBREVIATION)
 
 
 def suggest(names: Sequence[str]) -> str | None:
