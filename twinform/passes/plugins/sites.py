@@ -223,8 +223,8 @@ def _enter_reference(extension: GazeboExtension, site: PluginSite) -> PluginSite
 
 def plugin_of(element: Element) -> Plugin:
     """The plugin in an untyped element."""
-    others = tuple(Opaque(attribute=each) for each in element.attributes if each[0] not in _PLUGIN_ATTRIBUTES)
-    return Plugin(
+    others = tuple(Opaque.unchecked(attribute=each) for each in element.attributes if each[0] not in _PLUGIN_ATTRIBUTES)
+    return Plugin.unchecked(
         name=element.get("name"),
         filename=element.get("filename"),
         text=element.text,
@@ -241,7 +241,7 @@ def plugin_element(plugin: Plugin) -> Element:
     ]
     others = [part.attribute for part in plugin.opaque if part.attribute]
     inside = tuple(part.element for part in plugin.opaque if part.element)
-    return Element(
+    return Element.unchecked(
         name="plugin",
         attributes=(*written, *others),
         text=plugin.text,
