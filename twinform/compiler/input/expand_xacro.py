@@ -66,12 +66,14 @@ _REMARKS = {"warning: ": rules.XACRO_WARNING, "error: ": rules.XACRO_WARNING}
 class Expansion:
     """The expanded text, and where the elements on its lines were written.
 
-    `strays` are the places of texts that stand in another file than the element around them.
+    `strays` are the places of texts that stand in another file than the element around them, and `texts` all files
+    that were read, by their names.
     """
 
     text: bytes
     origins: LineOrigins
     strays: Mapping[str, Location]
+    texts: Mapping[str, bytes]
 
 
 def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expansion:
@@ -103,7 +105,7 @@ def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expan
     # command prints and by which the writer orders children. Findings name the file that the author
     # can edit first.
     strays = {text: Location(shown_name(file, sink.file), line) for text, file, line in outcome["strays"]}
-    return Expansion(text, _origins(text, outcome["places"], sink.file), strays)
+    return Expansion(text, _origins(text, outcome["places"], sink.file), strays, outcome["texts"])
 
 
 def _report_failure(outcome: Mapping[str, Any], path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> None:

@@ -199,6 +199,10 @@ def _read_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> 
     allowances.read(_unexpanded(path, load_options), sink)
     loaded = _read_text(expansion.text, DiagnosticSink(name, sink.strict), load_options, allowances)
     sink.extend(_at_its_text(each, expansion.strays) for each in loaded.diagnostics)
+    if any(each.rule is rules.DUPLICATE_NAME for each in sink.diagnostics):
+        from twinform.compiler.input.xacro_mistakes import with_calls  # noqa: PLC0415 - few files have any
+
+        sink.diagnostics[:] = with_calls(sink.diagnostics, expansion.texts)
     allowances.settle(sink)
     allowed = (*loaded.allowed, *sink.allowed)
     return replace(loaded, path=sink.file, diagnostics=tuple(sink.diagnostics), origins=sink.origins, allowed=allowed)

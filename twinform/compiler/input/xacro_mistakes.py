@@ -7,10 +7,12 @@ others include defines may be used by them, so unused definitions are looked for
 import math
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
 from typing import NamedTuple
 
 from twinform.compiler.input.parsing import UnreadableError, parse
-from twinform.diagnostics import DiagnosticSink, Location, rules
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, rules
 from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement
 
@@ -222,3 +224,41 @@ def _report_braces(file: _File, known: set[str], sink: DiagnosticSink) -> None:
 
 def _place(file: _File, element: XmlElement) -> Location:
     return Location(file.name, element.sourceline or 0)
+
+
+def with_calls(findings: Iterable[Diagnostic], texts: Mapping[str, bytes]) -> list[Diagnostic]:
+    """Add to findings about names that one place has made twice which calls of a macro have made them."""
+    files = {name: _File(name, list(root.iter("*"))) for name, root in _roots(texts)}
+    advice: dict[Location, str | None] = {}
+    found: list[Diagnostic] = []
+    for each in findings:
+        place = Location(each.location.file, each.location.line)
+        twice = each.rule is rules.DUPLICATE_NAME and any(
+            (other.file, other.line) == (place.file, place.line) for other in each.related
+        )
+        if twice and place not in advice:
+            advice[place] = _repeated_calls(place, files)
+        found.append(replace(each, help=advice[place]) if twice and advice[place] else each)
+    return found
+
+
+def _repeated_calls(place: Location, files: Mapping[str, _File]) -> str | None:
+    """Say where the macro around a place is called twice with the same values."""
+    here = [each for each in files[place.file].elements if each.sourceline == place.line] if place.file in files else []
+    around = (outer for each in here for outer in each.iterancestors("*") if _kind(outer) == "macro")
+    macro = next(around, None)
+    if macro is None:
+        return None
+    name = (macro.get("name") or "").removeprefix("xacro:")
+    calls: dict[tuple[tuple[str, str], ...], list[str]] = {}
+    for file in files.values():
+        for each in file.elements:
+            if _kind(each).rpartition(".")[2] == name:
+                values = tuple(sorted((str(key), str(value)) for key, value in each.items()))
+                calls.setdefault(values, []).append(f"{Path(file.name).name}:{each.sourceline}")
+    several = [each for each in calls.items() if len(each[1]) > 1]
+    if not several:
+        return None
+    values, places = several[0]
+    shown = "".join(f' {key}="{value}"' for key, value in values)
+    return f"<xacro:{name}{shown}> is called at {' and '.join(places[:3])}"

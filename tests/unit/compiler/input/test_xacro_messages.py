@@ -106,3 +106,13 @@ def test_a_prefix_without_a_namespace_is_declared_by_a_fix(tmp_path: Path) -> No
     (found,) = twinform.check(path).diagnostics
     assert found.message == "not well-formed XML: the prefix 'xacro' of <xacro:property> is not declared"
     assert found.help == 'add xmlns:xacro="http://www.ros.org/wiki/xacro" to the root element'
+
+
+def test_a_macro_that_is_called_twice_is_named_where_it_is_called(tmp_path: Path) -> None:
+    macro = '<xacro:macro name="wheel" params="side">\n<link name="${side}_wheel"/>\n</xacro:macro>\n'
+    calls = '<xacro:wheel side="left"/>\n<xacro:wheel side="right"/>\n<xacro:wheel side="left"/>\n'
+    (tmp_path / "r.urdf.xacro").write_text(f"{HEAD}{macro}{calls}</robot>")
+    diagnostics = twinform.check(tmp_path / "r.urdf.xacro").diagnostics
+    found = next(each for each in diagnostics if each.rule.name == "duplicate-name")
+    assert (found.message, found.location.line) == ("link 'left_wheel' is defined twice", 3)
+    assert found.help == '<xacro:wheel side="left"> is called at r.urdf.xacro:5 and r.urdf.xacro:7'
