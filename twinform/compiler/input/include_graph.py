@@ -20,6 +20,8 @@ _DIRNAME = re.compile(r"\$\(\s*dirname\s*\)/*")
 _SUBSTITUTION = re.compile(r"\$\([^)]*\)|\$\{[^}]*\}")
 _WILD = re.compile(r"[*?[]")
 # Each distinct address with expressions is compared with all files.
+_LONGEST = 4096
+"""Characters of a pattern, as long as a path may be: an expression of a million takes seconds to compile."""
 _MOST_PATTERNS = 200
 _MOST_INCLUDED = 1000
 """The most files that the includes of one file lead to."""
@@ -127,7 +129,7 @@ class IncludeGraph:
                 pattern = f"{place}/{address.rest}"
                 if address.is_literal:
                     found.update(file for file in by_name[Path(address.rest).name] if fnmatchcase(file, pattern))
-                elif _is_telling(address) and len(patterns) < _MOST_PATTERNS:
+                elif _is_telling(address) and len(patterns) < _MOST_PATTERNS and len(pattern) <= _LONGEST:
                     patterns.add(pattern)
         found.update(path for path in paths for pattern in patterns if fnmatchcase(path, pattern))
         return found
