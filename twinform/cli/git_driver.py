@@ -3,7 +3,7 @@
 import os
 import shutil
 import subprocess
-import sys
+import sysconfig
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -40,7 +40,7 @@ def install_driver(folder: Path) -> Iterator[str]:
 
 def _program() -> str:
     """Return the command in the form of a shell: git may run it where the environment of Python is not active."""
-    beside = Path(sys.executable).parent / "twinform"
+    beside = Path(sysconfig.get_path("scripts")) / "twinform"
     path = beside.as_posix()
     return f'"{path}"' if beside.is_file() and not set(path) & set("\"'\\$`") else "twinform"
 

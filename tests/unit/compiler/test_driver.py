@@ -24,7 +24,7 @@ def test_a_pass_may_fill_limits_that_are_missing() -> None:
 @pytest.mark.parametrize(
     ("passes", "rules"),
     [
-        (None, {"missing-attribute"}),
+        (None, {"missing-attribute", "missing-limit"}),
         ("check-inertia", {"missing-limit", "partial-limit"}),
         ("fill-limits{effort=5}", {"partial-limit"}),
     ],

@@ -19,7 +19,7 @@ def read(monkeypatch: pytest.MonkeyPatch, *, strict: bool, text: bytes = TEXT) -
 
     def expand(path: Path, *_: object) -> Expansion:
         assert path == Path("arm.xacro")
-        return Expansion(text, origins)
+        return Expansion(text, origins, {}, {})
 
     monkeypatch.setattr(expand_xacro, "expand", expand)
     return check(Path("arm.xacro"), strict=strict)

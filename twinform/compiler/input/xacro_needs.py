@@ -45,7 +45,7 @@ def report_missing_arguments(
     shown = ", ".join(map(repr, names))
     message = f"argument {shown} has no value" if len(names) == 1 else f"the arguments {shown} have no values"
     known = values_in_launch_files(path, names, load_options.search.readable(path))
-    sink.report(rules.MISSING_ARGUMENT, message, where, found=first, help=_advice(path, names, known))
+    sink.report(rules.MISSING_ARGUMENT, message, where, found=f"$(arg {first})", help=_advice(path, names, known))
 
 
 def _advice(path: Path, names: list[str], known: Mapping[str, Passed]) -> str:
