@@ -50,7 +50,7 @@ _PARTS: dict[Rule, str] = {
 _QUOTED = lazy_pattern(r"'((?:[^']|(?<=\w)'(?=\w))+)'")
 _EXPRESSION = lazy_pattern(r"(?:when evaluating expression '|, in \$\{)(.*)['}]$", re.DOTALL)
 _PARAMETER = lazy_pattern(r" has no parameter '(\S+)'$")
-_ARGUMENT = lazy_pattern(r"^Undefined substitution argument (\S+)$")
+_ARGUMENT = lazy_pattern(r"^(?:argument|the arguments) '([^']+)'")
 _ALIKE = 0.75
 """How similar an attribute's name has to be to that of a missing attribute to be taken for a typo of it."""
 _SHORTEST = 4
