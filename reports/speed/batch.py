@@ -30,7 +30,7 @@ _PLANNED = """
 import resource, sys
 from pathlib import Path
 from twinform.compiler.batch import Batch, Convert, ModelEntry, batch
-from twinform.compiler.batch.places import outputs
+from twinform.compiler.batch.entries import outputs
 before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 entries = [ModelEntry(name, name) for name in (f"robots/of/some/maker/robot_{i:07}.urdf" for i in range(200_000))]
 names = outputs((entry.name for entry in entries), "sdf")

@@ -18,7 +18,7 @@ _LONGEST_REQUEST = 65536
 _STREAMS = (1, 2)
 _STUCK = 120
 """Seconds of the clock after which a process ends that waits for a pipe, which takes no time of the processor."""
-_USED = ("cli.check", "cli.convert", "compiler.checking", "compiler.conversion")
+_USED = ("cli.check", "cli.convert", "compiler.inspection", "compiler.conversion")
 """What commands import when they are used."""
 
 

@@ -159,7 +159,7 @@ class CheckTask:
         """Whether the result can be kept: passes of other packages may read what nobody knows of."""
         if not self.passes:
             return True
-        from twinform.compiler.described_options import owners_of  # noqa: PLC0415 - few runs have passes
+        from twinform.compiler.dependencies import owners_of  # noqa: PLC0415 - few runs have passes
 
         return owners_of(self.passes) <= {"twinform"}
 

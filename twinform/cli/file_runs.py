@@ -215,7 +215,7 @@ def _processors() -> int:
 def _digest(task: object) -> str:
     import json  # noqa: PLC0415 - only runs with kept results
 
-    from twinform.compiler.described_options import describe_options  # noqa: PLC0415 - as above
+    from twinform.compiler.dependencies import describe_options  # noqa: PLC0415 - as above
     from twinform.compiler.observing import digest  # noqa: PLC0415 - as above
 
     return digest(json.dumps([type(task).__name__, describe_options(task)]).encode())
@@ -240,7 +240,7 @@ def open_file_run(command: str, words: Sequence[str], options: RunOptions) -> Fi
     place = None if is_single or "-" in words or options["no_cache"] else cache_folder(named)
     if place is None:
         return FileRun(options["jobs"])
-    from twinform.compiler.described_options import installation  # noqa: PLC0415 - as above
+    from twinform.compiler.dependencies import installation  # noqa: PLC0415 - as above
     from twinform.compiler.result_cache import ResultCache  # noqa: PLC0415 - as above
     from twinform.storage.user_cache import open_own_folder  # noqa: PLC0415 - as above
 

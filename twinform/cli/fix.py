@@ -11,7 +11,7 @@ from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
 from twinform.cli.completion import files, pipelines
 from twinform.cli.config.config_defaults import RuleSettings
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, file_options, load_options_of, model_inputs
-from twinform.cli.mesh_progress import mesh_progress
+from twinform.cli.instrumentation import mesh_progress
 from twinform.cli.model_files import is_plain
 from twinform.cli.printing import notes_option, plural, print_line, show
 from twinform.cli.project_options import pipeline_option, policy_of, policy_options

@@ -1,6 +1,10 @@
-"""Instrumentation of passes: options that print the IR, changes and times, and the report of a failed pass."""
+"""Instrumentation of passes: options that print the IR, changes and times, progress, and reports of failed passes."""
 
+import sys
+from collections.abc import Generator, Iterable
+from contextlib import contextmanager
 from dataclasses import field
+from importlib.util import find_spec
 from pathlib import Path
 
 import click
@@ -9,7 +13,8 @@ from twinform.cli.command import UNUSABLE
 from twinform.cli.flags import group
 from twinform.cli.printing import print_line, print_text
 from twinform.dataclass import dataclass
-from twinform.passes import CombinedInstrumentation, PassError, PassInstrumentation
+from twinform.diagnostics.reporters import printable
+from twinform.passes import CombinedInstrumentation, FilesPass, Pass, PassError, PassInstrumentation
 from twinform.passes.framework.hooks import Dumps, Statistics, table
 
 _OPTIONS = (
@@ -120,3 +125,24 @@ def end_with(error: Exception, ctx: click.Context) -> None:
     if isinstance(error, PassError):
         show_fault(error, f"twinform {ctx.invoked_subcommand}")
         ctx.exit(UNUSABLE)
+
+
+@contextmanager
+def mesh_progress(passes: Iterable[Pass]) -> Generator[None]:
+    """Show which mesh the passes work on, if stderr is a terminal and rich is installed."""
+    if not (sys.stderr.isatty() and any(isinstance(step, FilesPass) for step in passes) and find_spec("rich")):
+        yield
+        return
+    from rich.console import Console  # noqa: PLC0415 - scripts do without
+    from rich.markup import escape  # noqa: PLC0415 - as above
+
+    from twinform.passes.meshes.mesh_pass import watched_by  # noqa: PLC0415 - few runs have meshes
+
+    with Console(stderr=True).status("passes") as status:
+
+        def show(uri: str | None) -> None:
+            if uri is not None:
+                status.update(escape(f"mesh {printable(uri)}"))
+
+        with watched_by(show):
+            yield

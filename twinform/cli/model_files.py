@@ -84,7 +84,7 @@ def _start(path: Path, size: int) -> bytes:
 
 def _is_xacro_model(path: Path) -> bool:
     """Whether a xacro file makes a robot, and does not only define macros for others."""
-    from twinform.compiler.input.xacro_outline import outline  # noqa: PLC0415 - few folders have any
+    from twinform.compiler.input.include_graph import outline  # noqa: PLC0415 - few folders have any
 
     data = _start(path, _LARGEST)
     if not data and path.is_symlink():

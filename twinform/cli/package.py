@@ -19,8 +19,7 @@ from twinform.cli.request import passes_of, request_options_of_versions, whole_r
 from twinform.cli.run_conversion import show_findings, summary
 from twinform.compiler import CompileError, ConversionRequest
 from twinform.compiler.input.load_options import ReadingOptions
-from twinform.compiler.packaging.kind_names import KIND_NAMES, kinds_of
-from twinform.compiler.packaging.kinds import build
+from twinform.compiler.packaging.kinds import KIND_NAMES, build, kinds_of
 from twinform.compiler.packaging.order import Built, Order, PackageDetails, details_around
 from twinform.compiler.packaging.package import OccupiedError, Package, write_package
 from twinform.dataclass import dataclass

@@ -15,8 +15,7 @@ import click
 from twinform.cli.command import FINDINGS, UNUSABLE
 from twinform.cli.gazebo_files import GazeboFiles
 from twinform.cli.inputs import InputSource, format_of_suffix
-from twinform.cli.instrumentation import InstrumentationOptions
-from twinform.cli.mesh_progress import mesh_progress
+from twinform.cli.instrumentation import InstrumentationOptions, mesh_progress
 from twinform.cli.outputs import Output, Outputs, beside
 from twinform.cli.printing import plural, print_line, show
 from twinform.cli.project_options import ResolvedOptions

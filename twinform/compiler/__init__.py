@@ -5,14 +5,13 @@ from typing import TYPE_CHECKING
 from twinform.lazy import lazy_attributes
 
 if TYPE_CHECKING:
-    from twinform.compiler.checking import check
     from twinform.compiler.conversion import Conversion
     from twinform.compiler.conversion_error import CompileError, ReadOnlyPassError
     from twinform.compiler.driver import convert, plan, run_conversion
     from twinform.compiler.dumping import dump, dumps
     from twinform.compiler.expand_includes import expand
     from twinform.compiler.input.loading import Input, LoadOptions, LoadResult, load, loads, read
-    from twinform.compiler.inspection import as_refused, inspect
+    from twinform.compiler.inspection import as_refused, check, inspect
     from twinform.compiler.request import ConversionRequest
     from twinform.compiler.resolve_uris import SearchPath, UriError
     from twinform.compiler.split_world import SplitWorld, split
@@ -23,14 +22,13 @@ else:
     __getattr__ = lazy_attributes(
         __name__,
         {
-            "twinform.compiler.checking": "check",
+            "twinform.compiler.inspection": "check as_refused inspect",
             "twinform.compiler.conversion": "Conversion",
             "twinform.compiler.driver": "convert plan run_conversion",
             "twinform.compiler.dumping": "dump dumps",
             "twinform.compiler.conversion_error": "CompileError ReadOnlyPassError",
             "twinform.compiler.expand_includes": "expand",
             "twinform.compiler.input.loading": "Input LoadOptions LoadResult load loads read",
-            "twinform.compiler.inspection": "as_refused inspect",
             "twinform.schemas": "DEFAULT_SDF_VERSION",
             "twinform.storage.writing": "write_all_atomically write_atomically",
             "twinform.compiler.request": "ConversionRequest",

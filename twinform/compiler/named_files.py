@@ -8,8 +8,7 @@ from typing import NamedTuple
 from urllib.parse import unquote
 
 from twinform.compiler.input.finding_lines import PartFinder, line_of_text
-from twinform.compiler.mistakes.mesh_checks import find_mesh_fault, find_package_fault
-from twinform.compiler.mistakes.mesh_files import MeshFiles
+from twinform.compiler.mistakes.mesh_checks import MeshFiles, find_mesh_fault, find_package_fault
 from twinform.compiler.resolve_uris import SearchPath, UriError, exists
 from twinform.diagnostics import DiagnosticSink, Location, is_typo, near_names, rules, suggest
 from twinform.file_access import Readable

@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import pytest
 
 from tests.unit.passes.framework.conftest import write_distribution
-from twinform.compiler.batch.places import outputs
+from twinform.compiler.batch.entries import outputs
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes import Pass, registered_passes

@@ -12,8 +12,7 @@ from pathlib import Path, PurePosixPath
 
 from lxml import etree
 
-from twinform.compiler.batch.entries import PATTERNS, stem
-from twinform.compiler.batch.places import LEDGER
+from twinform.compiler.batch.entries import LEDGER, PATTERNS, stem
 from twinform.compiler.batch.record import Outcome, Row
 from twinform.compiler.batch.task import Done, Task
 from twinform.compiler.compare import USUAL, ComparisonOptions, compare_files

@@ -16,9 +16,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from twinform.compiler.batch.entries import ModelEntry
+from twinform.compiler.batch.entries import ModelEntry, ResultPlaces
 from twinform.compiler.batch.manifest import FOLDER, Manifest, read_records
-from twinform.compiler.batch.places import ResultPlaces
 from twinform.compiler.batch.record import ModelRecord, ModelResult, Outcome
 from twinform.compiler.batch.task import Done, Task
 from twinform.compiler.dependencies import (

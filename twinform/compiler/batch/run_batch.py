@@ -10,10 +10,9 @@ from contextlib import closing, contextmanager
 from dataclasses import field, replace
 from pathlib import Path
 
-from twinform.compiler.batch.entries import FolderError, ModelEntry, Shard
+from twinform.compiler.batch.entries import FolderError, ModelEntry, ResultPlaces, Shard, outputs, require_apart
 from twinform.compiler.batch.jobs import Convert, Diff
 from twinform.compiler.batch.manifest import Manifest
-from twinform.compiler.batch.places import ResultPlaces, outputs, require_apart
 from twinform.compiler.batch.record import ModelRecord, ModelResult, Outcome
 from twinform.compiler.batch.recording import BatchPlan, Recorder
 from twinform.compiler.batch.task import (
@@ -28,7 +27,7 @@ from twinform.compiler.batch.task import (
     versions,
     work,
 )
-from twinform.compiler.described_options import describe_options
+from twinform.compiler.dependencies import describe_options
 from twinform.compiler.input.loading import LoadOptions
 from twinform.compiler.observing import digest
 from twinform.compiler.workers import Failure, Runner, process_runner, run_on

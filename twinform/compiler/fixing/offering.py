@@ -95,11 +95,10 @@ def fixers() -> Fixers:
         fix_mistakes,
         fix_names,
         fix_numbers,
-        fix_plugins,
         fix_structure,
     )
 
-    modules = (fix_joints, fix_mistakes, fix_names, fix_numbers, fix_plugins, fix_structure)
+    modules = (fix_joints, fix_mistakes, fix_names, fix_numbers, fix_structure)
     return {rule: fixer for module in modules for rule, fixer in module.FIXERS.items()}
 
 

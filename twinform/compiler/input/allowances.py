@@ -1,18 +1,20 @@
-"""Allowed findings: rules that the caller allows, and suppressions in comments of the files.
+"""Findings that are left out: allowed ones, by the caller or by comments, and those that only follow from an error.
 
 An allowed finding is not reported, and an allowed error stops nothing, as long as there is a model in spite of it.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import field, replace
 from pathlib import Path
 
 from twinform.compiler.input.size_limits import Limits
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Diagnostic, DiagnosticSink, LineOrigins, Location, Rule
+from twinform.diagnostics import Diagnostic, DiagnosticSink, LineOrigins, Location, Rule, rules
 from twinform.diagnostics.rules import MALFORMED_SUPPRESSION, UNUSED_SUPPRESSION
 from twinform.diagnostics.suppressions import NO_SUPPRESSIONS, Suppression, Suppressions
 from twinform.file_access import Readable
+from twinform.lazy import lazy_pattern
+from twinform.schemas.messages import StandIn
 
 _MARKS = tuple(("twinform".encode(code), "urn:twinform:".encode(code)) for code in ("utf-8", "utf-16-le", "utf-16-be"))
 """The word that begins a suppression, and the namespace that has the word too, in each encoding."""
@@ -132,14 +134,16 @@ def content_of(file: Path, limits: Limits) -> bytes:
 
 def _name_problems(name: str) -> Iterator[tuple[str, str | None]]:
     """Yield what is wrong with the name of a rule in a comment, and help."""
-    from twinform.diagnostics import did_you_mean  # noqa: PLC0415 - few files have any
-    from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule, rules  # noqa: PLC0415 - as above
+    from twinform.diagnostics import did_you_mean, rule_registry  # noqa: PLC0415 - few files have any
 
     try:
-        found = find_rule(name)
+        found = rule_registry.find_rule(name)
         if found is None:
-            yield f"no rule is called {name!r}", did_you_mean(name, rules()) or "`twinform explain` lists the rules"
-    except RuleRegistryError as error:
+            yield (
+                f"no rule is called {name!r}",
+                did_you_mean(name, rule_registry.rules()) or "`twinform explain` lists the rules",
+            )
+    except rule_registry.RuleRegistryError as error:
         yield f"{name!r} is not known: {error}", None
 
 
@@ -177,3 +181,55 @@ def _describe_lines(entry: Suppression) -> str:
     if not entry.last:
         return "in this file"
     return f"on line {entry.first}" if entry.first == entry.last else f"on the lines {entry.first} to {entry.last}"
+
+
+_OF_LIMITS = frozenset({rules.MISSING_LIMIT, rules.PARTIAL_LIMIT})
+_OF_NAMES = frozenset({rules.EMPTY_NAME, rules.DUPLICATE_NAME, rules.SHARED_NAME})
+_OF_THE_TREE = frozenset({rules.SEVERAL_ROOTS, rules.EMPTY_MODEL})
+_REFERENCES = frozenset(
+    {
+        rules.DANGLING_FRAME,
+        rules.DANGLING_LINK,
+        rules.UNKNOWN_CANONICAL_LINK,
+        rules.UNKNOWN_DRIVEN_JOINT,
+        rules.UNKNOWN_GRIPPER_LINK,
+        rules.UNKNOWN_LEADER,
+        rules.UNKNOWN_REFERENCE,
+    }
+)
+_JOINT = lazy_pattern(r".*/joint(?:\[(?:@name='.*?'|\d+)\])?(?=/|$)")
+_ENDS = ("/parent", "/child")
+
+
+def without_consequences(
+    found: Iterable[Diagnostic], errors: Iterable[Diagnostic], stand_ins: Collection[StandIn]
+) -> list[Diagnostic]:
+    """Return the findings about a document that do not merely follow from errors of reading, or from stand-ins."""
+    paths = [each.location.path for each in errors if each.is_error]
+    follows = [*_of_errors(paths), *_of_stand_ins(stand_ins)] if paths else []
+    return [each for each in found if not any(rule(each) for rule in follows)]
+
+
+def _of_errors(paths: Iterable[str]) -> Iterator[Callable[[Diagnostic], bool]]:
+    places = [(joint, path.removeprefix(joint)) for path in paths if (joint := _joint_of(path))]
+    without_limits = {joint for joint, rest in places if "/limit" in rest}
+    yield lambda each: each.rule in _OF_LIMITS and _joint_of(each.location.path) in without_limits
+    if any(not rest or rest.startswith(_ENDS) for _, rest in places):
+        yield lambda each: each.rule in _OF_THE_TREE
+    if any("/material" in path for path in paths):
+        yield lambda each: each.rule is rules.UNKNOWN_MATERIAL
+
+
+def _of_stand_ins(stand_ins: Iterable[StandIn]) -> Iterator[Callable[[Diagnostic], bool]]:
+    untyped = {each.path: each.name for each in stand_ins if each.field == "type"}
+    yield lambda each: _joint_of(each.location.path) in untyped and not each.location.path.endswith(_ENDS)
+    yield lambda each: each.rule is rules.UNKNOWN_LEADER and each.found in untyped.values()
+    if any(each.field == "name" for each in stand_ins):
+        yield lambda each: each.rule in _REFERENCES or each.rule in _OF_THE_TREE
+        yield lambda each: each.rule in _OF_NAMES and not each.found
+
+
+def _joint_of(path: str) -> str:
+    """Return the path of the joint that a path leads into; empty if it leads into none."""
+    found = _JOINT.match(path)
+    return found[0] if found else ""

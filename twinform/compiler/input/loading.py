@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import Unpack
 
 from twinform.compiler.conversion_error import CompileError
-from twinform.compiler.input.allowances import Allowances, content_of
-from twinform.compiler.input.consequences import without_consequences
+from twinform.compiler.input.allowances import Allowances, content_of, without_consequences
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.front_ends import (
     LARGE,

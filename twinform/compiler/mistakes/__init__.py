@@ -1,9 +1,7 @@
 """What readers take and nobody means: units, left and right, plugins, sensors, drives, meshes that are no meshes."""
 
-from twinform.compiler.mistakes.mass_checks import report_masses
-from twinform.compiler.mistakes.mesh_checks import report_collisions
-from twinform.compiler.mistakes.mesh_files import MeshFiles
-from twinform.compiler.mistakes.scale_checks import report_scale
+from twinform.compiler.mistakes.mesh_checks import MeshFiles, report_collisions
+from twinform.compiler.mistakes.scale_checks import report_masses, report_scale
 from twinform.compiler.mistakes.twin_checks import report_twins
 from twinform.compiler.mistakes.value_checks import report_substitutions, report_values
 from twinform.diagnostics import DiagnosticSink

@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator
 
-from twinform.compiler.mistakes.tree_places import number_of, place_of, tag_of, text_of
+from twinform.compiler.mistakes.value_checks import number_of, place_of, tag_of, text_of
 from twinform.diagnostics import DiagnosticSink, nearest_name, rules
 from twinform.ir import Document, Joint
 from twinform.schemas import XmlElement

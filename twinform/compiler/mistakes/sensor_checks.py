@@ -2,7 +2,7 @@
 
 import math
 
-from twinform.compiler.mistakes.tree_places import number_of, place_of, tag_of, text_of
+from twinform.compiler.mistakes.value_checks import number_of, place_of, tag_of, text_of
 from twinform.diagnostics import DiagnosticSink, Severity, did_you_mean, rules
 from twinform.schemas import XmlElement
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from twinform.compiler.mistakes.mesh_files import MeshFiles
+from twinform.compiler.mistakes.mesh_checks import MeshFiles
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Format, Inertial, Link, Mesh, Model, Vector3
 from twinform.ir.bounds import Bounds, placed_bounds

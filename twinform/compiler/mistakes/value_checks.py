@@ -5,10 +5,9 @@ from typing import NamedTuple
 
 from lxml import etree
 
-from twinform.compiler.mistakes.tree_places import number_of, place_of, tag_of, text_of
-from twinform.diagnostics import DiagnosticSink, rules
+from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.lazy import lazy_pattern
-from twinform.schemas import XmlElement
+from twinform.schemas import XmlElement, path_of
 
 
 class _Range(NamedTuple):
@@ -131,3 +130,27 @@ def report_substitutions(tree: XmlElement, sink: DiagnosticSink) -> None:
                 message = f"{found[0]} stands here as it is: only xacro puts something in its place"
                 hint = "call the file .xacro, or expand it first: xacro robot.urdf.xacro > robot.urdf"
                 sink.report(rules.UNEXPANDED_XACRO, message, place_of(element), found=found[0], help=hint)
+
+
+def place_of(element: XmlElement) -> Location:
+    """Where an element was written."""
+    return Location("", element.sourceline or 0, path_of(element))
+
+
+def text_of(element: XmlElement | None) -> str:
+    """The text of an element without blanks around it; empty where there is none."""
+    return (element.text or "").strip() if element is not None else ""
+
+
+def number_of(element: XmlElement | None) -> float | None:
+    """The number in an element; None where there is none, which the schema reports, or none that is finite."""
+    try:
+        value = float(text_of(element))
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
+
+
+def tag_of(element: XmlElement | None) -> str:
+    """The name of an element; empty for comments and where there is none."""
+    return element.tag if element is not None and isinstance(element.tag, str) else ""

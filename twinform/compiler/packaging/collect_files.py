@@ -10,7 +10,7 @@ from posixpath import dirname, join, normpath
 from typing import ClassVar, Self
 
 from twinform.compiler.packaging.collecting import Collection, UncollectedError
-from twinform.compiler.packaging.layout import FileKind, suffix_of
+from twinform.compiler.packaging.package import FileKind, suffix_of
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Severity, SideFile

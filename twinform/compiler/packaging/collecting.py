@@ -9,8 +9,15 @@ from posixpath import basename, relpath
 from posixpath import dirname as folder_of
 from urllib.parse import unquote
 
-from twinform.compiler.packaging.layout import FileKind, PackageLayout, PackagePlaces, kind_of, suffix_of
-from twinform.compiler.packaging.package import Content, digest_of
+from twinform.compiler.packaging.package import (
+    Content,
+    FileKind,
+    PackageLayout,
+    PackagePlaces,
+    digest_of,
+    kind_of,
+    suffix_of,
+)
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Rule

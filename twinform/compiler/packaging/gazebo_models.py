@@ -17,9 +17,8 @@ from lxml import etree
 from twinform.compiler.input.loading import read
 from twinform.compiler.packaging.collect_files import CollectFiles
 from twinform.compiler.packaging.collecting import Collection
-from twinform.compiler.packaging.layout import PackageLayout
 from twinform.compiler.packaging.order import Built, Order, PackageDetails
-from twinform.compiler.packaging.package import Content, Package
+from twinform.compiler.packaging.package import Content, Package, PackageLayout
 from twinform.compiler.packaging.thumbnail import thumbnail
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.compiler.ros_packages import MODEL_CONFIG

@@ -1,11 +1,11 @@
-"""The kinds of packages, and the functions that build them."""
+"""The kinds of packages, their names, and the functions that build them."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
+from typing import Literal, get_args
 
 from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.gazebo_models import build as build_gazebo_model
-from twinform.compiler.packaging.kind_names import REQUIRED
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
 from twinform.compiler.packaging.ros2_packages import build as build_ros2
@@ -56,3 +56,19 @@ def _report_missing_details(order: Order, kinds: Iterable[str]) -> tuple[Diagnos
     message = f"the package says TODO for {', '.join(missing)}"
     sink.report(PLACEHOLDER, message, help=f"give {' '.join(f'--{name} ...' for name in missing)}")
     return tuple(sink.diagnostics)
+
+
+KindName = Literal["gazebo-model", "ros2"]
+KIND_NAMES = (*get_args(KindName), "both")
+"""The kinds of packages that can be requested."""
+
+REQUIRED: Mapping[str, tuple[str, ...]] = {
+    "gazebo-model": ("description", "maintainer", "email"),
+    "ros2": ("description", "maintainer", "email", "license"),
+}
+"""The details that a package of each kind needs."""
+
+
+def kinds_of(asked: str) -> tuple[str, ...]:
+    """Return the kinds of packages that a request means."""
+    return get_args(KindName) if asked == "both" else (asked,)

@@ -13,8 +13,7 @@ from twinform.compiler.driver import run_conversion
 from twinform.compiler.input.loading import Input, LoadOptions
 from twinform.compiler.packaging.collect_files import CollectFiles, MadeFiles
 from twinform.compiler.packaging.collecting import HIGHEST, Collection, UncollectedError
-from twinform.compiler.packaging.layout import PackageLayout
-from twinform.compiler.packaging.package import Package
+from twinform.compiler.packaging.package import Package, PackageLayout
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.ros_packages import MANIFEST, MODEL_CONFIG, read_manifest
 from twinform.dataclass import dataclass

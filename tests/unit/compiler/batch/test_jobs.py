@@ -10,7 +10,7 @@ import pytest
 
 from twinform.compiler import ConversionRequest
 from twinform.compiler.batch import Check, Convert, Diff, Stats
-from twinform.compiler.described_options import describe_options
+from twinform.compiler.dependencies import describe_options
 from twinform.diagnostics import Policy
 
 _JOBS = (Convert(to=ConversionRequest.of("sdf", {"passes": "check-inertia"})), Check(), Diff(other=Path("a")), Stats())

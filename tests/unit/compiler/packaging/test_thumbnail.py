@@ -10,7 +10,7 @@ from PIL import Image
 
 import twinform
 from twinform.compiler.packaging.collecting import Collection
-from twinform.compiler.packaging.layout import PackageLayout
+from twinform.compiler.packaging.package import PackageLayout
 from twinform.compiler.packaging.thumbnail import thumbnail
 from twinform.diagnostics import DiagnosticSink
 

@@ -17,10 +17,9 @@ from xml.dom import minidom
 
 from twinform.compiler.input.xacro.budget import Budget, require_length
 from twinform.compiler.input.xacro.channel import AbsentError, Compiler, MissingFileError, NotFoundError, TooMuchError
-from twinform.compiler.input.xacro.definitions import Definitions
 from twinform.compiler.input.xacro.expression_values import DotDict, ExpressionRefusedError, NameLookup, Value, text_of
 from twinform.compiler.input.xacro.interpreter import Interpreter
-from twinform.compiler.input.xacro.places import FileLine, parse, place_of
+from twinform.compiler.input.xacro.places import Definitions, FileLine, parse, place_of
 from twinform.compiler.input.xacro.vocabulary import eval_vocabulary, vocabulary
 from twinform.lazy import lazy_pattern
 

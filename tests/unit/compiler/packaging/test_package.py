@@ -5,8 +5,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.profile import examples
-from twinform.compiler.packaging.layout import FileKind, PackageLayout, PackagePlaces, safe_name
-from twinform.compiler.packaging.package import Package, is_inner_path
+from twinform.compiler.packaging.package import (
+    FileKind,
+    Package,
+    PackageLayout,
+    PackagePlaces,
+    is_inner_path,
+    safe_name,
+)
 
 _KINDS: list[FileKind] = ["mesh", "image", "script", "data"]
 _FILES = st.tuples(
