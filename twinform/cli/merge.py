@@ -20,8 +20,8 @@ from twinform.compiler.merging import FileVersions, Problem, merge_files
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.diagnostics.reporters import FileFindings
 from twinform.file_access import Readable
+from twinform.server.document_names import undefined_names
 from twinform.server.model_text import ModelText
-from twinform.server.undefined_names import undefined_names
 from twinform.text import Lines, SourceText
 
 EXAMPLES = {

@@ -5,9 +5,9 @@
 
 import sys
 
+from twinform.diagnostics.built_in_rule import read_head, rule_names
 from twinform.diagnostics.diagnostic import GROUPS, Safety, Severity
 from twinform.diagnostics.generated_files import main
-from twinform.diagnostics.rule_files import read_head, rule_names
 
 _BEGINNING = '''\
 """The built-in rules. The page of each is in the file beside this one that has its name.

@@ -32,15 +32,19 @@ from twinform.ir.rewrite import (
     bits_named,
     bits_of,
     census_of,
+    children_of,
+    count_parts,
     holds_opaque,
     map_children,
+    node_fields,
+    node_values,
     replace_fields,
     replace_node,
     rewrite,
     untyped_elements,
+    walk,
 )
 from twinform.ir.sensor import Light, Plugin, Sensor
-from twinform.ir.tree_walks import children_of, count_parts, node_fields, node_values, walk
 from twinform.ir.visual import Collision, Material, Script, Surface, Visual
 
 __all__ = [

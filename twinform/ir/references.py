@@ -11,9 +11,8 @@ from twinform.ir.link import Link
 from twinform.ir.model import GazeboExtension, Include, Model
 from twinform.ir.node import Node
 from twinform.ir.pose import Frame, Pose
-from twinform.ir.rewrite import map_children
+from twinform.ir.rewrite import classes_below, classes_in, map_children, node_fields
 from twinform.ir.sensor import Sensor
-from twinform.ir.tree_walks import classes_below, classes_in, node_fields
 from twinform.ir.visual import Material
 
 AnyNode = TypeVar("AnyNode", bound=Node)

@@ -1,4 +1,4 @@
-"""Rewriting a tree of nodes. What a change leaves alone stays the same object: a whole tree, or each part of one.
+"""Walking and rewriting trees of nodes. What a change leaves alone stays the same object, in whole or in parts.
 
 The census of a subtree has bits for what is somewhere in it, and is cached, so that passes skip what does not concern
 them. There is a bit for each class of nodes, one for each field that few models write, and some for untyped parts.
@@ -7,7 +7,7 @@ them. There is a bit for each class of nodes, one for each field that few models
 from collections.abc import Callable, Iterable, Iterator
 from functools import cache, lru_cache, partial
 from operator import is_
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, Self, TypeVar, get_args
 from zlib import crc32
 
 from twinform.ir.document import World
@@ -18,10 +18,9 @@ from twinform.ir.link import Inertial, Link
 from twinform.ir.model import GazeboExtension, Include, Model
 from twinform.ir.node import Node
 from twinform.ir.pose import Frame, Pose
-from twinform.ir.record import Record
+from twinform.ir.record import Record, field_values, fields_of
 from twinform.ir.sensor import Light, Sensor
 from twinform.ir.sourced import Sourced
-from twinform.ir.tree_walks import children_of, classes_below, classes_in, node_fields
 from twinform.ir.visual import Material, Visual
 
 AnyPart = TypeVar("AnyPart", bound=Sourced)
@@ -289,3 +288,91 @@ def untyped_elements(node: Node, *, having: int = OPAQUE) -> Iterator[Element]:
         for element in (*own, *(node.content if isinstance(node, GazeboExtension) else ())):
             yield from element.walk()
         stack += reversed([*children_of(node)])
+
+
+_ABOUT = frozenset({"namespaces", "format", "kind", "version"})
+
+
+@cache
+def node_fields(kind: type[Node]) -> tuple[str, ...]:
+    """The fields of a class of nodes that may hold nodes."""
+    return tuple(name for name in fields_of(kind) if classes_in(kind, name))
+
+
+@cache
+def classes_in(kind: type[Node], field: str) -> frozenset[type[Node]]:
+    """The classes of the nodes that a field may hold."""
+    return frozenset(_classes(fields_of(kind)[field].type, kind))
+
+
+def _classes(annotation: Any, own: type[Node]) -> Iterator[type[Node]]:
+    if annotation is Self:
+        yield own
+    elif not isinstance(annotation, type):
+        for each in get_args(annotation):
+            yield from _classes(each, own)
+    elif issubclass(annotation, Node):
+        yield annotation
+
+
+@cache
+def classes_below(kind: type[Node]) -> frozenset[type[Node]]:
+    """Return a class of nodes with the classes of all nodes that may be inside it, at any depth."""
+    found = {kind}
+    queue = [kind]
+    for each in queue:  # grows while it is walked
+        fresh = {one for name in node_fields(each) for one in classes_in(each, name)} - found
+        found |= fresh
+        queue.extend(fresh)
+    return frozenset(found)
+
+
+def node_values(node: Node) -> Iterator[tuple[str, Node | tuple[Node, ...]]]:
+    """Yield the fields of a node that hold nodes, each with its one or several nodes."""
+    for name in node_fields(type(node)):
+        value = getattr(node, name)
+        if value:
+            yield name, value
+
+
+def children_of(node: Node) -> Iterator[Node]:
+    """The nodes directly inside a node, in the order of its fields."""
+    for name in node_fields(type(node)):
+        value = getattr(node, name)
+        if isinstance(value, tuple):
+            yield from value
+        elif value:
+            yield value
+
+
+def walk(node: Node) -> Iterator[Node]:
+    """A node and all nodes inside it, from the outside in."""
+    stack = [node]
+    while stack:
+        current = stack.pop()
+        yield current
+        if inside := [*children_of(current)]:
+            inside.reverse()
+            stack += inside
+
+
+def count_parts(node: Node) -> int:
+    """How many facts a node states: one for each node, written value, and opaque element or attribute."""
+    return sum(1 + _count_values(one) for one in walk(node))
+
+
+def _count_values(node: Node) -> int:
+    return sum(_weight(value) for name, value in field_values(node).items() if name not in _ABOUT)
+
+
+def _weight(value: object) -> int:
+    if value is None or isinstance(value, Node):
+        return 0
+    if not isinstance(value, tuple):
+        return 1
+    parts: tuple[object, ...] = value  # pyright: ignore[reportUnknownVariableType]
+    if not parts or isinstance(parts[0], Node):
+        return 0
+    if isinstance(parts[0], Element | Opaque):
+        return sum(part.weight for part in parts if isinstance(part, Element | Opaque))
+    return 1

@@ -8,9 +8,8 @@ from twinform.ir.element import Element, Opaque
 from twinform.ir.link import Link
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Node
-from twinform.ir.rewrite import PLAIN, census_of
+from twinform.ir.rewrite import PLAIN, census_of, children_of
 from twinform.ir.sensor import Plugin
-from twinform.ir.tree_walks import children_of
 
 SCOPE = "::"
 """What stands between the name of a model and that of a part of it."""

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from twinform.ir.principal_moments import principal_moments
+from twinform.ir.solids import principal_moments
 from twinform.profiles.forms import number_in
 from twinform.profiles.nodes import Fact, FactTable, RawNode, add_fixed, fixed_children
 

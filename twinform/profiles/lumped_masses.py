@@ -6,8 +6,7 @@ from functools import lru_cache
 
 from twinform.dataclass import dataclass
 from twinform.ir import Pose
-from twinform.ir.principal_moments import Symmetric
-from twinform.ir.solids import ORIGIN, Solid, combined, placed
+from twinform.ir.solids import ORIGIN, Solid, Symmetric, combined, placed
 from twinform.ir.transform import Transform
 from twinform.lazy import lazy_pattern
 from twinform.passes.inertia.physical_consistency import clearances, is_doubtful, rounding_loss

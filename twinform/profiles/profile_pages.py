@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 from twinform.diagnostics.generated_files import main_of_folder
 from twinform.profiles.profile import PORTABLE, Profile, ProfileRow, load, names
-from twinform.profiles.reads_notation import Demand, PlaceStep, reads
 from twinform.profiles.remedies import REMEDIES
+from twinform.profiles.walking import Demand, PlaceStep, reads
 
 _INTRODUCTION = """\
 # Profiles

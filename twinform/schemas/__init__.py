@@ -5,8 +5,10 @@ from twinform.schemas.facts import (
     Fact,
     Table,
     Version,
+    in_order,
     parse_version,
     print_version,
+    repeated_fields,
     rows_by_name,
     table,
     versions_of,
@@ -27,7 +29,6 @@ from twinform.schemas.validator import (
 )
 from twinform.schemas.value_readers import LAST_LINE, element_xml, node_class
 from twinform.schemas.value_types import VALUE_TYPES, format_value, parse_value
-from twinform.schemas.written_rows import in_order, repeated_fields
 from twinform.schemas.xml import (
     XmlElement,
     declared_namespaces,

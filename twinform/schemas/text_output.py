@@ -14,9 +14,8 @@ from lxml import etree
 
 from twinform.dataclass import dataclass
 from twinform.lazy import lazy_pattern
-from twinform.schemas.facts import Version
+from twinform.schemas.facts import Version, in_order
 from twinform.schemas.value_types import format_numbers, format_value, parse_bool
-from twinform.schemas.written_rows import in_order
 
 Write = Callable[[Any, "TextOutput", str], str]
 """Writes a node: (node, output, indent)"""

@@ -175,10 +175,7 @@ def _libxml2_schema(format_: str, version: Version) -> etree.XMLSchema:
 def _xmlschema_schema(format_: str, version: Version, *, names: bool, assertions: bool) -> "XMLSchema11":
     from xmlschema import XMLSchema11  # noqa: PLC0415 - a tenth of a second
 
-    from twinform.schemas.xsd_assertions import (  # noqa: PLC0415 - only this engine knows them
-        without_assertions,
-        without_names,
-    )
+    from twinform.schemas.xsd import without_assertions, without_names  # noqa: PLC0415 - only this engine knows them
 
     text = schema_text(format_, version, "1.1")
     text = text if names else without_names(text)

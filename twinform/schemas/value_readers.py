@@ -9,7 +9,7 @@ from lxml import etree
 from twinform.diagnostics import Source, meant_name
 from twinform.ir import Element, Node, Opaque
 from twinform.ir.record import fields_of, filler, maker
-from twinform.ir.tree_walks import classes_in
+from twinform.ir.rewrite import classes_in
 from twinform.schemas import messages
 from twinform.schemas.facts import Fact, Version
 from twinform.schemas.hints import hint_for_word

@@ -13,9 +13,8 @@ from twinform.passes.plugins.catalog import systems
 from twinform.passes.plugins.catalog_types import PluginParameter
 from twinform.passes.structure.rename_parts import LOOKUP_ORDER
 from twinform.schemas import Fact, rows_by_name
-from twinform.server.cursor import Cursor, CursorKind, cursor_at
 from twinform.server.document_names import kind_at, names_of, scope_of_reference
-from twinform.server.documents import TextDocument
+from twinform.server.documents import Cursor, CursorKind, TextDocument, cursor_at
 from twinform.server.hover import text_of_row
 from twinform.server.mapping import MappingRow
 from twinform.server.names import ELEMENTS, Name, parameter_names

@@ -273,3 +273,10 @@ def _resolve_scoped(document: ModelText, name: Name) -> list[Name]:
             return []
         scope = models[0].node
     return [own for kind in name.kinds for own in defined(document, last, kind, scope)][:1]
+
+
+def undefined_names(document: ModelText) -> Iterator[Name]:
+    """Yield the references to what has no definition in the text; other files may define some of it."""
+    for name in names_of(document):
+        if not name.defines and not resolve_in(document, name):
+            yield name

@@ -12,10 +12,9 @@ from twinform.passes.plugins.catalog import systems
 from twinform.passes.plugins.catalog_types import PluginKind
 from twinform.schemas import table
 from twinform.schemas.meanings import Documentation
-from twinform.server.cursor import Cursor, CursorKind, cursor_at
 from twinform.server.diagnostics import span_of
 from twinform.server.document_names import name_at
-from twinform.server.documents import TextDocument
+from twinform.server.documents import Cursor, CursorKind, TextDocument, cursor_at
 from twinform.server.mapping import FORMATS, FormatName, MappingRow, destination, rows
 from twinform.server.names import ELEMENTS, Name
 from twinform.server.navigation import Found, resolve, search_of

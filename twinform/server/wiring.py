@@ -13,7 +13,7 @@ from pygls.protocol import default_converter
 
 from twinform import __version__
 from twinform.server.actions import FIX_ALL, RUN_PASSES, actions, edit_of, text_edits, word_of
-from twinform.server.checking import SettingsOf, no_settings
+from twinform.server.checking import Rewritten, SettingsOf, format_document, no_settings, run_passes
 from twinform.server.completion import complete
 from twinform.server.document_outline import folds, links, outline, search
 from twinform.server.documents import TextDocument
@@ -29,7 +29,6 @@ from twinform.server.navigation import (
     search_of,
 )
 from twinform.server.protocol import Protocol
-from twinform.server.rewrite_document import Rewritten, format_document, run_passes
 from twinform.server.session import Session, TaskError, Worker
 
 Answer = TypeVar("Answer")

@@ -11,8 +11,7 @@ from twinform.compiler.kinematics import Degree
 from twinform.compiler.scene import Frustum, SceneJoint
 from twinform.ir import Mesh, Vector3
 from twinform.ir.motion import plane_across, slide, turn
-from twinform.ir.principal_moments import principal_axes
-from twinform.ir.solids import Solid
+from twinform.ir.solids import Solid, principal_axes
 from twinform.ir.transform import Transform
 from twinform.view.figure import Figure, Handle, Rgb, placed, rgb
 

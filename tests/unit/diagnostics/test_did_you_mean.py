@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from twinform.diagnostics import did_you_mean, meant_name, nearest_name
-from twinform.diagnostics.edit_distance import edit_distance
+from twinform.diagnostics.did_you_mean import edit_distance
 
 
 @pytest.mark.parametrize(

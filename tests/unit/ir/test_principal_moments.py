@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from tests.exact import LARGEST, NUMBERS, eigenvalues_below, exact_sum, is_near
 from tests.profile import examples
-from twinform.ir.principal_moments import Symmetric, principal_axes, principal_moments, relative_moments
+from twinform.ir.solids import Symmetric, principal_axes, principal_moments, relative_moments
 
 MATRICES = (
     st.tuples(*[NUMBERS] * 6) | st.tuples(*[st.floats(-1, 1)] * 6) | st.tuples(*[st.integers(-2, 2).map(float)] * 6)

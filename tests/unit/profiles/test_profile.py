@@ -12,9 +12,9 @@ from twinform.passes import parse_pipeline
 from twinform.profiles import Effect, Profile, ProfileRow, UnknownProfileError, load, names, parse
 from twinform.profiles.assessment import RULES_OF_FACTS
 from twinform.profiles.profile import PORTABLE
-from twinform.profiles.reads_notation import reads
 from twinform.profiles.remedies import REMEDIES, in_order
 from twinform.profiles.tree_facts import FACTS
+from twinform.profiles.walking import reads
 
 _EVERY = [profile for name in names() if name != PORTABLE for profile in load(name)]
 _FINDING = Diagnostic(

@@ -7,8 +7,7 @@ from twinform.diagnostics import rules
 from twinform.ir import Format
 from twinform.profiles import ConsumerVerdict, ProfiledFile, assess, load
 from twinform.profiles.nodes import UnparsedError
-from twinform.profiles.reads_notation import reads
-from twinform.profiles.walking import read_as
+from twinform.profiles.walking import read_as, reads
 
 INERTIAL = (
     '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'  # one line

@@ -7,9 +7,8 @@ from lsprotocol import types
 from tests.unit.server.test_half_typed import session_with
 from twinform.diagnostics import Diagnostic, Fix, Location, Safety, Severity, Span, TextEdit, rules
 from twinform.server.actions import FIX_ALL, actions, compatible_edits, edit_of
-from twinform.server.checking import CheckJob, EditorSettings, check
+from twinform.server.checking import CheckJob, EditorSettings, check, format_document, run_passes
 from twinform.server.documents import TextDocument
-from twinform.server.rewrite_document import format_document, run_passes
 from twinform.server.session import Session
 from twinform.text import apply
 

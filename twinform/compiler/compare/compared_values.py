@@ -6,8 +6,7 @@ from typing import Self
 
 from twinform.dataclass import dataclass
 from twinform.ir import Vector3
-from twinform.ir.principal_moments import Symmetric
-from twinform.ir.solids import ELEMENTS, turned
+from twinform.ir.solids import ELEMENTS, Symmetric, turned
 from twinform.ir.transform import Transform
 from twinform.schemas import format_value, parse_value
 

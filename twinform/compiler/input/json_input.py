@@ -18,7 +18,7 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, LineOrigins, Location, Source, rules
 from twinform.diagnostics.did_you_mean import did_you_mean
 from twinform.ir import Document, Node, node_values
-from twinform.ir.tree_walks import classes_in
+from twinform.ir.rewrite import classes_in
 from twinform.lazy import lazy_pattern
 
 _MOST = 20

@@ -6,8 +6,7 @@ from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, rules
 from twinform.ir.geometry import Geometry, Plane
 from twinform.ir.link import Inertia, Inertial, Link
 from twinform.ir.pose import Pose
-from twinform.ir.principal_moments import Symmetric, principal_moments, relative_moments
-from twinform.ir.solids import tensor
+from twinform.ir.solids import Symmetric, principal_moments, relative_moments, tensor
 from twinform.ir.visual import Collision, Visual
 
 # Ten times the rounding of a double, relative to half the trace: libsdformat forgives no more. Real

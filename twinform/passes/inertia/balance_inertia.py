@@ -9,8 +9,7 @@ from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules import BALANCED_INERTIA, UNBALANCED_INERTIA
 from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.defaults import MOMENT
-from twinform.ir.principal_moments import Symmetric, principal_moments, times_each
-from twinform.ir.solids import with_tensor
+from twinform.ir.solids import Symmetric, principal_moments, times_each, with_tensor
 from twinform.ir.transform import common_exponent, times_power
 from twinform.ir.verify.verify_bodies import inertia_matrix
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name

@@ -12,7 +12,7 @@ import math
 
 from twinform.ir import Format, Inertial
 from twinform.ir.defaults import MOMENT
-from twinform.ir.principal_moments import Axes, Symmetric, principal_axes, relative_moments, times_each
+from twinform.ir.solids import Axes, Symmetric, principal_axes, relative_moments, times_each
 from twinform.ir.transform import common_exponent
 from twinform.ir.verify.verify_bodies import inertia_matrix
 

@@ -10,8 +10,7 @@ from twinform.diagnostics.rules import UNREADABLE_MESH
 from twinform.ir import Inertial, Link, Node
 from twinform.ir.bounds import Bounds
 from twinform.ir.frames import FrameError
-from twinform.ir.principal_moments import Symmetric
-from twinform.ir.solids import ORIGIN, Solid, combined, placed
+from twinform.ir.solids import ORIGIN, Solid, Symmetric, combined, placed
 from twinform.ir.verify.verify_bodies import inertia_matrix
 from twinform.passes.framework.assets import NO_ASSETS
 from twinform.passes.inertia.physical_consistency import has_mass

@@ -10,9 +10,8 @@ from twinform.diagnostics.rules import SPLIT_MASS, TOKEN_MASS
 from twinform.ir import Document, Format, Inertial, Joint, Link, Model, Sphere, rewrite
 from twinform.ir.defaults import MOMENT
 from twinform.ir.frames import FrameError, FrameGraph
-from twinform.ir.principal_moments import Symmetric
 from twinform.ir.scopes import outer_models, scoped_links
-from twinform.ir.solids import NOTHING, ORIGIN, Solid, placed, solid, with_mass, with_tensor
+from twinform.ir.solids import NOTHING, ORIGIN, Solid, Symmetric, placed, solid, with_mass, with_tensor
 from twinform.ir.verify.verify_bodies import inertia_matrix
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 from twinform.passes.inertia.physical_consistency import has_mass, is_possible

@@ -16,8 +16,7 @@ from dataclasses import replace
 from twinform.ir import Format, Inertia, Inertial, Link, Model, Pose
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.node import Vector3
-from twinform.ir.principal_moments import Symmetric
-from twinform.ir.solids import ELEMENTS, ORIGIN, Solid, combined, placed, tensor, turned, with_mass
+from twinform.ir.solids import ELEMENTS, ORIGIN, Solid, Symmetric, combined, placed, tensor, turned, with_mass
 from twinform.ir.verify.verify_bodies import inertia_matrix, is_plain
 from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
 from twinform.passes.inertia.physical_consistency import (

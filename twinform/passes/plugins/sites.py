@@ -28,7 +28,7 @@ from twinform.ir import (
     World,
     replace_fields,
 )
-from twinform.ir.tree_walks import node_fields
+from twinform.ir.rewrite import node_fields
 from twinform.passes.carriers.carriers import to_element
 from twinform.schemas import Context, element_xml, reader, table
 

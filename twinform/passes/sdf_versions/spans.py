@@ -7,8 +7,7 @@ from functools import cache
 from twinform.dataclass import dataclass
 from twinform.ir import PLAIN, Document, Node, Pose, bits_of
 from twinform.ir.record import fields_of
-from twinform.ir.rewrite import RARE, union_of
-from twinform.ir.tree_walks import classes_in
+from twinform.ir.rewrite import RARE, classes_in, union_of
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.schemas import Fact, Version, table
 

@@ -8,8 +8,7 @@ from typing import NamedTuple, cast
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Rule, rules
 from twinform.ir import Element, Mesh, Vector3
-from twinform.ir.principal_moments import times_each
-from twinform.ir.solids import Solid
+from twinform.ir.solids import Solid, times_each
 from twinform.ir.transform import times_power
 from twinform.passes.framework.assets import AssetError, Assets
 from twinform.passes.mesh_jobs.job import MeshJob, MeshResult, Options

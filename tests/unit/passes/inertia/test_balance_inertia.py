@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import twinform
-from twinform.ir.principal_moments import Symmetric, principal_axes
+from twinform.ir.solids import Symmetric, principal_axes
 from twinform.ir.verify.verify_bodies import inertia_matrix
 from twinform.passes import parse_pipeline
 from twinform.passes.inertia.physical_consistency import (

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import twinform
 from tests.exact import MAGNITUDES, NUMBERS
 from tests.profile import examples
-from twinform.ir.principal_moments import Symmetric, relative_moments
+from twinform.ir.solids import Symmetric, relative_moments
 from twinform.passes.inertia.physical_consistency import nearest_possible
 
 ROBOT = """\

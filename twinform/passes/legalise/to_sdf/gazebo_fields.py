@@ -29,8 +29,8 @@ from twinform.ir import (
 from twinform.ir.defaults import direction, with_range
 from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_value
+from twinform.ir.rewrite import node_fields
 from twinform.ir.solids import with_written_defaults
-from twinform.ir.tree_walks import node_fields
 from twinform.passes.carriers.carriers import from_xml
 from twinform.passes.shared.gazebo_tags import SCRIPT_URI, Tag
 from twinform.schemas import Context, element_xml, format_value, reader, table

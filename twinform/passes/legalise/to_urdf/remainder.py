@@ -11,7 +11,7 @@ from twinform.dataclass import dataclass
 from twinform.ir import Element, Node, Opaque
 from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_values, fields_of
-from twinform.ir.tree_walks import classes_in
+from twinform.ir.rewrite import classes_in
 from twinform.passes.carriers.carriers import is_ours, to_element
 from twinform.request_options import UrdfVersion
 from twinform.schemas import Fact, Version, format_value, table
