@@ -17,7 +17,7 @@ from benchmarks.targets import Part, Target, at_most
 from testbed.corpus.files import ROOT
 from testbed.growth.documents import growing_documents, write_folder
 from testbed.growth.work import COMMANDS, arguments_on, run_command
-from testbed.markdown import subsection, table
+from testbed.markdown import table
 
 SIZES = (1_000, 4_000)
 """The numbers of parts at which each command is compared on each document."""
@@ -44,9 +44,9 @@ _HOSTILE = (
     ("check", "sdf: models of one name", "", 48_000),
     ("check", "sdf: models of one name", "", 200_000),
 )
-_ABOUT = """\
+ABOUT = f"""\
 CPU time in a process that has done the same with one part before, for documents with many parts of one kind
-(`testbed/growth/documents.toml`), at {:,} and {:,} parts. An *exponent* of 1 is linear, 2 is quadratic;
+(`testbed/growth/documents.toml`), at {SIZES[0]:,} and {SIZES[1]:,} parts. An *exponent* of 1 is linear, 2 is quadratic;
 what takes less than a tenth of a second has none."""
 _ABOUT_LARGE = """\
 The largest documents, each also with a quarter of its parts, and what somebody could write to keep the machine busy.
@@ -77,12 +77,7 @@ def measure(sizes: tuple[int, int], every: int) -> Part:
     found = [each for name in names for each in _measured((command, name, "\n", sizes) for command in COMMANDS)]
     large, hostile = ([next(_measured([_quartered(*run)])) for run in runs] for runs in (_LARGE, _HOSTILE))
     targets = [*_targets([*found, *large], hostile)]
-    return Part(
-        subsection(
-            "Growth", _ABOUT.format(*sizes), _commands_table(found), _ABOUT_LARGE, _large_table(large + hostile)
-        ),
-        targets,
-    )
+    return Part("\n\n".join([_commands_table(found), _ABOUT_LARGE, _large_table(large + hostile)]), targets)
 
 
 _Run = tuple[str, str, str, tuple[int, int]]

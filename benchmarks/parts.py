@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks import commands, comments, converters, growth, inputs, real_files, scale, sizes, stages
+from benchmarks import commands, comments, converters, inputs, real_files, scale, sizes, stages
 from benchmarks.engines import PEERS
 from benchmarks.inputs import Robot, generated
 from benchmarks.targets import Part, at_most
@@ -26,14 +26,13 @@ class Extent:
     chains: Sequence[int] = (1_000, 10_000)
     converted: Sequence[int] = (10, 100, 1_000, 5_000)
     scale: Sequence[int] = scale.SIZES
-    growth: tuple[int, int] = growth.SIZES
     rounds: int = 5
     corpus_rounds: int = 3
     runs: int = commands.RUNS
     every: int = 1
 
 
-QUICK = Extent((10, 100, 1_000), (1_000,), (10, 100), (1_000, 10_000), (250, 1_000), 3, 3, 5, 40)
+QUICK = Extent((10, 100, 1_000), (1_000,), (10, 100), (1_000, 10_000), 3, 3, 5, 40)
 
 
 def measured_parts(extent: Extent, before: Path | None, others: Path | None) -> Iterator[Part]:
@@ -47,7 +46,6 @@ def measured_parts(extent: Extent, before: Path | None, others: Path | None) -> 
     yield _said(real_files.measure(before, extent.every, extent.corpus_rounds))
     yield _said(_commands(extent.runs))
     yield _said(scale.measure(extent.scale))
-    yield _said(growth.measure(extent.growth, max(1, extent.every // 4)))
     yield _said(Part(stages.page(_profiles(extent.every))))
 
 

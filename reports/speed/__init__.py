@@ -2,6 +2,7 @@
 
 SECTIONS = {
     "performance": "How fast it is",
+    "growth": "How time grows",
     "editor": "An editor at work",
     "folders": "Folders and repositories",
     "batch": "Many models",
