@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple, get_args
 from lsprotocol.types import METHOD_TO_TYPES
 
 from fuzz import targets
-from twinform.cli.config.settings import FileSettings, FormatSettings, ProjectSettings
+from twinform.cli.config_settings import FileSettings, FormatSettings, ProjectSettings
 from twinform.compiler import check
 from twinform.compiler.output.json import json_text
 from twinform.diagnostics import catalog

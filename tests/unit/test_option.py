@@ -9,7 +9,7 @@ import pytest
 
 import twinform
 from twinform.cli.batch_commands import commands
-from twinform.cli.config.settings import ProjectSettings
+from twinform.cli.config_settings import ProjectSettings
 from twinform.cli.convert import command
 from twinform.compiler import plan
 from twinform.compiler.input.load_options import FileOptions, ReadingOptions

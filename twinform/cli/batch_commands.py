@@ -12,7 +12,7 @@ import click
 from twinform.cli.batch_run import RunOptions, run_and_end, run_options
 from twinform.cli.command import Command, Unusable, combine_options
 from twinform.cli.completion import pipelines
-from twinform.cli.config.config_defaults import RuleSettings
+from twinform.cli.config_defaults import RuleSettings
 from twinform.cli.diff import comparison_options
 from twinform.cli.flags import group
 from twinform.cli.inputs import file_options, load_options_of, reading_options

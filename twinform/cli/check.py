@@ -12,8 +12,7 @@ from twinform.cli.check_plan import CheckPlan, folders_asked
 from twinform.cli.checked_file import CheckedFile, CheckTask, Reporting, is_elsewhere, is_unusable
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable, combine_options
 from twinform.cli.completion import files, pipelines
-from twinform.cli.config import settings_of
-from twinform.cli.config.config_defaults import RuleSettings
+from twinform.cli.config_defaults import RuleSettings, settings_of
 from twinform.cli.file_runs import FileRun, RunOptions, open_file_run, run_options
 from twinform.cli.flags import group
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, reading_options

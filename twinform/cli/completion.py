@@ -28,7 +28,7 @@ def pass_names(_ctx: click.Context, _parameter: click.Parameter, incomplete: str
 
 def pipelines(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
     """Complete the last pass of a pipeline, or a pipeline that the configuration names."""
-    from twinform.cli.config import settings_of  # noqa: PLC0415 - few calls complete a pipeline
+    from twinform.cli.config_defaults import settings_of  # noqa: PLC0415 - few calls complete a pipeline
 
     before, comma, last = incomplete.rpartition(",")
     if comma and os.environ.get("_TWINFORM_COMPLETE") == "fish_complete":

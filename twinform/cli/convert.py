@@ -9,8 +9,7 @@ from click.core import ParameterSource
 
 from twinform.cli.command import Command
 from twinform.cli.completion import files
-from twinform.cli.config import settings_of
-from twinform.cli.config.config_defaults import RuleSettings
+from twinform.cli.config_defaults import RuleSettings, settings_of
 from twinform.cli.gazebo_files import GazeboFiles, companion_options, version_for
 from twinform.cli.inputs import InputSource, inputs, reading_options
 from twinform.cli.instrumentation import InstrumentationOptions, watching_options

@@ -9,7 +9,7 @@ import click
 
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
 from twinform.cli.completion import files, pipelines
-from twinform.cli.config.config_defaults import RuleSettings
+from twinform.cli.config_defaults import RuleSettings
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, file_options, load_options_of, model_inputs
 from twinform.cli.instrumentation import mesh_progress
 from twinform.cli.model_files import is_plain

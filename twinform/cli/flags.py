@@ -8,7 +8,7 @@ import click
 from click.shell_completion import CompletionItem
 
 from twinform.cli.command import Decorated, Decorator, combine_options
-from twinform.cli.config import hold_limit
+from twinform.cli.config_defaults import hold_limit
 from twinform.option import Option, declared_options
 
 

@@ -9,7 +9,7 @@ import click
 from twinform.cli.checked_file import diagnostic_of_row, row_of_diagnostic
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
 from twinform.cli.completion import files as files_of
-from twinform.cli.config import config_options
+from twinform.cli.config_defaults import config_options
 from twinform.cli.file_runs import RunOptions, open_file_run, run_options
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, size_option
 from twinform.cli.model_files import is_text

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import click
 
 from twinform.cli.command import combine_options
-from twinform.cli.config import config_options, settings_of
+from twinform.cli.config_defaults import config_options, settings_of
 from twinform.cli.flags import flag, flags_of, group
 from twinform.cli.model_files import DEFAULT_EXCLUDE, XACRO, Exclusion, FileKind, PatternError, is_model
 from twinform.compiler import LoadOptions, LoadResult, read

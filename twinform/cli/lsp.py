@@ -23,6 +23,6 @@ def command(*, stdio: bool) -> None:
         raise Unusable(
             f"the language server needs {error.name or 'pygls'}; run: pip install 'twinform[lsp]'"
         ) from error
-    from twinform.cli.config.editor_settings import settings_of  # noqa: PLC0415 - see above
+    from twinform.cli.editor_settings import settings_of  # noqa: PLC0415 - see above
 
     click.get_current_context().exit(serve(settings_of))

@@ -7,7 +7,7 @@ import click
 
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
 from twinform.cli.completion import files
-from twinform.cli.config.config_defaults import RuleSettings
+from twinform.cli.config_defaults import RuleSettings
 from twinform.cli.flags import group
 from twinform.cli.gazebo_files import release_option, version_for
 from twinform.cli.inputs import InputSource, inputs, reading_options

@@ -8,8 +8,7 @@ import click
 
 from twinform.cli.command import Command, Unusable
 from twinform.cli.completion import pass_names, pipelines
-from twinform.cli.config import config_options, settings_of
-from twinform.cli.config.config_defaults import Project
+from twinform.cli.config_defaults import Project, config_options, settings_of
 from twinform.cli.printing import print_document, print_text, styled
 from twinform.passes import Pass, PipelineError, Registered, RegistryError, parse_pipeline, registered_passes
 from twinform.passes.framework.pass_options import nearest

@@ -11,8 +11,8 @@ from click.shell_completion import CompletionItem
 
 from twinform.cli.command import Unusable
 from twinform.cli.completion import rule_names
-from twinform.cli.config import ConfigError, Project, settings_of
-from twinform.cli.config.config_defaults import NO_OWN_SETTINGS, OwnSettings, RuleSettings
+from twinform.cli.config_defaults import NO_OWN_SETTINGS, OwnSettings, Project, RuleSettings, settings_of
+from twinform.cli.config_file import ConfigError
 from twinform.cli.flags import group
 from twinform.cli.inputs import load_options_of
 from twinform.compiler import LoadOptions

@@ -7,7 +7,7 @@ import click
 
 from twinform import __version__
 from twinform.cli.command import FINDINGS, Command, Unusable
-from twinform.cli.config.trust import Outside
+from twinform.cli.config_trust import Outside
 from twinform.cli.printing import paint, print_line, print_text
 from twinform.compiler import LoadOptions
 from twinform.compiler.expand_includes import OtherDocuments

@@ -84,7 +84,7 @@ def command(
 
 def _json_schema(language: str) -> str:
     if language == "config":
-        from twinform.cli.config.settings import settings_schema_text  # noqa: PLC0415 - most schemas are in XSD
+        from twinform.cli.config_settings import settings_schema_text  # noqa: PLC0415 - most schemas are in XSD
 
         return settings_schema_text()
     from twinform.compiler.output.json import json_schema_text  # noqa: PLC0415 - as above

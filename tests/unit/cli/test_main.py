@@ -64,7 +64,7 @@ def test_the_package_runs_as_the_command() -> None:
 
 
 _UNUSED = {
-    "check": ["twinform.passes.legalise", "twinform.passes.framework.pass_base", "twinform.cli.config.settings"],
+    "check": ["twinform.passes.legalise", "twinform.passes.framework.pass_base", "twinform.cli.config_settings"],
     "convert": [
         "twinform.passes.legalise.to_urdf",
         "twinform.passes.framework.options_model",
@@ -72,7 +72,7 @@ _UNUSED = {
         "twinform.compiler.audit",
     ],
     "format": ["twinform.passes.legalise"],
-    "diff": ["twinform.passes.framework.options_model", "twinform.cli.config.settings"],
+    "diff": ["twinform.passes.framework.options_model", "twinform.cli.config_settings"],
 }
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from pydantic import BaseModel
 
-from twinform.cli.config.settings import FileSettings, FormatSettings, ProjectSettings
-from twinform.cli.config.trust import HELD, is_own
+from twinform.cli.config_settings import FileSettings, FormatSettings, ProjectSettings
+from twinform.cli.config_trust import HELD, is_own
 
 from .conftest import GOOD, Run
 
@@ -31,7 +31,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def foreign(monkeypatch: pytest.MonkeyPatch) -> None:
     """The caller is somebody else than the owner of the files."""
-    monkeypatch.setattr("twinform.cli.config.trust._ADMINISTRATOR", -1)
+    monkeypatch.setattr("twinform.cli.config_trust._ADMINISTRATOR", -1)
     monkeypatch.setattr(os, "geteuid", lambda: 12345)
 
 
@@ -314,7 +314,7 @@ def test_a_pass_of_another_package_is_nothing_for_somebody_elses_configuration(
 ) -> None:
     configure("passes = 'check-limits'")
     assert run("convert", "r.urdf", "-o", "r.sdf").exit_code == 0
-    monkeypatch.setattr("twinform.cli.config.trust.BUILT_IN", {})
+    monkeypatch.setattr("twinform.cli.config_trust.BUILT_IN", {})
     done = run("convert", "r.urdf", "-o", "r.sdf")
     assert done.exit_code == 2
     assert "check-limits comes from another package, and the configuration is somebody else's" in done.stderr

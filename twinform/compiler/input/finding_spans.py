@@ -10,8 +10,7 @@ from dataclasses import field, replace
 from functools import cached_property
 from pathlib import Path
 
-from twinform.compiler.input.finding_lines import PartFinder
-from twinform.compiler.input.finding_pieces import piece, quoted, values
+from twinform.compiler.input.finding_lines import PartFinder, piece, quoted, values
 from twinform.compiler.input.load_options import LoadResult, expanded_name
 from twinform.compiler.input.loading import garbage_collection_paused, read_tree_again
 from twinform.compiler.input.parsing import UnreadableError, parse

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal
 
-from twinform.cli.config.config_file import ConfigError
+from twinform.cli.config_file import ConfigError
 from twinform.dataclass import dataclass
 from twinform.passes import FilesPass, Pass, Pipeline
 from twinform.passes.framework.built_in import BUILT_IN

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 import click
 
 from twinform.cli.command import combine_options
-from twinform.cli.config.config_file import ConfigError, Table, find, section
+from twinform.cli.config_file import ConfigError, Table, find, section
 from twinform.dataclass import dataclass
 
 if TYPE_CHECKING:
-    from twinform.cli.config.settings import ProjectSettings
+    from twinform.cli.config_settings import ProjectSettings
     from twinform.passes import Names, Pipeline
 
 
@@ -51,7 +51,7 @@ class Project:
         """
         if self.path is None or self.trusted or not self.paths:
             return self.paths
-        from twinform.cli.config.trust import require_inside  # noqa: PLC0415 - few projects name folders
+        from twinform.cli.config_trust import require_inside  # noqa: PLC0415 - few projects name folders
 
         for folder in self.paths:
             require_inside(self.path, Path(folder), "paths")
@@ -75,7 +75,7 @@ class Project:
             return None
         file = self.path.parent / self.baseline
         if not self.trusted:
-            from twinform.cli.config.trust import require_inside  # noqa: PLC0415 - few projects have one
+            from twinform.cli.config_trust import require_inside  # noqa: PLC0415 - few projects have one
 
             require_inside(self.path, file, "baseline")
         return file
@@ -104,7 +104,7 @@ class Project:
         """
         if self.path is None or self.trusted:
             return pipeline
-        from twinform.cli.config.trust import confined  # noqa: PLC0415 - few commands have pipelines
+        from twinform.cli.config_trust import confined  # noqa: PLC0415 - few commands have pipelines
 
         return confined(self.path, pipeline, key)
 
@@ -127,7 +127,7 @@ def hold_limit(ctx: click.Context, option: click.Parameter, value: int, usual: i
     # A file that is too large may come with a configuration that allows it. This is an error, not a
     # warning: otherwise an error about the model would follow that does not say why.
     if configured and project.path is not None and not project.trusted:
-        from twinform.cli.config.trust import require_lower  # noqa: PLC0415 - few projects have limits
+        from twinform.cli.config_trust import require_lower  # noqa: PLC0415 - few projects have limits
 
         require_lower(project.path, (option.name or "").replace("_", "-"), value, usual)
     return value
@@ -172,7 +172,7 @@ def _load(ctx: click.Context, _option: click.Parameter, value: Path | None) -> N
     found = (value, _section(value)) if value is not None else _nearest()
     if found is None:
         return
-    from twinform.cli.config.settings import NamedPipelines, parse_settings  # noqa: PLC0415 - many have no settings
+    from twinform.cli.config_settings import NamedPipelines, parse_settings  # noqa: PLC0415 - many have no settings
 
     path, table = found
     settings = parse_settings(path, table)
@@ -223,7 +223,7 @@ config_options = combine_options(
 Value = TypeVar("Value")
 
 if TYPE_CHECKING:
-    from twinform.cli.config.settings import FileSettings
+    from twinform.cli.config_settings import FileSettings
 
 
 class RuleSettings(NamedTuple):

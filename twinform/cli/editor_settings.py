@@ -3,10 +3,10 @@
 from dataclasses import replace
 from pathlib import Path
 
-from twinform.cli.config.config_defaults import NO_OWN_SETTINGS, OwnSettings, PerFile, RuleSettings
-from twinform.cli.config.config_file import ConfigError, find
-from twinform.cli.config.settings import ProjectSettings, parse_settings
-from twinform.cli.config.trust import require_inside
+from twinform.cli.config_defaults import NO_OWN_SETTINGS, OwnSettings, PerFile, RuleSettings
+from twinform.cli.config_file import ConfigError, find
+from twinform.cli.config_settings import ProjectSettings, parse_settings
+from twinform.cli.config_trust import require_inside
 from twinform.cli.project_options import override_policy
 from twinform.compiler.input.load_options import profiles_of
 from twinform.compiler.resolve_uris import SearchPath

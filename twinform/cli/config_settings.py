@@ -7,7 +7,7 @@ from typing import Annotated, Any, ForwardRef, Literal, get_args
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, create_model, field_validator
 
-from twinform.cli.config.config_file import ConfigError, Table
+from twinform.cli.config_file import ConfigError, Table
 from twinform.compiler.input.load_options import FileOptions
 from twinform.option import Option, declared_options
 from twinform.passes import Pipeline, PipelineError, UnknownPipelineError, parse_pipeline
