@@ -15,7 +15,7 @@ from testbed.edits.judging import Outcome
 from testbed.markdown import listing, subsection, table
 from twinform.compiler.workers import Failure
 from twinform.passes.carriers.carriers import NAMESPACE
-from twinform.passes.shared.pose_notation import OFFSET
+from twinform.passes.shared.poses import OFFSET
 from twinform.testing import oracles
 from twinform.testing.oracles.robot import EngineRobot, View
 from twinform.testing.oracles.robot_comparison import chained, read_robot, renamed, verdict_on

@@ -16,7 +16,7 @@ from twinform.ir.solids import combined, placed
 from twinform.ir.transform import Transform
 from twinform.ir.verify import verify
 from twinform.passes import Pass
-from twinform.passes.structure.combined_bodies import body_of
+from twinform.passes.shared.link_shapes import body_of
 from twinform.passes.structure.flatten_models import FlattenModels
 from twinform.passes.structure.lump_fixed_joints import LumpFixedJoints
 from twinform.passes.structure.prefix_names import PrefixNames

@@ -41,8 +41,7 @@ from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers, rounde
 from twinform.passes.shared.gazebo_tags import NUMBER_TAGS
 from twinform.passes.shared.link_shapes import is_flat
 from twinform.passes.shared.moving_bodies import Body, moving_bodies
-from twinform.passes.structure.tag_shapes import wrongly_tagged
-from twinform.passes.structure.tagged_shapes import KINDS, find_early_static, seen_shapes
+from twinform.passes.structure.tag_shapes import KINDS, find_early_static, seen_shapes, wrongly_tagged
 from twinform.profiles.forms import number_in
 from twinform.schemas import XmlElement, path_of
 

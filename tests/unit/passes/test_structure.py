@@ -9,7 +9,7 @@ from twinform.ir import Document, Format, Link, Model
 from twinform.passes import NO_ASSETS, DocumentReader, Pipeline, PipelineError, parse_pipeline
 from twinform.passes.structure.attach import Attach
 from twinform.passes.structure.reference_words import kind_of_word
-from twinform.passes.structure.tagged_shapes import shape_name
+from twinform.passes.structure.tag_shapes import shape_name
 
 GRIPPER = ROOT / "examples/gripper.urdf"
 

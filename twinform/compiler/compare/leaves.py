@@ -18,7 +18,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import NAMESPACE, SECOND, from_xml
 from twinform.passes.sdf_versions.name_the_nameless import plugin_stem
 from twinform.passes.shared.gazebo_tags import SCRIPT_URI
-from twinform.passes.shared.pose_frames import read_pose
+from twinform.passes.shared.poses import read_pose
 from twinform.schemas import Fact, XmlElement, in_usual_namespaces, is_followed, table
 from twinform.text import same_element
 

@@ -25,9 +25,9 @@ from twinform.ir import Document, Element, Format, Frame, Joint, Link, Model, No
 from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.ir.transform import Transform
 from twinform.ir.visual import Collision, Visual
+from twinform.passes.carriers.absorb import definition_of
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import from_xml
-from twinform.passes.carriers.definitions import definition_of
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS, WITHOUT_AXIS, joints_of

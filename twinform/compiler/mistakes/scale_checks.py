@@ -155,7 +155,7 @@ def _report_limits(joint: Joint, format_: Format, sink: DiagnosticSink) -> None:
                 sink.report(rules.IMPLAUSIBLE_LIMIT, message, where, found=found, severity=severity)
     has_negative = any(axis.dynamics and _is_negative(axis.dynamics) for axis in (joint.axis, joint.axis2) if axis)
     if has_negative or any(part.element and part.element.name == "safety_controller" for part in joint.opaque):
-        from twinform.passes.joints.limit_faults import find_faults  # noqa: PLC0415 - few joints have either
+        from twinform.passes.joints.check_limits import find_faults  # noqa: PLC0415 - few joints have either
 
         for each in find_faults(joint):
             severity = Severity.INFO if each.may_be_meant else None

@@ -7,7 +7,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Format, Inertial, Link, Mesh, Model, Vector3
 from twinform.ir.bounds import Bounds, placed_bounds
 from twinform.ir.defaults import MOMENT
-from twinform.passes.inertia.plausibility import PlausibilityCheck, Room
+from twinform.passes.inertia.physical_consistency import PlausibilityCheck, Room
 from twinform.passes.shared.link_shapes import PlacedShape, ShapePlaces
 
 # Far beyond what the pass `check-inertia` allows, which is for people who ask: shapes are drawn by

@@ -1,15 +1,16 @@
-"""Carriers and annotations that stand where no conversion puts any: somebody copied them there."""
+"""Carriers and annotations that stand where no conversion puts any, as somebody copied them there: dropping them."""
 
 from collections.abc import Iterator
 from functools import cache, partial
-from typing import TypeVar
+from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import OPAQUE, Frame, Model, Node, Opaque, Pose, replace_fields, rewrite
+from twinform.passes.carriers.absorb import definition_of
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, is_carrier, is_memory, is_ours
-from twinform.passes.carriers.definitions import definition_of
 from twinform.passes.carriers.sdf_versions import carried, condition_of, is_version_carrier
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.schemas import Fact, node_class, table
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -91,3 +92,19 @@ def _classes_in(kind: type[Node], fact: Fact) -> Iterator[tuple[type[Node], Fact
             outer, _, field = row.place.rpartition(".")
             holder = node_class(kind, outer) if outer else kind
             yield from _classes_in(node_class(holder, field, row.kind), inner)
+
+
+class DropMisplaced(ModelPass):
+    """Drop the carriers and annotations that stand where no conversion puts them.
+
+    Changes: a carrier inside a number or a pose goes, and so does one about an element that cannot be where it stands.
+    An edit copied it there; unpacked, it would become content that nobody wrote.
+    Never touches: other carriers. The passes that unpack them find out whether they still match the file.
+    Diagnostics: `stale-carrier` for each.
+    """
+
+    name: ClassVar[str] = "drop-misplaced"
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model with carriers only where they mean something."""
+        return without_misplaced(model, sink)

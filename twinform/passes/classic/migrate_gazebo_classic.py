@@ -17,8 +17,8 @@ from twinform.passes.classic.document_edits import (
     report_unread,
 )
 from twinform.passes.classic.migrate_sensors import SensorMigration
+from twinform.passes.classic.moving import accept_trial, trial_sink
 from twinform.passes.classic.plugins import PluginMigration
-from twinform.passes.classic.reporting import accept_trial, trial_sink
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.joints.carried_elements import declare_carriers
 from twinform.passes.joints.ros2_control_from_transmissions import Ros2ControlFromTransmissions

@@ -10,15 +10,18 @@ from twinform.ir import Element, Plugin, Sensor
 from twinform.ir.sensor import RENAMED_ELEMENTS
 from twinform.passes.classic.moving import (
     DroppedParameter,
+    MigrationReport,
     Moved,
+    accept_trial,
     camera_height,
     camera_width,
     focal_length,
+    needed_checks,
     set_text,
     text_at,
+    trial_sink,
     truth_of,
 )
-from twinform.passes.classic.reporting import MigrationReport, accept_trial, needed_checks, trial_sink
 from twinform.passes.classic.systems import RosNames, unused_parameters, without_unread_parameters
 from twinform.passes.classic.tables import ClassicSensorRow, Migration, migration_of, unread_parts
 from twinform.passes.plugins.catalog import ros2_kind, sensors

@@ -11,8 +11,14 @@ from twinform.ir.transform import Transform
 from twinform.lazy import lazy_pattern
 from twinform.passes.classic.document_edits import DeferredEdits
 from twinform.passes.classic.migrate_sensors import SensorMigration, set_frame
-from twinform.passes.classic.moving import DroppedParameter, Moved
-from twinform.passes.classic.reporting import MigrationReport, accept_trial, needed_checks, trial_sink
+from twinform.passes.classic.moving import (
+    DroppedParameter,
+    MigrationReport,
+    Moved,
+    accept_trial,
+    needed_checks,
+    trial_sink,
+)
 from twinform.passes.classic.systems import RosNames, make_systems, unused_parameters, without_unread_parameters
 from twinform.passes.classic.tables import MakeRow, Migration, migration_of
 from twinform.passes.plugins.catalog import is_ignition_name, modern_class, modern_file, systems_of_file

@@ -26,8 +26,7 @@ from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import came_from, find_annotation
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.shared.pose_frames import map_frames
-from twinform.passes.shared.pose_notation import OFFSET, read_offset
+from twinform.passes.shared.poses import OFFSET, map_frames, read_offset
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 Posed = TypeVar("Posed", Link, Model, Include)

@@ -11,8 +11,7 @@ from twinform.ir import Document, Format, Inertial, Link
 from twinform.ir.defaults import MOMENT
 from twinform.ir.verify.verify_bodies import inertia_matrix, report_moments
 from twinform.passes.framework.pass_base import AssetPass
-from twinform.passes.inertia.physical_consistency import DIGITS, ROUNDING
-from twinform.passes.inertia.plausibility import PlausibilityCheck
+from twinform.passes.inertia.physical_consistency import DIGITS, ROUNDING, PlausibilityCheck
 from twinform.passes.shared.link_shapes import (
     ShapePlaces,
 )

@@ -8,7 +8,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import FILLED_LIMIT, UNFILLED_LIMIT
 from twinform.ir import Axis, Document, Dynamics, Format, Joint, Limit, Node, rewrite
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
-from twinform.passes.joints.limit_faults import limit_location
+from twinform.passes.joints.check_limits import limit_location
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 _DRIVEN = _BOUNDED | {"continuous"}

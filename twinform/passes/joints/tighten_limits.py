@@ -9,7 +9,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import TIGHTENED_LIMIT, UNTIGHTENED_LIMIT
 from twinform.ir import Document, Joint, Limit, rewrite
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
-from twinform.passes.joints.limit_faults import SoftLimits, limit_location, soft_limits
+from twinform.passes.joints.check_limits import SoftLimits, limit_location, soft_limits
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 

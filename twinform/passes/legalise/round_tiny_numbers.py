@@ -25,7 +25,7 @@ from twinform.ir import (
 )
 from twinform.ir.record import fields_of
 from twinform.lazy import lazy_pattern
-from twinform.passes.carriers.definitions import definition_of
+from twinform.passes.carriers.absorb import definition_of
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.shared.gazebo_tags import NUMBER_TAGS
 from twinform.schemas import Fact, format_value, table

@@ -27,7 +27,7 @@ from twinform.passes.inertia.physical_consistency import (
     rounding_loss,
 )
 from twinform.passes.shared.gazebo_tags import lumped_links
-from twinform.passes.structure.combined_bodies import body_of
+from twinform.passes.shared.link_shapes import body_of
 from twinform.schemas import format_value, parse_value
 
 _MARGIN = 1e-6

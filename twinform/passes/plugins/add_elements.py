@@ -24,7 +24,7 @@ from twinform.ir.scopes import SCOPE, nested_models, outer_models, scoped_models
 from twinform.ir.transform import Transform
 from twinform.passes.plugins.catalog import release, suggestion
 from twinform.passes.plugins.sites import plugin_element, sensor_element
-from twinform.passes.shared.pose_notation import in_radians
+from twinform.passes.shared.poses import in_radians
 
 _FRAME_ELEMENTS = frozenset({"frame_id", "gz_frame_id", "ignition_frame_id"})
 # Cameras with nothing but images. Those with clouds stamp both with one frame, and a cloud of

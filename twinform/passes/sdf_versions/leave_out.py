@@ -20,8 +20,8 @@ from twinform.ir import (
 )
 from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import fields_of
+from twinform.passes.carriers.absorb import definition_of
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.carriers.definitions import definition_of
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper, is_version_carrier
 from twinform.passes.sdf_versions.spans import ElementContent, VersionSpan, bits_lacking, shape, shape_of, whole
 from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign

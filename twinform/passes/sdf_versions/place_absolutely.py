@@ -26,7 +26,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.version_pass import NAMED_FRAMES, VersionPass
 from twinform.passes.shared.nodes import piece, pose_piece
-from twinform.passes.shared.pose_frames import ElementPoses
+from twinform.passes.shared.poses import ElementPoses
 from twinform.schemas import Version
 
 Posed = TypeVar("Posed", Visual, Collision, Sensor, Light, Inertial, Include, Link, Joint, Model)

@@ -10,8 +10,7 @@ from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass, map_inside, map_own_elements, replace_child
 from twinform.passes.shared.nodes import pose_piece
-from twinform.passes.shared.pose_frames import read_pose
-from twinform.passes.shared.pose_notation import in_radians
+from twinform.passes.shared.poses import in_radians, read_pose
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 _SINCE = (1, 9)

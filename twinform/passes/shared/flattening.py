@@ -17,7 +17,7 @@ from twinform.passes.carriers.annotations import (
     without_annotation,
 )
 from twinform.passes.shared.nodes import reserve_name
-from twinform.passes.shared.pose_frames import map_frames
+from twinform.passes.shared.poses import map_frames
 
 Part = TypeVar("Part", Link, Joint, Frame)
 _OF_LINKS = ("self_collide", "enable_wind")

@@ -11,7 +11,7 @@ from twinform.ir.frames import FrameGraph
 from twinform.ir.node import Vector3
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.shared.nodes import text_piece
-from twinform.passes.shared.pose_notation import pose_attributes
+from twinform.passes.shared.poses import pose_attributes
 
 ENDS = "ends"
 """The annotation on a joint that connected frames: `<tf:ends parent="mount" child="flange"/>`."""

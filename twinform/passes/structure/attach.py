@@ -26,7 +26,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import FROM, without_annotation
 from twinform.passes.framework.pass_base import DocumentPass, DocumentReader
 from twinform.passes.includes.merge import merge_into_model
-from twinform.passes.shared.pose_notation import OFFSET, POSE
+from twinform.passes.shared.poses import OFFSET, POSE
 from twinform.passes.structure.model_edit import edit_in_modern_sdf
 from twinform.passes.structure.rename_parts import prefixed_scope, rename_model
 

@@ -8,7 +8,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_TAGS, LUMPS_WITHOUT, PRESERVES, TRUE, value_text
 from twinform.passes.shared.nodes import unique_name
-from twinform.passes.shared.pose_frames import link_elements, read_pose
+from twinform.passes.shared.poses import link_elements, read_pose
 
 Blocks = Mapping[str, list[GazeboExtension]]
 

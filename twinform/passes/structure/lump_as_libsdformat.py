@@ -28,8 +28,8 @@ from twinform.ir.node import Vector3
 from twinform.ir.solids import placed
 from twinform.ir.transform import Transform
 from twinform.passes.shared.gazebo_tags import is_preserved
-from twinform.passes.shared.pose_notation import in_radians
-from twinform.passes.structure.combined_bodies import add_guests, body_of
+from twinform.passes.shared.link_shapes import add_guests, body_of
+from twinform.passes.shared.poses import in_radians
 from twinform.passes.structure.gazebo_blocks import (
     SHAPE_ELEMENTS,
     Blocks,
@@ -45,7 +45,7 @@ from twinform.passes.structure.gazebo_blocks import (
 from twinform.passes.structure.lumping_plan import LumpingPlan, plan_lumping
 from twinform.passes.structure.model_edit import EditContext
 from twinform.passes.structure.reference_words import find_mentions
-from twinform.passes.structure.tagged_shapes import KINDS, shape_name
+from twinform.passes.structure.tag_shapes import KINDS, shape_name
 from twinform.schemas import format_value
 
 Shape = TypeVar("Shape", Visual, Collision)

@@ -23,11 +23,10 @@ from twinform.ir.defaults import BODY
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
 from twinform.ir.solids import placed
 from twinform.passes.carriers.carriers import is_ours
-from twinform.passes.shared.link_shapes import NoSolidError
+from twinform.passes.shared.link_shapes import NoSolidError, add_guests, body_of
 from twinform.passes.shared.mesh_solids import Meshes
 from twinform.passes.shared.nodes import unique_name
-from twinform.passes.shared.pose_frames import link_elements
-from twinform.passes.structure.combined_bodies import add_guests, body_of
+from twinform.passes.shared.poses import link_elements
 from twinform.passes.structure.lumping_plan import LumpingPlan, plan_lumping
 from twinform.passes.structure.model_edit import EditContext
 from twinform.passes.structure.reference_words import Mentions, find_mentions

@@ -11,7 +11,7 @@ from twinform.ir.defaults import direction
 from twinform.ir.frames import WORLD, FrameGraph
 from twinform.ir.scopes import outer_models
 from twinform.ir.transform import Transform
-from twinform.passes.shared.pose_notation import in_radians
+from twinform.passes.shared.poses import in_radians
 from twinform.passes.structure.gazebo_blocks import block_content, blocks_by_reference
 from twinform.passes.structure.model_edit import EditContext, ModelEdit
 from twinform.passes.structure.reversal import (

@@ -9,7 +9,7 @@ from tests.unit.passes.reported import entries, findings
 from twinform.ir import Axis, Dynamics, Format, Limit
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import Solid
-from twinform.passes.structure.combined_bodies import body_of
+from twinform.passes.shared.link_shapes import body_of
 
 SDF = "/sdf/model[@name='r']"
 URDF = "/robot[@name='r']"

@@ -11,8 +11,8 @@ from twinform.ir.record import field_value
 from twinform.passes.carriers.annotations import EXTENSION, came_from, is_synthesized, with_annotation
 from twinform.passes.carriers.carriers import DANGLING, OVERRULED, SECOND, Attributes, Keeper, pack, to_element
 from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.changed_names import with_look
 from twinform.passes.legalise.folded_parts import FoldedPart, folded_part
-from twinform.passes.legalise.material_annotations import with_look
 from twinform.passes.legalise.to_sdf.free_links import are_at_one_place, placing_frames
 from twinform.passes.legalise.to_sdf.gazebo_fields import (
     REPLACING,

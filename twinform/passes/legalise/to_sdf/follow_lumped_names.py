@@ -7,7 +7,7 @@ from twinform.ir import Collision, GazeboExtension, Model
 from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
-from twinform.passes.structure.tagged_shapes import seen_shapes
+from twinform.passes.structure.tag_shapes import seen_shapes
 
 
 class FollowLumpedNames(ModelPass):

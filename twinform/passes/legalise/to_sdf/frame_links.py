@@ -19,7 +19,7 @@ from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
 from twinform.passes.legalise.to_sdf.restore_joints import without_reversals
 from twinform.passes.shared.gazebo_tags import FLAGS, flag_tags
-from twinform.passes.shared.pose_notation import FRAME, LINK
+from twinform.passes.shared.poses import FRAME, LINK
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
 

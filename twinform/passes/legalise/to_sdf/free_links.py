@@ -7,7 +7,7 @@ from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import annotate_synthesized, came_from, find_annotation, is_synthesized
 from twinform.passes.legalise.changed_names import scoped_name
-from twinform.passes.shared.pose_notation import NESTED
+from twinform.passes.shared.poses import NESTED
 
 _CLOSE = 1e-9
 """The relative tolerance for numbers that were written from the same value."""

@@ -18,7 +18,7 @@ from twinform.passes.structure.gazebo_blocks import (
     body_settings,
     shape_elements,
 )
-from twinform.passes.structure.tagged_shapes import KINDS, find_early_static, seen_shapes, tagging_links, unread_tags
+from twinform.passes.structure.tag_shapes import KINDS, find_early_static, seen_shapes, tagging_links, unread_tags
 
 _USUAL = FALSE | {"0.0"}
 """What says no more than a flag that is not there."""

@@ -26,8 +26,20 @@ from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.sdf_versions.version_pass import is_foreign
 from twinform.passes.shared.joint_ends import ENDS
 from twinform.passes.shared.nodes import map_elements
-from twinform.passes.shared.pose_frames import POSE_ANNOTATION, AnyPosed, Base, ElementPoses, Posed, Rebasing
-from twinform.passes.shared.pose_notation import NESTED, OFFSET, POSE, as_annotated, pose_attributes, read_offset
+from twinform.passes.shared.poses import (
+    NESTED,
+    OFFSET,
+    POSE,
+    POSE_ANNOTATION,
+    AnyPosed,
+    Base,
+    ElementPoses,
+    Posed,
+    Rebasing,
+    as_annotated,
+    pose_attributes,
+    read_offset,
+)
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

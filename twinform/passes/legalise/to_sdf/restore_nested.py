@@ -15,7 +15,7 @@ from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import renamed
 from twinform.passes.sdf_versions.nest_models import nest
 from twinform.passes.shared.flattening import unsettle_links
-from twinform.passes.shared.pose_notation import NESTED
+from twinform.passes.shared.poses import NESTED
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

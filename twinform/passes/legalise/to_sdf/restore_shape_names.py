@@ -9,7 +9,7 @@ from twinform.passes.carriers.annotations import came_from, find_annotation, wit
 from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import NAME
-from twinform.passes.structure.tagged_shapes import seen_shapes
+from twinform.passes.structure.tag_shapes import seen_shapes
 
 Shape = TypeVar("Shape", Visual, Collision)
 

@@ -14,7 +14,7 @@ from twinform.passes.carriers.annotations import (
 )
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, has_ours
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.shared.pose_notation import BODY
+from twinform.passes.shared.poses import BODY
 from twinform.schemas import versions_of
 
 

@@ -1,9 +1,9 @@
 """Legalisation from URDF to SDF: the passes, in order."""
 
 from twinform.ir import Format
+from twinform.passes.carriers.misplaced import DropMisplaced
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.changed_names import RestoreNames
-from twinform.passes.legalise.drop_misplaced import DropMisplaced
 from twinform.passes.legalise.drop_stale import DropStale
 from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers
 from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf

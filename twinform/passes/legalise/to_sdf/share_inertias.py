@@ -8,7 +8,7 @@ from twinform.ir.solids import ELEMENTS, ORIGIN, Solid
 from twinform.passes.carriers.annotations import came_from
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.shared_inertias import shared_inertias, with_share
-from twinform.passes.structure.combined_bodies import write_solid
+from twinform.passes.shared.link_shapes import write_solid
 
 
 class ShareInertias(ModelPass):

@@ -10,7 +10,7 @@ from twinform.ir import Link, Material, Model, Opaque, Visual, count_parts
 from twinform.passes.carriers.annotations import annotation
 from twinform.passes.carriers.carriers import Keeper, pack, to_element
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.material_annotations import MATERIAL, SHARED_MATERIAL, material_name, seen_by_gazebo
+from twinform.passes.legalise.changed_names import MATERIAL, SHARED_MATERIAL, material_name, seen_by_gazebo
 
 
 class SharedMaterials(ModelPass):

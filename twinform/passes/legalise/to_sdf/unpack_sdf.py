@@ -24,13 +24,12 @@ from twinform.ir import (
 )
 from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import fields_of
-from twinform.passes.carriers.absorb import CarrierError, absorb
+from twinform.passes.carriers.absorb import CarrierError, absorb, has_first, inside, is_repeated
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, is_memory, unpack
-from twinform.passes.carriers.definitions import has_first, inside, is_repeated
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.material_annotations import COLORS, SCRIPTS, urdf_color
+from twinform.passes.legalise.changed_names import COLORS, SCRIPTS, urdf_color
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 

@@ -21,7 +21,7 @@ from twinform.passes.carriers.carriers import to_element
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.joint_ends import joint_pose_attributes
 from twinform.passes.shared.nodes import reserve_name
-from twinform.passes.shared.pose_notation import POSE
+from twinform.passes.shared.poses import POSE
 from twinform.passes.structure.reversal import REVERSIBLE, measures_in_sensor, reroot_sdf
 
 

@@ -6,14 +6,14 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Joint, Link, Model, Node, Opaque, replace_fields
 from twinform.ir.frames import WORLD
+from twinform.passes.carriers.absorb import has_first, inside, is_repeated
 from twinform.passes.carriers.annotations import came_from, with_provenance, without_provenance, without_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SECOND, has_ours
-from twinform.passes.carriers.definitions import has_first, inside, is_repeated
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.to_urdf.map_surfaces import OF_ALL_COLLISIONS
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, take_remainder, urdf_fields
 from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper
-from twinform.passes.shared.pose_notation import BODY
+from twinform.passes.shared.poses import BODY
 from twinform.request_options import UrdfVersion
 
 AnyNode = TypeVar("AnyNode", bound=Node)

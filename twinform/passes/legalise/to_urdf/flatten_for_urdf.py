@@ -12,7 +12,7 @@ from twinform.passes.legalise.changed_names import Names, renamed, with_old_name
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.flattening import differing_rests, flatten, settle_links, with_static_models_fixed
 from twinform.passes.shared.nodes import reserve_name
-from twinform.passes.shared.pose_notation import NESTED, POSE, pose_attributes
+from twinform.passes.shared.poses import NESTED, POSE, pose_attributes
 
 
 class FlattenForUrdf(ToUrdfPass):

@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import Fate, rules
 from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual
-from twinform.passes.legalise.material_annotations import (
+from twinform.passes.legalise.changed_names import (
     COLORS,
     SCRIPTS,
     material_name,

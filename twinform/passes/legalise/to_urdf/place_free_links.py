@@ -9,7 +9,7 @@ from twinform.passes.carriers.carriers import to_element
 from twinform.passes.legalise.to_sdf.frame_links import frame_as_before
 from twinform.passes.legalise.to_sdf.free_links import placing_frames
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.shared.pose_notation import FRAME
+from twinform.passes.shared.poses import FRAME
 
 
 class PlaceFreeLinks(ToUrdfPass):

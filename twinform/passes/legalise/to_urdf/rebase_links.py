@@ -26,8 +26,19 @@ from twinform.passes.carriers.joint_chains import part_of
 from twinform.passes.legalise.changed_names import NAME, SCOPED_NAME
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.joint_ends import joint_pose_attributes
-from twinform.passes.shared.pose_frames import AnyPosed, Base, ElementPoses, Posed, Rebasing
-from twinform.passes.shared.pose_notation import FRAME, OFFSET, POSE, in_radians, offset_attributes, pose_attributes
+from twinform.passes.shared.poses import (
+    FRAME,
+    OFFSET,
+    POSE,
+    AnyPosed,
+    Base,
+    ElementPoses,
+    Posed,
+    Rebasing,
+    in_radians,
+    offset_attributes,
+    pose_attributes,
+)
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 _MOVED = PLAIN | bits_of(Pose, "relative_to", "degrees", "quat_xyzw", "rotation_format")

@@ -11,7 +11,7 @@ from twinform.ir.solids import Solid
 from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.shared_inertias import SHARED, shared_inertias, without_share
-from twinform.passes.structure.combined_bodies import body_of
+from twinform.passes.shared.link_shapes import body_of
 
 _CLOSE = 1e-9
 """How far numbers may be apart that were computed from the same ones: in m, and relative to the largest."""

@@ -10,7 +10,7 @@ from twinform.passes.carriers.annotations import find_annotation, without_annota
 from twinform.passes.carriers.carriers import carry
 from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.shared.pose_notation import LINK
+from twinform.passes.shared.poses import LINK
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
 

@@ -10,7 +10,7 @@ from twinform.ir import Color, Element, Link, Material, Model, Opaque, Visual, r
 from twinform.passes.carriers.annotations import find_annotation, is_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.material_annotations import MATERIAL, SHARED_MATERIAL
+from twinform.passes.legalise.changed_names import MATERIAL, SHARED_MATERIAL
 from twinform.schemas import Context, element_xml, reader, table
 
 Look = tuple[Color | None, str | None]

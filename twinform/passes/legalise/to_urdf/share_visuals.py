@@ -8,7 +8,7 @@ from twinform.ir import Element, GazeboExtension, Link, Material, Model, Visual,
 from twinform.ir.record import field_values
 from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.legalise.material_annotations import LOOK, look_of
+from twinform.passes.legalise.changed_names import LOOK, look_of
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, fits, take_remainder, urdf_fields
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.gazebo_tags import LINK_TAGS

@@ -8,7 +8,7 @@ from twinform.ir.frames import MODEL, FrameGraph
 from twinform.passes.carriers.annotations import SYNTHESIZED, annotate_synthesized, is_synthesized, without_annotation
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.nodes import reserve_name
-from twinform.passes.shared.pose_notation import FRAME, POSE, pose_attributes
+from twinform.passes.shared.poses import FRAME, POSE, pose_attributes
 
 
 class TurnFramesIntoLinks(ToUrdfPass):

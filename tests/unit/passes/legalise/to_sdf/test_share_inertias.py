@@ -10,7 +10,7 @@ from twinform.ir import Document, Inertial
 from twinform.ir.frames import FrameGraph
 from twinform.ir.solids import tensor
 from twinform.ir.transform import Transform
-from twinform.passes.structure.combined_bodies import body_of
+from twinform.passes.shared.link_shapes import body_of
 from twinform.testing.oracles import libsdformat
 
 _CASE = ROOT / "tests/cases/convert/impossible_part.urdf"

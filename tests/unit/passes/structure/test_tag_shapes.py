@@ -5,7 +5,7 @@ import pytest
 import twinform
 from twinform.ir import Model
 from twinform.passes.shared.gazebo_tags import lumped_links
-from twinform.passes.structure.tagged_shapes import seen_shapes, tagged_links, tagging_links
+from twinform.passes.structure.tag_shapes import seen_shapes, tagged_links, tagging_links
 
 _SHAPE = "<collision{}><geometry><sphere radius='1'/></geometry></collision>"
 _LINK = "<link name='{}'>{}</link>"
