@@ -9,7 +9,7 @@ from tests.unit.compiler.graph.models import NESTED, WORLD, hostile_urdf
 from tests.unit.compiler.graph.test_graph import graph_of
 from twinform.compiler.graph import Graph
 from twinform.compiler.graph.graph import shortened
-from twinform.compiler.graph.mermaid import mermaid
+from twinform.compiler.graph.languages import mermaid
 from twinform.compiler.graph.svg import svg
 
 from .watched import Watched

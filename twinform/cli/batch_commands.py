@@ -17,8 +17,15 @@ from twinform.cli.diff import comparison_options
 from twinform.cli.flags import group
 from twinform.cli.inputs import file_options, load_options_of, reading_options
 from twinform.cli.printing import plural, print_line
-from twinform.cli.project_options import consumers_option, keep_physics_option, policy_of, policy_options
-from twinform.cli.request import pipeline_option, request_options, whole_request
+from twinform.cli.project_options import (
+    consumers_option,
+    keep_physics_option,
+    pipeline_option,
+    policy_of,
+    policy_options,
+    request_options,
+    whole_request,
+)
 from twinform.compiler import ConversionRequest, LoadOptions
 from twinform.compiler.batch import (
     PATTERNS,

@@ -15,8 +15,15 @@ from twinform.cli.inputs import InputSource, inputs, reading_options
 from twinform.cli.instrumentation import InstrumentationOptions, watching_options
 from twinform.cli.outputs import Outputs
 from twinform.cli.printing import all_option, notes_option, print_line
-from twinform.cli.project_options import OptionsByFile, consumers_option, keep_physics_option, policy_options
-from twinform.cli.request import passes_of, request_options, whole_request
+from twinform.cli.project_options import (
+    OptionsByFile,
+    consumers_option,
+    keep_physics_option,
+    passes_of,
+    policy_options,
+    request_options,
+    whole_request,
+)
 from twinform.cli.run_conversion import (
     TARGETS,
     ConversionJob,

@@ -13,9 +13,9 @@ from twinform.cli.config_defaults import RuleSettings
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, file_options, load_options_of, model_inputs
 from twinform.cli.instrumentation import mesh_progress
 from twinform.cli.model_files import is_plain
+from twinform.cli.outputs import Rewrite, show_differences, write_back
 from twinform.cli.printing import notes_option, plural, print_line, show
 from twinform.cli.project_options import pipeline_option, policy_of, policy_options
-from twinform.cli.rewriting import Rewrite, show_differences, write_back
 from twinform.compiler import (
     CompileError,
     ConversionRequest,

@@ -13,8 +13,8 @@ from twinform.cli.config_defaults import config_options
 from twinform.cli.file_runs import RunOptions, open_file_run, run_options
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, size_option
 from twinform.cli.model_files import is_text
+from twinform.cli.outputs import Rewrite, write_back
 from twinform.cli.printing import plural, print_document, print_line, print_text, show
-from twinform.cli.rewriting import Rewrite, write_back
 from twinform.compiler import CompileError
 from twinform.compiler.formatting import formatted
 from twinform.compiler.input.parsing import UnreadableError, read_bytes

@@ -10,7 +10,7 @@ from twinform.cli.inputs import inputs, load_options_of, read_model, reading_opt
 from twinform.cli.outputs import Outputs, output_option
 from twinform.cli.printing import show
 from twinform.compiler.graph import WRITERS, build_graph
-from twinform.compiler.graph.mermaid import MOST_CHARACTERS, MOST_EDGES, fits
+from twinform.compiler.graph.languages import MOST_CHARACTERS, MOST_EDGES, fits
 from twinform.compiler.input.load_options import ReadingOptions
 from twinform.diagnostics.reporters import FileFindings
 

@@ -1,5 +1,6 @@
-"""Output files of a command: never written over an input or another output, and all of them or none."""
+"""Output files of a command: never over an input or another output unless in place, and all of them or none."""
 
+import os
 from collections.abc import Hashable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import field
@@ -9,12 +10,15 @@ from typing import NamedTuple
 import click
 
 from twinform.cli.command import FINDINGS, Unusable
-from twinform.cli.printing import print_document, print_line
+from twinform.cli.inputs import InputSource
+from twinform.cli.printing import print_document, print_line, print_text
 from twinform.compiler import write_all_atomically
 from twinform.dataclass import dataclass
 from twinform.diagnostics import HEAD, SideFile
 from twinform.file_access import Readable, read_regular
 from twinform.storage.writing import folded, identities, is_below, is_nothing, is_stream
+from twinform.text import SourceText, UndecodableError
+from twinform.text.source_text import line_diff
 
 output_option = click.option(
     "-o", "--output", "output", metavar="FILE", type=click.Path(path_type=Path), help="Where to write; else it prints."
@@ -211,3 +215,80 @@ def _differs(path: Path, text: str | bytes) -> bool:
 
 def _count(number: int, word: str) -> str:
     return f"{number} {word}{' is' if number == 1 else 's are'}"
+
+
+@dataclass(frozen=True, slots=True)
+class Rewrite:
+    """A file or standard input: what was read, and what is to be written."""
+
+    source: InputSource
+    before: bytes
+    after: bytes
+    side_files: tuple[SideFile, ...] = ()
+
+    @property
+    def is_change(self) -> bool:
+        """Whether there is anything to write."""
+        return self.before != self.after or bool(self.side_files)
+
+    @property
+    def is_stream(self) -> bool:
+        """Whether it came from standard input, and goes to standard output."""
+        return isinstance(self.source.content, bytes)
+
+
+def show_differences(rewrites: Iterable[Rewrite]) -> bool:
+    """Print what would change as a unified diff; return whether anything would."""
+    changed = [each for each in rewrites if each.is_change]
+    for each in changed:
+        print_text("".join(line_diff(each.source.name, _decode(each.before), _decode(each.after))), nl=False)
+        for file in each.side_files:
+            print_line(f"{Path(each.source.name).parent / file.path} would be written")
+    return bool(changed)
+
+
+def _decode(data: bytes) -> str:
+    try:
+        return SourceText.of(data).text
+    except UndecodableError:
+        return data.decode(errors="replace")
+
+
+def write_back(rewrites: Sequence[Rewrite]) -> None:
+    """Write all changed files or none; what came from standard input goes to standard output.
+
+    Raises:
+        Unusable: one of the files cannot be written, is read-only, or has changed since it was read.
+    """
+    files = {Path(each.source.name): each for each in rewrites if each.is_change and not each.is_stream}
+    texts = {path: each.after for path, each in files.items() if each.before != each.after}
+
+    def require_unchanged() -> None:
+        for path, each in files.items():
+            require_as_read(path, each.before)
+            # A rename could replace a read-only file, since it needs permissions for the folder
+            # only. Whoever made the file read-only did not mean that.
+            if not _is_writable(path):
+                raise Unusable(f"{path} is read-only; nothing is written")
+
+    try:
+        write_all_atomically({**_files_beside(rewrites), **texts}, require_unchanged)
+    except OSError as error:
+        raise Unusable(f"cannot write {error.filename}: {error.strerror}") from error
+    for each in rewrites:
+        if each.is_stream:
+            print_document(each.after)
+
+
+def _files_beside(rewrites: Sequence[Rewrite]) -> dict[Path, str | bytes]:
+    """Return the files that passes have made, by their places."""
+    outputs = Outputs([Path(each.source.name) for each in rewrites if not each.is_stream])
+    for each in rewrites:
+        outputs.add_beside(None if each.is_stream else Path(each.source.name), each.side_files)
+    outputs.require_apart([place for place, _ in outputs.texts])
+    return {place.path: content for place, content in outputs.texts}
+
+
+def _is_writable(path: Path) -> bool:
+    """Whether a file may be written; its permissions count for the administrator too."""
+    return bool(path.stat().st_mode & 0o222) and os.access(path, os.W_OK)

@@ -14,8 +14,13 @@ from twinform.cli.inputs import InputSource, inputs, reading_options
 from twinform.cli.instrumentation import show_fault
 from twinform.cli.outputs import Output, Outputs
 from twinform.cli.printing import all_option, notes_option, print_line, print_text
-from twinform.cli.project_options import OptionsByFile, policy_options
-from twinform.cli.request import passes_of, request_options_of_versions, whole_request
+from twinform.cli.project_options import (
+    OptionsByFile,
+    passes_of,
+    policy_options,
+    request_options_of_versions,
+    whole_request,
+)
 from twinform.cli.run_conversion import show_findings, summary
 from twinform.compiler import CompileError, ConversionRequest
 from twinform.compiler.input.load_options import ReadingOptions

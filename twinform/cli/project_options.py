@@ -1,27 +1,29 @@
-"""Options that a configuration has as well: rules, pipelines and consumers, for the project and for single files."""
+"""Options that several commands share and a configuration may have: rules, pipelines, consumers, version, carriers."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Unpack, cast
 
 import click
 from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
-from twinform.cli.command import Unusable
-from twinform.cli.completion import rule_names
+from twinform.cli.command import Unusable, combine_options
+from twinform.cli.completion import pipelines, rule_names, sdf_versions
 from twinform.cli.config_defaults import NO_OWN_SETTINGS, OwnSettings, Project, RuleSettings, settings_of
 from twinform.cli.config_file import ConfigError
-from twinform.cli.flags import group
+from twinform.cli.flags import flags_of, group
 from twinform.cli.inputs import load_options_of
 from twinform.compiler import LoadOptions
-from twinform.compiler.input.load_options import FileOptions
+from twinform.compiler.input.load_options import FileOptions, ReadingOptions
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Policy
 from twinform.diagnostics.diagnostic import GROUPS
 from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule
 from twinform.diagnostics.rule_registry import rules as known_rules
+from twinform.request_options import RequestOptions, known_sdf_version
+from twinform.schemas import parse_version
 
 if TYPE_CHECKING:
     from twinform.passes import Pipeline
@@ -254,3 +256,43 @@ consumers_option = click.option(
 keep_physics_option = click.option(
     "--keep-physics", is_flag=True, help="With --for: refuse passes that change masses, inertias, joints or limits."
 )
+
+
+def _known_versions(ctx: click.Context, _option: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the versions that are asked for, the newest first, or else the version of the configuration."""
+    configured = (ctx.default_map or {}).get("sdf_version")
+    values = values or ((str(configured),) if configured else ())
+    try:
+        values = tuple(map(known_sdf_version, values))
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from error
+    return tuple(sorted(set(values), key=parse_version, reverse=True))
+
+
+_PIPELINE = {"callback": pipeline_option("passes"), "shell_complete": pipelines}
+
+request_options = group("request", dict, *flags_of(RequestOptions, passes=_PIPELINE))
+"""Gives a command the options of what a file becomes."""
+request_options_of_versions = combine_options(
+    click.option(
+        "--sdf-version",
+        "sdf_versions",
+        metavar="V",
+        multiple=True,
+        callback=_known_versions,
+        shell_complete=sdf_versions,
+        help="A version of SDF to write; repeatable.",
+    ),
+    group("request", dict, *flags_of(RequestOptions, without=["sdf_version"], passes=_PIPELINE)),
+)
+"""Gives a command the same options, but for several versions of SDF."""
+
+
+def passes_of(request: RequestOptions) -> "Pipeline | None":
+    """Return the pipeline of a request, which the command line has parsed."""
+    return cast("Pipeline | None", request.get("passes"))
+
+
+def whole_request(request: RequestOptions, reading: ReadingOptions, **more: Unpack[RequestOptions]) -> RequestOptions:
+    """Complete the options of what a file becomes with those that a command has elsewhere."""
+    return {**request, "expand_includes": reading.get("expand_includes") or False, **more}

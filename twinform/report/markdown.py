@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from itertools import islice
 
 from twinform.compiler.compare.comparison_reporters import amounts_of, heading_of, places_of, summary, what_differs
-from twinform.compiler.graph.mermaid import fits, mermaid
+from twinform.compiler.graph.languages import fits, mermaid
 from twinform.diagnostics import Diagnostic, Fate, Severity
 from twinform.diagnostics.reporters import printable
 from twinform.lazy import lazy_pattern

@@ -3,9 +3,8 @@
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
-from twinform.compiler.graph.dot import dot
 from twinform.compiler.graph.graph import Attachment, Cluster, Follower, Graph, GraphJoint, GraphNode, build_graph
-from twinform.compiler.graph.mermaid import mermaid
+from twinform.compiler.graph.languages import dot, mermaid
 from twinform.compiler.graph.svg import svg
 
 WRITERS: Mapping[str, Callable[[Graph], str]] = MappingProxyType({"mermaid": mermaid, "dot": dot, "svg": svg})

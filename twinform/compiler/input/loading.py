@@ -32,17 +32,15 @@ from twinform.compiler.input.load_options import (
     name_of_input,
     parts_of,
 )
-from twinform.compiler.input.parser_quirks import (
-    has_comment_after_text,
-    report_split_values,
-    report_tabbed_numbers,
-    report_unexpanded,
-)
 from twinform.compiler.input.parsing import (
     UnreadableError,
+    has_comment_after_text,
     parse,
     read_bytes,
     refuse_excess,
+    report_split_values,
+    report_tabbed_numbers,
+    report_unexpanded,
     strip_default_namespace,
 )
 from twinform.compiler.input.size_limits import LIFTED_LIMITS, USUAL_LIMITS, Limits, excess_of_json

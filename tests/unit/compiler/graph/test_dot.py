@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from twinform.compiler.graph import Graph
-from twinform.compiler.graph.dot import dot, quoted
 from twinform.compiler.graph.graph import shortened
+from twinform.compiler.graph.languages import dot, quoted
 
 from .models import HOSTILE, NESTED, WORLD, hostile_urdf
 from .test_graph import graph_of

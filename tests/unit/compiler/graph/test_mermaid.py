@@ -4,7 +4,7 @@ import re
 
 from tests.chains import chain
 from twinform.compiler.graph import Graph, GraphNode
-from twinform.compiler.graph.mermaid import MOST_EDGES, escaped, fits, mermaid
+from twinform.compiler.graph.languages import MOST_EDGES, escaped, fits, mermaid
 
 from .models import HOSTILE, NESTED, WORLD, hostile_urdf
 from .test_graph import graph_of
