@@ -9,7 +9,7 @@ from typing import TypeVar
 from reports.harness.sample import Sample
 from testbed.markdown import table
 from twinform.testing import oracles
-from twinform.testing.oracles.dynamics import TOLERANCE, moved_alike
+from twinform.testing.oracles.drake import TOLERANCE, moved_alike
 
 WANTED = 20
 """So many robots have to move alike."""

@@ -20,7 +20,7 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, LedgerEntry, rules
 from twinform.diagnostics.rules import MODEL_NOT_CHOSEN
 from twinform.ir import Document, Format, Joint, walk
-from twinform.passes.joints.carried_elements import urdf_elements
+from twinform.passes.joints.transmission import urdf_elements
 from twinform.passes.shared.candidates import candidates
 from twinform.profiles import Assessment, Effect, Profile, assess
 from twinform.request_options import Language

@@ -23,7 +23,7 @@ from twinform.option import require_options
 from twinform.passes.carriers.annotations import find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import PART
 from twinform.passes.carriers.lumped_names import mentions_collisions
-from twinform.passes.joints.carried_elements import urdf_elements
+from twinform.passes.joints.transmission import urdf_elements
 from twinform.passes.shared.moving_bodies import moving_bodies, neighbors
 
 if TYPE_CHECKING:

@@ -11,8 +11,7 @@ from enum import StrEnum
 from typing import NamedTuple, TypeVar, cast
 
 from twinform.ir.node import Node
-from twinform.ir.record import field_values
-from twinform.ir.sourced import Sourced
+from twinform.ir.record import Sourced, field_values
 
 _NAMES = ("name", "reference", "uri")
 """Fields that tell nodes of one kind apart, the best first."""

@@ -4,8 +4,7 @@ from collections.abc import Iterable
 from typing import Annotated, Self
 
 from twinform.diagnostics import Location
-from twinform.ir.record import record
-from twinform.ir.sourced import Constraint, Sourced
+from twinform.ir.record import Constraint, Sourced, record
 
 # Names are checked where they come from people: no writer could make XML of `a b`. Beyond ASCII
 # the writer asks libxml2, which knows the tables of Unicode.

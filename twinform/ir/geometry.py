@@ -3,8 +3,7 @@
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from twinform.ir.node import Node, Vector3
-from twinform.ir.record import fields_of, record
-from twinform.ir.sourced import Constraint
+from twinform.ir.record import Constraint, fields_of, record
 
 if TYPE_CHECKING:
     from pydantic import GetCoreSchemaHandler, SerializerFunctionWrapHandler

@@ -5,8 +5,7 @@ from dataclasses import field
 from typing import Annotated
 
 from twinform.ir.element import Opaque
-from twinform.ir.record import fields_of, record
-from twinform.ir.sourced import Constraint, OneOf, Sourced
+from twinform.ir.record import Constraint, OneOf, Sourced, fields_of, record
 
 Vector3 = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]

@@ -2,18 +2,24 @@
 
 Fields are those of dataclasses, which type checkers, `help` and Pydantic know. To import Pydantic takes longer than
 most of what a short command does, so that this waits until something is validated.
+
+`Sourced` is the base class of parts of a document, which know where they come from.
 """
 
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, field, fields
 from functools import cache, partial
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any, ClassVar, ParamSpec, Self, TypeVar, cast, dataclass_transform
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, ParamSpec, Self, TypeVar, cast, dataclass_transform
 
 from twinform.dataclass import LazySignature
+from twinform.diagnostics import NOWHERE, Location, Source
 
 if TYPE_CHECKING:
-    from pydantic import TypeAdapter
+    from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter
+    from pydantic.json_schema import JsonSchemaValue
+    from pydantic_core import CoreSchema
+
 
 Values = ParamSpec("Values")
 AnyRecord = TypeVar("AnyRecord", bound="Record")
@@ -254,3 +260,79 @@ def _adapter(kind: type[AnyRecord]) -> "TypeAdapter[AnyRecord]":
     from pydantic import TypeAdapter  # noqa: PLC0415 - see the docstring of the module
 
     return TypeAdapter(kind)
+
+
+class Constraint:
+    """Arguments for `pydantic.Field`: a discriminator, a pattern, or the length of a tuple."""
+
+    def __init__(self, **options: Any) -> None:
+        self._options = options
+
+    def __repr__(self) -> str:
+        return f"Constraint({', '.join(f'{name}={value!r}' for name, value in self._options.items())})"
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: "GetCoreSchemaHandler") -> "CoreSchema":
+        import pydantic  # noqa: PLC0415 - only Pydantic calls this
+
+        return handler.generate_schema(Annotated[source, pydantic.Field(**self._options)])
+
+
+class Unseen:
+    """Marks a field that exists in Python alone: an instance of its type, which JSON and its schema leave out."""
+
+    def __repr__(self) -> str:
+        return "Unseen()"
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: "GetCoreSchemaHandler") -> "CoreSchema":
+        from pydantic_core import core_schema  # noqa: PLC0415 - only Pydantic calls this
+
+        return core_schema.json_or_python_schema(core_schema.none_schema(), core_schema.is_instance_schema(source))
+
+    def __get_pydantic_json_schema__(self, schema: "CoreSchema", handler: "GetJsonSchemaHandler") -> "JsonSchemaValue":
+        from pydantic_core import PydanticOmit  # noqa: PLC0415 - only Pydantic calls this
+
+        raise PydanticOmit
+
+
+class OneOf:
+    """Exactly one of several fields of a part has to be there."""
+
+    def __init__(self, *names: str) -> None:
+        self._names = names
+
+    def __repr__(self) -> str:
+        return f"OneOf({', '.join(map(repr, self._names))})"
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: "GetCoreSchemaHandler") -> "CoreSchema":
+        from pydantic_core import core_schema  # noqa: PLC0415 - only Pydantic calls this
+
+        return core_schema.no_info_after_validator_function(self._require_one, handler(source))
+
+    def _require_one(self, part: Any) -> Any:
+        from pydantic_core import PydanticCustomError  # noqa: PLC0415 - see above
+
+        count = sum(getattr(part, name) is not None for name in self._names)
+        if count != 1:
+            told = {"count": count, "names": " or ".join(self._names)}
+            raise PydanticCustomError("one_of", "has {count} of {names}; expected one", told)
+        return part
+
+
+@record
+class Sourced(Record):
+    """A frozen part of a document.
+
+    Attributes:
+        source: the place it was read from; it takes no part in equality or in JSON.
+    """
+
+    __pydantic_config__: ClassVar[dict[str, str]] = {"extra": "forbid", "ser_json_inf_nan": "strings"}
+
+    source: Annotated[Source | None, Unseen()] = field(
+        default=None, repr=False, compare=False, metadata={"exclude": True}
+    )
+
+    @property
+    def location(self) -> Location:
+        """The place where it was read; unknown for what a pass made."""
+        return self.source.location if self.source else NOWHERE

@@ -18,9 +18,8 @@ from twinform.ir.link import Inertial, Link
 from twinform.ir.model import GazeboExtension, Include, Model
 from twinform.ir.node import Node
 from twinform.ir.pose import Frame, Pose
-from twinform.ir.record import Record, field_values, fields_of
+from twinform.ir.record import Record, Sourced, field_values, fields_of
 from twinform.ir.sensor import Light, Sensor
-from twinform.ir.sourced import Sourced
 from twinform.ir.visual import Material, Visual
 
 AnyPart = TypeVar("AnyPart", bound=Sourced)

@@ -5,7 +5,7 @@ import pkgutil
 from collections.abc import Iterator
 
 import twinform.ir
-from twinform.ir.sourced import Sourced
+from twinform.ir.record import Sourced
 
 for _each in pkgutil.iter_modules(twinform.ir.__path__, "twinform.ir."):
     importlib.import_module(_each.name)

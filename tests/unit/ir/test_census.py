@@ -5,7 +5,7 @@ from typing import Any
 from hypothesis import given
 
 from twinform.ir import Document, Element, GazeboExtension, Link, Node, Opaque, Visual, holds_opaque, walk
-from twinform.ir.sourced import Sourced
+from twinform.ir.record import Sourced
 from twinform.testing import strategies
 
 OPAQUE = Opaque(element=Element(name="{urn:x}mark"))

@@ -9,8 +9,7 @@ import pytest
 from griffe import Docstring, DocstringSectionAttributes
 
 import twinform.ir
-from twinform.ir.record import fields_of
-from twinform.ir.sourced import Sourced
+from twinform.ir.record import Sourced, fields_of
 
 from .kinds import kinds
 

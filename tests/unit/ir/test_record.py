@@ -13,8 +13,7 @@ import twinform
 from twinform.diagnostics import Source
 from twinform.ir import Box, Document, Geometry, Inertial, Link, Node, Pose, Visual, walk
 from twinform.ir.geometry import ShapeNode
-from twinform.ir.record import field_values, fields_of, record, required_fields
-from twinform.ir.sourced import Sourced
+from twinform.ir.record import Sourced, field_values, fields_of, record, required_fields
 from twinform.testing import strategies
 
 from .kinds import kinds

@@ -9,7 +9,7 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Element, Format, GazeboExtension, Model, Plugin, rewrite
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.joints.carried_elements import location_of, urdf_elements
+from twinform.passes.joints.transmission import location_of, urdf_elements
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sites import PluginSite, map_plugins, plugins_of
 

@@ -22,7 +22,7 @@ from twinform.ir import Document, Model, Sensor, rewrite
 from twinform.lazy import lazy_pattern
 from twinform.passes import Pipeline
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.joints.carried_elements import urdf_elements
+from twinform.passes.joints.transmission import urdf_elements
 from twinform.passes.plugins.add_elements import add_own_frame, frames_of, is_placed, own_frame_name, set_frame_id
 from twinform.passes.plugins.bridge_config import bridges
 from twinform.passes.plugins.catalog import release

@@ -10,9 +10,9 @@ from twinform.ir.joint import Joint
 from twinform.ir.link import Link
 from twinform.ir.model import Include, Model
 from twinform.ir.pose import Frame, Pose
+from twinform.ir.record import Sourced
 from twinform.ir.scopes import nested_includes, scoped_links
 from twinform.ir.sensor import SENSOR_ELEMENTS, Light, Sensor
-from twinform.ir.sourced import Sourced
 from twinform.ir.verify.verify_bodies import verify_rotation
 from twinform.ir.verify.verify_names import VerifiedScope
 from twinform.ir.visual import Collision, Visual

@@ -26,7 +26,7 @@ from twinform.ir.element import Opaque
 from twinform.passes.classic.moving import set_text, text_at
 from twinform.passes.classic.tables import hardware_names, unread_parts
 from twinform.passes.framework.pass_registry import find_pass, registered_passes
-from twinform.passes.joints.carried_elements import as_parts, location_of, replace_parts, urdf_elements
+from twinform.passes.joints.transmission import as_parts, location_of, replace_parts, urdf_elements
 from twinform.passes.plugins.add_elements import add_sensor, add_world_plugin
 from twinform.passes.plugins.catalog_types import Release, SensorKind
 from twinform.passes.plugins.sites import PluginSite, sensors_of

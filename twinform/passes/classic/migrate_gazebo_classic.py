@@ -20,8 +20,8 @@ from twinform.passes.classic.migrate_sensors import SensorMigration
 from twinform.passes.classic.moving import accept_trial, trial_sink
 from twinform.passes.classic.plugins import PluginMigration
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.joints.carried_elements import declare_carriers
 from twinform.passes.joints.ros2_control_from_transmissions import Ros2ControlFromTransmissions
+from twinform.passes.joints.transmission import declare_carriers
 from twinform.passes.plugins.catalog import release
 from twinform.passes.plugins.catalog_types import Release
 from twinform.passes.plugins.release_names import ReleaseName

@@ -11,7 +11,7 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.ir.changes import ChangeKind, NodeChange, Sizes, changes, count_changes
-from twinform.ir.sourced import Sourced
+from twinform.ir.record import Sourced
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.framework.pass_errors import PassError
 from twinform.passes.framework.pipeline import PassInstrumentation, Pipeline

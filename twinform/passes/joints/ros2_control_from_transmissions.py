@@ -10,19 +10,17 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Document, Element, Format, Joint, Model, Opaque, rewrite
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.joints.carried_elements import (
-    as_parts,
-    declare_carriers,
-    location_of,
-    replace_parts,
-    urdf_elements,
-)
 from twinform.passes.joints.transmission import (
     PLUGINS,
     STATES,
     Transmission,
+    as_parts,
     commands_of,
+    declare_carriers,
+    location_of,
     read_transmission,
+    replace_parts,
+    urdf_elements,
     write_ros2_transmission,
 )
 from twinform.passes.shared.nodes import unique_name

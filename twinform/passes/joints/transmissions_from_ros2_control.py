@@ -9,13 +9,6 @@ from pydantic import Field
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Element, Format, Model, Opaque, rewrite
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.joints.carried_elements import (
-    as_parts,
-    declare_carriers,
-    location_of,
-    replace_parts,
-    urdf_elements,
-)
 from twinform.passes.joints.transmission import (
     CLASSES,
     PLUGINS,
@@ -23,7 +16,12 @@ from twinform.passes.joints.transmission import (
     STATE_CLASS,
     End,
     Transmission,
+    as_parts,
+    declare_carriers,
+    location_of,
     read_transmission,
+    replace_parts,
+    urdf_elements,
     write_ros1_transmission,
 )
 from twinform.passes.shared.nodes import unique_name

@@ -20,8 +20,8 @@ from twinform.ir import (
     map_references,
 )
 from twinform.ir.frames import MODEL, WORLD
+from twinform.ir.record import Sourced
 from twinform.ir.scopes import nested_models, outer_models
-from twinform.ir.sourced import Sourced
 from twinform.lazy import lazy_pattern
 from twinform.passes.shared.nodes import map_elements
 from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text

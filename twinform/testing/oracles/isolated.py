@@ -62,12 +62,12 @@ def simulate(a: str | PathLike[str], b: str | PathLike[str], *, seconds: float =
         EngineMissingError: Drake is not installed.
         EngineUnreadableError: Drake cannot read or simulate a file.
     """
-    from twinform.testing.oracles import dynamics  # noqa: PLC0415 - as above
+    from twinform.testing.oracles import drake  # noqa: PLC0415 - as above
 
     required("drake")
     first, second = Path(a).resolve(), Path(b).resolve()
     try:
-        return call(dynamics.moved_alike, first, second, seconds)
+        return call(drake.moved_alike, first, second, seconds)
     except ChildDiedError:
         raise _culprit(first, second, ("drake", "drake")) from None
 
