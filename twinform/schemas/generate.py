@@ -45,10 +45,6 @@ def main(arguments: Sequence[str]) -> int:
     return 0
 
 
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
-
-
 _NUMBERS = frozenset({"double", "vector2d", "vector3", "quaternion", "color", "color4", "pose"})
 _WIDTH = 112
 _Key = TypeVar("_Key", bound=Hashable)
@@ -134,3 +130,7 @@ def _elements(facts: Table) -> Iterator[tuple[str, str | None, Fact]]:
             inner = facts.resolve(row)
             yield row.name, row.type or inner.type, inner
             pending.append(inner)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
