@@ -22,6 +22,8 @@ from twinform.compiler.output.json import json_schema_text
 PACKAGE = Path(twinform.__file__).parent
 _WAYS = frozenset({"findall", "finditer", "fullmatch", "match", "search", "split", "sub", "subn"})
 _AT_THE_BEGINNING = frozenset({"fullmatch", "match"})
+_LAZY = "lazy_pattern"
+"""What the package calls instead of `re.compile`."""
 
 
 class Used(NamedTuple):
@@ -67,7 +69,7 @@ def patterns() -> tuple[Used, ...]:
 
 
 def _mentions_re(tree: ast.Module) -> bool:
-    return any(isinstance(each, ast.Name) and each.id == "re" for each in ast.walk(tree))
+    return any(isinstance(each, ast.Name) and each.id in {"re", _LAZY} for each in ast.walk(tree))
 
 
 def _ways(trees: Iterable[ast.Module]) -> Mapping[str, set[str]]:
@@ -96,10 +98,10 @@ def _of_module(path: Path, tree: ast.Module, everywhere: Mapping[str, set[str]])
     )
     for call in ast.walk(tree):
         match call:
-            case ast.Call(func=ast.Attribute(value=ast.Name(id="re"), attr=way), args=[pattern, *_]) if way in {
-                *_WAYS,
-                "compile",
-            }:
+            case ast.Call(
+                func=ast.Attribute(value=ast.Name(id="re"), attr=called) | ast.Name(id=called), args=[pattern, *_]
+            ) if called in {*_WAYS, "compile", _LAZY} and (called == _LAZY or isinstance(call.func, ast.Attribute)):
+                way = "compile" if called == _LAZY else called
                 used = ways.get(names.get(id(call), ""), {"search"}) if way == "compile" else {way}
                 made = _evaluated(call, pattern, way, module)
                 if made is not None:
