@@ -28,8 +28,9 @@ from twinform.text.line_merging import (
     split_lines,
     with_markers,
 )
+from twinform.text.tokens import COMMENT
 
-_PIECES = lazy_pattern(r"(<!--.*?-->|<[^<>]*>)", re.DOTALL)
+_PIECES = lazy_pattern(rf"({COMMENT}|<[^<>]*+>)")
 _ROOT = lazy_pattern(r"<(robot|sdf|gazebo)\b")
 Step = tuple[Hashable, int]
 """What an element is known by, and its number among its siblings that are known by the same."""

@@ -197,7 +197,8 @@ _REFERENCES = frozenset(
         rules.UNKNOWN_REFERENCE,
     }
 )
-_JOINT = lazy_pattern(r".*/joint(?:\[(?:@name='.*?'|\d+)\])?(?=/|$)")
+_JOINT = lazy_pattern(r"/joint(?=[\[/]|$)")
+_PREDICATE_END = lazy_pattern(r"\](?=/|$)")
 _ENDS = ("/parent", "/child")
 
 
@@ -231,5 +232,8 @@ def _of_stand_ins(stand_ins: Iterable[StandIn]) -> Iterator[Callable[[Diagnostic
 
 def _joint_of(path: str) -> str:
     """Return the path of the joint that a path leads into; empty if it leads into none."""
-    found = _JOINT.match(path)
-    return found[0] if found else ""
+    step = max(_JOINT.finditer(path), key=lambda found: found.end(), default=None)
+    if step is None or path[step.end() :][:1] != "[":
+        return path[: step.end()] if step else ""
+    end = _PREDICATE_END.search(path, step.end())
+    return path[: end.end()] if end else ""

@@ -178,9 +178,9 @@ def _piece_without_name(text: str, offset: int) -> Span | None:
 _READ_BEFORE = 2000
 """So many characters before an error are searched for the tag that it is in."""
 _TAG = lazy_pattern(r"<(/?[\w:.-]+)")
-_ATTRIBUTE = lazy_pattern(r"([\w:.-]+)\s*=\s*[\"']?")
+_ATTRIBUTE = lazy_pattern(r"(?<![\w:.-])([\w:.-]++)\s*+=\s*+[\"']?")
 _TAGS = lazy_pattern(rf"{COMMENT}|{INSTRUCTION}|{SECTION}|<(?P<end>/?)(?P<name>[^\s<>/!?]++)(?P<rest>[^<>]*+)>")
-_MISMATCH = lazy_pattern(r"(?P<open>\S+) line (?P<line>\d+) and (?P<close>\S+)$")
+_MISMATCH = lazy_pattern(r"(?<!\S)(?P<open>\S++) line (?P<line>\d++) and (?P<close>\S++)$")
 _IN_TAG = lazy_pattern(r"in [Tt]ag (?P<tag>\S+) line (?P<line>\d+)|Start Tag (?P<start>\S+) line (?P<at>\d+)")
 _PREFIX = lazy_pattern(r"prefix (?P<prefix>\S+) (?:for (?P<word>\S+) )?on (?P<tag>\S+) is")
 _QUOTED = lazy_pattern(r"'([^']*)'")
@@ -268,7 +268,7 @@ def _no_blank(site: _Site) -> str:
     """Tell a quote that is missing from a blank, and both from a tag that is not closed."""
     if site.here in {"<", ""}:
         return _open_tag(site)
-    value = _last(re.compile(r"""[\w:.-]+\s*=\s*(?:"([^"]*)"|'([^']*)')"""), site.before)
+    value = _last(re.compile(r"""(?<![\w:.-])[\w:.-]++\s*+=\s*+(?:"([^"]*+)"|'([^']*+)')"""), site.before)
     if value and (value[1] or value[2] or "").rstrip().endswith("="):
         name = re.match(r"[\w:.-]+", value[0])
         return f"the value of {name[0]!r} in {site.tag} has no closing quote" if name else ""

@@ -236,8 +236,8 @@ _LONGEST = 65535
 _PLACE = lazy_pattern(r"\{([^{}]++)\}")
 """A placeholder: names of values, of which the first that is known is taken."""
 _PIECE = lazy_pattern(r"\(([^()]++)\)")
-_CHOICE = lazy_pattern(r"\|(?![^{}]*\})")
-"""Separates the texts of a piece, of which the first that can become a topic is taken."""
+_CHOICE = lazy_pattern(r"\|(?![^{}]{0,100}+\})")
+"""Separates the texts of a piece, of which the first that can become a topic is taken; braces are short."""
 
 
 def is_valid_topic(name: str) -> bool:

@@ -137,10 +137,8 @@ def main() -> None:
 
 _LONGEST = 1000
 """Characters of a message, which repeats the expressions that it is about."""
-_EXPRESSION = re.compile(
-    r"\s*when evaluating expression '(?P<innermost>.*?)'(?=\s+when evaluating expression '|$)", re.DOTALL
-)
-_EVAL = re.compile(r"\s*when evaluating '(?P<eval>\$\(eval .*\))'", re.DOTALL)
+_EXPRESSION, _EVAL = "when evaluating expression '", "when evaluating '$(eval "
+"""What the messages of xacro say before an expression; the innermost expression comes first."""
 Description = dict[str, Any]
 """What the compiler is told: the message, and its help or an unknown name with the known ones and their places."""
 
@@ -180,9 +178,10 @@ def _shortened(text: str) -> str:
 
 
 def _unknown_property(name: str, message: str, definitions: Definitions) -> Description:
-    found = _EVAL.search(message)
-    if found:
-        return {"error": f"argument {name!r} is not defined{definitions.around()}, in {_shortened(found['eval'])}"}
+    _, said, rest = message.partition(_EVAL)
+    if said:
+        evaluated = f"$(eval {rest[: rest.rfind(')')]})"
+        return {"error": f"argument {name!r} is not defined{definitions.around()}, in {_shortened(evaluated)}"}
     _, inside = _expression(message)
     words = f"property {name!r} is not defined{definitions.around()}{inside}"
     return {"error": words, "unknown": _unknown("property", name, definitions.properties)}
@@ -190,8 +189,11 @@ def _unknown_property(name: str, message: str, definitions: Definitions) -> Desc
 
 def _expression(message: str) -> tuple[str, str]:
     """Split the expression that it is about off a message of xacro."""
-    found = _EXPRESSION.search(message)
-    return (message[: found.start()], f", in ${{{_shortened(found['innermost'])}}}") if found else (message, "")
+    before, said, rest = message.partition(_EXPRESSION)
+    innermost = rest.partition(_EXPRESSION)[0].rstrip()
+    if not said or not innermost.endswith("'"):
+        return message, ""
+    return before.rstrip(), f", in ${{{_shortened(innermost[:-1])}}}"
 
 
 def _unknown(kind: str, name: str, known: Mapping[str, FileLine | None]) -> Description:
