@@ -48,7 +48,7 @@ def test_lines_may_move(repository: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "old", "new", "code", "words"),
     [
-        (str(HOUSE), "</world>", "", 2, "[not-well-formed]"),
+        (str(HOUSE), "</world>", "", 1, "[not-well-formed]"),
         (str(WORLD), "twinform: allow indefinite-inertia", "allow indefinite-inertia", 1, "[indefinite-inertia]"),
         ("robots/parts.xacro", 'link="${side}_tool"', 'link="${side}_tol"', 1, "robots/parts.xacro:7:20: error: "),
         ("robots/arm.urdf.xacro", '<link name="base"/>', '<link name="base" mass="1"/>', 1, "[unknown-attribute]"),

@@ -35,11 +35,11 @@ _NEWEST_WITHOUT_HARM = "1.11"
 """The version of an included URDF where the file around it has none."""
 
 Wanted = Callable[[Include], bool]
-"""Tells whether an include is to be expand_document."""
+"""Tells whether an include is to be expanded."""
 
 
 class _IncludedFile(NamedTuple):
-    """A file with all its includes expand_document.
+    """A file with all its includes expanded.
 
     It is made of a number of `files` with a total `size`, and its models are nested to a `depth`. `frame` is the frame
     of its model in the frame that an include places.
@@ -55,7 +55,7 @@ class _IncludedFile(NamedTuple):
 def expand(
     loaded: LoadResult, load_options: LoadOptions, *, wanted: Wanted | None = None, carriers: bool = True
 ) -> LoadResult:
-    """Expand the includes of a document, and report those that cannot be expand_document."""
+    """Expand the includes of a document, and report those that cannot be expanded."""
     document = loaded.document
     if document is None or not loaded.accepted or document.format is not Format.SDF or not has_includes(document):
         return loaded
@@ -172,7 +172,7 @@ class _IncludeExpander:
     def _model_file(
         self, include: Include, path: Path, around: Document, above: tuple[Path, ...]
     ) -> _IncludedFile | None:
-        """Return an included file, expand_document; None where it cannot be read, which is reported."""
+        """Return an included file, expanded; None where it cannot be read, which is reported."""
         real = path.resolve()
         if not path.is_file():
             message = f"{include.uri!r} leads to {str(path)!r}, but there is no such file"
@@ -220,7 +220,7 @@ class _IncludeExpander:
         if self.full:
             return  # the files above would only say the same again
         self.full = True
-        message = f"{include.uri!r} is not expand_document: {why}"
+        message = f"{include.uri!r} is not expanded: {why}"
         where = include.location.at("uri")
         self.sink.report(rules.TOO_MANY_INCLUDES, message, where, found=include.uri, help=help)
 

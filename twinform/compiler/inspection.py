@@ -45,10 +45,12 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
     report_driven_joints(document, sink)
     # These checks take a fifth of the time of `check` where the files are there.
     report_contact_sensors(document, sink)
-    if not any(each.rule.unsound and each.is_error for each in (*loaded.diagnostics, *loaded.allowed)):
-        report_massless(document, sink)
+    errors = {each.rule for each in (*loaded.diagnostics, *loaded.allowed) if each.is_error}
     files = report_named_files(document, Path(loaded.path), load_options.search, loaded.tree, sink)
-    report_mistakes(document, loaded.tree, files, sink)
+    if rules.TOO_MANY_INCLUDES not in errors:  # what is there of it is a part, and a large one
+        if not any(each.unsound for each in errors):
+            report_massless(document, sink)
+        report_mistakes(document, loaded.tree, files, sink)
     if loaded.recovered:
         sink.diagnostics = without_consequences(sink.diagnostics, loaded.diagnostics, loaded.recovered.stand_ins)
     whole = DiagnosticSink(loaded.path, load_options.strict, list(loaded.diagnostics), origins=dict(loaded.origins))
