@@ -25,14 +25,17 @@ _RUN = Path(__file__).with_name("plain_xacro_run.py")
 _SECONDS = 60
 _FIND = re.compile(r"\$\(find\s+([\w-]+)\s*\)")
 _ERROR = re.compile(r"^(?=error: |XML parsing error: )", re.MULTILINE)
+_NO_PACKAGE = "a package that is not there"
 _REASONS = {
-    "a package that is not there": r"package.* (?:is not|not) found",
+    _NO_PACKAGE: r"package.* (?:is not|not) found",
     "a file that is not there": r"No such file or directory",
-    "an argument that is not given": r"Undefined substitution argument",
-    "a name that stands for nothing": r"name '\w+' is not defined",
-    "a macro that is not there": r"unknown macro name",
-    "a parameter that the macro does not have, or lacks": r"Invalid parameter|Undefined parameters|Unused block",
-    "a mistake in an expression": r"when evaluating expression|invalid syntax|was never closed|unmatched",
+    "an argument that is not given": r"Undefined substitution argument|^(?:the )?arguments? .* ha(?:s|ve) no values?$",
+    "a name that stands for nothing": r"(?:name|property|argument) '[^']+' is not defined",
+    "a macro that is not there": r"unknown macro name|^there is no macro '",
+    "a parameter that the macro does not have, or lacks": (
+        r"Invalid parameter|Undefined parameters|Unused block|^macro '[^']+' "
+    ),
+    "a mistake in an expression": r"when evaluating expression|, in \$\{|invalid syntax|was never closed|unmatched",
     "a scope outside of all macros": r"has no attribute '_setitem'",
     "XML that is not well-formed": r"not well-formed XML|XML parsing error",
 }
@@ -67,6 +70,8 @@ class Compared:
     @property
     def is_alike(self) -> bool:
         """Whether both agree on it."""
+        if self.verdict is Verdict.REFUSED_THERE:
+            return reason_of(self.theirs) == _NO_PACKAGE  # here the rest is expanded, with a finding about the package
         return self.verdict is Verdict.SAME or (
             self.verdict is Verdict.BOTH_REFUSE and self.reason == reason_of(self.theirs)
         )
