@@ -235,3 +235,11 @@ def test_groups_of_rules_are_allowed_and_denied_and_rules_win_over_them(run: Run
     Path("twinform.toml").write_text("allow = ['structure']")
     assert run("check", "a.urdf").stdout == ""
     assert "did you mean physics?" in run("check", "a.urdf", "--allow", "physcs").stderr
+
+
+def test_two_links_to_one_file_are_two_names_of_a_robot(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "one.urdf").write_text('<robot name="r"><link name="a"/></robot>')
+    for name in ("two.urdf", "three.urdf"):
+        (tmp_path / name).symlink_to("one.urdf")
+    done = run("check", str(tmp_path))
+    assert (done.exit_code, done.output.splitlines()[-1]) == (0, "3 files: 0 errors, 0 warnings, 0 notes")

@@ -173,14 +173,15 @@ class IncludeGraph:
 
     def roles(self, files: Iterable[str]) -> dict[str, Role]:
         """Tell which of some files are robots, and which are only parts of others."""
-        known = {os.path.realpath(each): each for each in files}
+        paths = {each: os.path.realpath(each) for each in files}  # several links may lead to one file
+        known = {path: name for name, path in paths.items()}
         for path, name in known.items():
             self.outline(path, name)  # the name decides whether a link is followed
         named = self._named_by_expressions(known)
         roots = self._roots(list(known))
         return {
             name: "part" if path not in roots or _is_semantic(path) else "either" if path in named else "robot"
-            for path, name in known.items()
+            for name, path in paths.items()
         }
 
     def _roots(self, paths: list[str]) -> set[str]:
