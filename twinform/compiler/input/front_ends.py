@@ -169,6 +169,10 @@ def build_document(build: Callable[[XmlElement, Context], Document], root: XmlEl
     return document
 
 
+_FIRST_SDF = "1.0"
+"""A version of SDF that libsdformat reads, and that it does not describe."""
+
+
 def declared_version(root: XmlElement, format_: str, sink: DiagnosticSink) -> Version:
     """Return the version to read a file by: the declared one where the format has it, or else the newest."""
     known, declared = versions_of(format_), root.get("version")
@@ -180,8 +184,10 @@ def declared_version(root: XmlElement, format_: str, sink: DiagnosticSink) -> Ve
     newest = known[-1]
     if declared is not None:
         message = f"{format_.upper()} has no version {declared!r}; read as {newest}"
-        refused = declared.strip() not in known
-        sink.report(rules.UNKNOWN_VERSION, message, where, found=declared, expected=", ".join(known), refused=refused)
+        is_read = declared.strip() in known or (format_ == "sdf" and declared.strip() == _FIRST_SDF)
+        sink.report(
+            rules.UNKNOWN_VERSION, message, where, found=declared, expected=", ".join(known), refused=not is_read
+        )
     return parse_version(newest)
 
 
