@@ -185,9 +185,8 @@ def declared_version(root: XmlElement, format_: str, sink: DiagnosticSink) -> Ve
     if declared is not None:
         message = f"{format_.upper()} has no version {declared!r}; read as {newest}"
         is_read = declared.strip() in known or (format_ == "sdf" and declared.strip() == _FIRST_SDF)
-        sink.report(
-            rules.UNKNOWN_VERSION, message, where, found=declared, expected=", ".join(known), refused=not is_read
-        )
+        expected = ", ".join(known)
+        sink.report(rules.UNKNOWN_VERSION, message, where, found=declared, expected=expected, refused=not is_read)
     return parse_version(newest)
 
 
