@@ -13,6 +13,7 @@ _LONGEST = 80
 # Among more names nothing is suggested: a hostile file may have a hundred thousand, and as many
 # unknown ones.
 _MOST_KNOWN = 1000
+_MOST_OF_A_WORD = 50
 _MOST_COMPARED = 200
 """The most names that are compared letter by letter."""
 _ALIKE = 0.6
@@ -42,11 +43,23 @@ def _longer_or_shorter(name: str, known: Sequence[str | None], but: Collection[s
     """Return the only known name that has a word more or less, such as `elbow` for `elbow_joint`."""
     if len(name) > _LONGEST or len(known) > _MOST_KNOWN or "::" in name:
         return ()
-    words = _words(name)
-    others = {each for each in known if each and each not in but and len(each) <= _LONGEST}
-    alike = [each for each in others if (found := _words(each)) and words and (words < found or found < words)]
+    words, by_word = _words(name), _by_word(frozenset(filter(None, known)))
+    # A word of very many names tells none of them apart.
+    lists = [each for each in (by_word.get(word, ()) for word in words) if len(each) <= _MOST_OF_A_WORD]
+    others = {each for names in lists for each in names if each not in but and len(each) <= _LONGEST}
+    alike = [each for each in others if words < (found := _words(each)) or found < words]
     found = [each for each in alike if _digits(each) == _digits(name) and not names_another(name, each)]
     return tuple(found) if len(found) == 1 else ()
+
+
+@lru_cache(maxsize=8)
+def _by_word(known: frozenset[str]) -> Mapping[str, Sequence[str]]:
+    """Return the names that have a word, for each word."""
+    found: dict[str, list[str]] = defaultdict(list)
+    for name in known:
+        for word in _words(name):
+            found[word].append(name)
+    return found
 
 
 def _words(name: str) -> frozenset[str]:

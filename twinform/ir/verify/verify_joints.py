@@ -128,6 +128,7 @@ def verify_mimics(joints: Iterable[Joint], sink: DiagnosticSink) -> None:
     if not followers:
         return
     known = {joint.name: joint for joint in joints}
+    movable = [joint.name for joint in joints if joint.type in _FREEDOMS]
     leaders: dict[str, str] = {}
     for joint, axis in followers:
         mimic = axis.mimic
@@ -136,7 +137,6 @@ def verify_mimics(joints: Iterable[Joint], sink: DiagnosticSink) -> None:
             leaders[joint.name] = (mimic and mimic.joint) or ""
             continue
         message = f"joint {joint.name!r} mimics {mimic.joint!r}, {what}"
-        movable = (each.name for each in joints if each.type in _FREEDOMS)
         hint = None if mimic.joint in known else did_you_mean(mimic.joint or "", movable, but=(joint.name,))
         sink.report(rules.UNKNOWN_LEADER, message, mimic.location, found=mimic.joint, help=hint)
     _report_circles(followers, leaders, sink)
