@@ -282,18 +282,30 @@ class FindingSpans:
 
     def _tabbed_value(self, finding: Diagnostic) -> Span | None:
         """Return the value of the only attribute on a line that the message names."""
-        line = finding.location.line
-        if not 0 < line <= len(self.lines):
-            return None
-        around = bisect_left(self.tags.starts, self.lines.start(line)) - 1  # its start tag may go on here
-        before = [self.tags.element(around)] if around >= 0 else []
-        found = [
-            attribute.value
-            for element in (*before, *self._elements_beginning_on(line))
-            for name, attribute in element.attributes.items()
-            if f"'{name}'" in finding.message and self.lines.place(attribute.name.start).line == line
-        ]
+        values = self._values_on(finding.location.line)
+        found = [span for name, spans in values.items() if f"'{name}'" in finding.message for span in spans]
         return found[0] if len(found) == 1 else None
+
+    def _values_on(self, line: int) -> dict[str, list[Span]]:
+        """Return the values of the attributes on a line by their names, at most two of each."""
+        if line not in self._values:
+            found = self._values[line] = defaultdict[str, list[Span]](list)
+            if 0 < line <= len(self.lines):
+                around = bisect_left(self.tags.starts, self.lines.start(line)) - 1  # its start tag may go on here
+                before = [self.tags.element(around)] if around >= 0 else []
+                for element in (*before, *self._elements_beginning_on(line)):
+                    for name, attribute in element.attributes.items():
+                        if len(found[name]) < _UNCLEAR and self.lines.place(attribute.name.start).line == line:
+                            found[name].append(attribute.value)
+        return self._values[line]
+
+    @cached_property
+    def _values(self) -> dict[int, dict[str, list[Span]]]:
+        return {}
+
+
+_UNCLEAR = 2
+"""So many values of one name leave in doubt which of them is meant."""
 
 
 def _last_tag(path: str) -> str:

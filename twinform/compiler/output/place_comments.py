@@ -88,6 +88,7 @@ class _CommentPlacing:
         self.places: dict[XmlElement, int] = {}
         self.known: dict[XmlElement, _Target | None] = {}
         self.ends: dict[_Target, int] = {}
+        self.starts: dict[int, defaultdict[str, list[int]]] = {}
         self.inside: dict[tuple[_Target, str], list[int]] = {}
         self.named: dict[tuple[str, str], int] = {}
 
@@ -214,11 +215,13 @@ class _CommentPlacing:
 
     def _target_of_part(self, element: XmlElement) -> _Target | None:
         """Return what a part of the document has become; of several elements the one with its tag, or the first."""
-        parts = self.parts.get(element.sourceline or 0)
-        if not parts:
-            return None
+        line = element.sourceline or 0
+        if line not in self.starts:
+            self.starts[line] = defaultdict(list)
+            for source, start in self.parts.get(line, ()):
+                self.starts[line][source.path.replace(FIRST, "")].append(start)
         path = path_of(element, self.places).replace(FIRST, "")
-        found = [self._target_at(start) for source, start in parts if source.path.replace(FIRST, "") == path]
+        found = [self._target_at(start) for start in self.starts[line].get(path, ())]
         alike = (each for each in found if each.tag == self._written_name(element))
         return next(alike, found[-1 if element is self.comments.tree else 0] if found else None)
 
