@@ -3,7 +3,6 @@
 The child is `python -m benchmarks.scale FILE TO OUTPUT`: it converts one file and prints what that took as JSON.
 """
 
-import inspect
 import json
 import resource
 import subprocess
@@ -27,7 +26,7 @@ LINEAR = 1.5
 """So many times as much for a link at the largest size as at the smallest is still called linear."""
 MEMORY_GB = 3
 _LIFTED = {"max_size": 2**32, "max_tags": 2**32}
-"""The options that lift the limits on input, where this version has them."""
+"""The options that lift the limits on input."""
 _ABOUT = f"""\
 Each conversion is the only one of its process, after one of ten links; the limits on size are lifted. *Peak* is the
 most memory that the process had. Linear is at most {LINEAR} times as much CPU for a link as at {SIZES[0]:,} links."""
@@ -112,8 +111,7 @@ def convert_once(source: str, to: Any, target: str) -> None:
     """Convert a file and print what it took."""
     small = twinform.convert(robots.urdf(10).encode(), name="small.urdf", to="sdf").text
     twinform.convert(small.encode(), name="small.sdf", to="urdf")
-    known = inspect.signature(twinform.convert).parameters
-    lifted: dict[str, Any] = {name: value for name, value in _LIFTED.items() if name in known}
+    lifted: dict[str, Any] = {**_LIFTED}
     start = time.process_time()
     try:
         made = twinform.convert(source, to=to, **lifted)
