@@ -70,11 +70,12 @@ class Compared:
     @property
     def is_alike(self) -> bool:
         """Whether both agree on it."""
-        if self.verdict is Verdict.REFUSED_THERE:
-            return reason_of(self.theirs) == _NO_PACKAGE  # here the rest is expanded, with a finding about the package
-        return self.verdict is Verdict.SAME or (
-            self.verdict is Verdict.BOTH_REFUSE and self.reason == reason_of(self.theirs)
-        )
+        if self.verdict is Verdict.SAME:
+            return True
+        there = reason_of(self.theirs)
+        if there == _NO_PACKAGE:  # here it is a finding, and the rest is expanded: it may have mistakes of its own
+            return self.verdict in {Verdict.REFUSED_THERE, Verdict.BOTH_REFUSE}
+        return self.verdict is Verdict.BOTH_REFUSE and self.reason == there
 
 
 def users_of_xacro() -> tuple[CorpusFile, ...]:
