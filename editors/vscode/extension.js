@@ -1,7 +1,8 @@
 // Starts `twinform lsp` for URDF, SDF and xacro files: all that the extension knows is in that server.
 
-const { commands, window, workspace } = require("vscode");
+const { commands, extensions, window, workspace } = require("vscode");
 const { LanguageClient } = require("vscode-languageclient/node");
+const { tagCloser } = require("./close_tags");
 
 const LANGUAGES = ["urdf", "sdf", "xacro"];
 
@@ -12,7 +13,11 @@ async function start() {
   client = new LanguageClient(
     "twinform",
     { command, args },
-    { documentSelector: LANGUAGES.flatMap((language) => [{ scheme: "file", language }, { scheme: "untitled", language }]) },
+    {
+      documentSelector: LANGUAGES.flatMap((language) => [{ scheme: "file", language }, { scheme: "untitled", language }]),
+      // close_tags.js asks for them
+      middleware: { provideOnTypeFormattingEdits: () => [] },
+    },
   );
   try {
     await client.start();
@@ -39,8 +44,11 @@ async function restart() {
 async function activate(context) {
   context.subscriptions.push(
     commands.registerCommand("twinform.restart", restart),
+    tagCloser(LANGUAGES, () => client),
     workspace.onDidChangeConfiguration((change) => change.affectsConfiguration("twinform.command") && restart()),
   );
+  // LemMinX takes our languages as well, but wakes up for XML only.
+  extensions.getExtension("redhat.vscode-xml")?.activate();
   await start();
 }
 

@@ -2,7 +2,7 @@
 
 import threading
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -14,6 +14,7 @@ from pygls.protocol import default_converter
 from twinform import __version__
 from twinform.server.actions import FIX_ALL, RUN_PASSES, actions, edit_of, text_edits, word_of
 from twinform.server.checking import Rewritten, SettingsOf, format_document, no_settings, run_passes
+from twinform.server.closing_tags import TRIGGERS, closing, linked_names
 from twinform.server.completion import complete
 from twinform.server.document_outline import folds, links, outline, search
 from twinform.server.documents import TextDocument
@@ -60,6 +61,7 @@ def make_server(settings_of: SettingsOf = no_settings, worker: Worker | None = N
     server = Server(settings_of, worker)
     session = server.session
     _follow_documents(server, session)
+    _help_typing(server, session)
     _answer_at_places(server, session)
     _answer_about_documents(server, session)
     _rewrite(server, session)
@@ -104,21 +106,40 @@ def _follow_documents(server: Server, session: Session) -> None:
         session.stop()
 
 
-def _answer_at_places(server: LanguageServer, session: Session) -> None:
-    """Answer requests about a place in a document."""
+def _at_place(
+    session: Session, params: Any, answer: Callable[[TextDocument, int], Answer], otherwise: Answer
+) -> Answer:
+    """Answer a request about a place in a document; `otherwise` is the answer if the document is not followed."""
+    document = session.documents.get(params.text_document.uri)
+    return otherwise if document is None else answer(document, document.positions.offset(params.position))
 
-    def at(params: Any, answer: Callable[[TextDocument, int], Answer], otherwise: Answer) -> Answer:
-        document = session.documents.get(params.text_document.uri)
-        return otherwise if document is None else answer(document, document.positions.offset(params.position))
 
-    @server.feature(types.TEXT_DOCUMENT_HOVER)
-    def hovered(params: types.HoverParams) -> types.Hover | None:
-        return at(params, lambda document, offset: hover(session, document, offset), None)
+def _help_typing(server: LanguageServer, session: Session) -> None:
+    """Answer what an editor asks while somebody types."""
 
     @server.feature(types.TEXT_DOCUMENT_COMPLETION, types.CompletionOptions(trigger_characters=list('<"/ :{(')))
     def completed(params: types.CompletionParams) -> types.CompletionList:
         nothing = types.CompletionList(is_incomplete=False, items=[])
-        return at(params, lambda document, offset: complete(session, document, offset), nothing)
+        return _at_place(session, params, lambda document, offset: complete(session, document, offset), nothing)
+
+    @server.feature(types.TEXT_DOCUMENT_LINKED_EDITING_RANGE)
+    def linked(params: types.LinkedEditingRangeParams) -> types.LinkedEditingRanges | None:
+        return _at_place(session, params, linked_names, None)
+
+    @server.feature(
+        types.TEXT_DOCUMENT_ON_TYPE_FORMATTING, types.DocumentOnTypeFormattingOptions(TRIGGERS[0], TRIGGERS[1:])
+    )
+    def typed(params: types.DocumentOnTypeFormattingParams) -> list[types.TextEdit]:
+        return _at_place(session, params, lambda document, offset: closing(document, offset, params.ch), [])
+
+
+def _answer_at_places(server: LanguageServer, session: Session) -> None:
+    """Answer requests about a place in a document."""
+    at = partial(_at_place, session)
+
+    @server.feature(types.TEXT_DOCUMENT_HOVER)
+    def hovered(params: types.HoverParams) -> types.Hover | None:
+        return at(params, lambda document, offset: hover(session, document, offset), None)
 
     @server.feature(types.TEXT_DOCUMENT_DEFINITION)
     def defined(params: types.DefinitionParams) -> list[types.Location]:

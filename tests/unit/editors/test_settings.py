@@ -12,7 +12,8 @@ from twinform.server.includes import ENDINGS
 
 FOLDER = ROOT / "editors" / "vscode"
 PACKAGE: dict[str, Any] = json.loads((FOLDER / "package.json").read_text(encoding="utf-8"))
-SCRIPT = (FOLDER / "extension.js").read_text(encoding="utf-8")
+SCRIPTS = sorted(FOLDER.glob("*.js"))
+SCRIPT = "".join(each.read_text(encoding="utf-8") for each in SCRIPTS)
 
 
 def test_the_extension_has_the_version_of_the_package() -> None:
@@ -28,6 +29,11 @@ def test_every_language_starts_the_server_and_has_its_files() -> None:
         path = FOLDER / each.get("configuration", each.get("path"))
         assert json.loads(path.read_text(encoding="utf-8"))
         assert path.relative_to(FOLDER).parts[0] in PACKAGE["files"]
+    assert {each.name for each in SCRIPTS} <= set(PACKAGE["files"])
+    participants = {
+        each["languageId"]: each["autoInsert"] for each in PACKAGE["contributes"]["xmlLanguageParticipants"]
+    }
+    assert participants == dict.fromkeys(languages, False)  # LemMinX works there, and we close tags
     assert {ending for each in languages.values() for ending in each["extensions"]} <= set(ENDINGS)
 
 
