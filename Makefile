@@ -51,6 +51,7 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.schemas.generate
 	$(BIN)/python -m twinform.diagnostics.rule_table twinform/diagnostics/rules/__init__.py
 	$(BIN)/python -m twinform.passes.framework.built_in_table twinform/passes/framework/built_in.py
+	$(BIN)/python -m twinform.passes.sdf_versions.lacking_table twinform/passes/sdf_versions/lacking.py
 	$(BIN)/python -m twinform.diagnostics.rules_page docs/reference/rules.md
 	$(BIN)/python -m twinform.passes.framework.passes_page docs/reference/passes.md
 	$(BIN)/python -m twinform.passes.legalise.pipeline_page docs/explanation/pipeline.md
@@ -73,6 +74,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.schemas.generate --check
 	$(BIN)/python -m twinform.diagnostics.rule_table twinform/diagnostics/rules/__init__.py --check
 	$(BIN)/python -m twinform.passes.framework.built_in_table twinform/passes/framework/built_in.py --check
+	$(BIN)/python -m twinform.passes.sdf_versions.lacking_table twinform/passes/sdf_versions/lacking.py --check
 	$(BIN)/python -m twinform.diagnostics.rules_page docs/reference/rules.md --check
 	$(BIN)/python -m twinform.passes.framework.passes_page docs/reference/passes.md --check
 	$(BIN)/python -m twinform.passes.legalise.pipeline_page docs/explanation/pipeline.md --check

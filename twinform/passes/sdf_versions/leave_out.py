@@ -46,7 +46,11 @@ class LeaveOut(VersionPass):
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document without the parts that the version lacks."""
-        return _UndefinedRemover(keeper, self.number).whole_node(document, shape("sdf"))
+        # A file may have one model or light since 1.8: the only thing that no bit stands for.
+        has_one_model = len(document.models) + len(document.lights) <= 1
+        if has_one_model and not census_of(document) & bits_lacking(self.number):
+            return document
+        return _UndefinedRemover(keeper, self.number).cut_node(document, shape("sdf"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,8 +107,10 @@ class _UndefinedRemover:
     def whole_node(self, node: Any, form: ElementContent) -> Any:
         """A node whose element can hold carriers, without what the version lacks and with carriers for it."""
         # Nearly all subtrees have nothing that the version lacks; a bit test skips them.
-        if not census_of(node) & self.lacking:
-            return node
+        return self.cut_node(node, form) if census_of(node) & self.lacking else node
+
+    def cut_node(self, node: Any, form: ElementContent) -> Any:
+        """The same for a node in which something may lack."""
         changed, left = self.node(node, form)
         for each in left:
             changed = self._carry(changed, node_pieces(node, each), each)

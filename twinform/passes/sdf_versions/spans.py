@@ -1,15 +1,15 @@
 """Which versions of SDF have an element or attribute, by name, by IR field and as bits of the census."""
 
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Container
 from dataclasses import field
 from functools import cache
 
+from twinform import ir
 from twinform.dataclass import dataclass
-from twinform.ir import PLAIN, Document, Node, Pose, bits_of
-from twinform.ir.record import fields_of
-from twinform.ir.rewrite import RARE, classes_in, union_of
+from twinform.ir.rewrite import PLAIN, bits_of, union_of
 from twinform.passes.carriers.sdf_versions import VersionCondition
-from twinform.schemas import Fact, Version, table
+from twinform.passes.sdf_versions.lacking import INCOMPLETE, LACKING
+from twinform.schemas import Fact, Version, print_version, table
 
 _FIRST: Version = (0, 0)
 _LAST: Version = (99, 99)
@@ -79,8 +79,8 @@ class ElementContent:
     def lacking(self, version: Version) -> tuple[str, ...]:
         """The IR fields in which a version may lack something, at any depth."""
         if version not in self._lacking:
-            found = [name for name, span in self.fields.items() if not _has_all(span, whole(version), version)]
-            if not all(_has_all(span, whole(version), version) for span in self.kinds.values()):
+            found = [name for name, span in self.fields.items() if not has_all(span, whole(version), version)]
+            if not all(has_all(span, whole(version), version) for span in self.kinds.values()):
                 found.append(next(iter(self.kinds.values())).rows[0][2].place or "")
             self._lacking[version] = tuple(found)
         return self._lacking[version]
@@ -134,93 +134,25 @@ def _collect(fact: Fact, made: ElementContent, since: Version, until: Version) -
 @cache
 def whole(version: Version) -> frozenset[str]:
     """The definitions that are complete in a version: it has all that any version has in them, at any depth."""
-    definitions = table("sdf").definitions
-    found = set(definitions)
-    # A greatest fixed point: definitions refer to each other in circles (a model holds models), so
-    # all count as whole until one of their parts is not.
-    while lacking := {name for name in found if not _is_whole(shape(name), found, version)}:
-        found -= lacking
-    return frozenset(found)
-
-
-def _is_whole(form: ElementContent, found: Container[str], version: Version) -> bool:
-    """Whether a version has every part of an element, given the definitions found to be complete."""
-    return all(_has_all(span, found, version) for span in form.names.values())
-
-
-def _has_all(span: VersionSpan, found: Container[str], version: Version) -> bool:
-    """Whether a version has a part with everything in it, given the definitions found to be complete."""
-    row = span.row(version)
-    if row is None or span.is_split or span.repetition(version):
-        return False
-    return row.reference in found if row.reference else _is_whole(shape_of(row), found, version)
-
-
-_Kinds = frozenset[type[Node]]
+    return frozenset(table("sdf").definitions) - frozenset(INCOMPLETE[print_version(version)].split())
 
 
 @cache
 def bits_lacking(version: Version) -> int:
     """The census bits of what a version lacks, allows only once or defines otherwise, and of untyped parts."""
     # A subtree without any of these bits has nothing to leave out.
-    return PLAIN | union_of(bit for kinds, form in _shapes(version) for bit in _bits(kinds, form, version))
+    words = (word.partition(".") for word in LACKING[print_version(version)].split())
+    return PLAIN | union_of(bits_of(getattr(ir, kind), *filter(None, [field])) for kind, _, field in words)
 
 
-def _shapes(version: Version) -> Iterator[tuple[_Kinds, ElementContent]]:
-    """Each element of a version that has a node: the classes of that node, and the content."""
-    seen: set[tuple[_Kinds, int]] = set()
-    queue: list[tuple[_Kinds, ElementContent]] = [(frozenset({Document}), shape(table("sdf").root))]
-    for kinds, form in queue:  # grows while it is walked
-        yield kinds, form
-        for inner, span in _inner_shapes(kinds, form):
-            row = span.row(version)
-            if inner and row is not None and (inner, id(row)) not in seen:
-                seen.add((inner, id(row)))
-                queue.append((inner, span.shape(row)))
+def is_whole(form: ElementContent, found: Container[str], version: Version) -> bool:
+    """Whether a version has every part of an element, given the definitions found to be complete."""
+    return all(has_all(span, found, version) for span in form.names.values())
 
 
-def _inner_shapes(kinds: _Kinds, form: ElementContent) -> Iterator[tuple[_Kinds, VersionSpan]]:
-    for place, span in form.fields.items():
-        if not any(_is_pose_of_its_own(kind, place) for kind in kinds):
-            yield _classes_in(_holders(kinds, place), _field(place)), span
-    for kind, span in form.kinds.items():
-        yield _of_kind(kinds, span, kind), span
-
-
-def _bits(kinds: _Kinds, form: ElementContent, version: Version) -> Iterator[int]:
-    for place, span in form.fields.items():
-        holders, field = _holders(kinds, place), _field(place)
-        if span.row(version) is None:
-            yield from (bits_of(holder, field) for holder in holders if field in fields_of(holder))
-        elif place in form.lacking(version):
-            yield from (bits_of(kind, place) for kind in kinds if _is_pose_of_its_own(kind, place))
-        if span.repetition(version):
-            yield from map(bits_of, _classes_in(holders, field))
-    for kind, span in form.kinds.items():
-        if span.row(version) is None:
-            yield from map(bits_of, _of_kind(kinds, span, kind))
-
-
-def _is_pose_of_its_own(kind: type[Node], place: str) -> bool:
-    """Whether the pose in a field has a census bit of its own, because it may say less there than elsewhere."""
-    return place in RARE.get(kind, ()) and Pose in classes_in(kind, place)
-
-
-def _holders(kinds: _Kinds, place: str) -> _Kinds:
-    """The classes of the node that has the last field of a place such as `limit.lower`."""
-    outer = place.rpartition(".")[0]
-    return _classes_in(kinds, outer) if outer else kinds
-
-
-def _field(place: str) -> str:
-    return place.rpartition(".")[2]
-
-
-def _classes_in(kinds: Iterable[type[Node]], field: str) -> _Kinds:
-    return frozenset(inner for kind in kinds if field in fields_of(kind) for inner in classes_in(kind, field))
-
-
-def _of_kind(kinds: _Kinds, span: VersionSpan, kind: str) -> _Kinds:
-    """The classes of one kind among the nodes that a field may hold."""
-    every = _classes_in(kinds, span.rows[0][2].place or "")
-    return frozenset(each for each in every if fields_of(each)["kind"].default == kind)
+def has_all(span: VersionSpan, found: Container[str], version: Version) -> bool:
+    """Whether a version has a part with everything in it, given the definitions found to be complete."""
+    row = span.row(version)
+    if row is None or span.is_split or span.repetition(version):
+        return False
+    return row.reference in found if row.reference else is_whole(shape_of(row), found, version)
