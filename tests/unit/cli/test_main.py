@@ -72,7 +72,13 @@ _UNUSED = {
         "twinform.compiler.audit",
     ],
     "format": ["twinform.passes.legalise"],
-    "diff": ["twinform.passes.framework.options_model", "twinform.cli.config_settings"],
+    "diff": [
+        "twinform.passes.framework.options_model",
+        "twinform.passes.legalise.to_urdf.sequence",
+        "twinform.compiler.compare.compare_robots",
+        "twinform.compiler.expand_includes",
+        "twinform.cli.config_settings",
+    ],
 }
 
 

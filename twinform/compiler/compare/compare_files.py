@@ -1,12 +1,12 @@
 """Compares two files: reads their robots in the newest SDF version, and collects the differences for every reader."""
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Unpack
 
-from twinform.compiler.compare.compare_robots import RobotComparison
 from twinform.compiler.compare.compared_robot import ComparedRobot, Leaves, LinkPart
 from twinform.compiler.compare.comparison import (
     TOLERANCE,
@@ -24,7 +24,6 @@ from twinform.compiler.compare.part_reader import PartReader
 from twinform.compiler.compare.readers import ComparingReader, Memo, as_read_by, reconcile
 from twinform.compiler.compare.robot_builder import build_robot
 from twinform.compiler.conversion_error import CompileError
-from twinform.compiler.expand_includes import expand
 from twinform.compiler.input.load_options import FileOptions
 from twinform.compiler.input.loading import (
     Input,
@@ -171,16 +170,19 @@ def read_robots(
     name: str,
     model: str | None,
     readers: Iterable[ComparingReader],
+    alike: Memo,
 ) -> dict[ComparingReader, Robots]:
     """Read the robots of a file as each reader sees them; `model` chooses one of several.
 
-    Readers that see the same share one object.
+    Readers that see the same share one object, and so do files through `alike`.
 
     Raises:
         CompileError: the file has an error, or no such model.
     """
     loaded = read(source, load_options, name=name)
-    if loaded.accepted:
+    if loaded.accepted and loaded.document is not None and loaded.document.format is Format.SDF:
+        from twinform.compiler.expand_includes import expand  # noqa: PLC0415 - a URDF includes nothing
+
         wanted = wanted_includes(loaded.document, model) if model is not None else None
         before, loaded = loaded.document, expand(loaded, load_options, wanted=wanted)
         model = name_once_expanded(before, loaded.document, model)
@@ -194,16 +196,35 @@ def read_robots(
     memos = defaultdict[str | None, Memo](Memo)
     for reader, seen in as_read_by(document, readers).items():
         if id(seen) not in known:
-            known[id(seen)] = _robots_seen(loaded, seen, model, memos, sink, assets)
+            build = partial(_build_once, memos, alike, reader)
+            known[id(seen)] = _robots_seen(loaded, seen, model, build, sink, assets)
         found[reader] = known[id(seen)]
     return found
+
+
+BuildOnce = Callable[[str | None, Model, Model, Format], ComparedRobot]
+"""Builds the robot of a model by the name that it has among others, the model as the file has it, and the format."""
+
+
+def _build_once(
+    memos: Mapping[str | None, Memo],
+    alike: Memo,
+    reader: ComparingReader,
+    name: str | None,
+    model: Model,
+    source: Model,
+    format: Format,
+) -> ComparedRobot:
+    """Build a robot, or take all but its place from the other file where that says the same to the reader."""
+    given, make = (model, source, format), lambda: build_robot(model, source, format, memos[name])
+    return replace(alike.once((reader, name), given, make), where=model.source)
 
 
 def _robots_seen(
     loaded: LoadResult,
     document: Document,
     model: str | None,
-    memos: Mapping[str | None, Memo],
+    build: BuildOnce,
     sink: DiagnosticSink,
     assets: Assets,
 ) -> Robots:
@@ -217,7 +238,7 @@ def _robots_seen(
     around: dict[str, WorldSurroundings] = {}
     try:
         if not sink.has_errors:
-            robots |= _select_robots(memos, document, canonical, model, sink)
+            robots |= _select_robots(build, document, canonical, model, sink)
         if document.format is Format.SDF and model is None and not sink.has_errors:
             around = read_surroundings(canonical)
     except FrameError as error:
@@ -228,7 +249,7 @@ def _robots_seen(
 
 
 def _select_robots(
-    memos: Mapping[str | None, Memo],
+    build: BuildOnce,
     document: Document,
     canonical: Document,
     model: str | None,
@@ -249,7 +270,7 @@ def _select_robots(
         )  # before 1.7 a joint and a link could share theirs
         chosen = chosen.copy(models=tuple(map(_without_additions, chosen.models)))
         source = document.models[0] if document.format is Format.URDF else chosen.models[0]
-        robot = build_robot(chosen.models[0], source, document.format, memos[name])
+        robot = build(name, chosen.models[0], source, document.format)
         yield (robot.name if called[robot.name] == 1 or name is None else name), robot
 
 
@@ -306,11 +327,11 @@ def compare_files(
     names = (names[0] or _display_name(a, "a"), names[1] or _display_name(b, "b"))
     with garbage_collection_paused():
         readers = (ComparingReader.TWINFORM,) if options.carriers else tuple(ComparingReader)
-        robots: list[dict[ComparingReader, Robots]] = []
+        robots, alike = list[dict[ComparingReader, Robots]](), Memo()
         errors: list[CompileError] = []
         for source, name in zip((a, b), names, strict=True):
             try:
-                robots.append(read_robots(source, load_options, name=name, model=model, readers=readers))
+                robots.append(read_robots(source, load_options, name=name, model=model, readers=readers, alike=alike))
             except CompileError as error:
                 errors.append(error)
         if errors:
@@ -366,6 +387,10 @@ def _compare_for_reader(a: Robots, b: Robots, tolerance: float, memos: Mapping[s
 def _compare_pair(
     a: ComparedRobot, b: ComparedRobot, terms: Terms, memo: Memo, *, several: bool = False
 ) -> Iterable[Difference]:
+    if a.bodies is b.bodies:  # made once for both files
+        return ()
+    from twinform.compiler.compare.compare_robots import RobotComparison  # noqa: PLC0415 - for robots that differ
+
     return memo.once("robot", (a, b), lambda: RobotComparison(a, b, terms, memo, several=several).run())
 
 

@@ -42,7 +42,7 @@ def legalisation(source: Format, version: str | None, target: Target) -> tuple[P
         from twinform.passes.legalise.to_sdf.sequence import to_sdf  # noqa: PLC0415 - see above
 
         return to_sdf(target.sdf_version, target.requested, mixed=target.mixed, mixed_source=target.mixed_source)
-    from twinform.passes.legalise.to_urdf import to_urdf  # noqa: PLC0415 - see above
+    from twinform.passes.legalise.to_urdf.sequence import to_urdf  # noqa: PLC0415 - see above
 
     return to_urdf(target.urdf_version, target.requested, mixed=target.mixed, mixed_source=target.mixed_source)
 

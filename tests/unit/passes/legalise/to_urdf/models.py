@@ -7,7 +7,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes import Pipeline
 from twinform.passes.carriers.carriers import NAMESPACE
-from twinform.passes.legalise.to_urdf import to_urdf
+from twinform.passes.legalise.to_urdf.sequence import to_urdf
 from twinform.request_options import Requested
 from twinform.schemas import Context, XmlElement, libxml2_errors, parse_version, reader
 

@@ -7,7 +7,7 @@ from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Opaque
 from twinform.passes import Pipeline
 from twinform.passes.carriers.carriers import NAMESPACE, is_carrier, unpack
-from twinform.passes.legalise.to_urdf import to_urdf
+from twinform.passes.legalise.to_urdf.sequence import to_urdf
 from twinform.schemas import XmlElement
 
 from .models import BOX, EVERYTHING, LINK, arm, convert, joint, link, lower, read, values_at, visual

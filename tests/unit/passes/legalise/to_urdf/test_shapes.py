@@ -4,7 +4,7 @@ import pytest
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.passes import Pipeline
-from twinform.passes.legalise.to_urdf import to_urdf
+from twinform.passes.legalise.to_urdf.sequence import to_urdf
 
 from .models import BOX, convert, link, read, values_at, visual
 

@@ -6,7 +6,7 @@ import pytest
 from lxml import etree
 
 from testbed.oracles import urdfdom
-from twinform.passes.legalise.to_urdf import to_urdf
+from twinform.passes.legalise.to_urdf.sequence import to_urdf
 
 from .models import EVERYTHING, LINK, arm, convert
 
