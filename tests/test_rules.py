@@ -69,6 +69,7 @@ WITHOUT_CASE = {
     "weightless-mover": "portability/gazebo.toml",
     "wheels-not-measured": "unit/passes/plugins/test_add_plugin.py",
     "wide-encoding": "unit/compiler/input/test_parsing.py",
+    "wrong-configuration": "unit/cli/test_nested_config.py",
     "xacro-message": "unit/compiler/input/test_expand_xacro.py",
     "xacro-missing": "unit/compiler/input/test_expand_xacro.py",
     "xacro-refused": "unit/compiler/input/test_expand_xacro.py",

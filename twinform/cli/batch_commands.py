@@ -12,7 +12,6 @@ import click
 from twinform.cli.batch_run import RunOptions, run_and_end, run_options
 from twinform.cli.command import Command, Unusable, combine_options
 from twinform.cli.completion import pipelines
-from twinform.cli.config_defaults import RuleSettings
 from twinform.cli.diff import comparison_options
 from twinform.cli.flags import group
 from twinform.cli.inputs import file_options, load_options_of, reading_options
@@ -21,11 +20,10 @@ from twinform.cli.project_options import (
     consumers_option,
     keep_physics_option,
     pipeline_option,
-    policy_of,
-    policy_options,
     request_options,
     whole_request,
 )
+from twinform.cli.rule_options import policy_of, policy_options
 from twinform.compiler import ConversionRequest, LoadOptions
 from twinform.compiler.batch import (
     PATTERNS,
@@ -202,8 +200,8 @@ def convert(
     request: RequestOptions,
     chosen: ModelOptions,
     run: RunOptions,
-    rules: RuleSettings,
     reading: ReadingOptions,
+    **_options: object,
 ) -> None:
     """Compile every model of a folder.
 
@@ -214,7 +212,7 @@ def convert(
     """
     if target != "sdf":
         request["sdf_version"] = None
-    policy = policy_of(ctx, rules)
+    policy = policy_of(ctx)
     wanted = ConversionRequest.of(target, whole_request(request, reading, keep_physics=keep_physics))
     job = Convert(to=wanted, policy=policy, split=split, ledgers=ledgers, model_folders=model_folders)
     load_options = load_options_of({}, reading, policy, profiles)
@@ -247,15 +245,15 @@ def check(
     profiles: tuple[Profile, ...],
     chosen: ModelOptions,
     run: RunOptions,
-    rules: RuleSettings,
     reading: ReadingOptions,
+    **_options: object,
 ) -> None:
     """Find everything that is wrong with the models of a folder.
 
     SRC is a folder, a tar or zip archive, or - for a list of names on standard input. Models with errors are named;
     --report has all findings. Exit code: 0 without errors, 1 with errors, 2 where a file could not be read.
     """
-    policy = policy_of(ctx, rules)
+    policy = policy_of(ctx)
     job = Check(policy=policy, passes=check_passes, expand_includes=reading.get("expand_includes") or False)
     _run_on_models(ctx, source, chosen, run, job, load_options_of({}, reading, policy, profiles))
 

@@ -30,14 +30,15 @@ if TYPE_CHECKING:
 class Reporting:
     """What is reported of the findings of a file.
 
-    Fixes are made for findings from the severity `fixed` on, and columns for those from `shown` on. Findings of the
+    Fixes are made for findings from the severity `fixed` on, and columns for those from `shown` on, if any: with them a
+    finding gets the line of the piece of text that it is about, while comments allow it at its element. Findings of the
     `baseline` are left out; with `updates` all that a baseline can have. Those in files that others include may have
     been reported before, so they stay, and whoever reports on all files decides about them.
     """
 
     policy: Policy
     fixed: Severity
-    shown: Severity
+    shown: Severity | None
     baseline: "BaselineRun | None" = None
     updates: bool = False
 
@@ -139,7 +140,7 @@ class CheckedFile:
 
 @dataclass(frozen=True, slots=True)
 class CheckTask:
-    """The check of one file, with the options for it."""
+    """The check of one file, with the options for it, and the `problem` because of which they are not its own."""
 
     source: InputSource
     load_options: LoadOptions
@@ -148,6 +149,7 @@ class CheckTask:
     reporting: Reporting
     role: str = "robot"
     named: bool = True
+    problem: Diagnostic | None = None
 
     @property
     def name(self) -> str:
@@ -202,7 +204,10 @@ class CheckTask:
 
     def do(self) -> CheckedFile:
         """Check the file."""
-        return CheckedFile.of(self.look(), self.reporting, named=self.named)
+        loaded = self.look()
+        if self.problem:
+            loaded = replace(loaded, diagnostics=(self.problem, *loaded.diagnostics))
+        return CheckedFile.of(loaded, self.reporting, named=self.named)
 
 
 def is_unusable(loaded: LoadResult, *, named: bool) -> bool:
@@ -230,10 +235,10 @@ def _with_fixes(loaded: LoadResult, found: tuple[Diagnostic, ...], least: Severi
     return with_fixes(replace(loaded, diagnostics=found), lambda each: each.severity >= least)
 
 
-def _locate(loaded: LoadResult, found: tuple[Diagnostic, ...], least: Severity) -> FileFindings:
+def _locate(loaded: LoadResult, found: tuple[Diagnostic, ...], least: Severity | None) -> FileFindings:
     """Add columns to the findings that are shown, and the texts of the files; others come last, and are counted."""
-    shown = tuple(each for each in found if each.severity >= least)
-    if not shown:
+    shown = tuple(each for each in found if least is not None and each.severity >= least)
+    if least is None or not shown:
         return FileFindings(loaded.path, found)
     # only findings have places
     from twinform.compiler.input.finding_spans import SourceFiles, with_columns  # noqa: PLC0415 - see above

@@ -1,24 +1,29 @@
-"""Settings of a project as defaults of options, and settings of single files in it."""
+"""The settings of a project as defaults of options."""
 
-import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING
 
 import click
+from click.core import ParameterSource
 
 from twinform.cli.command import combine_options
-from twinform.cli.config_file import ConfigError, Table, find, section
+from twinform.cli.config_file import ConfigError, Searched, Table, section
+from twinform.cli.presets import with_preset
+from twinform.cli.settings_of_files import PerFile, RuleSettings, parse_patterns
 from twinform.dataclass import dataclass
 
 if TYPE_CHECKING:
-    from twinform.cli.config_settings import ProjectSettings
+    from twinform.cli.presets import PresetName
     from twinform.passes import Names, Pipeline
 
 
 _KEY = f"{__name__}.project"
 _TRUSTED = f"{__name__}.trusted"
+_NAMED = f"{__name__}.named"
+TYPED = (ParameterSource.COMMANDLINE, ParameterSource.ENVIRONMENT)
+"""Where the values of options come from that win over those of any configuration."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,16 +36,45 @@ class Project:
 
     path: Path | None = None
     paths: Sequence[str] = ()
-    allow: Sequence[str] = ()
-    deny: Sequence[str] = ()
+    rules: RuleSettings = RuleSettings()
+    preset: "PresetName | None" = None
     pipelines: Sequence[str] = ()
     known: "Names | None" = None
     trusted: bool = False
     exclude: Sequence[str] | None = None
     extend_exclude: Sequence[str] = ()
     baseline: str | None = None
-    per_file: "PerFile | None" = None
+    per_file: PerFile | None = None
     env: Sequence[str] = ()
+    defaults: Mapping[str, object] = field(default_factory=dict[str, object])
+
+    @classmethod
+    def of(cls, path: Path, table: Table) -> "Project":
+        """Make a project of the settings in a file.
+
+        Raises:
+            ConfigError: a key is unknown, or has a wrong value.
+        """
+        from twinform.cli.config_settings import NamedPipelines, parse_settings  # noqa: PLC0415 - many have no settings
+
+        settings = parse_settings(path, table)
+        for key, patterns in (("exclude", settings.exclude), ("extend-exclude", settings.extend_exclude)):
+            if patterns:
+                parse_patterns(path, patterns, key)
+        return cls(
+            path,
+            settings.paths,
+            RuleSettings.of(settings),
+            settings.preset,
+            tuple(settings.pipelines),
+            NamedPipelines(path, settings.pipelines),
+            exclude=settings.exclude,
+            extend_exclude=settings.extend_exclude,
+            baseline=settings.baseline,
+            per_file=PerFile(path, settings.files) if settings.files else None,
+            env=settings.env,
+            defaults=settings.defaults,
+        )
 
     @property
     def folders(self) -> Sequence[str]:
@@ -116,6 +150,37 @@ def settings_of(ctx: click.Context) -> Project:
     return replace(project, trusted=bool(ctx.meta.get(_TRUSTED)))
 
 
+def counts_for_all(ctx: click.Context) -> bool:
+    """Whether the command line says which configuration counts, so that those beside the files do not."""
+    return bool(ctx.meta.get(_NAMED))
+
+
+def context_for(ctx: click.Context, project: Project) -> click.Context:
+    """Return the context that a command would have with another configuration, which nobody has said to trust.
+
+    Raises:
+        ConfigError: an option cannot have the value that the configuration gives it.
+    """
+    made = click.Context(ctx.command, info_name=ctx.info_name)
+    made.meta.update(ctx.meta)
+    made.meta[_KEY], made.meta[_TRUSTED] = project, False
+    made.default_map = with_preset(ctx, project.defaults)
+    for parameter in ctx.command.params:
+        name = parameter.name or ""
+        if name not in ctx.params:
+            continue
+        source = ctx.get_parameter_source(name)
+        if source is not None and source in TYPED:
+            made.params[name] = ctx.params[name]
+            made.set_parameter_source(name, source)
+            continue
+        try:
+            parameter.handle_parse_result(made, {}, [])
+        except click.UsageError as error:
+            raise ConfigError(project.path or Path(), error.message, key=name.replace("_", "-")) from error
+    return made
+
+
 def hold_limit(ctx: click.Context, option: click.Parameter, value: int, usual: int) -> int:
     """Return the value of a limit, which a configuration may only lower.
 
@@ -123,7 +188,7 @@ def hold_limit(ctx: click.Context, option: click.Parameter, value: int, usual: i
         ConfigError: a configuration that is not trusted raises it.
     """
     project = settings_of(ctx)
-    configured = ctx.get_parameter_source(option.name or "") is click.core.ParameterSource.DEFAULT_MAP
+    configured = ctx.get_parameter_source(option.name or "") is ParameterSource.DEFAULT_MAP
     # A file that is too large may come with a configuration that allows it. This is an error, not a
     # warning: otherwise an error about the model would follow that does not say why.
     if configured and project.path is not None and not project.trusted:
@@ -142,22 +207,15 @@ def _section(path: Path) -> Table:
 
 def _nearest() -> tuple[Path, Table] | None:
     try:
-        return find(Path.cwd())
+        return Searched().find(Path.cwd())
     except FileNotFoundError:
         return None  # the current folder is gone
 
 
-def _per_file(path: Path, settings: "ProjectSettings") -> "PerFile | None":
-    if not settings.files:
-        return None
-
-    return PerFile(path, settings.files)
-
-
 def _use_none(ctx: click.Context, _option: click.Parameter, value: bool) -> None:
     if value:
-        ctx.meta[_KEY] = Project()
-        ctx.default_map = {}
+        ctx.meta[_KEY], ctx.meta[_NAMED] = Project(), True
+        ctx.default_map = with_preset(ctx, {})
 
 
 def _trust(ctx: click.Context, _option: click.Parameter, value: bool) -> None:
@@ -169,31 +227,16 @@ def _load(ctx: click.Context, _option: click.Parameter, value: Path | None) -> N
         if value is not None:
             raise click.UsageError("--config and --no-config contradict each other")
         return
+    ctx.meta[_NAMED] = value is not None
     found = (value, _section(value)) if value is not None else _nearest()
     if found is None:
         return
-    from twinform.cli.config_settings import NamedPipelines, parse_settings  # noqa: PLC0415 - many have no settings
-
-    path, table = found
-    settings = parse_settings(path, table)
-    names = NamedPipelines(path, settings.pipelines)
-    ctx.meta[_KEY] = Project(
-        path,
-        settings.paths,
-        settings.allow,
-        settings.deny,
-        tuple(settings.pipelines),
-        names,
-        exclude=settings.exclude,
-        extend_exclude=settings.extend_exclude,
-        baseline=settings.baseline,
-        per_file=_per_file(path, settings),
-        env=settings.env,
-    )
+    project = Project.of(*found)
+    ctx.meta[_KEY] = project
     # Settings are defaults of options and nothing else, so whatever is given on the command line
     # wins. The Python API reads no configuration: a library whose results depend on the current
     # folder is a trap.
-    ctx.default_map = dict(settings.defaults)
+    ctx.default_map = with_preset(ctx, project.defaults)
 
 
 config_options = combine_options(
@@ -203,7 +246,7 @@ config_options = combine_options(
         is_eager=True,
         expose_value=False,
         callback=_load,
-        help="The configuration; else the nearest twinform.toml, or pyproject.toml with [tool.twinform].",
+        help="The configuration of all files; else the nearest twinform.toml, or pyproject.toml with [tool.twinform].",
     ),
     click.option(
         "--no-config", is_flag=True, is_eager=True, expose_value=False, callback=_use_none, help="Use no configuration."
@@ -218,80 +261,3 @@ config_options = combine_options(
     ),
 )
 """Gives a command `--config FILE`, `--no-config` and `--trust-config`."""
-
-
-Value = TypeVar("Value")
-
-if TYPE_CHECKING:
-    from twinform.cli.config_settings import FileSettings
-
-
-class RuleSettings(NamedTuple):
-    """The rules that a table of the configuration allows and denies, and the key of the table."""
-
-    allow: Sequence[str]
-    deny: Sequence[str]
-    key: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class OwnSettings:
-    """The settings of one file beyond those of the project; None if a setting is not given.
-
-    Pipelines have the key that they come from, and rules are listed table by table.
-    """
-
-    arguments: Mapping[str, str] = field(default_factory=dict[str, str])
-    strict: bool | None = None
-    passes: tuple[str, str] | None = None
-    check_passes: tuple[str, str] | None = None
-    rules: Sequence[RuleSettings] = ()
-
-
-NO_OWN_SETTINGS = OwnSettings()
-
-
-class PerFile:
-    """The tables `[[files]]` of a configuration; of several that fit a file, the last one wins."""
-
-    def __init__(self, path: Path, tables: Sequence["FileSettings"]) -> None:
-        """Take the tables of the configuration at a path.
-
-        Raises:
-            ConfigError: a pattern is invalid.
-        """
-        from twinform.cli.path_patterns import PathPatterns, PatternError  # noqa: PLC0415 - few projects have tables
-
-        self.tables: list[tuple[str, PathPatterns, FileSettings]] = []
-        for number, table in enumerate(tables):
-            key = f"files[{number}]"
-            try:
-                self.tables.append((key, PathPatterns.of(path.parent, table.match), table))
-            except PatternError as error:
-                raise ConfigError(path, str(error), key=f"{key}.match") from error
-
-    def of(self, name: str) -> OwnSettings:
-        """Return the settings of a file."""
-        path = os.path.abspath(name)  # noqa: PTH100 - links stay links
-        fitting = [(key, table) for key, patterns, table in self.tables if patterns.match(path)]
-        if not fitting:
-            return NO_OWN_SETTINGS
-        return OwnSettings(
-            arguments={name: _xacro_text(value) for _, table in fitting for name, value in table.arguments.items()},
-            strict=_last_given(table.strict for _, table in fitting),
-            passes=_last_given((table.passes, f"{key}.passes") for key, table in fitting if table.passes is not None),
-            check_passes=_last_given(
-                (table.check_passes, f"{key}.check-passes") for key, table in fitting if table.check_passes is not None
-            ),
-            rules=[RuleSettings(table.allow, table.deny, key) for key, table in fitting],
-        )
-
-
-def _last_given(values: Iterable[Value | None]) -> Value | None:
-    """Return the last value that is set; None if none is."""
-    return next((each for each in reversed([*values]) if each is not None), None)
-
-
-def _xacro_text(value: str | float | bool) -> str:
-    """Write a value as xacro does."""
-    return str(value).lower() if isinstance(value, bool) else str(value)

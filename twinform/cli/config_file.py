@@ -23,20 +23,46 @@ _LONG_NUMBER = lazy_pattern(rb"[0-9_]{%d}" % sys.get_int_max_str_digits())
 Table = Mapping[str, object]
 
 
-def find(start: Path) -> tuple[Path, Table] | None:
-    """Find the nearest configuration in a folder and those above it; `twinform.toml` wins over `pyproject.toml`.
+class Searched:
+    """Finds the nearest configuration of folders, and looks into each folder once."""
 
-    The search ends at the top of the repository or at the home folder of the user.
+    def __init__(self) -> None:
+        self._known: dict[Path, tuple[Path, Table] | ConfigError | None] = {}
 
-    Raises:
-        ConfigError: a configuration cannot be read.
-    """
-    for folder in _project_folders(start):
-        for name in (OWN, _SHARED):
-            path = folder / name
-            found = _read_settings(path) if path.is_file() else None
+    def find(self, start: Path) -> tuple[Path, Table] | None:
+        """Find the nearest configuration in a folder and those above it; `twinform.toml` wins over `pyproject.toml`.
+
+        The search ends at the top of the repository or at the home folder of the user.
+
+        Raises:
+            ConfigError: the configuration cannot be read.
+        """
+        passed: list[Path] = []
+        found = None
+        for folder in _project_folders(start):
+            if folder in self._known:
+                found = self._known[folder]
+                break
+            passed.append(folder)
+            found = _configuration_in(folder)
             if found is not None:
-                return path, found
+                break
+        self._known.update(dict.fromkeys(passed, found))
+        if isinstance(found, ConfigError):
+            raise found
+        return found
+
+
+def _configuration_in(folder: Path) -> "tuple[Path, Table] | ConfigError | None":
+    """Return the configuration in a folder, or why it cannot be read."""
+    for name in (OWN, _SHARED):
+        path = folder / name
+        try:
+            found = _read_settings(path) if os.path.isfile(path) else None  # noqa: PTH113 - is_file raises for a long name
+        except ConfigError as error:
+            return error
+        if found is not None:
+            return path, found
     return None
 
 

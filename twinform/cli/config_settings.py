@@ -8,7 +8,10 @@ from typing import Annotated, Any, ForwardRef, Literal, get_args
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, create_model, field_validator
 
 from twinform.cli.config_file import ConfigError, Table
+from twinform.cli.presets import PRESETS, PresetName
 from twinform.compiler.input.load_options import FileOptions
+from twinform.diagnostics.diagnostic import GROUPS
+from twinform.diagnostics.sink import WARNINGS
 from twinform.option import Option, declared_options
 from twinform.passes import Pipeline, PipelineError, UnknownPipelineError, parse_pipeline
 from twinform.passes.framework.pass_options import nearest
@@ -34,18 +37,36 @@ class FormatSettings(BaseModel):
     sort_attributes: bool | None = None
 
 
-class FileSettings(BaseModel):
-    """The settings of files that fit a pattern of `match`, in the notation of `.gitignore`."""
+def _name_rules(schema: dict[str, Any]) -> None:
+    """Offer editors the names of rules and groups; those of other packages may be there too."""
+    from twinform.diagnostics.catalog import catalog  # noqa: PLC0415 - only the schema lists them
+
+    schema["items"] = {"anyOf": [{"enum": [*GROUPS, WARNINGS, *catalog()]}, {"type": "string"}]}
+
+
+_Rules = Annotated[Texts, Field(default_factory=list[str], json_schema_extra=_name_rules)]
+
+
+class RuleTable(BaseModel):
+    """The rules and groups that a table leaves out, selects, or makes errors."""
 
     model_config = _CONFIG
+
+    allow: _Rules
+    deny: _Rules
+    ignore: _Rules
+    select: _Rules
+    extend_select: _Rules
+
+
+class FileSettings(RuleTable):
+    """The settings of files that fit a pattern of `match`, in the notation of `.gitignore`."""
 
     match: Texts = Field(min_length=1)
     arguments: Mapping[str, str | int | float | bool] = Field(default_factory=dict[str, str | int | float | bool])
     strict: bool | None = None
     passes: str | None = None
     check_passes: str | None = None
-    allow: Texts = Field(default_factory=list[str])
-    deny: Texts = Field(default_factory=list[str])
 
 
 def _type_of(kind: Any, option: Option) -> Any:
@@ -62,7 +83,7 @@ _declared = {**declared_options(FileOptions), **declared_options(RequestOptions)
 _fields: dict[str, Any] = {
     name: (_type_of(kind, option) | None, None) for name, (kind, option) in _declared.items() if option.setting
 }
-_OptionSettings: type[BaseModel] = create_model("_OptionSettings", __config__=_CONFIG, **_fields)
+_OptionSettings: type[RuleTable] = create_model("_OptionSettings", __base__=RuleTable, **_fields)
 
 
 class ProjectSettings(_OptionSettings):
@@ -70,12 +91,11 @@ class ProjectSettings(_OptionSettings):
 
     model_config = _CONFIG
 
+    preset: PresetName | None = None
     read_carriers: bool | None = None
     check_passes: str | None = None
     paths: Texts = Field(default_factory=list[str])
     env: Texts = Field(default_factory=list[str])
-    allow: Texts = Field(default_factory=list[str])
-    deny: Texts = Field(default_factory=list[str])
     format: FormatSettings = Field(default_factory=FormatSettings)
     pipelines: Mapping[str, object] = Field(default_factory=dict[str, object])
     exclude: Texts | None = None
@@ -102,7 +122,8 @@ class ProjectSettings(_OptionSettings):
         names = (*_fields, "read_carriers", "check_passes")
         given = {name: getattr(self, name) for name in names} | dict(self.format)
         given["profiles"] = ",".join(self.profiles) or None
-        return {name: value for name, value in given.items() if value is not None}
+        preset = PRESETS[self.preset or "default"].defaults
+        return {**preset, **{name: value for name, value in given.items() if value is not None}}
 
 
 def settings_schema_text() -> str:

@@ -9,7 +9,7 @@ from click.core import ParameterSource
 
 from twinform.cli.command import Command
 from twinform.cli.completion import files
-from twinform.cli.config_defaults import RuleSettings, settings_of
+from twinform.cli.config_defaults import settings_of
 from twinform.cli.gazebo_files import GazeboFiles, companion_options, version_for
 from twinform.cli.inputs import InputSource, inputs, reading_options
 from twinform.cli.instrumentation import InstrumentationOptions, watching_options
@@ -19,11 +19,10 @@ from twinform.cli.project_options import (
     OptionsByFile,
     consumers_option,
     keep_physics_option,
-    passes_of,
-    policy_options,
     request_options,
     whole_request,
 )
+from twinform.cli.rule_options import policy_options
 from twinform.cli.run_conversion import (
     TARGETS,
     ConversionJob,
@@ -123,8 +122,8 @@ def command(
     base: Path | None,
     notes: bool,
     every: bool,
-    rules: RuleSettings,
     reading: ReadingOptions,
+    **_options: object,
 ) -> None:
     """Compile robot models from one format into the other.
 
@@ -134,13 +133,18 @@ def command(
     written.
     """
     sources, arguments = inputs(words)
-    if ctx.get_parameter_source("gazebo") is not ParameterSource.DEFAULT:
-        request["sdf_version"] = version_for(gazebo_files.gazebo, request.get("sdf_version"))
-    whole = whole_request(request, reading, model=model, keep_physics=keep_physics)
-    by_file = OptionsByFile(ctx, arguments, reading, rules, passes_of(request), profiles=profiles)
-    load_options, policy, _ = by_file.usual
+    by_file = OptionsByFile(ctx, arguments)
+
+    def complete(given: RequestOptions) -> ConversionRequest:
+        wanted: RequestOptions = {**given}
+        if ctx.get_parameter_source("gazebo") is not ParameterSource.DEFAULT:
+            wanted["sdf_version"] = version_for(gazebo_files.gazebo, given.get("sdf_version"))
+        return ConversionRequest.of("sdf", whole_request(wanted, reading, model=model, keep_physics=keep_physics))
+
+    load_options, policy, _, _ = by_file.usual
     options = Options(
-        request=ConversionRequest.of("sdf", whole),
+        request=complete(request),
+        complete=complete,
         load_options=load_options,
         ledger=ledger,
         notes=notes,

@@ -3,11 +3,13 @@
 from dataclasses import replace
 from pathlib import Path
 
-from twinform.cli.config_defaults import NO_OWN_SETTINGS, OwnSettings, PerFile, RuleSettings
-from twinform.cli.config_file import ConfigError, find
-from twinform.cli.config_settings import ProjectSettings, parse_settings
-from twinform.cli.config_trust import require_inside
-from twinform.cli.project_options import override_policy
+import click
+
+from twinform.cli.config_defaults import Project
+from twinform.cli.config_file import ConfigError
+from twinform.cli.nearest_projects import NearestProjects
+from twinform.cli.rule_options import configured_policy
+from twinform.cli.settings_of_files import NO_OWN_SETTINGS, OwnSettings
 from twinform.compiler.input.load_options import profiles_of
 from twinform.compiler.resolve_uris import SearchPath
 from twinform.diagnostics import Policy
@@ -18,44 +20,35 @@ from twinform.server.checking import EditorSettings
 def settings_of(path: Path) -> EditorSettings:
     """Return the settings for a file from the nearest configuration, which is never trusted: nobody was asked."""
     try:
-        found = find(path.absolute().parent)
-        if found is None:
+        project = NearestProjects().of(str(path))
+        if project is None:
             return EditorSettings()
-        config, table = found
-        project = parse_settings(config, table)
-        for folder in project.paths:
-            require_inside(config, Path(folder), "paths")
-        own = PerFile(config, project.files).of(str(path)) if project.files else NO_OWN_SETTINGS
-    except ConfigError as error:
+        own = project.per_file.of(str(path)) if project.per_file else NO_OWN_SETTINGS
+        return _convert_settings(project, own)
+    except (ConfigError, click.UsageError) as error:
         return EditorSettings(problem=str(error))
-    return _convert_settings(project, own)
 
 
-def _convert_settings(project: ProjectSettings, own: OwnSettings) -> EditorSettings:
-    usual, policy = EditorSettings(), Policy()
-    for rules in (RuleSettings(project.allow, project.deny), *own.rules):
-        policy = override_policy(policy, rules)
+def _convert_settings(project: Project, own: OwnSettings) -> EditorSettings:
+    usual, policy, defaults = EditorSettings(), configured_policy(project, own.rules, Policy()), project.defaults
     load_options = replace(
         usual.load_options,
-        strict=bool(project.defaults.get("strict") if own.strict is None else own.strict),
-        search=SearchPath.of(project.paths),
+        strict=bool(defaults.get("strict") if own.strict is None else own.strict),
+        search=SearchPath.of(project.folders),
         arguments=own.arguments,
         allow=policy.allow,
-        profiles=_profiles(project),
+        profiles=_profiles(str(defaults.get("profiles") or "")),
     )
-    wanted, layout = project.format, usual.layout
-    if wanted.indent is not None:
-        layout = replace(layout, indent="\t" if wanted.indent == "tab" else " " * wanted.indent)
-    layout = replace(layout, numbers=wanted.numbers or layout.numbers, sort_attributes=bool(wanted.sort_attributes))
-    return replace(
-        usual,
-        layout=layout,
-        load_options=load_options,
-        policy=policy,
-    )
+    layout = replace(usual.layout, **{name: defaults[name] for name in _LAYOUT if name in defaults})
+    if "indent" in defaults:
+        layout = replace(layout, indent="\t" if defaults["indent"] == "tab" else " " * int(str(defaults["indent"])))
+    return replace(usual, layout=layout, load_options=load_options, policy=policy)
 
 
-def _profiles(project: ProjectSettings) -> tuple[Profile, ...]:
+_LAYOUT = ("numbers", "sort_attributes")
+
+
+def _profiles(names: str) -> tuple[Profile, ...]:
     """Return the profiles of a project's consumers, which count only for formats that they read."""
-    found = profiles_of(",".join(project.profiles)) if project.profiles else ()
+    found = profiles_of(names) if names else ()
     return tuple(replace(each, named=False) for each in found)

@@ -9,13 +9,13 @@ import click
 
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
 from twinform.cli.completion import files, pipelines
-from twinform.cli.config_defaults import RuleSettings
-from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, file_options, load_options_of, model_inputs
+from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, file_options, model_inputs
 from twinform.cli.instrumentation import mesh_progress
 from twinform.cli.model_files import is_plain
 from twinform.cli.outputs import Rewrite, show_differences, write_back
 from twinform.cli.printing import notes_option, plural, print_line, show
-from twinform.cli.project_options import pipeline_option, policy_of, policy_options
+from twinform.cli.project_options import OptionsByFile, pipeline_option
+from twinform.cli.rule_options import policy_options
 from twinform.compiler import (
     CompileError,
     ConversionRequest,
@@ -28,7 +28,6 @@ from twinform.compiler import (
 )
 from twinform.compiler.fixing import ANOTHER_ROBOT, FixResult, Refused, apply_fixes_by
 from twinform.compiler.in_place import convert_in_place
-from twinform.compiler.input.load_options import FileOptions
 from twinform.compiler.input.loading import XACRO
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.dataclass import dataclass
@@ -185,10 +184,9 @@ def command(
     unsafe_fixes: bool,
     diff: bool,
     notes: bool,
-    rules: RuleSettings,
     exclude: tuple[str, ...],
     force_exclude: bool,
-    reading: FileOptions,
+    **_options: object,
 ) -> None:
     """Fix robot models in their files, and run passes on them.
 
@@ -198,18 +196,22 @@ def command(
     read or written.
     """
     sources, arguments = model_inputs(words, exclusion_of(ctx, exclude, force=force_exclude), is_plain)
-    policy, load_options = policy_of(ctx, rules), load_options_of(arguments, reading)
+    by_file = OptionsByFile(ctx, arguments)
 
     def look(content: str | bytes, name: str) -> LoadResult:
+        load_options = by_file.of(name).load_options
         return as_refused(inspect(read(content, load_options, name=name), load_options))
 
     def report(name: str, diagnostics: tuple[Diagnostic, ...]) -> None:
-        show(FileFindings(name, policy.apply(diagnostics)), notes=notes, on_stderr=True)
+        show(FileFindings(name, by_file.of(name).policy.apply(diagnostics)), notes=notes, on_stderr=True)
+
+    def fixing(source: InputSource) -> Fixing:
+        own = by_file.of(source.name)
+        return Fixing(look, own.load_options, own.policy, unsafe=unsafe_fixes, diff=diff, notes=notes)
 
     for source in sources:
         _require_model(source, passes)
-    fixing = Fixing(look, load_options, policy, unsafe=unsafe_fixes, diff=diff, notes=notes)
-    runs = [_run(source, passes, fixing, report) for source in sources]
+    runs = [_run(source, passes, fixing(source), report) for source in sources]
     rewrites = [each for each in runs if isinstance(each, Rewrite)]
     if len(rewrites) < len(runs):
         if len(runs) > 1:

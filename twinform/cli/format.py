@@ -10,15 +10,17 @@ from twinform.cli.checked_file import diagnostic_of_row, row_of_diagnostic
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
 from twinform.cli.completion import files as files_of
 from twinform.cli.config_defaults import config_options
+from twinform.cli.config_file import ConfigError
 from twinform.cli.file_runs import RunOptions, open_file_run, run_options
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, size_option
 from twinform.cli.model_files import is_text
+from twinform.cli.nearest_projects import ContextByFile, finding_of
 from twinform.cli.outputs import Rewrite, write_back
 from twinform.cli.printing import plural, print_document, print_line, print_text, show
 from twinform.compiler import CompileError
 from twinform.compiler.formatting import formatted
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
-from twinform.compiler.input.size_limits import LARGEST, Limits
+from twinform.compiler.input.size_limits import LARGEST, USUAL_LIMITS, Limits
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Severity, rules
 from twinform.diagnostics.reporters import FileFindings
@@ -65,6 +67,7 @@ class FormatTask:
     source: InputSource
     options: FormatOptions
     limits: Limits
+    problem: Diagnostic | None = None
 
     @property
     def name(self) -> str:
@@ -86,7 +89,9 @@ class FormatTask:
         return self
 
     def do(self) -> FormattedFile:
-        """Format the file."""
+        """Format the file, unless there is a problem with the settings for it."""
+        if self.problem:
+            return FormattedFile(findings=(self.problem,))
         try:
             before = self._read()
             return FormattedFile(before, formatted(before, self.name, self.options, self.limits))
@@ -159,33 +164,40 @@ def command(
     *,
     check: bool,
     diff: bool,
-    indent: str,
-    numbers: Literal["kept", "shortest"],
-    sort_attributes: bool,
     exclude: tuple[str, ...],
     force_exclude: bool,
     run: RunOptions,
-    max_size: int | None,
+    **_options: object,
 ) -> None:
     """Format the text of models, and change nothing else.
 
     IN are URDF, SDF, xacro and other XML files, folders of them, or globs in quotes, and are written anew where they
     change; - is standard input, which goes to standard output. Comments and texts, and what they mean, stay as they
-    are. Exit code: 0 formatted, 1 with --check or --diff where something would change, 2 where a file could not be read
-    or written, or is no XML.
+    are. The nearest twinform.toml of each file says how. Exit code: 0 formatted, 1 with --check or --diff where
+    something would change, 2 where a file could not be read or written, or is no XML.
     """
-    options, limits = FormatOptions(indent, numbers, sort_attributes), Limits(given(max_size, LARGEST))
+    contexts = ContextByFile(ctx)
     file_run = open_file_run("format", files, run)
     sources, _ = model_inputs(files, exclusion_of(ctx, exclude, force=force_exclude), is_text, file_run.remember)
     report = _FormatReport(check=check, diff=diff)
     found = Counter[Outcome]()
-    with file_run.on(FormattedFile, [FormatTask(source, options, limits) for source in sources]) as results:
+    with file_run.on(FormattedFile, [_task(source, contexts) for source in sources]) as results:
         for source, made in zip(sources, results, strict=True):
             found[report.file(source, made)] += 1
     file_run.end()
     print_line(report.summary(found), err=True)
     would_change = (check or diff) and found["changed"]
     ctx.exit(UNUSABLE if found["unusable"] else FINDINGS if would_change else 0)
+
+
+def _task(source: InputSource, contexts: ContextByFile) -> FormatTask:
+    """Return the formatting of a file by its configuration; where that is wrong, the file stays as it is."""
+    try:
+        given_options = contexts.of(source.name).params
+    except ConfigError as error:
+        return FormatTask(source, FormatOptions(), USUAL_LIMITS, finding_of(error))
+    options = FormatOptions(given_options["indent"], given_options["numbers"], given_options["sort_attributes"])
+    return FormatTask(source, options, Limits(given(given_options["max_size"], LARGEST)))
 
 
 Outcome = Literal["changed", "same", "unusable"]

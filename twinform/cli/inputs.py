@@ -11,9 +11,19 @@ from typing import TYPE_CHECKING, NamedTuple
 import click
 
 from twinform.cli.command import combine_options
-from twinform.cli.config_defaults import config_options, settings_of
+from twinform.cli.config_defaults import config_options, counts_for_all, settings_of
+from twinform.cli.config_file import ConfigError
 from twinform.cli.flags import flag, flags_of, group
-from twinform.cli.model_files import DEFAULT_EXCLUDE, XACRO, Exclusion, FileKind, PatternError, is_model
+from twinform.cli.model_files import (
+    DEFAULT_EXCLUDE,
+    XACRO,
+    Exclusion,
+    FileKind,
+    FolderExclusion,
+    PatternError,
+    is_model,
+)
+from twinform.cli.nearest_projects import NearestProjects
 from twinform.compiler import LoadOptions, LoadResult, read
 from twinform.compiler.input.load_options import FileOptions, ReadingOptions
 from twinform.compiler.input.size_limits import LARGEST
@@ -23,6 +33,7 @@ from twinform.lazy import lazy_pattern
 from twinform.option import declared_options
 
 if TYPE_CHECKING:
+    from twinform.cli.config_defaults import Project
     from twinform.cli.path_patterns import FolderWalk
     from twinform.profiles import Profile
 
@@ -65,10 +76,10 @@ class InputSource(NamedTuple):
         return _FORMATS.get(_root_name(head)) or format_of_suffix(self.name)
 
 
-def open_source(argument: str, size: int = LARGEST) -> InputSource:
+def open_source(argument: str, size: int = LARGEST, stdin_name: str | None = None) -> InputSource:
     """Open the source that an argument names; a stream is read, up to a few bytes more than `size`."""
     if argument == "-":
-        return InputSource(read_up_to(sys.stdin.buffer, size), _STDIN)
+        return InputSource(read_up_to(sys.stdin.buffer, size), stdin_name or _STDIN)
     if _is_stream(argument):
         with Path(argument).open("rb") as pipe:
             return InputSource(read_up_to(pipe, size), argument)
@@ -159,12 +170,15 @@ def load_options_of(
     options: FileOptions,
     policy: Policy | None = None,
     profiles: "tuple[Profile, ...]" = (),
+    *,
+    project: "Project | None" = None,
 ) -> LoadOptions:
     """Make the compiler's options of those of a command; folders of the project come after those that are typed.
 
-    With a policy, the findings that it allows are left out, errors too. `profiles` are those of the consumers.
+    With a policy, the findings that it allows are left out, errors too. `profiles` are those of the consumers. The
+    project is that of the current folder unless another one is given.
     """
-    project = settings_of(click.get_current_context())
+    project = project or settings_of(click.get_current_context())
     given: FileOptions = {
         **options,
         "paths": (*options.get("paths", ()), *project.folders),
@@ -186,11 +200,16 @@ def inputs(words: Sequence[str]) -> tuple[list[InputSource], dict[str, str]]:
 
 
 def model_inputs(
-    words: Sequence[str], exclusion: Exclusion, kind: FileKind = is_model, remember: Remember = lambda _, make: make()
+    words: Sequence[str],
+    exclusion: Exclusion,
+    kind: FileKind = is_model,
+    remember: Remember = lambda _, make: make(),
+    *,
+    stdin_name: str | None = None,
 ) -> tuple[list[InputSource], dict[str, str]]:
     """Open the model files that a command line names, also by folders and globs, without what is excluded.
 
-    `remember` may know from an earlier run which these are.
+    `remember` may know from an earlier run which these are. `stdin_name` is the name for the text of standard input.
 
     Raises:
         click.UsageError: as `inputs`, or there is no model.
@@ -199,7 +218,7 @@ def model_inputs(
     try:
         key = ("files", files, exclusion, getattr(kind, "__name__", ""))
         found = remember(key, lambda: discover(files, exclusion, kind))
-        return _open_files(found, arguments), arguments
+        return _open_files(found, arguments, stdin_name), arguments
     except (NothingFoundError, PatternError) as error:
         raise click.UsageError(str(error)) from error
 
@@ -213,21 +232,33 @@ def _split_words(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
     return files, arguments
 
 
-def _open_files(files: Sequence[str], arguments: Mapping[str, str]) -> list[InputSource]:
+def _open_files(files: Sequence[str], arguments: Mapping[str, str], stdin_name: str | None = None) -> list[InputSource]:
     ctx = click.get_current_context(silent=True)
     xacro = bool(ctx and ctx.params.get("xacro"))
     if arguments and not (xacro or any(file.lower().endswith(".xacro") for file in files)):
         raise click.UsageError(f"{next(iter(arguments))}:=... is an argument of xacro, and no input is a .xacro file")
     size = (ctx and ctx.params.get("max_size")) or LARGEST
-    return [open_source(file, size) for file in files]
+    return [open_source(file, size, stdin_name) for file in files]
 
 
 def exclusion_of(ctx: click.Context, patterns: Sequence[str], *, force: bool) -> Exclusion:
-    """Combine the exclusion of the project, or the default one, with the patterns of the command line."""
-    project = settings_of(ctx)
-    configured = DEFAULT_EXCLUDE if project.exclude is None else project.exclude
-    folder = project.path.parent if project.path else Path()
-    return Exclusion((*configured, *project.extend_exclude, *patterns), folder, force)
+    """Combine the exclusion of each folder's project, or the default one, with the patterns of the command line."""
+    own = settings_of(ctx)
+
+    def in_folder(folder: str) -> Exclusion | None:
+        try:
+            project = projects.in_folder(Path(os.path.abspath(folder)))  # noqa: PTH100 - links stay links
+        except ConfigError:
+            return None  # it is reported with the files of the folder
+        return of(project) if project and project.path != own.path else None
+
+    def of(project: "Project", in_folder: FolderExclusion | None = None) -> Exclusion:
+        configured = DEFAULT_EXCLUDE if project.exclude is None else project.exclude
+        folder = project.path.parent if project.path else Path()
+        return Exclusion((*configured, *project.extend_exclude, *patterns), folder, force, in_folder)
+
+    projects = NearestProjects()
+    return of(own, None if counts_for_all(ctx) else in_folder)
 
 
 _MAGIC = frozenset("*?[")
@@ -273,6 +304,7 @@ def _is_unwanted(word: str, exclusion: Exclusion, kind: FileKind) -> bool:
 def _is_excluded(word: str, exclusion: Exclusion, *, is_folder: bool = False) -> bool:
     from twinform.cli.path_patterns import PathPatterns  # noqa: PLC0415 - most runs enforce no exclusion
 
+    exclusion = exclusion.of_folder(os.path.dirname(word) or ".")  # noqa: PTH120 - a folder beside it has none
     patterns = PathPatterns.of(exclusion.folder, exclusion.patterns)
     return patterns.match(os.path.abspath(word), is_folder=is_folder)  # noqa: PTH100 - links stay links
 

@@ -1,6 +1,7 @@
 """Which files are models, by their names and contents, and which are excluded from a search."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import field
 from pathlib import Path
 from typing import Protocol
 
@@ -27,12 +28,21 @@ class PatternError(ValueError):
 class Exclusion:
     """Patterns of files and folders to leave out, relative to a folder or to a walk that begins outside of it.
 
-    `force` applies them to files that are named, too.
+    `force` applies them to files that are named, too. `in_folder` knows the exclusion of folders that have their own.
     """
 
     patterns: Sequence[str] = DEFAULT_EXCLUDE
     folder: Path = Path()
     force: bool = False
+    in_folder: "FolderExclusion | None" = field(default=None, compare=False, repr=False)
+
+    def of_folder(self, folder: str) -> "Exclusion":
+        """Return the exclusion for what is in a folder."""
+        return (self.in_folder(folder) if self.in_folder else None) or self
+
+
+FolderExclusion = Callable[[str], Exclusion | None]
+"""Returns the exclusion for what is in a folder, or None where the usual one counts."""
 
 
 class FileKind(Protocol):

@@ -1,8 +1,9 @@
 """Output files of a command: never over an input or another output unless in place, and all of them or none."""
 
+import io
 import os
-from collections.abc import Hashable, Iterable, Sequence
-from contextlib import suppress
+from collections.abc import Generator, Hashable, Iterable, Sequence
+from contextlib import contextmanager, redirect_stdout, suppress
 from dataclasses import field
 from pathlib import Path
 from typing import NamedTuple
@@ -47,6 +48,16 @@ def beside(result: Path | None, side_files: Iterable[str]) -> list[Output]:
             raise click.UsageError(f"{name} leads out of {result.parent}, or to what is no file")
         found.append(Output(f"the file {name} of a pass", path))
     return found
+
+
+@contextmanager
+def printed_text() -> Generator[io.BytesIO]:
+    """Yield a buffer that gets what is printed on standard output inside."""
+    data = io.BytesIO()
+    stream = io.TextIOWrapper(data, "utf-8", newline="\n", write_through=True)
+    with redirect_stdout(stream):
+        yield data
+    stream.detach()  # it would close the buffer with itself
 
 
 @dataclass(slots=True)

@@ -7,7 +7,6 @@ import click
 
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
 from twinform.cli.completion import files
-from twinform.cli.config_defaults import RuleSettings
 from twinform.cli.flags import group
 from twinform.cli.gazebo_files import release_option, version_for
 from twinform.cli.inputs import InputSource, inputs, reading_options
@@ -16,11 +15,10 @@ from twinform.cli.outputs import Output, Outputs
 from twinform.cli.printing import all_option, notes_option, print_line, print_text
 from twinform.cli.project_options import (
     OptionsByFile,
-    passes_of,
-    policy_options,
     request_options_of_versions,
     whole_request,
 )
+from twinform.cli.rule_options import policy_options
 from twinform.cli.run_conversion import show_findings, summary
 from twinform.compiler import CompileError, ConversionRequest
 from twinform.compiler.input.load_options import ReadingOptions
@@ -31,7 +29,6 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Policy
 from twinform.passes import PassError
 from twinform.passes.plugins.release_names import ReleaseName
-from twinform.request_options import RequestOptions
 
 _OPTIONS = (
     click.option("--package-version", metavar="X.Y.Z", default="", help="The version of the package; else 0.1.0."),
@@ -110,7 +107,6 @@ def command(
     kind: str,
     name: str | None,
     *,
-    sdf_versions: tuple[str, ...],
     gazebo: ReleaseName,
     model: str | None,
     allow_missing: bool,
@@ -121,9 +117,8 @@ def command(
     notes: bool,
     every: bool,
     details: PackageDetails,
-    request: RequestOptions,
-    rules: RuleSettings,
     reading: ReadingOptions,
+    **_options: object,
 ) -> None:
     """Put a model and all its files into a folder.
 
@@ -136,8 +131,10 @@ def command(
     sources, arguments = inputs(words)
     if len(sources) > 1:
         raise click.UsageError("package takes one input")
-    own = OptionsByFile(ctx, arguments, reading, rules, passes_of(request)).of(sources[0].name)
-    whole = whole_request(request, reading, passes=own.passes, model=model)
+    by_file, source = OptionsByFile(ctx, arguments), sources[0]
+    own = by_file.of(source.name)
+    sdf_versions: tuple[str, ...] = by_file.context_of(source.name).params["sdf_versions"]
+    whole = whole_request(own.request, reading, passes=own.passes, model=model)
     title = folder.resolve().name
     if kind == "both" and name is not None and name != title:
         raise click.UsageError(f"--name {name}: ROS looks for a package by its name, and Gazebo by that of its folder, "

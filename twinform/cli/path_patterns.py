@@ -3,7 +3,7 @@
 import os
 import re
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import field
 from pathlib import Path
 from typing import AnyStr, Self
@@ -201,14 +201,22 @@ class FolderWalk:
     named: bool = False
     kind: FileKind = is_model
     left_out: int = 0
-    excluded: PathPatterns = field(init=False)
+    _patterns: dict[tuple[Path, Sequence[str]], PathPatterns] = field(init=False)
 
     def __post_init__(self) -> None:
-        self.excluded = PathPatterns.of(self.exclusion.folder, self.exclusion.patterns)
-        here = os.path.abspath(self.top)  # noqa: PTH100 - links stay links
-        if not self.excluded.is_around(here) or self.excluded.match(here, is_folder=True):
-            # the user named the folder, so only files in it are excluded
-            self.excluded = PathPatterns.of(self.top, self.exclusion.patterns)
+        self._patterns = {}
+
+    def _excluded_in(self, folder: str) -> PathPatterns:
+        exclusion = self.exclusion.of_folder(folder)
+        key = (exclusion.folder, exclusion.patterns)
+        if key not in self._patterns:
+            found = PathPatterns.of(exclusion.folder, exclusion.patterns)
+            here = os.path.abspath(folder)  # noqa: PTH100 - links stay links
+            if not found.is_around(here) or found.match(here, is_folder=True):
+                # the user named the folder, so only files in it are excluded
+                found = PathPatterns.of(folder, exclusion.patterns)
+            self._patterns[key] = found
+        return self._patterns[key]
 
     def run(self) -> Iterator[str]:
         """Yield the files in any order; links to folders are not followed, so the walk ends."""
@@ -220,10 +228,10 @@ class FolderWalk:
             except OSError:
                 yield folder
                 continue
-            ignore = ignore.inside(os.path.realpath(folder))
+            ignore, excluded = ignore.inside(os.path.realpath(folder)), self._excluded_in(folder)
             for entry in entries:
                 is_folder = entry.is_dir(follow_symlinks=False)
-                if self._is_left_out(entry, ignore, is_folder=is_folder):
+                if self._is_left_out(entry, ignore, excluded, is_folder=is_folder):
                     self.left_out += not is_folder and self._is_wanted(entry)
                 elif is_folder:
                     pending.append((self._name(entry), ignore))
@@ -233,12 +241,13 @@ class FolderWalk:
     def _name(self, entry: os.DirEntry[str]) -> str:
         return entry.path.removeprefix(f".{os.sep}") if self.top == "." else entry.path
 
-    def _is_left_out(self, entry: os.DirEntry[str], ignore: GitIgnore, *, is_folder: bool) -> bool:
+    @staticmethod
+    def _is_left_out(entry: os.DirEntry[str], ignore: GitIgnore, excluded: PathPatterns, *, is_folder: bool) -> bool:
         if entry.name.startswith(_HIDDEN):
             return True
         real = os.path.join(os.path.realpath(os.path.dirname(entry.path)), entry.name)  # noqa: PTH118, PTH120 - for speed
         path = os.path.abspath(entry.path)  # noqa: PTH100 - links stay links
-        return self.excluded.match(path, is_folder=is_folder) or ignore.ignores(real, is_folder=is_folder)
+        return excluded.match(path, is_folder=is_folder) or ignore.ignores(real, is_folder=is_folder)
 
     def _is_wanted(self, entry: os.DirEntry[str]) -> bool:
         if self.wanted is not None and not self.wanted.match(os.path.abspath(entry.path)):  # noqa: PTH100 - as above

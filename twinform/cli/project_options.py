@@ -1,27 +1,29 @@
-"""Options that several commands share and a configuration may have: rules, pipelines, consumers, version, carriers."""
+"""Options that several commands share and a configuration may have, and their values for each file."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, Unpack, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack, cast
 
 import click
 from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
 from twinform.cli.command import Unusable, combine_options
-from twinform.cli.completion import pipelines, rule_names, sdf_versions
-from twinform.cli.config_defaults import NO_OWN_SETTINGS, OwnSettings, Project, RuleSettings, settings_of
+from twinform.cli.completion import pipelines, sdf_versions
+from twinform.cli.config_defaults import TYPED, Project, settings_of
 from twinform.cli.config_file import ConfigError
 from twinform.cli.flags import flags_of, group
 from twinform.cli.inputs import load_options_of
+from twinform.cli.nearest_projects import ContextByFile
+from twinform.cli.rule_options import policy_of
+from twinform.cli.settings_of_files import NO_OWN_SETTINGS, OwnSettings
 from twinform.compiler import LoadOptions
 from twinform.compiler.input.load_options import FileOptions, ReadingOptions
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Policy
-from twinform.diagnostics.diagnostic import GROUPS
-from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule
-from twinform.diagnostics.rule_registry import rules as known_rules
+from twinform.option import declared_options
 from twinform.request_options import RequestOptions, known_sdf_version
 from twinform.schemas import parse_version
 
@@ -30,41 +32,35 @@ if TYPE_CHECKING:
     from twinform.profiles import Profile
 
 
-_TYPED = (ParameterSource.COMMANDLINE, ParameterSource.ENVIRONMENT)
-
-
 class ResolvedOptions(NamedTuple):
-    """The options for one file: how it is read, the policy on its findings, and the passes to run."""
+    """The options for one file: how it is read, the policy on its findings, the passes to run, what it becomes."""
 
     load_options: LoadOptions
     policy: Policy
     passes: "Pipeline | None"
+    request: RequestOptions
 
 
 @dataclass(slots=True)
 class OptionsByFile:
-    """Resolves the options for each file; all share the search path, with what it knows of folders.
+    """Resolves the options for each file by its configuration; files share what is known of folders.
 
-    `option` is the name of the option for the passes. `profiles` are those of the consumers of the files. `asked` are
-    the folders whose models are asked for. `usual` are the options of a file without settings of its own.
+    `option` is the name of the option for the passes, and `asked` are the folders whose models are asked for. `usual`
+    are the options of a file without settings of its own.
     """
 
     ctx: click.Context
     arguments: Mapping[str, str]
-    reading: FileOptions
-    rules: RuleSettings
-    passes: "Pipeline | None"
     option: str = "passes"
-    profiles: "tuple[Profile, ...]" = ()
     asked: "tuple[Path, ...]" = ()
     usual: ResolvedOptions = field(init=False)
+    _contexts: ContextByFile = field(init=False)
+    _known: dict[click.Context, ResolvedOptions] = field(init=False)
+    _searches: dict[SearchPath, SearchPath] = field(init=False)
 
     def __post_init__(self) -> None:
-        policy = policy_of(self.ctx, self.rules)
-        load_options = load_options_of(self.arguments, self.reading, policy, self.profiles)
-        if self.asked:
-            load_options = replace(load_options, search=replace(load_options.search, asked=self.asked))
-        self.usual = ResolvedOptions(load_options, policy, self.passes)
+        self._contexts, self._known, self._searches = ContextByFile(self.ctx), {}, {}
+        self.usual = self._usual_in(self.ctx)
 
     def of(self, name: str) -> ResolvedOptions:
         """Return the options for a file.
@@ -72,116 +68,78 @@ class OptionsByFile:
         Raises:
             ConfigError: its settings are wrong.
         """
-        per_file = settings_of(self.ctx).per_file
-        own = per_file.of(name) if per_file else NO_OWN_SETTINGS
-        return self.usual if own is NO_OWN_SETTINGS else self._apply(own)
+        return self._in(self.context_of(name), name)
 
-    def _apply(self, own: OwnSettings) -> ResolvedOptions:
-        policy = policy_of(self.ctx, self.rules, own)
-        load_options = replace(
-            self.usual.load_options, arguments={**own.arguments, **self.arguments}, allow=policy.allow
-        )
+    def context_of(self, name: str) -> click.Context:
+        """Return the context of the command with the settings of a file's project.
+
+        Raises:
+            ConfigError: they are wrong.
+        """
+        return self._contexts.of(name)
+
+    def unless_wrong(self, name: str) -> tuple[ResolvedOptions, ConfigError | None]:
+        """Return the options for a file, or those without any configuration where the nearest one is wrong.
+
+        Raises:
+            ConfigError: the configuration of the run is wrong.
+        """
+        try:
+            return self.of(name), None
+        except ConfigError as error:
+            if error.file == settings_of(self.ctx).path:
+                raise
+            return self._usual_in(self._contexts.without_settings()), error
+
+    def baseline_of(self, name: str) -> Path | None:
+        """Return the baseline that the configuration of a file names; None if there is none, or it is wrong."""
+        try:
+            return settings_of(self._contexts.of(name)).baseline_file
+        except ConfigError as error:
+            if error.file == settings_of(self.ctx).path:
+                raise
+            return None
+
+    def _in(self, ctx: click.Context, name: str) -> ResolvedOptions:
+        usual, per_file = self._usual_in(ctx), settings_of(ctx).per_file
+        own = per_file.of(name) if per_file else NO_OWN_SETTINGS
+        return usual if own is NO_OWN_SETTINGS else self._apply(ctx, usual, own)
+
+    def _usual_in(self, ctx: click.Context) -> ResolvedOptions:
+        if ctx not in self._known:
+            policy = policy_of(ctx)
+            load_options = load_options_of(
+                self.arguments,
+                cast("FileOptions", params_of(ctx, FileOptions)),
+                policy,
+                ctx.params.get("profiles") or (),
+                project=settings_of(ctx),
+            )
+            search = replace(load_options.search, asked=self.asked) if self.asked else load_options.search
+            load_options = replace(load_options, search=self._searches.setdefault(search, search))
+            request = cast("RequestOptions", params_of(ctx, RequestOptions))
+            self._known[ctx] = ResolvedOptions(load_options, policy, ctx.params.get(self.option), request)
+        return self._known[ctx]
+
+    def _apply(self, ctx: click.Context, usual: ResolvedOptions, own: OwnSettings) -> ResolvedOptions:
+        policy = policy_of(ctx, own.rules)
+        load_options = replace(usual.load_options, arguments={**own.arguments, **self.arguments}, allow=policy.allow)
         if own.strict is not None and not self._is_typed("strict"):
             load_options = replace(load_options, strict=own.strict)
         configured = own.check_passes if self.option == "check_passes" else own.passes
-        if configured is None or self._is_typed(self.option):
-            return ResolvedOptions(load_options, policy, self.usual.passes)
-        text, key = configured
-        passes = configured_pipeline(settings_of(self.ctx), text, key) if text else None
-        return ResolvedOptions(load_options, policy, passes)
+        passes = usual.passes
+        if configured is not None and not self._is_typed(self.option):
+            text, key = configured
+            passes = configured_pipeline(settings_of(ctx), text, key) if text else None
+        return usual._replace(load_options=load_options, policy=policy, passes=passes)
 
     def _is_typed(self, option: str) -> bool:
-        return self.ctx.get_parameter_source(option) in _TYPED
+        return self.ctx.get_parameter_source(option) in TYPED
 
 
-def policy_of(ctx: click.Context, typed: RuleSettings, own: OwnSettings = NO_OWN_SETTINGS) -> Policy:
-    """Return the policy for a file: typed rules win over its `own` settings, and these over those of the project.
-
-    Raises:
-        ConfigError: the configuration names an unknown rule.
-    """
-    project = settings_of(ctx)
-    policy = Policy()
-    for rules in (RuleSettings(project.allow, project.deny), *own.rules):
-        _require_known(project, rules)
-        policy = _override_consistently(policy, rules)
-    return _override_consistently(policy, typed)
-
-
-def _override_consistently(before: Policy, rules: RuleSettings) -> Policy:
-    """Add rules to a policy, or raise a `UsageError` if one of them is both allowed and denied."""
-    both = sorted({*rules.allow} & {*rules.deny})
-    if both:
-        raise click.UsageError(f"{both[0]} is allowed and denied")
-    return override_policy(before, rules)
-
-
-def _require_known(project: Project, rules: RuleSettings) -> None:
-    for option, names in (("allow", rules.allow), ("deny", rules.deny)):
-        for name in names:
-            if project.path and (problem := _rule_problem(name, option)):
-                raise ConfigError(project.path, problem, key=f"{rules.key}.{option}".removeprefix("."))
-
-
-def override_policy(before: Policy, rules: RuleSettings) -> Policy:
-    """Add rules to a policy, in which they win over the rules that it has."""
-    allow, deny = _rules_of(rules.allow, but=rules.deny), _rules_of(rules.deny, but=rules.allow)
-    return Policy((before.allow - deny) | allow, (before.deny - allow) | deny)
-
-
-def _rules_of(names: Sequence[str], *, but: Sequence[str]) -> frozenset[str]:
-    """Return rules that are named by themselves or by their groups; `but` are named otherwise, and win over groups."""
-    groups = {*GROUPS}.intersection(names)
-    if not groups:
-        return frozenset(names)
-    others = {name for name, each in known_rules().items() if each.rule.group in groups}
-    return frozenset({*names, *others}) - groups - ({*but} - {*names})
-
-
-def _check_rules(_ctx: click.Context, option: click.Parameter, names: tuple[str, ...]) -> tuple[str, ...]:
-    for name in names:
-        if problem := _rule_problem(name, option.name or ""):
-            raise click.BadParameter(problem)
-    return names
-
-
-def _rule_problem(name: str, option: str) -> str:
-    """Say what is wrong with a rule in `allow` or `deny`; empty if nothing is."""
-    if name in GROUPS:
-        return ""
-    try:
-        found = find_rule(name)
-        if found is None:
-            from difflib import get_close_matches  # noqa: PLC0415 - most names are those of rules
-
-            near = get_close_matches(name, [*GROUPS, *known_rules()], n=1)
-            words = f"did you mean {near[0]}?" if near else "`twinform explain` lists the rules"
-            return f"no rule is called {name}; {words}"
-    except RuleRegistryError as error:
-        raise Unusable(str(error)) from error
-    return ""
-
-
-_POLICIES = (
-    (("--allow", "--ignore", "allow"), "Leave out findings of a rule or group"),
-    (("--deny",), "Make findings of a rule or group errors"),
-)
-policy_options = group(
-    "rules",
-    RuleSettings,
-    *(
-        click.option(
-            *names,
-            metavar="RULE",
-            multiple=True,
-            help=f"{text}; repeatable.",
-            callback=_check_rules,
-            shell_complete=rule_names,
-        )
-        for names, text in _POLICIES
-    ),
-)
-"""Gives a command `--allow` and `--deny`, which add to the rules of the configuration."""
+def params_of(ctx: click.Context, options: type) -> dict[str, Any]:
+    """Return the values that a command has for the options of a typed dictionary."""
+    return {name: ctx.params[name] for name in declared_options(options) if name in ctx.params}
 
 
 def pipeline_option(key: str) -> "Callable[[click.Context, click.Parameter, str | None], Pipeline | None]":
@@ -286,11 +244,6 @@ request_options_of_versions = combine_options(
     group("request", dict, *flags_of(RequestOptions, without=["sdf_version"], passes=_PIPELINE)),
 )
 """Gives a command the same options, but for several versions of SDF."""
-
-
-def passes_of(request: RequestOptions) -> "Pipeline | None":
-    """Return the pipeline of a request, which the command line has parsed."""
-    return cast("Pipeline | None", request.get("passes"))
 
 
 def whole_request(request: RequestOptions, reading: ReadingOptions, **more: Unpack[RequestOptions]) -> RequestOptions:

@@ -5,7 +5,7 @@ The target format and the output path of each input are decided here too.
 
 import os
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
@@ -24,6 +24,7 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import FileFindings, printable
 from twinform.passes import FilesPass, PassError, PassInstrumentation, Pipeline
+from twinform.request_options import RequestOptions
 from twinform.storage.writing import folded
 
 if TYPE_CHECKING:
@@ -131,9 +132,13 @@ def _require_distinct(found: Sequence[ConversionJob]) -> None:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Options:
-    """The options for all inputs; the request is for SDF unless an input has another target."""
+    """The options for all inputs; the request is for SDF unless an input has another target.
+
+    `complete` makes a request of the options that the configuration of an input may have.
+    """
 
     request: ConversionRequest
+    complete: Callable[[RequestOptions], ConversionRequest]
     load_options: LoadOptions
     ledger: Path | None
     notes: bool
@@ -151,7 +156,7 @@ class Options:
 
     def for_file(self, own: ResolvedOptions) -> "Options":
         """Return the options with those of one file."""
-        request = replace(self.request, passes=own.passes or Pipeline())
+        request = replace(self.complete(own.request), passes=own.passes or Pipeline())
         return replace(self, load_options=own.load_options, policy=own.policy, request=request)
 
     @property

@@ -4,7 +4,7 @@ import sys
 from collections.abc import Iterator
 
 from twinform.diagnostics.catalog import catalog
-from twinform.diagnostics.diagnostic import Rule, Safety
+from twinform.diagnostics.diagnostic import GROUPS, Rule, Safety
 from twinform.diagnostics.generated_files import main
 
 _INTRODUCTION = """\
@@ -12,8 +12,11 @@ _INTRODUCTION = """\
 
 Every kind of finding. The page of each has an example, what is better, and where the rule comes from;
 `twinform explain RULE` prints it. The last column is the option of `twinform check` that fixes what was found, if there
-is a fix.
+is a fix. `--select`, `--ignore` and `--deny` take a rule or a group, such as `physics`.
 This file is made by `python -m twinform.diagnostics.rules_page docs/reference/rules.md`; do not edit it.
+"""
+_TABLE = """
+## {group}
 
 | rule | severity | what it finds | fixed by |
 | --- | --- | --- | --- |
@@ -50,13 +53,15 @@ def sections(rule: Rule) -> Iterator[tuple[str, str]]:
 
 def rules_page() -> str:
     """The list of all rules in Markdown."""
-    return _INTRODUCTION + "".join(map(_row, catalog().values()))
+    in_groups = {group: [each for each in catalog().values() if each.group == group] for group in GROUPS}
+    tables = (_TABLE.format(group=group) + "".join(map(_row, found)) for group, found in in_groups.items())
+    return _INTRODUCTION + "".join(tables)
 
 
 def rule_page(rule: Rule) -> str:
     """A rule in Markdown, as the site shows it."""
     body = "\n".join(f"## {heading}\n\n{text}\n" for heading, text in sections(rule))
-    return f"# {rule.name}\n\nSeverity: {severity_words(rule)}.\n\n{body}"
+    return f"# {rule.name}\n\nSeverity: {severity_words(rule)}. Group: {rule.group}.\n\n{body}"
 
 
 def _row(rule: Rule) -> str:

@@ -164,9 +164,16 @@ def _shortened(text: str) -> str:
     return text if len(text) <= LONGEST else f"{text[: LONGEST // 2]} ... {text[-LONGEST // 4 :]}"
 
 
+WARNINGS = "warnings"
+"""The name that stands in `deny` for all warnings."""
+
+
 @dataclass(frozen=True, slots=True)
 class Policy:
-    """Findings of `allow` are left out, unless they are errors: those stay. Findings of `deny` are errors."""
+    """Findings of `allow` are left out, unless they are errors: those stay. Findings of `deny` are errors.
+
+    `deny` may have `warnings` in the place of a rule: then no finding is a warning.
+    """
 
     allow: frozenset[str] = frozenset()
     deny: frozenset[str] = frozenset()
@@ -178,5 +185,7 @@ class Policy:
         )
 
     def _with_severity(self, diagnostic: Diagnostic) -> Diagnostic:
-        """Return a finding as an error if its rule is denied."""
-        return replace(diagnostic, severity=Severity.ERROR) if diagnostic.rule.name in self.deny else diagnostic
+        """Return a finding as an error if its rule is denied, or all warnings are."""
+        is_denied = diagnostic.rule.name in self.deny
+        is_denied |= diagnostic.severity is Severity.WARNING and WARNINGS in self.deny
+        return replace(diagnostic, severity=Severity.ERROR) if is_denied else diagnostic

@@ -4,6 +4,7 @@ The text need not be well-formed: only tags, comments and sections are looked fo
 """
 
 import re
+from bisect import bisect_left
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -17,6 +18,8 @@ _TOKEN = lazy_pattern(
     rf"|{COMMENT}|{SECTION}|{INSTRUCTION}"
     r"|<(?P<close>/?)[^\s<>/\"'!?](?:[^<>\"'/]++|\"[^\"]*+\"|'[^']*+'|/(?!>))*+(?P<empty>/?)>"
 )
+
+_LINE_END = lazy_pattern(r"\r?\n")
 
 
 class Comment(NamedTuple):
@@ -97,3 +100,62 @@ class _CommentScan:
     def _settle(self, before: list[int], first: int, last: int) -> None:
         for index in before:
             self.found[index] = self.found[index]._replace(first=first, last=last)
+
+
+class CommentPlace(NamedTuple):
+    """An offset at which a comment about a line can stand, and what stands between them and the text around it."""
+
+    offset: int
+    before: str
+    after: str
+
+
+class CommentPlaces:
+    """Finds where comments can stand so that no text and no tag is another one for them."""
+
+    def __init__(self, text: str, line_end: str = "\n") -> None:
+        self._text, self._line_end = text, line_end
+        self._tokens = list(_TOKEN.finditer(text))
+        self._starts = [token.start() for token in self._tokens]
+        self._ends = [found.start() for found in _LINE_END.finditer(text)]
+
+    def about(self, line: int) -> CommentPlace | None:
+        """Return the place behind a line, or behind the tag on it, or before an element with a text; None if none."""
+        return self._behind(line) or self._before(line)
+
+    def _end_of(self, line: int) -> int:
+        return self._ends[line - 1] if line <= len(self._ends) else len(self._text)
+
+    def _last_token(self, offset: int) -> int:
+        """Return the number of the last token that begins before an offset; -1 if there is none."""
+        return bisect_left(self._starts, offset) - 1
+
+    def _behind(self, line: int) -> CommentPlace | None:
+        end = self._end_of(line)
+        number = self._last_token(end)
+        if number < 0:
+            return None
+        token = self._tokens[number]
+        if token.end() > end:  # the line ends in a tag: the comment goes behind that, if nothing else is there
+            end = self._end_of(line + self._text.count("\n", end, token.end()))
+            if token["close"] is None or self._last_token(end) != number:
+                return None
+        is_free = self._is_blank(token.end(), end) and self._is_blank(end, self._next_start(number))
+        is_free &= indentation(self._text, end) is None
+        return CommentPlace(end, "  ", "") if is_free else None
+
+    def _before(self, line: int) -> CommentPlace | None:
+        number = self._last_token(self._end_of(line))
+        token = self._tokens[number] if number >= 0 else None
+        blanks = indentation(self._text, token.start()) if token else None
+        if token is None or token["close"] != "" or blanks is None or not number:
+            return None
+        if not self._is_blank(self._tokens[number - 1].end(), token.start()):
+            return None
+        return CommentPlace(token.start(), "", f"{self._line_end}{blanks}")
+
+    def _next_start(self, number: int) -> int:
+        return self._starts[number + 1] if number + 1 < len(self._starts) else len(self._text)
+
+    def _is_blank(self, start: int, end: int) -> bool:
+        return not self._text[start:end].strip()

@@ -15,6 +15,7 @@ _FILES: Mapping[str, str] = {
     "ws/.git/HEAD": "ref: refs/heads/main\n",
     "ws/.gitignore": "/ignored\n",
     "ws/twinform.toml": '[[files]]\nmatch = ["*.sdf"]\ndeny = ["missing-file"]\n',
+    "ws/arm/urdf/twinform.toml": 'deny = ["missing-inertial"]\nexclude = ["ba*"]\n',
     "ws/arm/package.xml": "<package><name>arm</name></package>",
     "ws/arm/meshes/a.stl": "solid a",
     "ws/arm/urdf/plain.urdf": GOOD.replace(

@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 
 from twinform.diagnostics import catalog
+from twinform.diagnostics.diagnostic import GROUPS
 from twinform.diagnostics.rules_page import rules_page, sections, severity_words
 
 PAGE = Path(__file__).parents[3] / "docs/reference/rules.md"
@@ -35,8 +36,12 @@ def test_rules_are_sorted_and_unique() -> None:
     assert list(catalog()) == sorted({rule.name for rule in RULES})
 
 
-def test_the_page_has_every_rule_once_in_order() -> None:
-    assert re.findall(r"^\| \[(.*?)\]", rules_page(), re.MULTILINE) == list(catalog())
+def test_the_page_has_every_rule_once_in_order_in_its_group() -> None:
+    groups = dict(re.findall(r"^## (\w+)\n(.*?)(?=^##|\Z)", rules_page(), re.MULTILINE | re.DOTALL))
+    assert list(groups) == list(GROUPS)
+    for group, table in groups.items():
+        wanted = [name for name, rule in catalog().items() if rule.group == group]
+        assert re.findall(r"^\| \[(.*?)\]", table, re.MULTILINE) == wanted
 
 
 def test_the_committed_page_is_up_to_date() -> None:

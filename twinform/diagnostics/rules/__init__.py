@@ -306,6 +306,7 @@ WIDE_ENCODING = rule("wide-encoding", Severity.WARNING, strict=Severity.ERROR, g
 WORLD_CHILD = rule("world-child", Severity.ERROR, fix=Safety.UNSAFE)
 WORLD_LINK = rule("world-link", Severity.WARNING)
 WORLD_SYSTEM_NEEDED = rule("world-system-needed", Severity.INFO, group="plugins")
+WRONG_CONFIGURATION = rule("wrong-configuration", Severity.ERROR)
 WRONG_PLUGIN_CLASS = rule(
     "wrong-plugin-class", Severity.WARNING, strict=Severity.ERROR, fix=Safety.UNSAFE, group="plugins"
 )

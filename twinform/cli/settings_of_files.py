@@ -1,0 +1,113 @@
+"""The settings that the tables `[[files]]` of a configuration have for single files."""
+
+import os
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import field
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
+
+from twinform.cli.config_file import ConfigError
+from twinform.dataclass import dataclass
+
+if TYPE_CHECKING:
+    from twinform.cli.config_settings import FileSettings, RuleTable
+    from twinform.cli.path_patterns import PathPatterns
+
+Value = TypeVar("Value")
+
+
+class RuleSettings(NamedTuple):
+    """The rules that a table of the configuration or a command line names, and the key of the table.
+
+    With `select` nothing else is reported, `extend_select` adds to that, `allow` and `ignore` both leave rules out, and
+    findings of `deny` are errors.
+    """
+
+    allow: Sequence[str] = ()
+    deny: Sequence[str] = ()
+    ignore: Sequence[str] = ()
+    select: Sequence[str] = ()
+    extend_select: Sequence[str] = ()
+    key: str = ""
+
+    @classmethod
+    def of(cls, table: "RuleTable", key: str = "") -> "RuleSettings":
+        """Return the rules of a table."""
+        return cls(table.allow, table.deny, table.ignore, table.select, table.extend_select, key)
+
+    def named(self) -> Iterator[tuple[str, str]]:
+        """Yield each key with each rule or group that it has."""
+        for option in ("allow", "deny", "ignore", "select", "extend_select"):
+            yield from ((option.replace("_", "-"), name) for name in getattr(self, option))
+
+
+@dataclass(frozen=True, slots=True)
+class OwnSettings:
+    """The settings of one file beyond those of the project; None if a setting is not given.
+
+    Pipelines have the key that they come from, and rules are listed table by table.
+    """
+
+    arguments: Mapping[str, str] = field(default_factory=dict[str, str])
+    strict: bool | None = None
+    passes: tuple[str, str] | None = None
+    check_passes: tuple[str, str] | None = None
+    rules: Sequence[RuleSettings] = ()
+
+
+NO_OWN_SETTINGS = OwnSettings()
+
+
+def parse_patterns(path: Path, lines: Sequence[str], key: str) -> "PathPatterns":
+    """Parse the patterns that the configuration at a path has under a key.
+
+    Raises:
+        ConfigError: one is invalid.
+    """
+    from twinform.cli.path_patterns import PathPatterns, PatternError  # noqa: PLC0415 - few projects have any
+
+    try:
+        return PathPatterns.of(path.parent, lines)
+    except PatternError as error:
+        raise ConfigError(path, str(error), key=key) from error
+
+
+class PerFile:
+    """The tables `[[files]]` of a configuration; of several that fit a file, the last one wins."""
+
+    def __init__(self, path: Path, tables: Sequence["FileSettings"]) -> None:
+        """Take the tables of the configuration at a path.
+
+        Raises:
+            ConfigError: a pattern is invalid.
+        """
+        self.tables = [
+            (f"files[{number}]", parse_patterns(path, table.match, f"files[{number}].match"), table)
+            for number, table in enumerate(tables)
+        ]
+
+    def of(self, name: str) -> OwnSettings:
+        """Return the settings of a file."""
+        path = os.path.abspath(name)  # noqa: PTH100 - links stay links
+        fitting = [(key, table) for key, patterns, table in self.tables if patterns.match(path)]
+        if not fitting:
+            return NO_OWN_SETTINGS
+        return OwnSettings(
+            arguments={name: _xacro_text(value) for _, table in fitting for name, value in table.arguments.items()},
+            strict=_last_given(table.strict for _, table in fitting),
+            passes=_last_given((table.passes, f"{key}.passes") for key, table in fitting if table.passes is not None),
+            check_passes=_last_given(
+                (table.check_passes, f"{key}.check-passes") for key, table in fitting if table.check_passes is not None
+            ),
+            rules=[RuleSettings.of(table, key) for key, table in fitting],
+        )
+
+
+def _last_given(values: Iterable[Value | None]) -> Value | None:
+    """Return the last value that is set; None if none is."""
+    return next((each for each in reversed([*values]) if each is not None), None)
+
+
+def _xacro_text(value: str | float | bool) -> str:
+    """Write a value as xacro does."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
