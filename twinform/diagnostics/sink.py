@@ -72,17 +72,23 @@ class DiagnosticSink:
         *,
         found: str | None = None,
         expected: str | None = None,
-        help: str | None = None,
+        help: str | Callable[[], str | None] | None = None,
         related: tuple[Location, ...] = (),
         severity: Severity | None = None,
         refused: bool = False,
     ) -> None:
         """Add a diagnostic; without a given severity, the rule and the mode decide.
 
-        Past the limit, only the first error is still kept.
+        Past the limit, only the first error is still kept. `help` may be a function that makes it, which is called for
+        what is kept alone.
         """
-        message, found = _shortened(message), _shortened(found) if found else found
         severity = severity or rule.severity_in(strict=self.strict)
+        if self.allows is None and not self.takes(severity):
+            self.left_out += 1
+            return
+        message, found = _shortened(message), _shortened(found) if found else found
+        if help is not None and not isinstance(help, str):
+            help = help()
         where = self._complete(location)
         diagnostic = self._traced(
             Diagnostic(rule, message, where, severity, found, expected, help, related, None, refused)
@@ -104,6 +110,8 @@ class DiagnosticSink:
 
     def extend_new(self, diagnostics: Iterable[Diagnostic]) -> None:
         """Add the diagnostics whose rule was not reported at their place before."""
+        if not (diagnostics := tuple(diagnostics)):
+            return
         known = {(each.rule.name, self._place(each.location)) for each in self.diagnostics}
         self.extend(each for each in diagnostics if (each.rule.name, self._place(each.location)) not in known)
 
@@ -125,6 +133,8 @@ class DiagnosticSink:
 
     def traced_entries(self) -> tuple[LedgerEntry, ...]:
         """Return all entries of the ledger, with the places where their parts were written."""
+        if not self.origins:  # they were completed when they were added
+            return tuple(self.entries)
         return tuple(replace(each, location=self._origin(each.location)) for each in self.entries)
 
     def _place(self, location: Location) -> tuple[str, str | int]:

@@ -267,11 +267,12 @@ def _attributes(text: str, here: int) -> dict[str, AttributeSpan]:
     return attributes
 
 
-_TOKEN = lazy_pattern(rf"(?P<aside>{COMMENT}|{INSTRUCTION})|{SECTION}|<(?P<end>/)?[^\s<>/!?]{_REST_OF_TAG}")
+# The groups are numbered as the kinds below; a section has none.
+_TOKEN = lazy_pattern(rf"({COMMENT}|{INSTRUCTION})|{SECTION}|<(/)[^\s<>/!?]{_REST_OF_TAG}|<([^\s<>/!?]){_REST_OF_TAG}")
+_ASIDE, _END, _START = 1, 2, 3
 _TAG_NAME = lazy_pattern(r"<([^\s<>/]+)")
 _MOST = 4000
 """So many tags are looked at for one element: a hostile file has hundreds of them around a million others."""
-_START, _END, _ASIDE = range(3)
 
 
 class Tags:
@@ -280,9 +281,7 @@ class Tags:
     def __init__(self, text: str) -> None:
         self.text = text
         self._tokens = [
-            (_ASIDE if found.lastgroup == "aside" else _END if found.lastgroup == "end" else _START, *found.span())
-            for found in _TOKEN.finditer(text)
-            if found.lastgroup or not found[0].startswith("<![CDATA[")
+            (kind, found.start(), found.end()) for found in _TOKEN.finditer(text) if (kind := found.lastindex)
         ]
         self._starts = [number for number, (kind, _, _) in enumerate(self._tokens) if kind == _START]
         self._made: dict[int, ElementSpan] = {}
@@ -295,9 +294,10 @@ class Tags:
     def __len__(self) -> int:
         return len(self._starts)
 
-    def name(self, place: int) -> str:
-        """The name of an element, with its prefix."""
-        return start_tag_name(self.text, self.starts[place])
+    @cached_property
+    def names(self) -> list[str]:
+        """The name of each element, with its prefix."""
+        return [start_tag_name(self.text, start) for start in self.starts]
 
     def element(self, place: int) -> ElementSpan:
         """Find an element with all inside it; of a very large one, the start tag alone.

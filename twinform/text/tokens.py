@@ -56,7 +56,7 @@ class Tokens:
     """
 
     def __init__(self, text: str) -> None:
-        _require_well_formed(text)
+        require_well_formed(text)
         self.text = text
         self.kinds = bytearray()
         self.ends = array("q")
@@ -89,8 +89,12 @@ def _kind(token: str) -> TokenKind:
             return TokenKind.EMPTY if token[-2] == "/" else TokenKind.START
 
 
-def _require_well_formed(text: str) -> None:
-    """Raise an error if another parser would find other tokens."""
+def require_well_formed(text: str) -> None:
+    """Raise an error if another parser would find other tokens.
+
+    Raises:
+        UnplacedError: the text is not well-formed, or has a document type declaration.
+    """
     parser = expat.ParserCreate("utf-8")
     parser.StartDoctypeDeclHandler = _refuse_doctype
     try:

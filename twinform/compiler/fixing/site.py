@@ -2,7 +2,6 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Mapping
-from dataclasses import field
 from functools import cached_property
 from typing import Any
 
@@ -14,7 +13,17 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Fix, Location, Safety, TextEdit
 from twinform.lazy import lazy_pattern
 from twinform.schemas import Fact, Version, XmlElement, rows_by_name, table
-from twinform.text import Editor, Lines, SourceText, TextSurroundings, UndecodableError, UnplacedError, masked, spans
+from twinform.text import (
+    Editor,
+    Lines,
+    SourceText,
+    TextSurroundings,
+    UndecodableError,
+    UnplacedError,
+    masked,
+    spans,
+)
+from twinform.text.tokens import require_well_formed
 
 _EXPRESSION = lazy_pattern(r"\$[{(]")
 _BETWEEN_WORDS = lazy_pattern(r"\s+|::|,")
@@ -27,7 +36,6 @@ class FixableFile:
     loaded: LoadResult
     source: SourceText
     parts: PartFinder | None = None
-    edit: Editor = field(default_factory=lambda: Editor(TextSurroundings("", "\n", ""), {}))
 
     @classmethod
     def of(cls, loaded: LoadResult) -> "FixableFile | None":
@@ -39,12 +47,22 @@ class FixableFile:
         except UndecodableError:
             return None
         try:
-            root = read_tree_again(loaded.content)
-            place = spans(masked(source.text))
-            places = dict(zip(root.iter("*"), place.walk(), strict=True))
+            root = read_tree_again(loaded.content) if loaded.tree is None else loaded.tree
+            require_well_formed(masked(source.text))
         except (UnreadableError, UnplacedError, ValueError):
             return cls(loaded, source)
-        return cls(loaded, source, PartFinder(root), Editor(TextSurroundings.of(source, place), places))
+        return cls(loaded, source, PartFinder(root))
+
+    @cached_property
+    def edit(self) -> Editor:
+        """The editor, which knows the place of each element."""
+        # Most fixers look at the element first and have nothing to edit, and to find all places takes
+        # as long as to read and check the file.
+        if self.parts is None:
+            return Editor(TextSurroundings("", "\n", ""), {})
+        place = spans(masked(self.text))
+        places = dict(zip(self.root.iter("*"), place.walk(), strict=True))
+        return Editor(TextSurroundings.of(self.source, place), places)
 
     @property
     def root(self) -> XmlElement:

@@ -329,7 +329,8 @@ def _parse_again(data: bytes) -> XmlElement:
 
 def _have_equal_tags(places: dict[XmlElement, int], tags: Tags) -> bool:
     """Whether the elements have the same names in the tree and in the text, except for prefixes and old roots."""
-    return all(
-        place == 0 or str(element.tag).rpartition("}")[2] == tags.name(place).rpartition(":")[2]
-        for element, place in places.items()
+    names = [element.tag for element in places]
+    return names == tags.names or all(
+        place == 0 or str(name).rpartition("}")[2] == written.rpartition(":")[2]
+        for place, (name, written) in enumerate(zip(names, tags.names, strict=True))
     )

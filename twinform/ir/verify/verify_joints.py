@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable, Mapping
+from functools import partial
 
 from twinform.diagnostics import DiagnosticSink, Location, Severity, did_you_mean, rules
 from twinform.diagnostics.rules import RANGE_IN_DEGREES
@@ -137,7 +138,7 @@ def verify_mimics(joints: Iterable[Joint], sink: DiagnosticSink) -> None:
             leaders[joint.name] = (mimic and mimic.joint) or ""
             continue
         message = f"joint {joint.name!r} mimics {mimic.joint!r}, {what}"
-        hint = None if mimic.joint in known else did_you_mean(mimic.joint or "", movable, but=(joint.name,))
+        hint = None if mimic.joint in known else partial(did_you_mean, mimic.joint or "", movable, but=(joint.name,))
         sink.report(rules.UNKNOWN_LEADER, message, mimic.location, found=mimic.joint, help=hint)
     _report_circles(followers, leaders, sink)
 

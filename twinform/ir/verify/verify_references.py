@@ -1,7 +1,7 @@
 """Verifies references of SDF by name: whether what is named is there, and is one thing only."""
 
 from collections.abc import Callable, Iterable, Iterator
-from functools import cached_property
+from functools import cached_property, partial
 
 from twinform.diagnostics import DiagnosticSink, Rule, Severity, did_you_mean, rules
 from twinform.ir.document import World
@@ -144,7 +144,7 @@ class References:
     ) -> None:
         """Report a name that means nothing, or two things.
 
-        `part` is where it stands, whose path is dear and made only then, as the hint is.
+        `part` is where it stands, whose path is dear and made only then.
         """
         found = self.scope.find(name)
         if found is not None and not (found == "twice" and self.one_scope):
@@ -152,7 +152,7 @@ class References:
         node, step = part
         where = node.location.at(step)
         if found is None:
-            self.sink.report(rule, message, where, found=name, help=hint())
+            self.sink.report(rule, message, where, found=name, help=hint)
         else:
             message = f"{name!r} is the name of two things, so this reference is ambiguous"
             self.sink.report(rules.AMBIGUOUS_FRAME, message, where, found=name)
@@ -226,7 +226,7 @@ def _verify_contact(sensor: Sensor, collisions: NamedCollisions, sink: Diagnosti
         own_name = name.rpartition("::")[2]
         if own_name not in collisions.names and name != _DEFAULT and collisions.are_all_known:
             message = f"contact sensor {sensor.name!r} names the collision {name!r}, which does not exist"
-            hint = did_you_mean(own_name, collisions.names)
+            hint = partial(did_you_mean, own_name, collisions.names)
             sink.report(rules.UNKNOWN_COLLISION, message, part.location.at(step), found=name, help=hint)
 
 
@@ -236,7 +236,7 @@ def verify_grippers(model: Model, is_link: Callable[[str], bool], sink: Diagnost
         for part, step, name in _texts(model.opaque, "gripper", word):
             if not is_link(name):
                 message = f"<{word}> of a gripper names {name!r}, but model {model.name!r} has no such link"
-                hint = did_you_mean(name, (link.name for link in model.links))
+                hint = partial(did_you_mean, name, [link.name for link in model.links])
                 sink.report(rules.UNKNOWN_GRIPPER_LINK, message, part.location.at(step), found=name, help=hint)
 
 

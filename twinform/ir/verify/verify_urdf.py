@@ -1,6 +1,7 @@
 """The rules of URDF, which describes one tree."""
 
 from collections.abc import Iterable, Iterator
+from functools import partial
 
 from twinform.diagnostics import DiagnosticSink, Location, Severity, did_you_mean, rules
 from twinform.ir.joint import Joint
@@ -41,7 +42,7 @@ def verify_robot(model: Model, sink: DiagnosticSink, *, optional: bool) -> None:
         if extension.reference and extension.reference not in known:
             where = extension.location.at("@reference")
             message = f"<gazebo> refers to {extension.reference!r}, which is neither a link nor a joint"
-            hint = did_you_mean(extension.reference, known)
+            hint = partial(did_you_mean, extension.reference, known)
             sink.report(rules.UNKNOWN_REFERENCE, message, where, found=extension.reference, help=hint)
 
 
@@ -49,15 +50,18 @@ def _verify_joint(joint: Joint, links: set[str], moved: set[str | None], sink: D
     for end, name in (("parent", joint.parent), ("child", joint.child)):
         if name is not None and name not in links:
             message = f"joint {joint.name!r} has the {end} {name!r}, but there is no such link"
-            # a link has one parent only
-            free = links - moved if end == "child" else links
-            hint = did_you_mean(name, free, but=(joint.parent, joint.child))
+            taken = moved if end == "child" else set[str | None]()  # a link has one parent only
+            hint = partial(_suggest_link, name, joint, links, taken)
             sink.report(rules.DANGLING_LINK, message, joint.location.at(end), found=name, help=hint)
     verify_joint(joint, sink)
     for part in joint.opaque:
         if part.element and part.element.name == "dynamics" and not part.element.attributes:
             message = f"<dynamics> of joint {joint.name!r} has neither damping nor friction"
             sink.report(rules.EMPTY_DYNAMICS, message, part.location, expected="damping or friction")
+
+
+def _suggest_link(name: str, joint: Joint, links: set[str], taken: set[str | None]) -> str | None:
+    return did_you_mean(name, links - taken, but=(joint.parent, joint.child))
 
 
 def _verify_tree(model: Model, links: set[str], sink: DiagnosticSink) -> None:
@@ -88,7 +92,7 @@ def _report_materials(model: Model, sink: DiagnosticSink) -> None:
     for material in used:
         if material.name and _is_bare(material) and material.name not in defined:
             message = f"material {material.name!r} is not defined"
-            hint = did_you_mean(material.name, defined)
+            hint = partial(did_you_mean, material.name, defined)
             sink.report(rules.UNKNOWN_MATERIAL, message, material.location, found=material.name, help=hint)
 
 

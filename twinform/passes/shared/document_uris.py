@@ -25,6 +25,7 @@ from twinform.ir import (
     bits_of,
     rewrite,
 )
+from twinform.ir.record import Sourced
 from twinform.ir.rewrite import union_of
 from twinform.passes.shared.nodes import map_elements
 
@@ -84,7 +85,7 @@ def _map_node_uris(change: Change, node: Node) -> Node:
 
 def _map_untyped_uris(node: Node, change: Change) -> dict[str, object]:
     """The updated untyped parts of a node, as fields to copy."""
-    in_element = partial(_map_element_uris, change=change, where=node.location)
+    in_element = partial(_map_element_uris, change=change, holder=node)
     update: dict[str, object] = {}
     if isinstance(node, GazeboExtension):
         content = tuple(map(in_element, node.content))
@@ -93,15 +94,16 @@ def _map_untyped_uris(node: Node, change: Change) -> dict[str, object]:
     return {**update, "opaque": opaque} if opaque != node.opaque else update
 
 
-def _map_element_uris(element: Element, change: Change, where: Location, inside: str = "") -> Element:
-    if element.name == "plugin":
+def _map_element_uris(element: Element, change: Change, holder: Sourced, inside: str = "") -> Element:
+    name, text, children = element.name, element.text, element.children
+    if name == "plugin":
         return element
-    where = element.location if element.source else where
-    text = element.text
-    is_uri = element.name in _ELEMENTS or (inside, element.name) in _INNER_ELEMENTS
-    if is_uri and text and text.strip():
-        text = change(text, _HOLDERS.get(inside, "texture"), where)
-    children = tuple(_map_element_uris(child, change, where, element.name) for child in element.children)
+    if element.source:
+        holder = element
+    if text and (name in _ELEMENTS or (inside, name) in _INNER_ELEMENTS) and text.strip():
+        text = change(text, _HOLDERS.get(inside, "texture"), holder.location)
+    if children:
+        children = tuple([_map_element_uris(child, change, holder, name) for child in children])
     if text == element.text and children == element.children:
         return element
     return element.copy(text=text, children=children)

@@ -7,7 +7,7 @@ import pytest
 from twinform.compiler import LoadOptions, expand, inspect, read
 from twinform.compiler.fixing import with_fixes
 from twinform.diagnostics import Diagnostic
-from twinform.text import SourceText, apply
+from twinform.text import ElementSpan, SourceText, apply, spans
 
 
 def _offered(source: Path | bytes) -> dict[str, Diagnostic]:
@@ -70,3 +70,19 @@ def test_a_finding_in_an_included_file_has_none(tmp_path: Path) -> None:
     assert found
     assert all(each.fix is None for each in found)
     assert _offered(folder / "model.sdf")["repeated-element"].fix
+
+
+def test_places_are_found_where_something_is_edited(monkeypatch: pytest.MonkeyPatch) -> None:
+    """To find them takes as long as to check the file, and most fixers have nothing to edit."""
+    asked = list[str]()
+
+    def find(text: str) -> ElementSpan:
+        asked.append(text)
+        return spans(text)
+
+    monkeypatch.setattr("twinform.compiler.fixing.site.spans", find)
+    twice = "<sdf version='1.11'><model name='m'><link name='a'/></model><model name='m'><link name='a'/></model></sdf>"
+    assert _offered(twice.encode())["repeated-element"].fix is None
+    assert not asked
+    assert _offered(_box("1,1,1").encode())["invalid-value"].fix
+    assert len(asked) == 1
