@@ -22,12 +22,13 @@ from twinform.schemas.validator import (
     Engine,
     SchemaError,
     is_valid_text,
+    is_valid_without_unknown,
     libxml2_errors,
     refusals,
     validate,
     xmlschema_errors,
 )
-from twinform.schemas.value_readers import LAST_LINE, element_xml, node_class
+from twinform.schemas.value_readers import LAST_LINE, element_xml, node_class, read_element
 from twinform.schemas.value_types import VALUE_TYPES, format_value, parse_value
 from twinform.schemas.xml import (
     XmlElement,
@@ -65,6 +66,7 @@ __all__ = [
     "in_usual_namespaces",
     "is_followed",
     "is_valid_text",
+    "is_valid_without_unknown",
     "libxml2_errors",
     "node_class",
     "node_xml",
@@ -73,6 +75,7 @@ __all__ = [
     "parse_written",
     "path_of",
     "print_version",
+    "read_element",
     "reader",
     "refusals",
     "repeated_fields",

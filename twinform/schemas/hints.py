@@ -108,7 +108,8 @@ def _elsewhere(format_: str, name: str, around: Sequence[str]) -> str | None:
     return f"it belongs in {' or '.join(f'<{parent}>' for parent in parents)}"
 
 
-def _places_with(format_: str, name: str, child: str) -> set[str]:
+@cache  # both names are in the tables
+def _places_with(format_: str, name: str, child: str) -> frozenset[str]:
     """Return the elements in which an element of a name may have a child."""
     facts = table(format_)
     found: set[str] = set()
@@ -119,7 +120,7 @@ def _places_with(format_: str, name: str, child: str) -> set[str]:
         if row.name == name and not row.dialect and any(each.name == child for each in inside):
             found.add(holder)
         pending.extend((row.name, each) for each in row.children)
-    return found
+    return frozenset(found)
 
 
 @cache

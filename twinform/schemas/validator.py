@@ -4,7 +4,7 @@ The reader has read the document before and reported whatever is wrong with it. 
 for as well because the two are independent readings of the same facts: where they differ, one of them is wrong.
 """
 
-from collections.abc import Generator
+from collections.abc import Collection, Generator
 from contextlib import contextmanager
 from functools import cache
 from itertools import islice
@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 from lxml import etree
 
 from twinform.diagnostics import Location, rules
-from twinform.schemas.facts import Version, print_version
+from twinform.schemas.facts import Version, print_version, table
 from twinform.schemas.messages import Context
 from twinform.schemas.packaged import schema_text
 from twinform.schemas.xml import XmlElement
@@ -67,7 +67,7 @@ def validate(
     # elements, or explaining each error by its line, would be quicker and would no longer show
     # where the two disagree.
     if errors and (context.tolerated or context.replaced):
-        with _without_tolerated(context):
+        with _without(context.tolerated, context.replaced):
             errors = refusals(root, context, engine)
     explained = _lines_with_faults(context) if errors else set[int]()
     for error in errors:
@@ -196,20 +196,41 @@ def _lines_with_faults(context: Context) -> set[int]:
     return lines | {0} if lines else lines
 
 
+def is_valid_without_unknown(root: XmlElement, format_: str, version: Version) -> bool:
+    """Tell whether libxml2 accepts a tree without the elements whose names no version of the format has."""
+    known = _element_names(format_)
+    unknown: list[tuple[XmlElement, str | None]] = [(each, None) for each in root.iter() if each.tag not in known]
+    if not unknown:
+        return False
+    with _without(unknown, ()):
+        return not libxml2_errors(root, format_, version)
+
+
+@cache
+def _element_names(format_: str) -> frozenset[str]:
+    facts = table(format_)
+    holders = [*facts.definitions.values()]
+    for holder in holders:  # grows while it is walked
+        holders += holder.children
+    return frozenset(each.name for each in holders)
+
+
 @contextmanager
-def _without_tolerated(context: Context) -> Generator[None]:
-    """Take reported and kept faults out of the tree for as long as the block lasts."""
-    gone = {element for element, part in context.tolerated if part is None}
+def _without(
+    tolerated: Collection[tuple[XmlElement, str | None]], replaced: Collection[tuple[XmlElement, str, str]]
+) -> Generator[None]:
+    """Take parts out of a tree, or replace them, for as long as the block lasts; they are those of a `Context`."""
+    gone = {element for element, part in tolerated if part is None}
     # Children are taken out and put back all at once for each parent: a hostile file has a hundred
     # thousand of them. A copy of the tree took longer than the validation itself.
     parents = {parent for element in gone if (parent := element.getparent()) is not None}
     whole = [(parent, list(parent)) for parent in parents]
-    changed = {element for element, _, _ in context.replaced}
-    changed.update(element for element, part in context.tolerated if part is not None)
+    changed = {element for element, _, _ in replaced}
+    changed.update(element for element, part in tolerated if part is not None)
     before = [(element, element.items(), element.text, element.tail) for element in changed]
-    for element, part, word in context.replaced:
+    for element, part, word in replaced:
         _replace(element, part, word)
-    for element, part in context.tolerated:
+    for element, part in tolerated:
         _replace(element, part, None)
     for parent, children in whole:
         parent[:] = [child for child in children if child not in gone]

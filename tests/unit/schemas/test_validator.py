@@ -15,6 +15,7 @@ from twinform.schemas import (
     SchemaError,
     Version,
     XmlElement,
+    is_valid_without_unknown,
     libxml2_errors,
     reader,
     validate,
@@ -191,3 +192,14 @@ def test_the_default_path_does_not_import_xmlschema():
         "libxml2_errors(etree.fromstring('<robot/>'), 'urdf', (1, 0)); sys.exit('xmlschema' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("inside", "expected"),
+    [("<nothing/>", True), ("<nothing><link/></nothing><other/>", True), ("<nothing/><mass/>", False), ("", False)],
+)
+def test_names_that_no_version_has_may_be_all_that_is_wrong(inside: str, expected: bool):
+    root = etree.fromstring(f"<sdf version='1.11'><model name='m'><link name='l'>{inside}</link></model></sdf>")
+    before = etree.tostring(root)
+    assert is_valid_without_unknown(root, "sdf", (1, 11)) is expected
+    assert etree.tostring(root) == before
