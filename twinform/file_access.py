@@ -46,7 +46,9 @@ class Readable:
         """
         own = own_folder(file)
         top = find_root(file)
-        root, real = os.path.realpath(top), os.path.realpath(own)
+        real = os.path.realpath(own)
+        is_linked = real != os.fspath(own)  # if it has no links in its name, no folder above it has any
+        root = os.path.realpath(top) if is_linked else os.fspath(top)
         if own.parent == own:  # the root of the file system holds all that there is
             return cls((), tuple(named), tuple(installed), frozenset({os.path.join(real, file.name)}))
         is_inside = _is_below(real, root)
@@ -54,7 +56,7 @@ class Readable:
         around = (root, real) if is_inside and real != root else (root,)
         single = frozenset({os.path.join(real, file.name)} if is_inside else ())
         neighbors = neighborhood(top)
-        beside = os.path.realpath(neighbors) if neighbors else ""
+        beside = (os.path.realpath(neighbors) if is_linked else os.fspath(neighbors)) if neighbors else ""
         return cls(around, tuple(named), tuple(installed), single, beside)
 
     def for_neighbor(self, name: str) -> Self:
@@ -64,19 +66,23 @@ class Readable:
 
     def allows(self, path: str | Path) -> bool:
         """Tell whether a file or folder may be read, or does not exist."""
+        return self._allows_path(path, os.path.realpath(path))
+
+    def _allows_path(self, path: str | Path, real: str) -> bool:
         # A link `robot.urdf -> ~/.netrc` in a downloaded repository must not make that file
         # readable, so the real place decides and not the name.
-        real = os.path.realpath(path)
         return self._allows_place(real) or self._is_linked_package(path, real)
 
-    def require(self, path: str | Path) -> None:
-        """Raise an error for a file or folder that must not be read.
+    def require(self, path: str | Path) -> str:
+        """Raise an error for a file or folder that must not be read; return its real path.
 
         Raises:
             OutsideError: it lies outside, or is hidden.
         """
-        if not self.allows(path):
-            raise OutsideError(str(path), self._reason(os.path.realpath(path)))
+        real = os.path.realpath(path)
+        if not self._allows_path(path, real):
+            raise OutsideError(str(path), self._reason(real))
+        return real
 
     def read(self, path: str | Path, size: int | None = None) -> bytes:
         """Read a file; of one larger than `size`, one byte more than that.
@@ -85,10 +91,9 @@ class Readable:
             OutsideError: it must not be read.
             OSError: it cannot be read, or is no regular file.
         """
-        self.require(path)
         # The place of the opened descriptor is compared with the one that was checked, so that
         # nothing can be exchanged in between.
-        expected = os.path.realpath(path)
+        expected = self.require(path)
 
         def check(place: str) -> None:
             if place != expected and not self._allows_place(place):
@@ -270,9 +275,10 @@ def folders_above(folder: Path) -> Iterator[Path]:
     A mark in the home folder, such as the repository of somebody's settings, or in a temporary folder that all users
     share says nothing about what else is there.
     """
-    home = _identity(Path("~").expanduser())
+    home = _identity(_status(os.path.expanduser("~")))
     for each in (folder, *folder.parents):
-        if _is_shared(each) or _identity(each) == home:
+        status = _status(each)
+        if _is_shared(status) or _identity(status) == home:
             # a link to such a folder may have come with an archive: it is no end, and no root either
             if not each.is_symlink():
                 return
@@ -293,18 +299,17 @@ def has_any(folder: Path, names: tuple[str, ...]) -> bool:
     return any(os.path.lexists(f"{place}{os.sep}{name}") for name in names)
 
 
-def _identity(folder: Path) -> tuple[int, int] | None:
+def _status(folder: str | Path) -> os.stat_result | None:
     try:
-        status = folder.stat()
+        return os.stat(folder)
     except (OSError, ValueError):
         return None
-    return status.st_dev, status.st_ino
 
 
-def _is_shared(folder: Path) -> bool:
+def _identity(status: os.stat_result | None) -> tuple[int, int] | None:
+    return (status.st_dev, status.st_ino) if status else None
+
+
+def _is_shared(status: os.stat_result | None) -> bool:
     """Tell whether everybody may write into a folder without removing the files of others, as in /tmp."""
-    try:
-        mode = folder.stat().st_mode
-    except (OSError, ValueError):
-        return False
-    return bool(mode & stat.S_ISVTX and mode & stat.S_IWOTH)
+    return bool(status and status.st_mode & stat.S_ISVTX and status.st_mode & stat.S_IWOTH)

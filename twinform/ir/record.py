@@ -6,11 +6,22 @@ most of what a short command does, so that this waits until something is validat
 `Sourced` is the base class of parts of a document, which know where they come from.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, field, fields
 from functools import cache, partial
 from operator import attrgetter
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, ParamSpec, Self, TypeVar, cast, dataclass_transform
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    ClassVar,
+    NamedTuple,
+    ParamSpec,
+    Self,
+    TypeVar,
+    cast,
+    dataclass_transform,
+)
 
 from twinform.dataclass import LazySignature
 from twinform.diagnostics import NOWHERE, Location, Source
@@ -89,8 +100,7 @@ class Record:
             AttributeError: there is no such field.
         """
         kind = self.__class__
-        draft, values = _copying(kind)
-        made = draft(values(self))
+        made = _functions(kind).duplicate(self)
         for name, value in changes.items():
             setattr(made, name, value)
         made.__class__ = kind
@@ -195,32 +205,22 @@ def maker(kind: type[AnyRecord]) -> Callable[[dict[str, Any]], AnyRecord]:
 
 @cache
 def _maker(kind: type[Any]) -> Callable[[dict[str, Any]], Any]:
-    draft, _ = _copying(kind)
+    fill = filler(kind)
     defaults = {name: each.default for name, each in fields_of(kind).items()}
 
     def make(values: dict[str, Any]) -> Any:
         try:
-            made = draft((defaults | values).values())
+            return fill((defaults | values).values())
         except ValueError:
             unknown = ", ".join(sorted(values.keys() - defaults.keys()))
             raise TypeError(f"{kind.__name__} has no field {unknown}") from None
-        made.__class__ = kind
-        return made
 
     return make
 
 
-@cache
-def filler(kind: type[AnyRecord]) -> Callable[[tuple[object, ...]], AnyRecord]:
+def filler(kind: type[AnyRecord]) -> Callable[[Iterable[object]], AnyRecord]:
     """What makes objects of a class from values of all its fields, in their order, that need no validation."""
-    draft, _ = _copying(kind)
-
-    def make(values: tuple[object, ...]) -> AnyRecord:
-        made = draft(values)
-        made.__class__ = kind
-        return made
-
-    return make
+    return _functions(kind).fill
 
 
 def _restored(kind: type[AnyRecord], *values: object) -> AnyRecord:
@@ -228,9 +228,16 @@ def _restored(kind: type[AnyRecord], *values: object) -> AnyRecord:
     return filler(kind)(values)
 
 
+class _Functions(NamedTuple):
+    """What makes an object of the values of all fields, and what makes a draft with the values of another object."""
+
+    fill: Callable[[Any], Any]
+    duplicate: Callable[[Any], Any]
+
+
 @cache
-def _copying(kind: type[Record]) -> tuple[Callable[[Any], Any], Callable[[Any], Any]]:
-    """What makes a draft of an object from its values, and what gives these.
+def _functions(kind: type[Record]) -> _Functions:
+    """The functions that make objects of a class.
 
     A frozen object could be filled by `object.__setattr__`, field by field, which takes three times as long. A draft
     has the same slots and is not frozen; it becomes the object by `__class__`. It has its own `__delattr__`, as both
@@ -240,13 +247,15 @@ def _copying(kind: type[Record]) -> tuple[Callable[[Any], Any], Callable[[Any], 
         raise TypeError(f"{kind.__name__} needs the decorator `record`")
     writable = {"__setattr__": object.__setattr__, "__delattr__": object.__delattr__}
     draft = type(kind.__name__, kind.__bases__, {"__slots__": vars(kind)["__slots__"], **writable})
-    names = kind.field_names
-    scope: dict[str, Any] = {"new": partial(object.__new__, draft)}
-    lines = ["made = new()", ", ".join(f"made.{name}" for name in names) + ", = values", "made._census = None"]
-    # One compiled function per class, made when it is first needed in 0.05 ms. The unpacking makes
-    # a name too many an error that costs nothing.
-    exec("\n    ".join(["def draft(values):", *lines, "return made"]), scope)  # noqa: S102 - our field names, as in namedtuple
-    return scope["draft"], attrgetter(*names)
+    scope: dict[str, Any] = {"new": partial(object.__new__, draft), "kind": kind}
+    # Compiled for each class when they are first needed, in 0.1 ms. The unpacking makes a name too
+    # many an error that costs nothing.
+    made = ["made = new()", "made._census = None"]
+    fill = [f"{', '.join(f'made.{name}' for name in kind.field_names)}, = values", "made.__class__ = kind"]
+    duplicate = [f"made.{name} = other.{name}" for name in kind.field_names]
+    for head, lines in (("fill(values)", fill), ("duplicate(other)", duplicate)):
+        exec("\n    ".join([f"def {head}:", *made, *lines, "return made"]), scope)  # noqa: S102 - our field names, as in namedtuple
+    return _Functions(scope["fill"], scope["duplicate"])
 
 
 def amend(part: Record, name: str, value: object) -> None:

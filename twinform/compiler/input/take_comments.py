@@ -55,17 +55,24 @@ def _bare_comment(comment: XmlElement) -> SourceComment:
 
 
 def _comment_with_place(comment: XmlElement) -> SourceComment:
-    behind = next(comment.itersiblings("*"), None)
+    behind = _nearest_element(comment, preceding=False)
     has_own_line = _begins_line(comment) or (behind is not None and not _ends_line(comment))
     return SourceComment(
         comment.text or "",
         comment.sourceline or 0,
         comment.getparent(),
-        next(comment.itersiblings("*", preceding=True), None),
+        _nearest_element(comment, preceding=True),
         behind,
         has_own_line=has_own_line,
         indent=_blanks_before(comment).rpartition("\n")[2] if has_own_line and "\n" in (comment.text or "") else None,
     )
+
+
+def _nearest_element(comment: XmlElement, *, preceding: bool) -> XmlElement | None:
+    near = comment.getprevious() if preceding else comment.getnext()
+    if near is None or near.tag is not etree.Comment:  # an iterator takes longer, and most are beside an element
+        return near
+    return next(comment.itersiblings("*", preceding=preceding), None)
 
 
 def _blanks_before(comment: XmlElement) -> str:
@@ -76,6 +83,8 @@ def _blanks_before(comment: XmlElement) -> str:
 
 def _begins_line(comment: XmlElement) -> bool:
     """Whether nothing but comments stands before a comment on its line."""
+    if "\n" in _blanks_before(comment):
+        return True
     return any("\n" in _blanks_before(each) for each in _adjacent_comments(comment, lambda each: each.getprevious()))
 
 

@@ -220,6 +220,8 @@ class _CommentPlacing:
             self.starts[line] = defaultdict(list)
             for source, start in self.parts.get(line, ()):
                 self.starts[line][source.path.replace(FIRST, "")].append(start)
+        if not self.starts[line]:
+            return None
         path = path_of(element, self.places).replace(FIRST, "")
         found = [self._target_at(start) for start in self.starts[line].get(path, ())]
         alike = (each for each in found if each.tag == self._written_name(element))
@@ -278,8 +280,8 @@ class _CommentPlacing:
             start = self.text.rfind("<", done, found.start())
             done = found.end()
             if start >= 0 and self.text.find(">", start, found.start()) < 0:  # it is no text
-                tag = self._target_at(start).tag.rpartition(":")[2]
-                made.setdefault((tag, found[1]), start)
+                tag = _START.match(self.text, start)
+                made.setdefault((tag[0][1:].rpartition(":")[2] if tag else "", found[1]), start)
         return made
 
     def _target_of_child(self, element: XmlElement) -> _Target | None:
@@ -295,7 +297,7 @@ def _format_comment(comment: SourceComment, indent: str | None = None) -> str:
 
     Double hyphens, and one at the end, which some parsers accept, are separated.
     """
-    text = re.sub("-(?=-)", "- ", comment.text)
+    text = re.sub("-(?=-)", "- ", comment.text) if "--" in comment.text else comment.text
     text = f"{text} " if text.endswith("-") else text
     if comment.indent is not None and indent is not None:
         text = re.sub(rf"\n{comment.indent}(?![\r\n])", indent or "\n", text)

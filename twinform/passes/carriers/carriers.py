@@ -34,7 +34,7 @@ from twinform.ir import (
     rewrite,
     untyped_elements,
 )
-from twinform.schemas import XmlElement, node_xml
+from twinform.schemas import XmlElement, node_xml, read_element
 
 # Elements in a namespace are what none of thirteen readers refuses and none reads otherwise
 # (tests/oracles/test_readers.py asks them). urdf_parser_py, and Drake in SDF, report that they skip them.
@@ -144,13 +144,7 @@ def to_element(node: Node, tag: str, dialect: str) -> Element:
 
 def from_xml(xml: XmlElement) -> Element:
     """An XML tree as an `Element`."""
-    return Element.unchecked(
-        name=str(xml.tag),
-        attributes=tuple(xml.items()),
-        text=(xml.text or "").strip() or None,
-        children=tuple([from_xml(child) for child in xml]),
-        tail=(xml.tail or "").strip() or None,
-    )
+    return read_element(xml, "", None)
 
 
 def _make_carrier(piece: Opaque, dialect: str, about: Attributes) -> Element:

@@ -4,7 +4,7 @@ import math
 import re
 import sys
 from collections.abc import Iterator, Mapping
-from functools import cache
+from functools import cache, partial
 from operator import is_not
 from typing import Any, ClassVar, NamedTuple, get_args
 
@@ -87,8 +87,14 @@ def rounded_part(part: Opaque, node: Node, least: Least) -> Opaque:
 
 
 def _may_be_tiny(element: Element) -> bool:
-    texts = (text for each in element.walk() for text in (each.text, *(value for _, value in each.attributes)))
-    return any(text and _MAY_BE_TINY.search(text) for text in texts)
+    search = _MAY_BE_TINY.search
+    for each in element.walk():  # every untyped element is asked: a generator would take twice as long
+        if each.text and search(each.text):
+            return True
+        for _, value in each.attributes:
+            if search(value):
+                return True
+    return False
 
 
 @cache
@@ -172,14 +178,15 @@ class RoundTinyNumbers(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with numbers that libsdformat reads."""
-        return rewrite(model, Node, lambda node: _rounded(node, self.to, sink))
+        return rewrite(model, Node, partial(_rounded, self.to, sink))
 
 
 def rounded_extension(extension: GazeboExtension, sink: DiagnosticSink) -> GazeboExtension:
     """An extension with numbers that libsdformat reads."""
     content = tuple(rounded_content(each, _LEAST[Format.URDF]) for each in extension.content)
     for old, new in zip(extension.content, content, strict=True):
-        _account_inside(old, new, old.location if old.source else extension.location, sink)
+        if new is not old:
+            _account_inside(old, new, old.location if old.source else extension.location, sink)
     return extension.copy(content=content) if any(map(is_not, extension.content, content)) else extension
 
 
@@ -187,16 +194,16 @@ def _with_rounded_parts(node: Node, to: Format, sink: DiagnosticSink) -> Node:
     """A node whose parts without a field have numbers that libsdformat reads."""
     least = _LEAST[to]
     parts = tuple(
-        rounded_part(one, node, least) if to is Format.SDF else rounded_block(one, least) for one in node.opaque
+        [rounded_part(one, node, least) if to is Format.SDF else rounded_block(one, least) for one in node.opaque]
     )
     for old, new in zip(node.opaque, parts, strict=True):
-        if old.element is not None and new.element is not None:
+        if new is not old and old.element is not None and new.element is not None:
             _account_inside(old.element, new.element, old.location_in(node), sink)
     return node.copy(opaque=parts) if any(map(is_not, node.opaque, parts)) else node
 
 
 def _account_inside(old: Element, new: Element, where: Location, sink: DiagnosticSink) -> None:
-    for path in rounded_paths(old, new) if old is not new else ():
+    for path in rounded_paths(old, new):
         _account(path.rpartition("/")[2] or old.name, where.at(path) if path else where, sink)
 
 
@@ -205,7 +212,7 @@ def _account(name: str, where: Location, sink: DiagnosticSink) -> None:
     sink.account(Fate.APPROXIMATED, rules.TINY_NUMBER, message, where)
 
 
-def _rounded(node: Node, to: Format, sink: DiagnosticSink) -> Node:
+def _rounded(to: Format, sink: DiagnosticSink, node: Node) -> Node:
     if isinstance(node, GazeboExtension):
         return rounded_extension(node, sink)
     if node.opaque:
