@@ -124,6 +124,22 @@ class SearchPath:
         """
         return self._find_named(f"package://{name}", name, beside)
 
+    def package_names(self, beside: Path) -> list[str]:
+        """List the packages that a file can name, each as its `package.xml` does."""
+        around, neighbors = self.surroundings(beside)
+        folders = (*around, neighbors) if neighbors else around
+        own = {self.index.name_of(folder) for folder in (*self.own, *folders)}
+        near = (self.index.directly_in(folder) for folder in (*folders, *self.packages))
+        far = (self.index.below(root) for root in (*self.own, *self.workspaces, *self._asked_around(beside)))
+        return sorted(filter(None, own.union(*near, *far)))
+
+    def model_names(self, beside: Path) -> list[str]:
+        """List the folders with models of Gazebo that a file can name."""
+        around, neighbors = self.surroundings(beside)
+        folders = (*around, neighbors) if neighbors else around
+        places = (*self._roots(), *folders, *(folder / "models" for folder in folders))
+        return sorted(set[str]().union(*(self.index.models_in(place) for place in places)))
+
     def _find_named(self, uri: str, rest: str, beside: Path) -> Path:
         path = unquote(rest)
         name, _, inner = normpath(path).partition("/")
@@ -154,12 +170,14 @@ class SearchPath:
                 yield folder
             yield folder / name
             yield folder / "models" / name
-        for root in (*self.own, *self.workspaces):
-            yield from self.index.named(name, root)
-        for folder in around:
-            yield from self.index.directly_in(name, folder)
-        for root in asked:
-            yield from self.index.named(name, root)
+        places = (
+            *((self.index.below, root) for root in (*self.own, *self.workspaces)),
+            *((self.index.directly_in, folder) for folder in around),
+            *((self.index.below, root) for root in asked),
+        )
+        for packages, folder in places:
+            if name in (found := packages(folder)):
+                yield found[name]
         yield from fuel_addresses.models_named(name, self.fuel)
 
     def _roots(self) -> tuple[Path, ...]:

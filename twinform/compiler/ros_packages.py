@@ -79,19 +79,15 @@ class PackageIndex:
         folders = self.listing(folder).folders
         return tuple(name for name in folders if os.path.exists(f"{folder}{os.sep}{name}{os.sep}{MODEL_CONFIG}"))  # noqa: PTH110 - many
 
-    def named(self, name: str, root: Path) -> Iterator[Path]:
-        """Yield the package of a name below a folder, if there is one."""
-        found = self.found.get(root, lambda: dict(_packages_below(root)))
-        if name in found:
-            yield found[name]
+    def below(self, root: Path) -> Mapping[str, Path]:
+        """Return the packages below a folder, by their names."""
+        return self.found.get(root, lambda: dict(_packages_below(root)))
 
-    def directly_in(self, name: str, folder: Path) -> Iterator[Path]:
-        """Yield the package of a name directly in a folder, whatever the name of its own folder is."""
-        inside = self.inside.get(
+    def directly_in(self, folder: Path) -> Mapping[str, Path]:
+        """Return the packages directly in a folder by their names, whatever the names of their own folders are."""
+        return self.inside.get(
             folder, lambda: {called: each for each in _folders(folder) if (called := package_name(each))}
         )
-        if name in inside:
-            yield inside[name]
 
 
 def _list_folder(folder: Path) -> FolderListing:

@@ -54,6 +54,11 @@ def surroundings(document: ModelText, node: TolerantNode | None) -> NameSurround
     return document.once(_all_surroundings).get(node, _NOWHERE)
 
 
+def is_in(document: ModelText, node: TolerantNode) -> bool:
+    """Whether an element is one of this state of a document."""
+    return node in document.once(_all_surroundings)
+
+
 def _all_surroundings(document: ModelText) -> dict[TolerantNode | None, NameSurroundings]:
     """Return the surroundings of all elements, each made from its parent's: climbing up from each takes minutes."""
     found: dict[TolerantNode | None, NameSurroundings] = {None: _NOWHERE}

@@ -101,7 +101,7 @@ class IncludedNeighbors:
     def connected(self, document: TextDocument, search: SearchPath, folders: Iterable[Path]) -> list[TextDocument]:
         """Return a document, all that it includes, and all that include it, with everything that these include."""
         found = {each.path: each for each in self.included(document, search)}
-        for path in _model_files(folders):
+        for path in files_below(folders, ENDINGS):
             other = self._files.document(path) if path not in found else None
             if other is None or not includes_of(other):
                 continue
@@ -111,20 +111,20 @@ class IncludedNeighbors:
         return list(found.values())
 
 
-def _model_files(folders: Iterable[Path]) -> Iterator[Path]:
-    """Yield the model files in some folders and below."""
-    looked, count = 0, 0
+def files_below(folders: Iterable[Path], endings: tuple[str, ...], most: int = _MOST_FILES) -> Iterator[Path]:
+    """Yield the files in some folders and below whose names end so, the nearest folders first; no more than `most`."""
+    found = (
+        Path(place, name)
+        for place, names in islice(_folders_below(folders), _MOST_FOLDERS)
+        for name in sorted(names)
+        if name.lower().endswith(endings)
+    )
+    yield from islice(found, most)
+
+
+def _folders_below(folders: Iterable[Path]) -> Iterator[tuple[str, list[str]]]:
+    """Yield some folders and those below, each with the names of its files."""
     for folder in folders:
         for place, inner, names in os.walk(folder):
-            looked += 1
-            inner[:] = (
-                []
-                if looked > _MOST_FOLDERS
-                else sorted(each for each in inner if not each.startswith(".") and each not in _SKIPPED)
-            )
-            for name in sorted(names):
-                if name.lower().endswith(ENDINGS):
-                    count += 1
-                    if count > _MOST_FILES:
-                        return
-                    yield Path(place, name)
+            inner[:] = sorted(each for each in inner if not each.startswith(".") and each not in _SKIPPED)
+            yield place, names

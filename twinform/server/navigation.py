@@ -114,21 +114,21 @@ def _resolve_in_include(found: Found, session: Session) -> list[Found]:
     for include in includes_of(document):
         path = target(include, document, search)
         other = session.files.document(path) if path is not None else None
-        model = _first_model(other.tree.root) if other is not None else None
-        if other is None or model is None or first not in {_included_as(include.node, document), model.get("name")}:
+        model = first_model(other.tree.root) if other is not None else None
+        if other is None or model is None or first not in {included_as(include.node, document), model.get("name")}:
             continue
         there = resolve_in(other, replace(name, text=rest, scope=model))
         return [Found(other, each) for each in there]
     return []
 
 
-def _included_as(include: TolerantNode, document: TextDocument) -> str | None:
+def included_as(include: TolerantNode, document: TextDocument) -> str | None:
     """Return the name that an include gives to its model."""
     own = next((child for child in include.children if child.tag == "name"), None)
     return document.tree.text_of(own).of(document.text) if own is not None else None
 
 
-def _first_model(root: TolerantNode | None) -> TolerantNode | None:
+def first_model(root: TolerantNode | None) -> TolerantNode | None:
     """Return the robot of a URDF, or the first model of an SDF."""
     if root is None or root.tag == "robot":
         return root

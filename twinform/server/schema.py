@@ -150,13 +150,18 @@ def inside(row: MappingRow, version: Version | None = None) -> SchemaPlace:
 
 def _extension(tag: str, around: SchemaPlace) -> SchemaPlace | None:
     """Return the place of an element of SDF in `<gazebo>`."""
-    facts = table("sdf")
     for definition in _IN_GAZEBO if around.format == "urdf" else ():
-        holder = SchemaPlace(FORMATS[1], facts.newest, None, facts.definitions[definition], definition, "")
-        row = holder.below(tag)
+        row = place_in_gazebo(definition).below(tag)
         if row is not None:
             return inside(row)
     return None
+
+
+@cache
+def place_in_gazebo(definition: str) -> SchemaPlace:
+    """Return the place of what stands in `<gazebo>` as in a definition of SDF, such as `link`."""
+    facts = table("sdf")
+    return SchemaPlace(FORMATS[1], facts.newest, None, facts.definitions[definition], definition, "")
 
 
 def _version(root: TolerantNode | None, format: FormatName) -> Version:
@@ -170,12 +175,22 @@ def _version(root: TolerantNode | None, format: FormatName) -> Version:
 
 def kind_of(plugin: TolerantNode) -> PluginKind | None:
     """Find a plugin in the catalog, by its class or its file."""
+    return next(iter(kinds_of(plugin)), None)
+
+
+def kinds_of(plugin: TolerantNode) -> tuple[PluginKind, ...]:
+    """Find all plugins in the catalog that a plugin may be: the one of its class, else those in its file.
+
+    A file of Gazebo Classic may be one for ROS 1 or one for ROS 2; those that read what is written already come first.
+    """
     file = plugin.get("filename") or ""
     of_class = system_of_class(plugin.get("name") or "")
     if of_class is not None:
-        return of_class
-    found = (*systems_of_file(file), *classic_plugins_of_file(file).values()) if file else ()
-    return found[0] if found else None
+        return (of_class,)
+    classic = classic_plugins_of_file(file) if file else {}
+    found = (*systems_of_file(file), *(classic[each] for each in ("ros2", "noetic") if each in classic)) if file else ()
+    written = {child.tag for child in plugin.children}
+    return tuple(sorted(found, key=lambda kind: -len(written & {each.name for each in kind.parameters})))
 
 
 def parameter_of(node: TolerantNode) -> PluginParameter | None:
@@ -185,15 +200,17 @@ def parameter_of(node: TolerantNode) -> PluginParameter | None:
     while here is not None and here.tag != "plugin":
         steps.append(here.tag)
         here = here.parent
-    kind = kind_of(here) if here is not None and steps else None
-    return kind.parameter(*reversed(steps)) if kind else None
+    kinds = kinds_of(here) if here is not None and steps else ()
+    return next((found for kind in kinds if (found := kind.parameter(*reversed(steps)))), None)
 
 
 def parameters_in(node: TolerantNode) -> tuple[PluginParameter, ...]:
     """Return the parameters that may stand in a plugin, or in a parameter of one."""
     if node.tag == "plugin":
-        kind = kind_of(node)
-        return kind.parameters if kind else ()
+        rows: dict[str, PluginParameter] = {}
+        for row in (row for kind in kinds_of(node) for row in kind.parameters):
+            rows.setdefault(row.name, row)
+        return tuple(rows.values())
     parameter = parameter_of(node)
     return parameter.children if parameter else ()
 

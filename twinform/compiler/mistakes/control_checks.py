@@ -8,19 +8,34 @@ from twinform.diagnostics import DiagnosticSink, nearest_name, rules
 from twinform.ir import Document, Joint
 from twinform.schemas import XmlElement
 
-_INTERFACES = frozenset({"position", "velocity", "effort", "acceleration"})
+INTERFACES = ("position", "velocity", "effort", "acceleration")
 """The interfaces that ros2_control has words for; a driver may have others of its own."""
+SENSOR_INTERFACES = tuple(
+    f"{what}.{axis}"
+    for what, axes in (
+        ("orientation", "xyzw"), ("angular_velocity", "xyz"), ("linear_acceleration", "xyz"), ("force", "xyz"),
+        ("torque", "xyz"),
+    )
+    for axis in axes
+)  # fmt: skip
+"""What the broadcasters of an IMU and of a force-torque sensor ask for (`semantic_components`)."""
 _COMMANDS = ("command_interface", "state_interface")
-_CLASSES = (
+HARDWARE = (
     "gz_ros2_control/GazeboSimSystem", "ign_ros2_control/IgnitionSystem", "gazebo_ros2_control/GazeboSystem",
     "mock_components/GenericSystem", "fake_components/GenericSystem", "topic_based_ros2_control/TopicBasedSystem",
+)  # fmt: skip
+TRANSMISSIONS = (
     "transmission_interface/SimpleTransmission", "transmission_interface/DifferentialTransmission",
     "transmission_interface/FourBarLinkageTransmission",
-    "transmission_interface/HalfDifferentialTransmission", "hardware_interface/PositionJointInterface",
+    "transmission_interface/HalfDifferentialTransmission",
+)  # fmt: skip
+HARDWARE_INTERFACES = (
+    "hardware_interface/PositionJointInterface",
     "hardware_interface/VelocityJointInterface", "hardware_interface/EffortJointInterface",
     "hardware_interface/JointStateInterface", "hardware_interface/PosVelJointInterface",
     "hardware_interface/PosVelAccJointInterface",
 )  # fmt: skip
+_CLASSES = (*HARDWARE, *TRANSMISSIONS, *HARDWARE_INTERFACES)
 """Classes and interfaces of ROS packages; robots have others of their own."""
 # A driver's own interface is less alike: torque, gain, current.
 _TYPO = 0.8
@@ -100,7 +115,7 @@ def _report_taken(
 
 def _report_interface(interface: XmlElement, sink: DiagnosticSink) -> None:
     name = interface.get("name") or ""
-    near = nearest_name(name, _INTERFACES, _TYPO) if name not in _INTERFACES else None
+    near = nearest_name(name, INTERFACES, _TYPO) if name not in INTERFACES else None
     if near:
         message = (
             f"<{tag_of(interface)}> has the name {name!r}, which no controller asks for; ros2_control has {near!r}"

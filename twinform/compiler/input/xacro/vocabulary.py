@@ -29,7 +29,7 @@ from twinform.compiler.input.xacro.operations import add, paying
 # Decimal places before or behind the point; there are no floating point numbers beyond.
 _MOST_ROUNDED = 400
 # Functions whose result never has more than a few hundred digits, whatever they are given.
-_NUMERIC = (
+MATH = (
     "acos", "acosh", "asin", "asinh", "atan", "atan2", "atanh", "cbrt", "ceil", "copysign", "cos", "cosh", "degrees",
     "dist", "erf", "erfc", "exp", "exp2", "expm1", "fabs", "floor", "fmod", "frexp", "fsum", "gamma", "gcd", "hypot",
     "isclose", "isfinite", "isinf", "isnan", "isqrt", "ldexp", "lgamma", "log", "log10", "log1p", "log2", "modf",
@@ -41,7 +41,7 @@ _DEPRECATED = {"sorted": "python", "range": "python", "load_yaml": "xacro", "abs
 
 def math_functions(budget: Budget) -> dict[str, Function]:
     """The functions of `math`, as far as this Python has them."""
-    return {name: Function(name, paying(getattr(math, name), budget)) for name in _NUMERIC if hasattr(math, name)}
+    return {name: Function(name, paying(getattr(math, name), budget)) for name in MATH if hasattr(math, name)}
 
 
 def python_functions(budget: Budget) -> dict[str, Function]:
@@ -183,6 +183,12 @@ _CAREFUL: Mapping[str, tuple[Callable[..., Value], type | None]] = {
     "tuple": (_tuple, tuple),
     "zip": (_zip, None),
 }
+
+
+PYTHON = (*_PLAIN, *_CAREFUL)
+BARE = ("bool", "dict", "float", "int", "len", "list", "map", "max", "min", "round", "str")
+"""What needs no `python.` before it."""
+CONSTANTS = ("pi", "e", "tau", "inf", "nan", "True", "False", "None")
 
 
 def vocabulary(

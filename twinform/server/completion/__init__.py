@@ -1,0 +1,77 @@
+"""Completion: elements, attributes and values by the facts tables, names of the document, files, and what xacro has."""
+
+from collections.abc import Iterable, Iterator
+
+from lsprotocol import types
+
+from twinform.diagnostics import Span
+from twinform.server.completion.elements import propose_attributes, propose_elements, propose_roots
+from twinform.server.completion.proposals import ITEM, ElementPlace, Proposal, ValuePlace, completion_list
+from twinform.server.completion.values import propose_values
+from twinform.server.completion.xacro import propose_in_expression
+from twinform.server.documents import Cursor, CursorKind, TextDocument, cursor_at
+from twinform.server.session import Session
+from twinform.server.tolerant_tree import TolerantNode
+
+__all__ = ["complete"]
+
+
+def complete(session: Session, document: TextDocument, offset: int) -> types.CompletionList:
+    """List what may be written at an offset, in place of the word that is there."""
+    cursor = cursor_at(document, offset)
+    if cursor is None:
+        return types.CompletionList(is_incomplete=False, items=[])
+    found = propose_in_expression(session, document, offset) or _propose(session, document, cursor, offset)
+    return completion_list(session, document, *found)
+
+
+def _propose(session: Session, document: TextDocument, cursor: Cursor, offset: int) -> tuple[Span, Iterable[Proposal]]:
+    node = cursor.node
+    match cursor.kind:
+        case CursorKind.TAG if node is not None:
+            return cursor.piece, _elements(session, document, node.parent, node, offset)
+        case CursorKind.ATTRIBUTE if node is not None:
+            return cursor.piece, propose_attributes(session, document, node, named=cursor.attribute is not None)
+        case CursorKind.VALUE if node is not None and cursor.attribute is not None:
+            return cursor.piece, propose_values(_value_place(session, document, node, cursor, offset))
+        case CursorKind.END_TAG if node is not None:
+            return cursor.piece, [Proposal(node.tag, node.tag, ITEM.Property)]
+        case _:
+            return _in_text(session, document, cursor, offset)
+
+
+def _value_place(
+    session: Session, document: TextDocument, node: TolerantNode, cursor: Cursor, offset: int
+) -> ValuePlace:
+    typed = document.text[cursor.piece.start : offset]
+    return ValuePlace(session, document, node, cursor.attribute, offset, typed)
+
+
+def _in_text(session: Session, document: TextDocument, cursor: Cursor, offset: int) -> tuple[Span, Iterable[Proposal]]:
+    """Propose an end tag that was begun, values for the text of an element, or elements."""
+    node = cursor.node
+    start = document.text.rfind("<", 0, offset)
+    if start >= 0 and document.text.startswith("</", start) and ">" not in document.text[start:offset]:
+        tag = [Proposal(f"/{node.tag}", f"{node.tag}>", ITEM.Property)] if node is not None else []
+        return Span(start + 2, offset), tag
+    if node is not None and not node.children:
+        values = list(propose_values(_value_place(session, document, node, cursor, offset)))
+        if values:
+            return cursor.piece, values
+    empty = Span(offset, offset)
+    piece = cursor.piece if "<" not in cursor.piece.of(document.text) and cursor.piece.end == offset else empty
+    return piece, _with_bracket(_elements(session, document, node, None, offset))
+
+
+def _with_bracket(found: Iterable[Proposal]) -> Iterator[Proposal]:
+    for each in found:
+        yield Proposal(each.label, f"<{each.new}", each.kind, each.detail, each.text, each.rank)
+
+
+def _elements(
+    session: Session, document: TextDocument, parent: TolerantNode | None, own: TolerantNode | None, offset: int
+) -> Iterable[Proposal]:
+    if parent is None:
+        return propose_roots(document) if document.tree.root in (None, own) else ()
+    bare = own is not None and own.whole_tag
+    return propose_elements(ElementPlace(session, document, parent, own, offset, bare))
