@@ -141,8 +141,8 @@ def _refused(place: ValuePlace, path: str) -> set[str]:
     refused = {own.get("name") or ""} if own is not None and place.attribute != "name" else set[str]()
     if path in {"joint/parent/@link", "joint/child/@link", "joint/parent", "joint/child"} and joint is not None:
         refused |= set(_ends(place.document, [joint], "child" if node.tag == "parent" else "parent"))
-        if path == "joint/child/@link":  # a link of URDF has one joint above it
-            joints = [each for each in place.document.tree.nodes if each.tag == "joint" and each is not joint]
+        if node.tag == "child" and joint.parent is not None:  # a second joint above it would close a loop
+            joints = (each for each in joint.parent.children if each.tag == "joint" and each is not joint)
             refused |= set(_ends(place.document, joints, "child"))
     if path in {"joint/mimic/@joint", "controlled/@name"}:
         refused |= set(_fixed_joints(place.document))
