@@ -44,7 +44,6 @@ WITHOUT_CASE = {
     "open-mesh": "unit/passes/shared/test_mesh_solids.py",
     "oversized-file": "hostile/test_documents.py",
     "package-name": "unit/compiler/packaging/test_ros2_packages.py",
-    "partial-limit": "unit/compiler/test_driver.py",
     "placeholder": "unit/cli/test_package.py",
     "renamed-collision": "unit/profiles/test_lost_tags.py",
     "replaced-controllers-file": "unit/compiler/packaging/test_gazebo_control.py",

@@ -7,7 +7,8 @@ from generators.mapping.measure import EXPRESSED, Seen
 from generators.mapping.notes import destinations
 from testbed.markdown import rule_links
 from twinform.diagnostics import Fate, Severity
-from twinform.schemas.facts import Fact, print_version
+from twinform.ir.versions import print_version
+from twinform.schemas.facts import Fact
 from twinform.server.mapping import MappingRow, field_of
 
 ROOT = "../../.."

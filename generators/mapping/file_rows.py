@@ -5,8 +5,9 @@ from collections.abc import Iterator
 from functools import cache
 from typing import NamedTuple
 
+from twinform.ir.versions import Version, parse_version
 from twinform.schemas import XmlElement, table
-from twinform.schemas.facts import Fact, Version, parse_version
+from twinform.schemas.facts import Fact
 from twinform.server.mapping import FORMATS, Chain, FormatName, MappingRow, chains_of, rows, sections
 
 _POSE = frozenset({"Pose.xyz", "Pose.rpy", "Pose.quat_xyzw"})

@@ -18,5 +18,6 @@ corpus = need(files.CORPUS.is_dir, files.MISSING)
 drake = need(lambda: oracles.available("drake"), "Drake is not here: pip install '.[oracles]'")
 libsdformat = need(sdformat12.available, sdformat12.MISSING)
 urdfdom = need(check_urdf.available, check_urdf.MISSING)
+urdfdom_6 = need(check_urdf.available_6, check_urdf.MISSING_6)
 gazebo = need(gz_physics.available, gz_physics.MISSING)
 """gz-physics with at least one engine."""

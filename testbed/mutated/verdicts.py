@@ -1,9 +1,10 @@
 """One mutated corpus file before us and before the parser of record: what each reports about it."""
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -11,6 +12,7 @@ import twinform
 from testbed.corpus.files import Kind
 from testbed.mutated.mutated import Mutated
 from testbed.oracles import urdfdom
+from twinform.compiler import as_refused
 from twinform.diagnostics import Diagnostic
 from twinform.testing.oracles import libsdformat
 from twinform.testing.oracles.libsdformat import LibsdformatReading
@@ -25,6 +27,7 @@ class Judge(StrEnum):
 
     LIBSDFORMAT = "libsdformat"
     URDFDOM = "urdfdom"
+    URDFDOM_6 = "urdfdom 6"
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +46,9 @@ QUESTIONS = (
     Question(Judge.LIBSDFORMAT, Kind.URDF),
     Question(Judge.URDFDOM, Kind.URDF),
 )
+"""About mutated files of the corpus."""
+OF_VERSIONS = Question(Judge.URDFDOM_6, Kind.URDF)
+"""About documents of all versions of URDF."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +91,7 @@ def verdicts(questions: Sequence[Question], documents: Iterable[Mutated]) -> Ite
         folder = Path(name).resolve()
         paths = {_written(folder, document): document for document in documents}
         # compat is the mode to compare: what a format does not know is a warning here, and with both parsers
-        found = {path: twinform.check(path).diagnostics for path in paths}
+        found = {path: as_refused(twinform.check(path)).diagnostics for path in paths}
         for question in questions:
             mine = [path for path, document in paths.items() if document.kind is question.kind]
             for path, opinion in _ASKED[question.judge](mine):
@@ -115,10 +121,14 @@ def _opinion(reading: LibsdformatReading, path: str) -> Opinion:
     return Opinion(False, tuple(dict.fromkeys((*own, *errors))), warnings)
 
 
-def _of_urdfdom(paths: Sequence[Path]) -> Iterator[tuple[Path, Opinion]]:
+def _of_urdfdom(complaints: Callable[[Path], tuple[str, ...]], paths: Sequence[Path]) -> Iterator[tuple[Path, Opinion]]:
     for path in paths:
-        objections = tuple(dict.fromkeys(urdfdom.complaints(path)))
+        objections = tuple(dict.fromkeys(complaints(path)))
         yield path, Opinion(not objections, objections)
 
 
-_ASKED = {Judge.LIBSDFORMAT: _of_libsdformat, Judge.URDFDOM: _of_urdfdom}
+_ASKED: dict[Judge, Callable[[Sequence[Path]], Iterator[tuple[Path, Opinion]]]] = {
+    Judge.LIBSDFORMAT: _of_libsdformat,
+    Judge.URDFDOM: partial(_of_urdfdom, urdfdom.complaints),
+    Judge.URDFDOM_6: partial(_of_urdfdom, urdfdom.complaints_of_6),
+}

@@ -1,18 +1,15 @@
 """Facts tables of both formats, and what is made from them: readers, writers, XSDs and validators."""
 
-from twinform.schemas.facts import (
+from twinform.ir.versions import (
     DEFAULT_SDF_VERSION,
-    Fact,
-    Table,
     Version,
-    in_order,
+    known_version,
     parse_version,
     print_version,
-    repeated_fields,
-    rows_by_name,
-    table,
+    version_read,
     versions_of,
 )
+from twinform.schemas.facts import Fact, Table, in_order, repeated_fields, rows_by_name, table
 from twinform.schemas.messages import Context
 from twinform.schemas.packaged import schema_text
 from twinform.schemas.reader import SchemaReader, reader
@@ -67,6 +64,7 @@ __all__ = [
     "is_followed",
     "is_valid_text",
     "is_valid_without_unknown",
+    "known_version",
     "libxml2_errors",
     "node_class",
     "node_xml",
@@ -87,6 +85,7 @@ __all__ = [
     "undeclared_prefix",
     "usual_namespace",
     "validate",
+    "version_read",
     "versions_of",
     "xmlschema_errors",
 ]

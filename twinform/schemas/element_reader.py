@@ -4,15 +4,15 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple, TypeVar
 
 from twinform.ir import Node
+from twinform.ir.versions import Version
 from twinform.schemas import messages
-from twinform.schemas.facts import Fact, Version, rows_by_name
+from twinform.schemas.facts import Fact, rows_by_name
 from twinform.schemas.messages import Context
 from twinform.schemas.value_readers import (
     SCALARS,
     Data,
     Types,
     attribute_reader,
-    bounds,
     keep_attribute,
     keep_content,
     keep_element,
@@ -291,9 +291,9 @@ def _usual_values(row: Fact) -> Callable[[Any], bool] | None:
     """Return a check that nothing is wrong with a value; None if nothing can be."""
     if row.enum:
         return frozenset(row.enum).__contains__
-    if row.min is None and row.max is None:
+    if row.bounds is None:
         return bool if row.type == "string" and not row.is_attribute else None  # blank text may need a finding
-    low, high = bounds(row)
+    low, high = row.bounds
     if row.type in SCALARS:
         return lambda value: low <= value <= high
     return lambda value: low <= min(value) and max(value) <= high

@@ -13,10 +13,11 @@ below it stand rows, two blanks deeper for each level:
 A row is a name (with `@` that of an attribute), a count (`1`, `?`, `*`, `+`), a value type or a `&definition` (neither:
 a container), then keys, flags and the place in the IR.
 
-Keys are `default`, `min`, `max`, `enum`, `since`, `until`, `unit`, `dialect` (whose element it is where it is not the
-format's) and `also` (values of dialects beside those of `enum`). Flags are `any` (free content), `deprecated`,
-`expected` (readers want it written although it has a default, or its element has no effect without it), `aside`
-(readers of the robot itself skip it) and `last` (where one may stand and several do, readers take the last).
+Keys are `default`, `min`, `above` (an excluded `min`), `max`, `enum`, `since`, `until`, `unit`, `dialect` (whose
+element it is where it is not the format's) and `also` (values of dialects beside those of `enum`). Flags are `any`
+(free content), `deprecated`, `expected` (readers want it written although it has a default, or its element has no
+effect without it), `strict` (a reader refuses what is out of bounds, or no robot can be so), `aside` (readers of the
+robot itself skip it) and `last` (where one may stand and several do, readers take the last).
 
 Places are:
 
@@ -29,6 +30,7 @@ Places are:
 * nothing: the subtree is kept as an opaque element, and no row in it has a place.
 """
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field, replace
 from functools import cache
@@ -37,17 +39,16 @@ from operator import itemgetter
 from typing import Any, TypeVar
 
 from twinform.dataclass import dataclass
+from twinform.ir.versions import Version, parse_version, versions_of
 from twinform.lazy import lazy_pattern
 from twinform.package_files import package_files
-
-Version = tuple[int, int]
 
 # A notation of our own: Python literals would need four times the lines and a type checker's
 # patience, and TOML and CSV cannot nest. It is documented and parsed here only.
 _LINE = lazy_pattern(r"(?P<indent> *)(?P<name>@?[\w.]++)(?P<rest>.*)")
 _WORD = lazy_pattern(r'->\s*\S+|\w+=(?:"[^"]*"|\S+)|\S+')
 _COUNTS = frozenset("1?*+")
-_FLAGS = frozenset({"any", "aside", "deprecated", "expected", "last"})
+_FLAGS = frozenset({"any", "aside", "deprecated", "expected", "last", "strict"})
 
 
 @dataclass(slots=True)
@@ -67,6 +68,7 @@ class Fact:
     enum: tuple[str, ...] = ()
     elsewhere: dict[str, "Fact"] = field(default_factory=dict[str, "Fact"])
     min: float | None = None
+    above: float | None = None
     max: float | None = None
     unit: str | None = None
     dialect: str | None = None
@@ -76,6 +78,7 @@ class Fact:
     any: bool = False
     deprecated: bool = False
     expected: bool = False
+    strict: bool = False
     aside: bool = False
     last: bool = False
     many: bool = False
@@ -97,6 +100,14 @@ class Fact:
         # The SDF specification requires 175 elements, and readers fill in nearly all of them.
         # Required here is only what has no useful default: names, types, parents, children, URIs.
         return self.required and self.default is None
+
+    @property
+    def bounds(self) -> tuple[float, float] | None:
+        """The least and the greatest allowed number, also for each component; None where any number is allowed."""
+        if self.min is self.above is self.max is None:
+            return None
+        low = self.min if self.above is None else math.nextafter(self.above, math.inf)
+        return -math.inf if low is None else low, math.inf if self.max is None else self.max
 
     @property
     def repeats(self) -> bool:
@@ -142,44 +153,18 @@ class Table:
         return parse_version(self.versions[-1])
 
 
-def parse_version(text: str) -> Version:
-    """Parse `1.10` to (1, 10).
-
-    Raises:
-        ValueError: it is not two whole numbers with a dot between them.
-    """
-    major, minor = text.split(".")
-    return int(major), int(minor)
-
-
-def print_version(version: Version) -> str:
-    """Print a version; the inverse of `parse_version`."""
-    return f"{version[0]}.{version[1]}"
-
-
-_TABLES = {
-    "urdf": ("robot", ("1.0", "1.1", "1.2")),
-    "sdf": ("sdf", ("1.2", "1.3", "1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11", "1.12")),
-}
-DEFAULT_SDF_VERSION = "1.11"
-"""The version of Gazebo Harmonic, the newest long-term release, and the first that has `mimic`."""
-
-
-def versions_of(format: str) -> tuple[str, ...]:
-    """The versions of `urdf` or `sdf`, from the oldest on, without reading the table."""
-    return _TABLES[format][1]
+_ROOTS = {"urdf": "robot", "sdf": "sdf"}
 
 
 @cache
 def table(format: str) -> Table:
     """The facts of `urdf` or `sdf`."""
-    root, versions = _TABLES[format]
     folder = package_files("twinform.schemas").joinpath(format, "facts")
     files = sorted((file for file in folder.iterdir() if file.name.endswith(".facts")), key=lambda file: file.name)
     definitions = FactDefinitions()
     for file in files:
         definitions.add(file.read_text(encoding="utf-8").splitlines(), file.name)
-    return Table(format, versions, root, definitions)
+    return Table(format, versions_of(format), _ROOTS[format], definitions)
 
 
 class FactDefinitions(Mapping[str, Fact]):
@@ -269,7 +254,7 @@ def _set(fact: Fact, key: str, value: str, where: str) -> None:
     match key:
         case "default" | "unit" | "dialect":
             setattr(fact, key, value)
-        case "min" | "max":
+        case "min" | "above" | "max":
             setattr(fact, key, float(value.split(maxsplit=1)[0]))  # of a vector, all components have one bound
         case "since" | "until":
             setattr(fact, key, parse_version(value))

@@ -10,7 +10,8 @@ from pathlib import Path
 from string import Template
 from typing import TypeVar, get_args
 
-from twinform.schemas.facts import Fact, Table, parse_version, table
+from twinform.ir.versions import parse_version
+from twinform.schemas.facts import Fact, Table, table
 from twinform.schemas.packaged import XsdVersion, code_file, schema_file
 from twinform.schemas.text_generator import generate_text_writer
 from twinform.schemas.xsd import generate_schema

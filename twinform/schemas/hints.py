@@ -5,7 +5,8 @@ from collections.abc import Collection, Iterator, Sequence
 from functools import cache
 
 from twinform.diagnostics import did_you_mean
-from twinform.schemas.facts import Fact, Table, Version, table
+from twinform.ir.versions import Version
+from twinform.schemas.facts import Fact, Table, table
 from twinform.schemas.xml import XmlElement, prefix_of
 
 _INSTEAD = {

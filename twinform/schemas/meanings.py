@@ -17,9 +17,10 @@ name that has several rows, one for each version, has one text.
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 
+from twinform.ir.versions import parse_version, print_version
 from twinform.lazy import lazy_pattern
 from twinform.package_files import package_files
-from twinform.schemas.facts import Fact, Table, parse_version, print_version, table
+from twinform.schemas.facts import Fact, Table, table
 
 Path = tuple[str, ...]
 """The names from a definition down to a row."""
@@ -117,6 +118,8 @@ class Documentation:
             yield f"From {row.min:g} to {row.max:g}."
         elif row.min is not None:
             yield f"At least {row.min:g}."
+        elif row.above is not None:
+            yield f"More than {row.above:g}."
         elif row.max is not None:
             yield f"At most {row.max:g}."
 

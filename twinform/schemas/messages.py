@@ -6,14 +6,14 @@ from typing import NamedTuple, TypedDict, Unpack
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, nearest_name, rules
-from twinform.schemas.facts import Fact, Version, parse_version, print_version, versions_of
+from twinform.ir.versions import Version, parse_version, print_version, versions_of
+from twinform.schemas.facts import Fact
 from twinform.schemas.hints import dialect_of, hint_for_attribute, hint_for_element, hint_for_word, moved_to, words_of
 from twinform.schemas.xml import Places, XmlElement, path_of
 
 _COLORS = frozenset({"color", "color4"})
 _FREE_NUMBERS = frozenset({"slip1", "slip2"})
 """Numbers of SDF whose range its description does not have; libsdformat refuses the others, and no body is negative."""
-_SIZES = frozenset({"box", "capsule", "cylinder", "mass", "sphere"})
 _ESSENTIAL = frozenset({"parent", "child"})
 """Elements without which no reader, not even the most forgiving, makes sense of the file."""
 
@@ -156,7 +156,11 @@ def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
     severity = None if context.declared or context.sink.strict else Severity.INFO
     is_gone = not fact.is_attribute and fact.until < context.version
     hint = moved_to(context.format, fact, _around(element), context.version) if is_gone else None
-    context.report(rules.OUTSIDE_VERSION, element, message, step, found=name, severity=severity, help=hint)
+    details: FindingDetails = {"found": name, "help": hint, "severity": severity}
+    if context.format == "urdf":  # urdfdom 6 ignores an attribute of a later version, and knows no shape of one
+        details["refused"] = not fact.is_attribute
+        message += "; readers ignore it" if fact.is_attribute else "; readers refuse it"
+    context.report(rules.OUTSIDE_VERSION, element, message, step, **details)
 
 
 def value_outside_version(context: Context, element: XmlElement, fact: Fact, word: str) -> None:
@@ -333,13 +337,16 @@ def mixed_rotation(context: Context, element: XmlElement, count: int) -> None:
 
 def out_of_range(context: Context, element: XmlElement, fact: Fact, value: float) -> None:
     """A number outside its bounds."""
-    bound = f"at least {fact.min:g}" if fact.min is not None and value < fact.min else f"at most {fact.max:g}"
+    if fact.max is not None and value > fact.max:
+        bound = f"at most {fact.max:g}"
+    else:
+        bound = f"at least {fact.min:g}" if fact.above is None else f"more than {fact.above:g}"
     attribute = fact.is_attribute
     subject = f"{fact.name[1:]!r} of <{element.tag}>" if attribute else f"<{element.tag}>"
     message = f"{subject} is {value:g}; expected {bound}"
     step = fact.name if attribute else ""
     hint = "divide by 255" if fact.type in _COLORS and value > 1 else None
-    refused = str(element.tag) in _SIZES and value < 0
+    refused = fact.strict
     if context.format == "sdf":  # which libsdformat reads by its newest description
         refused = fact.name not in _FREE_NUMBERS and fact.exists_in(parse_version(versions_of("sdf")[-1]))
     details: FindingDetails = {"found": f"{value:g}", "expected": bound, "help": hint, "refused": refused}

@@ -3,8 +3,8 @@
 from functools import cache
 from typing import TYPE_CHECKING, Literal
 
+from twinform.ir.versions import Version, print_version
 from twinform.package_files import package_files
-from twinform.schemas.facts import Version, print_version
 
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable

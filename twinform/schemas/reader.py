@@ -14,9 +14,10 @@ from functools import cache, partial
 
 from twinform.diagnostics import Source
 from twinform.ir import Document, Model, Node
+from twinform.ir.versions import Version
 from twinform.schemas import messages
 from twinform.schemas.element_reader import ElementReader, ReadChild, with_row_findings
-from twinform.schemas.facts import Fact, Table, Version, table
+from twinform.schemas.facts import Fact, Table, table
 from twinform.schemas.messages import Context
 from twinform.schemas.value_readers import Data, NodeMaker, keep_element, locate, node_class, require_place, text_reader
 from twinform.schemas.value_types import VALUE_TYPES

@@ -8,7 +8,8 @@ from collections.abc import Iterable, Iterator
 from string import Template
 from typing import NamedTuple
 
-from twinform.schemas.facts import Fact, Table, makes_many, parse_version, rows_to_write
+from twinform.ir.versions import parse_version
+from twinform.schemas.facts import Fact, Table, makes_many, rows_to_write
 
 _MODULE = Template('''\
 """From nodes to the text of $format: generated from the facts tables by `make generate`, not to be edited."""

@@ -13,8 +13,9 @@ from typing import Any
 from lxml import etree
 
 from twinform.dataclass import dataclass
+from twinform.ir.versions import Version
 from twinform.lazy import lazy_pattern
-from twinform.schemas.facts import Version, in_order
+from twinform.schemas.facts import in_order
 from twinform.schemas.value_types import format_numbers, format_value, parse_bool
 
 Write = Callable[[Any, "TextOutput", str], str]

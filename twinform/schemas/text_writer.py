@@ -6,7 +6,8 @@ from typing import Any
 
 from lxml import etree
 
-from twinform.schemas.facts import Version, table
+from twinform.ir.versions import Version
+from twinform.schemas.facts import table
 from twinform.schemas.text_output import NEW_LINE, Arrange, TextOutput, WrittenParts, without_marks
 from twinform.schemas.xml import XmlElement
 

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, cast
 from lxml import etree
 
 from twinform.diagnostics import Location, rules
-from twinform.schemas.facts import Version, print_version, table
+from twinform.ir.versions import Version, print_version
+from twinform.schemas.facts import table
 from twinform.schemas.messages import Context
 from twinform.schemas.packaged import schema_text
 from twinform.schemas.xml import XmlElement

@@ -10,8 +10,9 @@ from twinform.diagnostics import Source, meant_name
 from twinform.ir import Element, Node, Opaque
 from twinform.ir.record import fields_of, filler, maker
 from twinform.ir.rewrite import classes_in
+from twinform.ir.versions import Version
 from twinform.schemas import messages
-from twinform.schemas.facts import Fact, Version
+from twinform.schemas.facts import Fact
 from twinform.schemas.hints import hint_for_word
 from twinform.schemas.messages import Context, StandIn
 from twinform.schemas.value_types import ValueType
@@ -187,13 +188,26 @@ def attribute_reader(
 
     `at` is the path from the node to the element, and `words` are those without one of which there is no node.
     """
+    read = _value_reader(row, types, at, words, keep=keep)
+    if row.exists_in(version):
+        return read
+
+    def read_late(element: XmlElement, name: str, text: str, node: Data, context: Context) -> None:
+        messages.outside_version(context, element, row)
+        if context.format == "sdf":
+            read(element, name, text, node, context)
+        elif keep:  # in URDF it means nothing
+            keep_attribute(element, node, at, context, (name, text))
+
+    return read_late
+
+
+def _value_reader(row: Fact, types: Types, at: str, words: tuple[str, ...], *, keep: bool) -> ReadAttribute:
     value_type = types[row.type or "string"]
-    parse, check, late, dialect = value_type.parse, value_check(row), not row.exists_in(version), row.dialect
+    parse, check, dialect = value_type.parse, value_check(row), row.dialect
     store = value_store(row, row.place) if keep and row.place else None
 
     def read(element: XmlElement, name: str, text: str, node: Data, context: Context) -> None:
-        if late:
-            messages.outside_version(context, element, row)
         if dialect:
             messages.dialect_attribute(context, element, name, dialect)
         try:
@@ -294,9 +308,9 @@ def value_check(row: Fact) -> Check | None:
     """Return the checks of a value beyond its type."""
     if row.enum:
         return _word_check(row)
-    if row.min is None and row.max is None:
+    if row.bounds is None:
         return None
-    low, high = bounds(row)
+    low, high = row.bounds
 
     def check_number(element: XmlElement, value: float, context: Context) -> None:
         if value < low or value > high:
@@ -309,11 +323,6 @@ def value_check(row: Fact) -> Check | None:
             messages.out_of_range(context, element, row, max(value))
 
     return check_number if row.type in SCALARS else check_vector
-
-
-def bounds(row: Fact) -> tuple[float, float]:
-    """Return the least and the greatest allowed number of a row, also for each component."""
-    return row.min if row.min is not None else float("-inf"), row.max if row.max is not None else float("inf")
 
 
 def _word_check(row: Fact) -> Check:

@@ -11,7 +11,8 @@ from typing import NamedTuple
 
 from lxml import etree
 
-from twinform.schemas.facts import Table, Version, table
+from twinform.ir.versions import Version
+from twinform.schemas.facts import Table, table
 from twinform.schemas.meanings import rows_with_paths
 from twinform.schemas.xml import XmlElement
 from twinform.schemas.xsd_values import XS, annotate, xs

@@ -19,7 +19,8 @@ from typing import NamedTuple
 
 from lxml import etree
 
-from twinform.schemas.facts import Fact, Table, Version, print_version, rows_by_name, table
+from twinform.ir.versions import Version, print_version
+from twinform.schemas.facts import Fact, Table, rows_by_name, table
 from twinform.schemas.meanings import Documentation, Path
 from twinform.schemas.packaged import XsdVersion
 from twinform.schemas.xacro_xsd import import_xacro, unambiguous
@@ -248,17 +249,20 @@ def _tests(facts: Table, version: Version, fact: Fact, path: Path) -> Iterator[s
         yield from [_NO_RESERVED_NAME] if version >= _RESERVED_SINCE else []
         yield from [_NO_SCOPED_NAME] if version >= _SCOPED_SINCE else []
     rows = [row for row in fact.rows if row.exists_in(version) and row.dialect is None]
+    if path == ("origin",) and any(row.name == "@quat_xyzw" for row in rows):
+        yield "not(@rpy and @quat_xyzw)"
     if path[0].endswith(_SHAPES):
-        yield from (_not_negative(row) for row in rows if row.min == 0 and (row.is_attribute or row.type))
+        yield from (_in_bounds(row) for row in rows if 0 in (row.min, row.above) and (row.is_attribute or row.type))
     if facts.format == "sdf":  # libsdformat takes no default for an attribute that the format asks for
         yield from (row.name for row in rows if row.is_attribute and row.expected)
 
 
-def _not_negative(row: Fact) -> str:
+def _in_bounds(row: Fact) -> str:
+    below = "lt 0" if row.above is None else "le 0"
     if row.type == "double":
-        return f"not(number({row.name}) lt 0)"
+        return f"not(number({row.name}) {below})"
     numbers = f"tokenize(normalize-space(string({row.name})), ' ')"
-    return f"every $number in {numbers} satisfies not(number($number) lt 0)"
+    return f"every $number in {numbers} satisfies not(number($number) {below})"
 
 
 class _Reference(NamedTuple):

@@ -9,9 +9,10 @@ from typing import Literal, NamedTuple, Self, cast, get_args
 from twinform.dataclass import dataclass
 from twinform.ir import Document, Model, Node
 from twinform.ir.record import fields_of
+from twinform.ir.versions import Version
 from twinform.package_files import package_files
 from twinform.schemas import table
-from twinform.schemas.facts import Fact, Version
+from twinform.schemas.facts import Fact
 
 FormatName = Literal["urdf", "sdf"]
 FORMATS: tuple[FormatName, ...] = ("urdf", "sdf")

@@ -21,11 +21,13 @@ from twinform.schemas import (
     XmlElement,
     declared_namespaces,
     has_prefixed_attributes,
-    parse_version,
+    known_version,
+    print_version,
     reader,
     refusals,
     undeclared_prefix,
     validate,
+    version_read,
     versions_of,
 )
 
@@ -141,8 +143,6 @@ ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Document]]] = {
     "sdf": ("sdf", build_sdf),
 }
 """The format and the front end for each root element."""
-_WITHOUT_VERSION = {"urdf": (1, 0)}
-"""The version of a file that declares none."""
 
 
 def lower_tree(
@@ -169,25 +169,16 @@ def build_document(build: Callable[[XmlElement, Context], Document], root: XmlEl
     return document
 
 
-_FIRST_SDF = "1.0"
-"""A version of SDF that libsdformat reads, and that it does not describe."""
-
-
 def declared_version(root: XmlElement, format_: str, sink: DiagnosticSink) -> Version:
-    """Return the version to read a file by: the declared one where the format has it, or else the newest."""
+    """Return the version to read a file by, and report one that the format does not have."""
     known, declared = versions_of(format_), root.get("version")
-    if declared is None and format_ in _WITHOUT_VERSION:
-        return _WITHOUT_VERSION[format_]
-    if declared in known:
-        return parse_version(declared)
-    where = Location(line=root.sourceline or 0, path=f"/{root.tag}/@version")
-    newest = known[-1]
-    if declared is not None:
-        message = f"{format_.upper()} has no version {declared!r}; read as {newest}"
-        is_read = declared.strip() in known or (format_ == "sdf" and declared.strip() == _FIRST_SDF)
-        expected = ", ".join(known)
-        sink.report(rules.UNKNOWN_VERSION, message, where, found=declared, expected=expected, refused=not is_read)
-    return parse_version(newest)
+    version = version_read(format_, declared)
+    if declared is not None and declared not in known:
+        where = Location(line=root.sourceline or 0, path=f"/{root.tag}/@version")
+        message = f"{format_.upper()} has no version {declared!r}; read as {print_version(version)}"
+        expected, refused = ", ".join(known), known_version(format_, declared) is None
+        sink.report(rules.UNKNOWN_VERSION, message, where, found=declared, expected=expected, refused=refused)
+    return version
 
 
 def namespaces_of(root: XmlElement, default: str | None, *, inside: bool = True) -> tuple[tuple[str, str], ...]:

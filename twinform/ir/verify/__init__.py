@@ -9,6 +9,7 @@ from twinform.diagnostics.rules import UNKNOWN_COLLISION, UNKNOWN_GRIPPER_LINK
 from twinform.ir.document import Document, Format
 from twinform.ir.verify.verify_sdf import verify_sdf
 from twinform.ir.verify.verify_urdf import verify_robot
+from twinform.ir.versions import version_read
 
 __all__ = ["verify", "verify_again"]
 
@@ -21,8 +22,9 @@ def verify(document: Document, sink: DiagnosticSink) -> None:
     if document.format is Format.SDF:
         verify_sdf(document, sink)
         return
+    version = version_read("urdf", document.version)
     for model in document.models:
-        verify_robot(model, sink, optional=document.version == "1.2")
+        verify_robot(model, sink, version)
 
 
 def verify_again(document: Document, sink: DiagnosticSink) -> None:

@@ -151,7 +151,10 @@ def verify_rotation(pose: Pose | None, sink: DiagnosticSink) -> None:
     if pose is None:
         return
     rpy, quaternion = pose.rpy, pose.quat_xyzw
-    if rpy is not None:
+    if rpy is not None and quaternion is not None:
+        message = "a rotation is given by rpy and by quat_xyzw; readers refuse both together"
+        sink.report(rules.TWO_ROTATIONS, message, pose.location, found="rpy and quat_xyzw", expected="one of them")
+    elif rpy is not None:
         if not pose.degrees and (max(rpy) > _MOST or min(rpy) < -_MOST):
             _degrees(pose, max(rpy, key=abs), sink)
     elif quaternion is not None:

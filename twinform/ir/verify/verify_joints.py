@@ -9,6 +9,7 @@ from twinform.diagnostics.rules import RANGE_IN_DEGREES
 from twinform.ir.groups import Groups
 from twinform.ir.joint import Axis, Joint, Limit, Mimic
 from twinform.ir.node import Vector3
+from twinform.ir.versions import Version
 
 _FREEDOMS = {
     **dict.fromkeys(("revolute", "continuous", "prismatic", "screw", "planar"), 1),
@@ -23,6 +24,9 @@ _MOST_MEANT = 20
 _WHOLE_TURN = 360
 # Limits in degrees are mostly multiples of this; those of a winch in radians hardly ever.
 _STEP = 5
+_NEEDED = ("effort", "velocity")
+_POSITIONS = ("lower", "upper")
+_POSITIONS_SINCE = (1, 2)
 # How far the length of an axis may be from 1: files write three digits.
 _ROUNDING = 1e-3
 
@@ -111,11 +115,13 @@ def _is_in_degrees(lower: float, upper: float) -> bool:
     return bool(far) and _MOST_MEANT < max(far) <= _WHOLE_TURN and not any(each % _STEP for each in far)
 
 
-def verify_limits_there(joint: Joint, sink: DiagnosticSink, *, optional: bool) -> None:
-    """Report missing limits that URDF requires where SDF has none by default; before 1.2 also effort and velocity."""
+def verify_limits_there(joint: Joint, sink: DiagnosticSink, version: Version) -> None:
+    """Report missing limits that a version of URDF requires where SDF has none by default."""
     limit = joint.axis.limit if joint.axis else None
-    missing = [name for name in ("effort", "velocity") if limit and getattr(limit, name) is None]
-    if limit and missing and not optional:
+    # urdfdom 6, joint.cpp, parseJointLimits: 1.2 lets go of effort and velocity, and no longer takes 0 for the others
+    needed = _NEEDED if version < _POSITIONS_SINCE else _POSITIONS if joint.type in _LIMITED else ()
+    missing = [name for name in needed if limit and getattr(limit, name) is None]
+    if limit and missing:
         message = f"the limit of joint {joint.name!r} has no {' and no '.join(missing)}"
         sink.report(rules.PARTIAL_LIMIT, message, limit.location, expected=f"@{missing[0]}")
     if joint.type in _LIMITED and limit is None:

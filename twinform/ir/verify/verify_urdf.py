@@ -10,11 +10,12 @@ from twinform.ir.node import Node
 from twinform.ir.verify.verify_bodies import verify_inertial, verify_rotation, verify_shapes
 from twinform.ir.verify.verify_joints import report_loops, verify_joint, verify_limits_there, verify_mimics
 from twinform.ir.verify.verify_names import report_names, report_unprintable
+from twinform.ir.versions import Version
 from twinform.ir.visual import Material
 
 
-def verify_robot(model: Model, sink: DiagnosticSink, *, optional: bool) -> None:
-    """Report what is wrong with a robot; `optional` is whether limits may lack effort and velocity."""
+def verify_robot(model: Model, sink: DiagnosticSink, version: Version) -> None:
+    """Report what is wrong with a robot in a version of URDF."""
     if not model.name.strip():
         message = "the robot has an empty name"
         sink.report(rules.EMPTY_NAME, message, model.location, severity=Severity.WARNING)
@@ -27,7 +28,7 @@ def verify_robot(model: Model, sink: DiagnosticSink, *, optional: bool) -> None:
     for joint in model.joints:
         _verify_joint(joint, links, moved, sink)
         verify_rotation(joint.pose, sink)
-        verify_limits_there(joint, sink, optional=optional)
+        verify_limits_there(joint, sink, version)
     verify_mimics(model.joints, sink)
     for link in model.links:
         verify_inertial(link, None, sink)
@@ -57,7 +58,7 @@ def _verify_joint(joint: Joint, links: set[str], moved: set[str | None], sink: D
     for part in joint.opaque:
         if part.element and part.element.name == "dynamics" and not part.element.attributes:
             message = f"<dynamics> of joint {joint.name!r} has neither damping nor friction"
-            sink.report(rules.EMPTY_DYNAMICS, message, part.location, expected="damping or friction")
+            sink.report(rules.EMPTY_DYNAMICS, message, part.location, expected="damping or friction", refused=True)
 
 
 def _suggest_link(name: str, joint: Joint, links: set[str], taken: set[str | None]) -> str | None:

@@ -12,10 +12,10 @@ from twinform.ir import Element, Node, Opaque
 from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_values, fields_of
 from twinform.ir.rewrite import classes_in
+from twinform.ir.versions import parse_version
 from twinform.passes.carriers.carriers import is_ours, to_element
 from twinform.request_options import UrdfVersion
 from twinform.schemas import Fact, Version, format_value, table
-from twinform.schemas.facts import parse_version
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
