@@ -1,5 +1,6 @@
 """Completion of names: what a reference may mean in a document, in what it includes, and in its last good state."""
 
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from itertools import islice
 
@@ -144,9 +145,23 @@ def _refused(place: ValuePlace, path: str) -> set[str]:
         if node.tag == "child" and joint.parent is not None:  # a second joint above it would close a loop
             joints = (each for each in joint.parent.children if each.tag == "joint" and each is not joint)
             refused |= set(_ends(place.document, joints, "child"))
+        refused |= set(_frames_on(refused, joint.parent))
     if path in {"joint/mimic/@joint", "controlled/@name"}:
         refused |= set(_fixed_joints(place.document))
     return refused
+
+
+def _frames_on(names: set[str], model: TolerantNode | None) -> Iterator[str]:
+    """Yield the frames of a model that are attached to some names, directly or by other frames."""
+    attached = defaultdict[str, list[str]](list)
+    for each in model.children if model is not None else ():
+        if each.tag == "frame":
+            attached[each.get("attached_to") or ""].append(each.get("name") or "")
+    waiting = list(names)
+    while waiting:
+        found = attached.pop(waiting.pop(), [])
+        waiting += found
+        yield from found
 
 
 def _joint_around(node: TolerantNode) -> TolerantNode | None:
