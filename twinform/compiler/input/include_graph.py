@@ -4,15 +4,16 @@ import os
 import re
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import field
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Literal, NamedTuple
+from xml.parsers import expat
 
 from twinform.compiler.input.size_limits import LARGEST
 from twinform.compiler.resolve_uris import SearchPath, UriError
-from twinform.text import SourceText, UndecodableError, UnplacedError, spans
-from twinform.text.positions import ElementSpan, Lines
+from twinform.dataclass import dataclass
+from twinform.text import Lines, SourceText, UndecodableError
 from twinform.text.tokens import masked
 
 _DEFINITIONS = frozenset({"arg", "include", "macro", "property", "insert_block"})
@@ -60,45 +61,81 @@ def outline(data: bytes, *, plain: bool = False) -> Outline:
         return UNKNOWN
     try:
         text = SourceText.of(data).text
-        root = spans(text)
-    except (UndecodableError, UnplacedError):
+        tags = _Tags(text)
+    except (UndecodableError, expat.ExpatError):
         return UNKNOWN
-    lines = Lines(text)
-    includes: list[Mention] = []
-    arguments: dict[str, str | None] = {}
-    for element in root.walk():
-        name = element.name.of(text)
-        if name == "xacro:include" and "filename" in element.attributes:
-            includes.append(Mention(_value(element, "filename", text) or "", lines.place(element.name.start).line))
-        elif name == "xacro:arg" and "name" in element.attributes:
-            arguments[_value(element, "name", text) or ""] = _value(element, "default", text)
-    found = [(each, lines.place(each.start()).line) for each in _ASKED.finditer(masked(text))]
+    asked = _asked(text) if "$(" in text else {}
     return Outline(
-        root.name.of(text),
-        _is_robot(root, text) if not plain else root.name.of(text) != "robot" or "name" in root.attributes,
-        tuple(includes),
-        arguments,
-        tuple(Mention(each["name"], line) for each, line in found if each["what"] == "arg"),
-        tuple(Mention(each["name"], line) for each, line in found if each["what"] == "find"),
+        tags.root,
+        tags.makes_robot() if not plain else tags.root != "robot" or "name" in tags.attributes,
+        tuple(tags.includes),
+        tags.arguments,
+        tuple(asked.get("arg", ())),
+        tuple(asked.get("find", ())),
     )
 
 
-def _value(element: ElementSpan, name: str, text: str) -> str | None:
-    return element.attributes[name].value.of(text) if name in element.attributes else None
+def _asked(text: str) -> dict[str, list[Mention]]:
+    """Find the arguments and packages that a text asks for outside of comments, by the word that asks."""
+    lines = Lines(text)
+    found = defaultdict[str, list[Mention]](list)
+    for each in _ASKED.finditer(masked(text)):
+        found[each["what"]].append(Mention(each["name"], lines.place(each.start()).line))
+    return found
 
 
-def _is_robot(root: ElementSpan, text: str) -> bool:
-    """Whether a file makes a robot, and does not only define macros for others.
+class _Tags:
+    """The start tags of a text: the root, the names of the elements directly in it, and what includes and declares.
 
-    A robot has a name, and has parts in it, or includes and no macros.
+    Raises:
+        expat.ExpatError: the text is not well-formed, or has a document type declaration.
     """
-    # Tried on 386 files of public repositories: it finds all that expand to a robot, and no others.
-    if root.name.of(text) == "sdf":
-        return True
-    names = {child.name.of(text) for child in root.children} - _SEMANTICS
-    parts = {name for name in names if name.removeprefix("xacro:") not in _DEFINITIONS}
-    assembles = "xacro:include" in names and "xacro:macro" not in names
-    return root.name.of(text) == "robot" and "name" in root.attributes and (assembles or not parts <= _SHARED)
+
+    def __init__(self, text: str) -> None:
+        self.root = ""
+        self.attributes: dict[str, str] = {}
+        self.children: set[str] = set()
+        self.includes: list[Mention] = []
+        self.arguments: dict[str, str | None] = {}
+        self._depth = 0
+        self._parser = parser = expat.ParserCreate("utf-8")
+        parser.StartElementHandler, parser.EndElementHandler = self._start, self._end
+        parser.StartDoctypeDeclHandler = _refuse_doctype
+        try:
+            parser.Parse(text.encode("utf-8", "surrogatepass"), True)
+        finally:
+            del self._parser  # it holds this object by its handlers
+
+    def _start(self, name: str, attributes: dict[str, str]) -> None:
+        if not self._depth:
+            self.root, self.attributes = name, attributes
+        elif self._depth == 1:
+            self.children.add(name)
+        self._depth += 1
+        if name == "xacro:include" and "filename" in attributes:
+            self.includes.append(Mention(attributes["filename"], self._parser.CurrentLineNumber))
+        elif name == "xacro:arg" and "name" in attributes:
+            self.arguments[attributes["name"]] = attributes.get("default")
+
+    def _end(self, _: str) -> None:
+        self._depth -= 1
+
+    def makes_robot(self) -> bool:
+        """Whether a file makes a robot, and does not only define macros for others.
+
+        A robot has a name, and has parts in it, or includes and no macros.
+        """
+        # Tried on 386 files of public repositories: it finds all that expand to a robot, and no others.
+        if self.root == "sdf":
+            return True
+        names = self.children - _SEMANTICS
+        parts = {name for name in names if name.removeprefix("xacro:") not in _DEFINITIONS}
+        assembles = "xacro:include" in names and "xacro:macro" not in names
+        return self.root == "robot" and "name" in self.attributes and (assembles or not parts <= _SHARED)
+
+
+def _refuse_doctype(*_: object) -> None:
+    raise expat.ExpatError("the document has a DOCTYPE")
 
 
 Role = Literal["robot", "part", "either"]

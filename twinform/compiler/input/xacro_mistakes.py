@@ -82,6 +82,8 @@ def _values(element: XmlElement) -> Iterator[str]:
 
 def _words(text: str) -> set[str]:
     """Return the words in the expressions of a text."""
+    if "$" not in text:  # as most texts, which go through here several times
+        return set()
     return {word for expression in _EXPRESSION.findall(text) for word in _WORD.findall(expression)}
 
 
@@ -116,13 +118,15 @@ def _makes_a_robot(file: _File) -> bool:
 
 def _report_unused(own: _File, files: Iterable[_File], sink: DiagnosticSink) -> None:
     """Report what a file defines and nothing in it and the files that it includes uses."""
+    if not (defined := list(_definitions(own))):
+        return
     everything = [element for file in files for element in file.elements]
     used, called = _used_in(everything), {_kind(element).rpartition(".")[2] for element in everything}
     if any(_kind(element) == "call" for element in everything):
         called |= {word for element in everything for value in _values(element) for word in _WORD.findall(value)}
     unused = [
         each
-        for each in _definitions(own)
+        for each in defined
         if each.name not in (called if each.kind == "macro" else used)
         and not _EFFECT.search(each.element.get("value") or "")
     ]
@@ -134,14 +138,17 @@ def _report_unused(own: _File, files: Iterable[_File], sink: DiagnosticSink) -> 
 def _report_overwritten(file: _File, sink: DiagnosticSink) -> None:
     """Report a property or macro that is defined again in the same place before anything can have used it."""
     last: dict[tuple[str, str, XmlElement | None], _Definition] = {}
-    uses = _Uses(file)
+    uses: _Uses | None = None
     for each in _definitions(file):
         if each.kind == "arg" or not _is_plain(each.element):
             continue
         key = (each.kind, each.name, each.element.getparent())
         before = last.get(key)
         last[key] = each
-        if before is None or uses.may_be_between(before, each):
+        if before is None:
+            continue
+        uses = uses or _Uses(file)
+        if uses.may_be_between(before, each):
             continue
         line = each.element.sourceline or 0
         message = f"the {_WORDS[each.kind]} {each.name!r} is defined again in line {line}, and never used before"
@@ -194,7 +201,7 @@ def _report_degrees(file: _File, sink: DiagnosticSink) -> None:
 def _expressions(file: _File) -> Iterator[tuple[XmlElement, str]]:
     for element in file.elements:
         for value in _values(element):
-            for expression in _EXPRESSION.findall(value):
+            for expression in _EXPRESSION.findall(value) if "$" in value else ():
                 yield element, expression
 
 
@@ -214,7 +221,7 @@ def _report_braces(file: _File, known: set[str], sink: DiagnosticSink) -> None:
     """Report a property or parameter in braces without the dollar that makes an expression of them."""
     for element in file.elements:
         for value in map(str, (*element.values(), element.text or "")):
-            for name in _BRACES.findall(_EXPRESSION.sub(" ", value)):
+            for name in _BRACES.findall(_EXPRESSION.sub(" ", value)) if "{" in value else ():
                 if name in known:
                     message = f"{{{name}}} is the text itself: an expression begins with a dollar"
                     place = _place(file, element)

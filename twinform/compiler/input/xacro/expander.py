@@ -6,10 +6,10 @@ In a text, `${...}` is an expression, and `$(command words)` an argument, packag
 import os
 import re
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Generator, Mapping
+from contextlib import contextmanager
 from functools import partial
 from importlib import import_module
-from pathlib import Path
 from posixpath import normpath
 from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -34,6 +34,8 @@ _WATCHED = ("eval_all", "check_attrs", "grab_property", "grab_macro", "process_i
 # running.
 _BARRED = ("compile", "eval", "exec", "open")
 _PACKAGE = "package://"
+_LEFT_OUT = ("xacro.cli", "yaml")
+"""What xacro imports and is not used here: its command line, and what takes as long as all else that is imported."""
 
 
 class Expander:
@@ -41,14 +43,16 @@ class Expander:
 
     The YAML library takes longer to import than all else. Without `yaml`, a file that reads data makes
     `lacks_yaml` true, and its expansion fails. `absent` are the packages that are nowhere, with the
-    place that asks for them and advice.
+    place that asks for them and advice; `parsed` are the xacro files that were read.
     """
 
     def __init__(self, compiler: Compiler, file: str, *, yaml: bool = True) -> None:
-        self.xacro: Any = import_module("xacro")
-        self.module: Any = import_module("xacro.substitution_args")
+        with _stand_ins(*_LEFT_OUT):
+            self.xacro: Any = import_module("xacro")
+            self.module: Any = import_module("xacro.substitution_args")
         self.compiler = compiler
         self.file = file
+        self.parsed: set[str] = set()
         self.node: Any = None
         self.definitions = Definitions(lambda: self.xacro.filestack or ())
         self.budget = Budget()
@@ -201,6 +205,7 @@ class Expander:
     def _parse(self, _: object, filename: str) -> minidom.Document:
         """What xacro's own function does, with lines."""
         filename = self._known_name(filename)
+        self.parsed.add(filename)
         try:
             return parse(self.compiler.read(filename), filename)
         except MissingFileError as error:
@@ -214,6 +219,23 @@ class Expander:
         known = next((each for each in stack[:-1] if normpath(each) == here), filename)
         stack[-1:] = [known]
         return known
+
+
+@contextmanager
+def _stand_ins(*modules: str) -> Generator[None]:
+    """Let modules be imported by their names alone, unless they are there; whatever is called of them is refused."""
+    made = {name: _StandIn(name) for name in modules if name not in sys.modules}
+    sys.modules.update(made)
+    try:
+        yield
+    finally:
+        for name in made:
+            del sys.modules[name]
+
+
+class _StandIn(ModuleType):
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        return _refuse
 
 
 def _replace(module: ModuleType, replacements: Mapping[str, Any]) -> None:
@@ -231,7 +253,7 @@ def _refuse(*_: object, **__: object) -> Any:
 
 def _working_folder() -> str:
     try:
-        return str(Path.cwd())
+        return os.getcwd()
     except OSError:  # it was deleted
         return "."
 

@@ -1,7 +1,7 @@
 """Places in xacro files: elements that know their file and line, and where properties and macros are defined."""
 
 from collections.abc import Callable, Iterator, Sequence
-from pathlib import Path
+from os.path import basename
 from typing import Any, NamedTuple
 from xml.dom import expatbuilder, minidom
 from xml.parsers.expat import ExpatError
@@ -148,11 +148,11 @@ class Definitions:
         if not inside:
             return ""
         macro, (file, line) = inside[-1]
-        return f" (in macro {macro!r}, called at {Path(file).name}:{line})"
+        return f" (in macro {macro!r}, called at {basename(file)}:{line})"
 
     def circle(self) -> str:
         """Say which files include each other, or which macros call each other; empty where none do."""
-        files = _circle([Path(file).name for file in self.files()])
+        files = _circle([basename(file) for file in self.files()])
         if files:
             return f"{files[0]} includes {', which includes '.join(files[1:])}"
         macros = [repr(name) for name in _circle([call.macro for call in self.calls])]

@@ -117,7 +117,9 @@ def _expanded(expander: Expander, arguments: dict[str, str]) -> dict[str, Any]:
         document = expander.expand(arguments)
         root = document.documentElement
         places = [] if root is None else list(places_below(root))
-        strays = [] if root is None else list(islice(included_texts(root), _MOST_REMARKS))
+        # what stands in an element of another file came with an include
+        texts = () if root is None or len(expander.parsed) == 1 else included_texts(root)
+        strays = list(islice(texts, _MOST_REMARKS))
         text = document.toprettyxml(indent="  ")
         text.encode()  # half of a surrogate pair is no text
     except BadFileError as error:
