@@ -17,7 +17,6 @@ from twinform.cli.file_runs import FileRun, RunOptions, open_file_run
 from twinform.cli.inputs import InputSource, Remember, model_inputs
 from twinform.cli.model_files import Exclusion, is_checked
 from twinform.cli.nearest_projects import finding_of
-from twinform.cli.outputs import Outputs, printed_text, show_differences, write_back
 from twinform.cli.project_options import OptionsByFile
 from twinform.compiler import LoadResult
 from twinform.dataclass import dataclass
@@ -96,6 +95,8 @@ class CheckRun:
         self._find(file_run.remember)
         if options.output_file is None:
             return self._work(file_run)
+        from twinform.cli.outputs import Outputs, printed_text  # noqa: PLC0415 - most runs write no file
+
         outputs = Outputs([each.path for each in self.sources])
         with printed_text() as printed:
             code = self._work(file_run)
@@ -163,6 +164,7 @@ class CheckRun:
     def _add_allow(self, file_run: FileRun, report: CheckReport) -> bool:
         """Write comments that allow what is reported, or print them; return whether there are any."""
         from twinform.cli.add_allow import allow_found, print_allowed  # noqa: PLC0415 - it seldom happens
+        from twinform.cli.outputs import show_differences, write_back  # noqa: PLC0415 - as above
 
         found: list[Diagnostic] = []
         report.shown = None

@@ -64,7 +64,12 @@ def test_the_package_runs_as_the_command() -> None:
 
 
 _UNUSED = {
-    "check": ["twinform.passes.legalise", "twinform.passes.framework.pass_base", "twinform.cli.config_settings"],
+    "check": [
+        "twinform.passes.legalise",
+        "twinform.passes.framework.pass_base",
+        "twinform.cli.config_settings",
+        "twinform.storage",
+    ],
     "convert": [
         "twinform.passes.legalise.to_urdf",
         "twinform.passes.framework.options_model",

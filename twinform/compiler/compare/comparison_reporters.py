@@ -1,6 +1,5 @@
 """A comparison as text for people and as JSON for programs; reporters only format."""
 
-import json as jsonlib
 import math
 from collections.abc import Callable, Iterator, Mapping
 from itertools import groupby
@@ -37,7 +36,9 @@ def json(comparison: Comparison) -> str:
         "tolerance": comparison.tolerance,
         "items": [_item_fields(item) for item in comparison.items],
     }
-    return jsonlib.dumps(whole, indent=2, allow_nan=False) + "\n"
+    from json import dumps  # noqa: PLC0415 - a text needs none of it
+
+    return dumps(whole, indent=2, allow_nan=False) + "\n"
 
 
 REPORTERS: Mapping[str, Reporter] = MappingProxyType({"text": text, "json": json})

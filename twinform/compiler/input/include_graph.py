@@ -1,7 +1,6 @@
 """What xacro files include, define and ask for, as far as that can be said without expanding them."""
 
 import os
-import re
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import field
@@ -13,6 +12,7 @@ from xml.parsers import expat
 from twinform.compiler.input.size_limits import LARGEST
 from twinform.compiler.resolve_uris import SearchPath, UriError
 from twinform.dataclass import dataclass
+from twinform.lazy import lazy_pattern
 from twinform.text import Lines, SourceText, UndecodableError
 from twinform.text.tokens import masked
 
@@ -22,7 +22,7 @@ _SHARED = frozenset({"material", "xacro:if", "xacro:unless"})
 """Elements that files with definitions for others have as well."""
 _SEMANTICS = frozenset({"disable_collisions", "end_effector", "group", "group_state", "passive_joint", "virtual_joint"})
 """Elements of SRDF, which has the same root and is about a robot in another file."""
-_ASKED = re.compile(r"\$\(\s*(?P<what>arg|find)\s+(?P<name>[\w.-]+)\s*\)")
+_ASKED = lazy_pattern(r"\$\(\s*(?P<what>arg|find)\s+(?P<name>[\w.-]+)\s*\)")
 
 
 class Mention(NamedTuple):
@@ -140,11 +140,11 @@ def _refuse_doctype(*_: object) -> None:
 
 Role = Literal["robot", "part", "either"]
 """Whether a file is checked as a robot, as a part of others, or as a part if it is no robot by itself."""
-_FIND = re.compile(r"\$\(\s*find\s+(?P<package>[\w.-]+)\s*\)/*")
-_PACKAGE = re.compile(r"package://(?P<package>[\w.-]+)/*")
-_DIRNAME = re.compile(r"\$\(\s*dirname\s*\)/*")
-_SUBSTITUTION = re.compile(r"\$\([^)]*\)|\$\{[^}]*\}")
-_WILD = re.compile(r"[*?[]")
+_FIND = lazy_pattern(r"\$\(\s*find\s+(?P<package>[\w.-]+)\s*\)/*")
+_PACKAGE = lazy_pattern(r"package://(?P<package>[\w.-]+)/*")
+_DIRNAME = lazy_pattern(r"\$\(\s*dirname\s*\)/*")
+_SUBSTITUTION = lazy_pattern(r"\$\([^)]*\)|\$\{[^}]*\}")
+_WILD = lazy_pattern(r"[*?[]")
 # Each distinct address with expressions is compared with all files.
 _LONGEST = 4096
 """Characters of a pattern, as long as a path may be: an expression of a million takes seconds to compile."""
