@@ -20,6 +20,8 @@ _ALLOCATOR = {name: str(2**30) for name in ("MALLOC_TRIM_THRESHOLD_", "MALLOC_MM
     "MALLOC_TOP_PAD_": str(2**26)
 }
 """Freed memory stays with the process: else lxml alone spends a quarter of its time on getting it back."""
+_MOST_TURNS = 30
+"""After so many turns a program is started anew: libsdformat returns no memory, and had 9 GB within the corpus."""
 LONGEST = 300
 """So many seconds an answer is waited for."""
 _PROGRAMS = Path(__file__).with_name("programs")
@@ -38,17 +40,25 @@ class Answer:
 
 @dataclass(slots=True)
 class Engine:
-    """A program that is timed; `needs` is what to install where it is not present, `release` which one it is."""
+    """A program that is timed; `needs` is what to install where it is not present, `release` which one it is.
+
+    It is started anew after `most_turns`.
+    """
 
     name: str
     command: Callable[[], Sequence[str]]
     present: Callable[[], bool] = lambda: True
     needs: str = ""
     release: Callable[[], str] = lambda: ""
+    most_turns: int | None = None
+    _turns: int = field(default=0, init=False)
     _process: "subprocess.Popen[str] | None" = field(default=None, init=False)
 
     def ask(self, path: Path) -> Answer:
         """The time of one turn with a file; the process is started with the first, and again after a crash."""
+        if self._turns == self.most_turns:
+            self.close()
+        self._turns += 1
         if self._process is None:
             pipe, quiet = subprocess.PIPE, subprocess.DEVNULL
             command = self.command()
@@ -73,6 +83,7 @@ class Engine:
             self._process.kill()
             self._process.communicate()
             self._process = None
+            self._turns = 0
 
     def _ended(self, why: str) -> Answer:
         self.close()
@@ -109,7 +120,8 @@ def _program(name: str, program: Program, *arguments: str) -> Engine:
     def command() -> Sequence[str]:
         return (str(program.built()), str(LEAST), *arguments)
 
-    return Engine(name, command, program.can_be_built, needs, partial(_packaged, program.packages[0]))
+    release = partial(_packaged, program.packages[0])
+    return Engine(name, command, program.can_be_built, needs, release, _MOST_TURNS)
 
 
 def _packaged(package: str) -> str:
