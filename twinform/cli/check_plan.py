@@ -6,9 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from twinform.cli.model_files import XACRO
+from twinform.compiler.input.load_options import XACRO
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Severity, rules
+from twinform.diagnostics import Severity, is_typo, rules
 from twinform.file_access import may_be_root
 
 if TYPE_CHECKING:
@@ -62,7 +62,8 @@ class CheckPlan:
 def with_outside_faults(loaded: "LoadResult", *, named: bool) -> "LoadResult":
     """Return what was read, with warnings where arguments or packages are missing, which is no fault of the file.
 
-    They stay errors where somebody has named the file and nothing in it could be checked.
+    They stay errors where somebody has named the file and nothing in it could be checked. A file of a folder that has
+    another root, and so is no model at all, is a note.
     """
     if named and loaded.document is None:
         return loaded
@@ -70,7 +71,17 @@ def with_outside_faults(loaded: "LoadResult", *, named: bool) -> "LoadResult":
 
 
 def _as_warning(finding: "Diagnostic") -> "Diagnostic":
+    if finding.rule is rules.UNKNOWN_ROOT and not _is_near_model(finding.found or ""):
+        return replace(finding, severity=Severity.INFO)
     return replace(finding, severity=Severity.WARNING) if finding.rule in OUTSIDE else finding
+
+
+_PARTS_OF_MODELS = frozenset({"actor", "gazebo", "joint", "light", "link", "model", "world"})
+
+
+def _is_near_model(root: str) -> bool:
+    """Whether somebody means a model by a root element, and no template or data of another program."""
+    return root in _PARTS_OF_MODELS or any(is_typo(root, each) for each in ("robot", "sdf"))
 
 
 def folders_asked(words: Sequence[str]) -> tuple[Path, ...]:
@@ -79,4 +90,4 @@ def folders_asked(words: Sequence[str]) -> tuple[Path, ...]:
 
 
 def _may_be_part(name: str) -> bool:
-    return name.lower().endswith((XACRO, ".urdf"))
+    return name.lower().endswith((*XACRO, ".urdf"))

@@ -53,7 +53,8 @@ class OnceInAllFiles:
     def is_new(self, finding: Diagnostic, robot: str) -> bool:
         """Whether a finding about a file that a robot includes was not asked about before."""
         where = finding.location
-        key = (os.path.abspath(where.file), where.line, cause_of(finding))  # noqa: PTH100 - many strings
+        cause = cause_of(replace(finding, help=None))  # advice may name the robot
+        key = (os.path.abspath(where.file), where.line, cause)  # noqa: PTH100 - many strings
         is_new = key not in self._first
         self.repeated += self._first.setdefault(key, robot) != robot
         return is_new

@@ -12,8 +12,7 @@ from twinform.cli.check_plan import OUTSIDE, with_outside_faults
 from twinform.cli.command import Unusable
 from twinform.cli.inputs import InputSource, read_model
 from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, as_refused, inspect
-from twinform.compiler.input.load_options import ReadingOptions
-from twinform.compiler.input.loading import XACRO
+from twinform.compiler.input.load_options import XACRO, ReadingOptions
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fix, Location, Policy, Rule, Safety, Severity, rules
 from twinform.diagnostics.diagnostic import Span, TextEdit
@@ -89,7 +88,7 @@ class CheckedFile:
         new = reporting.new(loaded, seen)
         return cls(
             _locate(loaded, _with_fixes(loaded, new, reporting.fixed), reporting.shown),
-            loaded.unreadable and not waits,
+            loaded.unreadable and not waits and any(each.is_error for each in found),
             is_unusable(loaded, named=named),
             waits,
             allowed=len(loaded.allowed) + len(found) - len(seen),

@@ -28,7 +28,7 @@ from twinform.compiler import (
 )
 from twinform.compiler.fixing import ANOTHER_ROBOT, FixResult, Refused, apply_fixes_by
 from twinform.compiler.in_place import convert_in_place
-from twinform.compiler.input.loading import XACRO
+from twinform.compiler.input.load_options import XACRO
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Policy, Safety, Severity
@@ -113,7 +113,7 @@ def _read_fixable(source: InputSource, sink: DiagnosticSink, load_options: LoadO
     """
     if isinstance(source.content, bytes):
         return source.content
-    if load_options.xacro or Path(source.name).suffix.lower() == XACRO:
+    if load_options.xacro or source.name.lower().endswith(XACRO):
         return None
     path = Path(source.content)
     return read_bytes(path, sink, load_options.limits, load_options.search.readable(path))
@@ -229,7 +229,7 @@ def _require_model(source: InputSource, passes: Pipeline | None) -> None:
     Raises:
         click.UsageError: it is JSON or xacro, or a pass makes other files.
     """
-    if source.format == "json" or source.name.lower().endswith(".xacro"):
+    if source.format == "json" or source.name.lower().endswith(XACRO):
         raise click.UsageError(f"{source.name} is not URDF or SDF: change it by hand, or convert it first")
     made = [step.only_file for step in passes or () if isinstance(step, FilesPass) and step.only_file]
     if made:

@@ -16,7 +16,6 @@ from twinform.cli.config_file import ConfigError
 from twinform.cli.flags import flag, flags_of, group
 from twinform.cli.model_files import (
     DEFAULT_EXCLUDE,
-    XACRO,
     Exclusion,
     FileKind,
     FolderExclusion,
@@ -25,7 +24,7 @@ from twinform.cli.model_files import (
 )
 from twinform.cli.nearest_projects import NearestProjects
 from twinform.compiler import LoadOptions, LoadResult, read
-from twinform.compiler.input.load_options import FileOptions, ReadingOptions
+from twinform.compiler.input.load_options import XACRO, FileOptions, ReadingOptions
 from twinform.compiler.input.size_limits import LARGEST
 from twinform.diagnostics import Policy
 from twinform.file_access import STREAMS, Readable, read_up_to
@@ -235,7 +234,7 @@ def _split_words(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
 def _open_files(files: Sequence[str], arguments: Mapping[str, str], stdin_name: str | None = None) -> list[InputSource]:
     ctx = click.get_current_context(silent=True)
     xacro = bool(ctx and ctx.params.get("xacro"))
-    if arguments and not (xacro or any(file.lower().endswith(".xacro") for file in files)):
+    if arguments and not (xacro or any(file.lower().endswith(XACRO) for file in files)):
         raise click.UsageError(f"{next(iter(arguments))}:=... is an argument of xacro, and no input is a .xacro file")
     size = (ctx and ctx.params.get("max_size")) or LARGEST
     return [open_source(file, size, stdin_name) for file in files]

@@ -14,6 +14,7 @@ from twinform.cli.completion import files as files_of
 from twinform.cli.outputs import Outputs, output_option
 from twinform.cli.printing import print_document, print_line, show
 from twinform.compiler import LoadOptions, write_all_atomically
+from twinform.compiler.input.load_options import XACRO
 from twinform.compiler.input.loading import read
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.compiler.merging import FileVersions, Problem, merge_files
@@ -107,7 +108,7 @@ def find_problems(text: SourceText, name: str) -> Iterator[Problem]:
     for each in undefined_names(ModelText(name, text.text)):
         message = f"there is no {each.kind} {each.text!r} any more, and one side refers to it"
         yield Problem((each.kind, each.text), message, each.span.start)
-    if name.endswith(".xacro") or "xmlns:xacro" in text.text:
+    if name.endswith(XACRO) or "xmlns:xacro" in text.text:
         return
     lines = Lines(text.text)
     for found in read(text.data, LoadOptions(), name=name).diagnostics:

@@ -5,9 +5,9 @@ from dataclasses import field
 from pathlib import Path
 from typing import Protocol
 
+from twinform.compiler.input.load_options import XACRO
 from twinform.dataclass import dataclass
 
-XACRO = ".xacro"
 _MODELS = (".urdf", ".sdf", ".world")
 _JSON_MARK = b"urn:twinform:document:"
 _ENOUGH = 2**12
@@ -70,17 +70,17 @@ def is_checked(path: Path, *, named: bool = False) -> bool:
         # worlds of Stage, a simulator in the plane, have the same ending and are no XML
         start = _start(path, _ENOUGH).lstrip(_BLANK)
         return not start or start.startswith((b"<", b"\0<"))
-    return is_model(path, named=named) if name.endswith(".json") else named or name.endswith((*_MODELS, XACRO))
+    return is_model(path, named=named) if name.endswith(".json") else named or name.endswith((*_MODELS, *XACRO))
 
 
 def is_text(path: Path, *, named: bool = False) -> bool:
     """Whether a file is XML for a model or for macros, by its name."""
-    return named or path.name.lower().endswith((*_MODELS, XACRO))
+    return named or path.name.lower().endswith((*_MODELS, *XACRO))
 
 
 def is_plain(path: Path, *, named: bool = False) -> bool:
     """Whether a file is a model without xacro, by its name."""
-    return is_text(path, named=named) and not path.name.lower().endswith((XACRO, ".json"))
+    return is_text(path, named=named) and not path.name.lower().endswith((*XACRO, ".json"))
 
 
 def _start(path: Path, size: int) -> bytes:

@@ -20,6 +20,7 @@ from twinform.cli.outputs import Output, Outputs, beside
 from twinform.cli.printing import plural, print_line, show
 from twinform.cli.project_options import ResolvedOptions
 from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadOptions, read, run_conversion
+from twinform.compiler.input.load_options import XACRO
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import FileFindings, printable
@@ -88,7 +89,7 @@ def _job_in_place(source: InputSource, target: Target | None) -> ConversionJob:
     """Return the job of changing a file in place."""
     if isinstance(source.content, bytes):
         raise click.UsageError(f"{source.name} is no file that could be written in place")
-    if source.name.lower().endswith(".xacro"):
+    if source.name.lower().endswith(XACRO):
         raise click.UsageError(f"{source.name} would be replaced by what it expands to; name another file with -o")
     found = known_target(source.format)
     if found is None or target not in {None, found}:
@@ -320,7 +321,7 @@ def run_into(source: InputSource, into: Path | None, base: Path | None, options:
     if isinstance(source.content, bytes):
         raise click.UsageError(f"{source.name} is no file that could have been made of {into}")
     target = known_target(InputSource(str(into), str(into)).format)
-    if target is None or target in {"json", source.format} or into.suffix.lower() == ".xacro":
+    if target is None or target in {"json", source.format} or str(into).lower().endswith(XACRO):
         raise click.UsageError(f"--into takes a file of the other format, URDF or SDF, which {into} is not")
     request = options.request_for(ConversionJob(source, target, into))
     try:

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
-from twinform.compiler.input.load_options import Input, LoadOptions, LoadResult
-from twinform.compiler.input.loading import XACRO, read
+from twinform.compiler.input.load_options import XACRO, Input, LoadOptions, LoadResult
+from twinform.compiler.input.loading import read
 from twinform.compiler.inspect_for_consumers import subject_of
 from twinform.compiler.inspection import inspect
 from twinform.compiler.request import ConversionRequest

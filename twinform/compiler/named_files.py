@@ -103,7 +103,8 @@ def _report_found(
     """Report what is wrong with a file that is there, and with its package, the first time that it is named."""
     path, search, files = around
     is_new = use.uri.startswith("package://") and _holder(use.uri) not in holders
-    faults = (find_package_fault(use.uri, search, path) if is_new else None, find_mesh_fault(use.uri, files))
+    mesh_fault = find_mesh_fault(use.uri, _shown(use.uri, sink.file), files)
+    faults = (find_package_fault(use.uri, search, path) if is_new else None, mesh_fault)
     for each in filter(None, faults):
         sink.report(each.rule, each.message, _place(use, parts), found=use.uri, help=each.help)
 
@@ -142,12 +143,19 @@ def _look_for(use: _Use, path: Path, search: SearchPath, files: MeshFiles, *, as
 def _report_missing(missing: Iterable[_Missing], parts: PartFinder | None, sink: DiagnosticSink) -> None:
     first, *others = missing
     use = first.use
-    message = f"the {_WORDS[use.kind]} {use.uri!r} is not there"
+    message = f"the {_WORDS[use.kind]} {_shown(use.uri, sink.file)!r} is not there"
     if others:
         message += f", nor is anything else of {_holder(use.uri) or 'what is named by a path'}: {len(others)} more"
     hint = suggest(first.near) or first.looked
     related = tuple(each.use.where for each in others)
     sink.report(rules.MISSING_FILE, message, _place(use, parts), found=use.uri, help=hint, related=related)
+
+
+def _shown(uri: str, main: str) -> str:
+    """Return a URI as a finding shows it: a path that xacro has made absolute, as the file is named."""
+    from twinform.compiler.input.xacro_needs import shown_name  # noqa: PLC0415 - few files have such a URI
+
+    return shown_name(uri.removeprefix("file://"), main) if uri.startswith("file:///") else uri
 
 
 def _place(use: _Use, parts: PartFinder | None) -> Location:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from lsprotocol.types import PositionEncodingKind, TextDocumentContentChangeEvent, TextDocumentContentChangePartial
 
+from twinform.compiler.input.load_options import XACRO
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
 from twinform.file_access import Readable
@@ -50,7 +51,7 @@ class TextDocument(ModelText):
     @property
     def is_xacro(self) -> bool:
         """Whether it is a xacro file, which is expanded before it is read."""
-        return self.path.suffix.lower() == ".xacro"
+        return self.path.name.lower().endswith(XACRO)
 
     @cached_property
     def data(self) -> bytes:

@@ -243,3 +243,50 @@ def test_two_links_to_one_file_are_two_names_of_a_robot(run: Run, tmp_path: Path
         (tmp_path / name).symlink_to("one.urdf")
     done = run("check", str(tmp_path))
     assert (done.exit_code, done.output.splitlines()[-1]) == (0, "3 files: 0 errors, 0 warnings, 0 notes")
+
+
+def test_an_argument_that_is_missing_everywhere_is_one_finding(run: Run, here: Path) -> None:
+    for name in ("one", "two"):
+        Path(f"{name}.urdf.xacro").write_text(f'{_ROBOT}{_include("part.xacro")}<link name="base"/></robot>')
+    Path("part.xacro").write_text(f'{_PART}<link name="$(arg side)"/></robot>')
+    assert _findings(run, ".") == [("missing-argument", "warning", "part.xacro", 1)]
+
+
+def test_an_argument_that_is_empty_unless_passed_is_missing_where_a_path_is_made_of_it(run: Run, here: Path) -> None:
+    text = f'{_ROBOT}<xacro:arg name="kind" default=""/>\n{_include("arms/$(arg kind)/arm.xacro")}</robot>'
+    Path("r.urdf.xacro").write_text(text)
+    assert _findings(run, ".") == [("missing-argument", "warning", "r.urdf.xacro", 2)]
+    assert "kind:=VALUE" in run("check", ".").stdout
+    Path("r.urdf.xacro").write_text(text.replace('default=""', 'default="short"'))
+    assert _findings(run, ".") == [("xacro-error", "error", "r.urdf.xacro", 2)]
+
+
+def test_a_default_that_stands_behind_its_use_is_said_to(run: Run, here: Path) -> None:
+    text = f'{_HEAD} name="$(arg name)">\n<xacro:arg name="name" default="r"/><link name="a"/></robot>'
+    Path("r.urdf.xacro").write_text(text)
+    assert "the default of 'name' stands behind this place" in run("check", ".").stdout
+
+
+def test_a_robot_called_xacro_urdf_is_expanded(run: Run, here: Path) -> None:
+    Path("r.xacro.urdf").write_text(f'{_ROBOT}<xacro:property name="n" value="a"/><link name="${{n}}"/></robot>')
+    Path("parts.xacro.urdf").write_text(
+        f'{_PART}<xacro:macro name="m" params="n"><link name="${{n}}"/></xacro:macro></robot>'
+    )
+    assert _findings(run, ".") == []
+    assert _findings(run, "r.xacro.urdf") == []
+
+
+@pytest.mark.parametrize(("root", "severity"), [("control_surface", "info"), ("model", "error"), ("robto", "error")])
+def test_a_template_of_another_program_is_no_broken_model(run: Run, here: Path, root: str, severity: str) -> None:
+    Path("t.sdf").write_text(f"<{root}/>")
+    done = run("check", ".", "--notes")
+    assert f"t.sdf:1:2: {severity}: the root element is <{root}>" in done.stdout
+    assert ("could not be read" in done.stderr, done.exit_code) == ((False, 0) if severity == "info" else (True, 1))
+    assert run("check", "t.sdf").exit_code == 1
+
+
+def test_the_path_of_a_mesh_that_xacro_has_made_is_shown_below_this_folder(run: Run, here: Path) -> None:
+    Path("package.xml").write_text("<package><name>bot</name></package>")
+    mesh = '<link name="a"><visual><geometry><mesh filename="file://$(find bot)/a.stl"/></geometry></visual></link>'
+    Path("r.urdf.xacro").write_text(f"{_ROBOT}{mesh}</robot>")
+    assert "the mesh 'a.stl' is not there" in run("check", ".").stdout

@@ -21,7 +21,8 @@ from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
 from twinform.compiler.expand_includes import expand
 from twinform.compiler.input.finding_spans import SourceFiles, with_columns
-from twinform.compiler.input.loading import XACRO, LoadResult, read
+from twinform.compiler.input.load_options import XACRO
+from twinform.compiler.input.loading import LoadResult, read
 from twinform.compiler.inspection import as_refused, inspect
 from twinform.compiler.model_config import MANIFESTS, manifest, model_file
 from twinform.compiler.request import ConversionRequest
@@ -57,7 +58,7 @@ class Convert:
                 made_of_world, found, ledger = self._split(task)
                 texts = dict(made_of_world)
             else:
-                source = task.path if task.path.suffix.lower() == XACRO or task.load_options.xacro else content
+                source = task.path if task.path.name.lower().endswith(XACRO) or task.load_options.xacro else content
                 made = run_conversion(_separate_mesh_files(self.to, task.output), source, task.load_options, name=name)
                 texts = {task.output: made.text, **_place_beside(PurePosixPath(task.output).parent, made.side_files)}
                 found, ledger = made.diagnostics, made.ledger

@@ -25,6 +25,7 @@ from twinform.compiler.input.xacro_files import AllowedFiles, DeniedError, varia
 from twinform.compiler.input.xacro_mistakes import report_mistakes
 from twinform.compiler.input.xacro_needs import (
     absent_packages,
+    report_empty_arguments,
     report_missing_arguments,
     report_missing_packages,
     shown_message,
@@ -127,7 +128,9 @@ def _report_failure(outcome: Mapping[str, Any], path: Path, load_options: LoadOp
     column = int(found[1]) + 1 if found else 0
     advice = _meant_name(outcome) or outcome.get("help")
     where = Location(shown_name(file, sink.file), line, "", column)
-    sink.report(rules.XACRO_ERROR, shown_message(outcome["error"], sink.file), where, help=advice or None)
+    message = shown_message(outcome["error"], sink.file)
+    if not report_empty_arguments(message, path, where, load_options, sink):
+        sink.report(rules.XACRO_ERROR, message, where, help=advice or None)
 
 
 def _report_syntax(file: str, path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> bool:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Literal, NamedTuple
 from xml.parsers import expat
 
+from twinform.compiler.input.load_options import XACRO
 from twinform.compiler.input.size_limits import LARGEST
 from twinform.compiler.resolve_uris import SearchPath, UriError
 from twinform.dataclass import dataclass
@@ -175,7 +176,7 @@ class IncludeGraph:
     def outline(self, path: str, beside: str = "") -> Outline:
         """Return the outline of a file, which may be read because `beside` leads to it; an empty one if it has none."""
         if path not in self._outlines:
-            plain = path.lower().endswith(".urdf")
+            plain = path.lower().endswith(".urdf") and not path.lower().endswith(XACRO)
             self._outlines[path] = outline(self._content(path, beside or path), plain=plain)
         return self._outlines[path]
 

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 Input = str | Path | bytes | Document
 """The path of a file, the bytes of one, or a document."""
+XACRO = (".xacro", ".xacro.urdf", ".xacro.sdf")
+"""The endings, in lower case, of the names of files that are expanded before they are read."""
 
 
 class FileOptions(TypedDict, total=False):

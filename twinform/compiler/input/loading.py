@@ -23,6 +23,7 @@ from twinform.compiler.input.front_ends import (
     used_up,
 )
 from twinform.compiler.input.load_options import (
+    XACRO,
     FileOptions,
     Input,
     LoadOptions,
@@ -62,8 +63,6 @@ from twinform.schemas import (
 
 _JSON = lazy_pattern(rb"(\xef\xbb\xbf)?\s*\{")
 """How a JSON document begins."""
-XACRO = ".xacro"
-"""The ending of the names of files that are expanded before they are read."""
 _OLD_ROOT = "gazebo"
 _OLD_ROOT_VERSIONS = frozenset({"1.2"})
 """The old name of SDF's root, and the known versions of files that have it; 1.0 is another language."""
@@ -92,7 +91,7 @@ def _read_source(source: str | Path | bytes, sink: DiagnosticSink, load_options:
         # The suffix decides and never the content: nothing that arrives as bytes is run. A file
         # that is named could be run through the `xacro` command as well; --no-xacro is for
         # pipelines over files of strangers.
-        if not isinstance(source, bytes) and (load_options.xacro or Path(source).suffix.lower() == XACRO):
+        if not isinstance(source, bytes) and (load_options.xacro or str(source).lower().endswith(XACRO)):
             return _read_xacro(Path(source), sink, load_options)
         text = source if isinstance(source, bytes) else bytes_of(Path(source), sink, load_options)
     except UnreadableError:

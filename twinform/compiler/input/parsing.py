@@ -32,6 +32,7 @@ from twinform.compiler.input.xml_recovery import (
     XmlError,
     first_fatal,
     is_full,
+    prefix_without_namespace,
     repaired,
     with_bracket,
     with_single_colons,
@@ -166,11 +167,18 @@ def _recover(
     refuse_excess(excess_of_tree(root, text, limits), sink)
     places, words = SyntaxPlaces(source), SyntaxPlaces(text)
     is_unchanged = text == source
+    prefixes: set[str] = set()
     for number, flaw in enumerate((*flaws, *repaired(log))):
+        prefix = prefix_without_namespace(flaw)
+        if prefix in prefixes:
+            continue  # what declares it once declares it for all
+        prefixes.update((prefix,) if prefix else ())
         message = f"not well-formed XML, repaired: {words.described(flaw).message}"
         is_placed = is_unchanged or (number < len(flaws) and whole is None)
         where = places.location(flaw) if is_placed else Location(line=flaw.line, path="/")
-        sink.report(rules.REPAIRED_XML, message, where, help=flaw.help)
+        # Gazebo's documentation writes `gz:type` so, and nothing that reads SDF minds.
+        severity = Severity.INFO if prefix and root.tag == "sdf" and not sink.strict else None
+        sink.report(rules.REPAIRED_XML, message, where, help=flaw.help, severity=severity)
     _declare_prefixes(root)
     return root
 

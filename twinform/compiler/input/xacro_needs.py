@@ -30,6 +30,10 @@ _FORMS = (
 )
 
 
+_HOLE = re.compile(r"cannot read '[^']*/(?:/[^']*)?'")
+"""The message about a path of which a part is empty."""
+
+
 class Passed(NamedTuple):
     """A value of an argument, and the launch file that passes it."""
 
@@ -110,11 +114,40 @@ def report_missing_arguments(
     path: Path, first: str, where: Location, load_options: LoadOptions, sink: DiagnosticSink
 ) -> None:
     """Report all arguments that have no value where the `first` one was asked for, and how to give them one."""
-    names = list(dict.fromkeys([first, *_missing_arguments(path, load_options)]))
+    defaults, asked = _arguments_of(path, load_options)
+    given = defaults.keys() | load_options.arguments.keys()
+    names = list(dict.fromkeys([first, *(name for name in asked if name not in given)]))
     shown = ", ".join(map(repr, names))
     message = f"argument {shown} has no value" if len(names) == 1 else f"the arguments {shown} have no values"
+    if first in defaults:
+        message += f"; the default of {first!r} stands behind this place"
     known = values_in_launch_files(path, names, load_options.search.readable(path))
     sink.report(rules.MISSING_ARGUMENT, message, where, found=f"$(arg {first})", help=_advice(path, names, known))
+
+
+def report_empty_arguments(
+    error: str, path: Path, where: Location, load_options: LoadOptions, sink: DiagnosticSink
+) -> bool:
+    """Report the arguments that are empty unless somebody passes them, where a path has an empty part.
+
+    Returns whether there are any.
+    """
+    defaults, _ = _arguments_of(path, load_options)
+    names = [name for name, default in defaults.items() if not default and name not in load_options.arguments]
+    if not names or not _HOLE.match(error):
+        return False
+    shown, verb = ", ".join(map(repr, names)), "is" if len(names) == 1 else "are"
+    message = f"{shown} {verb} empty unless passed, and a path lacks a part: {error}"
+    known = values_in_launch_files(path, names, load_options.search.readable(path))
+    sink.report(rules.MISSING_ARGUMENT, message, where, found=names[0], help=_advice(path, names, known))
+    return True
+
+
+def _arguments_of(path: Path, load_options: LoadOptions) -> tuple[dict[str, str], list[str]]:
+    """Return the defaults of the arguments of a file with all that it includes, and the arguments that it asks for."""
+    outlines = [each for _, each in IncludeGraph(load_options.search).closure(os.path.realpath(path))]
+    defaults = {name: text for each in outlines for name, text in each.arguments.items() if text is not None}
+    return defaults, [each.text for outline in outlines for each in outline.asked]
 
 
 def _advice(path: Path, names: list[str], known: Mapping[str, Passed]) -> str:
@@ -127,14 +160,6 @@ def _advice(path: Path, names: list[str], known: Mapping[str, Passed]) -> str:
         f'or write in twinform.toml: [[files]] match = ["{path.name}"], arguments = {{ {table} }}',
     )
     return "\n".join(lines)
-
-
-def _missing_arguments(path: Path, load_options: LoadOptions) -> Iterator[str]:
-    """Yield the arguments that a file or one that it includes asks for, and that none gives a value."""
-    outlines = [each for _, each in IncludeGraph(load_options.search).closure(os.path.realpath(path))]
-    given = {name for each in outlines for name, default in each.arguments.items() if default is not None}
-    given.update(load_options.arguments)
-    yield from dict.fromkeys(asked.text for each in outlines for asked in each.asked if asked.text not in given)
 
 
 def absent_packages(path: Path, load_options: LoadOptions) -> Iterator[Absent]:

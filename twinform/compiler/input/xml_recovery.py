@@ -80,6 +80,15 @@ class XmlError(NamedTuple):
     kind: str = ""
 
 
+_PREFIX = lazy_pattern(r"prefix (\S+) ")
+
+
+def prefix_without_namespace(error: XmlError) -> str | None:
+    """Return the prefix that an error is about; None for other errors."""
+    found = _PREFIX.search(error.message) if error.kind == "NS_ERR_UNDEFINED_NAMESPACE" else None
+    return found[1] if found else None
+
+
 def with_bracket(text: bytes) -> bytes | None:
     """Return the text with a `<` before `?xml`; None where the text does not begin with `?xml`."""
     start = text.removeprefix(_BOM)

@@ -143,10 +143,10 @@ class Fault(NamedTuple):
     help: str | None = None
 
 
-def find_mesh_fault(uri: str, files: MeshFiles) -> Fault | None:
-    """Find out whether a file that is there is no mesh of the kind that its name says."""
+def find_mesh_fault(uri: str, shown: str, files: MeshFiles) -> Fault | None:
+    """Find out whether a file that is there is no mesh of the kind that its name says; as `shown`."""
     fault = files.fault(files.paths[uri]) if uri in files.paths else None
-    return Fault(rules.BROKEN_MESH, f"the mesh {uri!r} {fault}") if fault else None
+    return Fault(rules.BROKEN_MESH, f"the mesh {shown!r} {fault}") if fault else None
 
 
 def find_package_fault(uri: str, search: SearchPath, beside: Path) -> Fault | None:
