@@ -18,13 +18,13 @@ from twinform.compiler.named_files import report_named_files
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Rule, Severity, did_you_mean, rules
 from twinform.diagnostics.rules import MISSING_INERTIAL, UNKNOWN_COLLISION
 from twinform.diagnostics.suppressions import NO_SUPPRESSIONS
-from twinform.ir import Document, Element, Format, Model
+from twinform.ir import Document, Element, Format, Link, Model
 from twinform.option import require_options
 from twinform.passes.carriers.annotations import find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import PART
 from twinform.passes.carriers.lumped_names import mentions_collisions
 from twinform.passes.joints.transmission import urdf_elements
-from twinform.passes.shared.moving_bodies import moving_bodies, neighbors
+from twinform.passes.shared.moving_bodies import ConnectedBodies, moving_bodies, neighbors
 
 if TYPE_CHECKING:
     from twinform.passes import Pipeline
@@ -190,7 +190,7 @@ _ADD_INERTIAL = "write one, or compute it from the shapes: --passes fill-inertia
 
 
 def report_massless(document: Document, sink: DiagnosticSink) -> None:
-    """Report links that move and have no mass; in SDF, where they have 1 kg, as an info."""
+    """Report links that move and have no mass, once where no link has any; in SDF, where they have 1 kg, as an info."""
     if document.format is Format.SDF:
         for link in (link for body in moving_bodies(document) for link in body if link.inertial is None):
             # In SDF the default is often meant. In URDF, Gazebo drops such a link.
@@ -204,14 +204,17 @@ def report_massless(document: Document, sink: DiagnosticSink) -> None:
                 severity=Severity.INFO,
             )
         return
-    for each in neighbors(document):
-        if any(link.inertial and link.inertial.mass != 0 for link in each.child):
-            continue
-        moved = next((link for link in each.child if link.name == each.joint.child), None)
-        if moved is None:  # the joint names a link that is not there, and something else fixes a body to that name
-            continue
-        if is_synthesized(moved) or find_annotation(moved, PART):  # synthesized for a joint that URDF does not have
-            continue
+    weightless = [
+        (each, moved)
+        for each in neighbors(document)
+        if not any(map(_has_mass, each.child)) and (moved := _moved_link(each))
+    ]
+    if len(weightless) >= _MANY and not any(link.inertial for model in document.models for link in model.links):
+        message = f"no link of the robot has an <inertial>, and {len(weightless)} of them move"
+        where = weightless[0][1].location
+        sink.report(MISSING_INERTIAL, message, where, expected="<inertial>", help=_ADD_INERTIAL)
+        return
+    for each, moved in weightless:
         others = tuple(link.location for link in each.child if link is not moved)
         joined = f", nor has any of the {len(others)} fixed to it" if others else ""
         if moved.inertial is not None:
@@ -223,6 +226,21 @@ def report_massless(document: Document, sink: DiagnosticSink) -> None:
         sink.report(
             MISSING_INERTIAL, message, moved.location, expected="<inertial>", help=_ADD_INERTIAL, related=others
         )
+
+
+# So many links were not forgotten one by one: the robot was drawn to be planned with and seen.
+_MANY = 3
+
+
+def _moved_link(each: ConnectedBodies) -> Link | None:
+    """Return the link that a joint moves; None for one that was made for a joint that URDF does not have."""
+    # The joint may name a link that is not there, while something else fixes a body to that name.
+    moved = next((link for link in each.child if link.name == each.joint.child), None)
+    return None if moved is None or is_synthesized(moved) or find_annotation(moved, PART) else moved
+
+
+def _has_mass(link: Link) -> bool:
+    return link.inertial is not None and link.inertial.mass != 0
 
 
 def check(

@@ -268,10 +268,12 @@ def _set(fact: Fact, key: str, value: str, where: str) -> None:
 
 
 def _note_other_words(fact: Fact) -> None:
-    """Give each row the values that rows of the same name have in other versions."""
+    """Give each row the values that rows of the same name have in other versions, the nearest row of each last."""
     for row in fact.rows:
         if row.enum:
-            others = (other for other in fact.rows if other.name == row.name)
+            same = [other for other in fact.rows if other.name == row.name]
+            before = [other for other in same if other.until < row.since]
+            others = [*before, *reversed(same[len(before) :])]
             row.elsewhere = {word: other for other in others for word in other.enum if word not in row.enum}
         _note_other_words(row)
 

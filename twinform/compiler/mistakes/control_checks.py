@@ -75,7 +75,7 @@ def _report_repeated(what: str, elements: list[XmlElement], sink: DiagnosticSink
         if what == "actuator" and counts[name] > _TWICE:  # one motor that pulls the tendons of many joints
             continue
         if name and first.setdefault(name, element) is not element:
-            message = f"{what} {name!r} stands here twice; was it copied from line {first[name].sourceline}?"
+            message = f"{what} {name!r} stands here twice; was it copied?"
             sink.report(
                 rules.REPEATED_CONTROL, message, place_of(element), found=name, related=(place_of(first[name]),)
             )

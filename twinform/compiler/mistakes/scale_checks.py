@@ -15,6 +15,7 @@ from twinform.ir import (
     Limit,
     Link,
     Mesh,
+    Model,
     Pose,
     Shape,
     Vector3,
@@ -36,6 +37,7 @@ _LARGE = 3.0
 # The fastest joints with limits in the corpus, besides powers of ten for any speed: 32 rad/s, but for one with 100.7.
 _FAST = {"revolute": 101.0, "continuous": 2000.0, "prismatic": 30.0}
 """The greatest speed of a kind of joint, rad/s or m/s."""
+_LARGE_FIGURE = 1000.0
 _UNITS = {"revolute": "rad/s", "continuous": "rad/s", "prismatic": "m/s"}
 
 
@@ -50,7 +52,7 @@ def report_scale(document: Document, files: MeshFiles, sink: DiagnosticSink) -> 
         for joint in model.joints:
             if _is_far(joint.pose):
                 _report_offset(joint, f"joint {joint.name!r}", sink)
-            _report_limits(joint, document.format, sink)
+            _report_limits(joint, model, document.format, sink)
     return odd
 
 
@@ -140,12 +142,12 @@ def _report_offset(placed: Collision | Inertial | Joint | Link | Visual, what: s
     sink.report(rules.IMPLAUSIBLE_OFFSET, message, where, found=f"{far:g}", expected=f"less than {_FAR:g}", help=hint)
 
 
-def _report_limits(joint: Joint, format_: Format, sink: DiagnosticSink) -> None:
+def _report_limits(joint: Joint, model: Model, format_: Format, sink: DiagnosticSink) -> None:
     for axis in (joint.axis, joint.axis2):
         if axis is None:
             continue
         if axis.limit and joint.type in {"revolute", "prismatic"}:
-            _report_locked(joint, axis.limit, sink)
+            _report_locked(joint, axis.limit, model, sink)
         if axis.limit and joint.type in _FAST:
             for name, message in _odd_limits(joint, axis.limit):
                 where = axis.limit.location.at(name if format_ is Format.SDF else f"@{name}")
@@ -168,18 +170,33 @@ def _is_negative(dynamics: Dynamics) -> bool:
     return (dynamics.damping or 0.0) < 0 or (dynamics.friction or 0.0) < 0
 
 
-def _report_locked(joint: Joint, limit: Limit, sink: DiagnosticSink) -> None:
+def _report_locked(joint: Joint, limit: Limit, model: Model, sink: DiagnosticSink) -> None:
     """Report limits that are written and equal; URDF means 0 where neither is, as some write for none."""
     if limit.lower is not None and limit.lower == limit.upper:
         message = f"joint {joint.name!r} cannot move: both of its limits are {limit.lower:g}"
         hint = "write the limits, or the type fixed if it is not to move"
-        sink.report(rules.EMPTY_RANGE, message, limit.location, found=f"{limit.lower:g}", help=hint)
+        severity = Severity.INFO if limit.lower == 0 and _is_mount(joint, model) else None
+        sink.report(rules.EMPTY_RANGE, message, limit.location, found=f"{limit.lower:g}", help=hint, severity=severity)
+
+
+def _is_mount(joint: Joint, model: Model) -> bool:
+    """Whether a joint that cannot move holds another model, all of this one, or a sensor: some write fixed joints so.
+
+    Gazebo Classic would lump a link on a fixed joint of URDF, and had no fixed joint in SDF before 1.5.
+    """
+    if joint.parent == "world" or "::" in (joint.child or ""):
+        return True
+    held = next((link for link in model.links if link.name == joint.child), None)
+    if held is None:
+        return True  # it is in a model that is included
+    is_leaf = all(other.parent != held.name for other in model.joints)
+    return is_leaf and (bool(held.sensors) or (held.inertial is not None and not held.visuals and not held.collisions))
 
 
 def _odd_limits(joint: Joint, limit: Limit) -> Iterator[tuple[str, str]]:
     """Find the limits that no joint has, each with its name."""
     speed, most = limit.velocity, _FAST[joint.type]
-    if speed and most < speed < math.inf and not _is_power_of_ten(speed):
+    if speed and most < speed < math.inf and not _is_power_of_ten(speed) and not is_made_up(limit):
         unit = _UNITS[joint.type]
         other = "mm/s" if joint.type == "prismatic" else "degrees per second or turns per minute"
         message = f"joint {joint.name!r} has a velocity of {speed:g} {unit}, which no such joint reaches"
@@ -188,6 +205,11 @@ def _odd_limits(joint: Joint, limit: Limit) -> Iterator[tuple[str, str]]:
         way = getattr(limit, name)
         if way is not None and _LONG < abs(way) < math.inf and not _is_power_of_ten(way):
             yield name, f"joint {joint.name!r} slides as far as {way:g} m; are these millimeters?"
+
+
+def is_made_up(limit: Limit) -> bool:
+    """Whether effort and velocity are one large number, 50000, which is no figure of either."""
+    return limit.effort == limit.velocity and (limit.velocity or 0.0) >= _LARGE_FIGURE
 
 
 def _is_power_of_ten(value: float) -> bool:

@@ -5,12 +5,13 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple, TypeVar
 
+from twinform.compiler.mistakes.scale_checks import is_made_up
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Joint, Link, Mesh, Model, Vector3
 from twinform.ir.bounds import bounds
 from twinform.ir.defaults import direction
 from twinform.ir.frames import FrameError, FrameGraph
-from twinform.ir.transform import Transform, dot
+from twinform.ir.transform import Transform, dot, minus
 from twinform.lazy import lazy_pattern
 from twinform.passes.shared.moving_bodies import movable_models
 
@@ -26,6 +27,10 @@ _SAME = 1e-6
 _ASIDE = 1e-3
 """A distance from the middle that is meant, m."""
 _PARALLEL = 0.999
+_ALONG = 0.5
+"""The cosine above which fingers open along the line between them."""
+_SEVERAL = 3
+"""So many pairs that differ alike are one finding."""
 _RATIO = 4.0
 """How many times a part may be as large, heavy or strong as its twin."""
 _WHEELS = 4
@@ -57,7 +62,9 @@ def report_twins(document: Document, sink: DiagnosticSink) -> None:
         pairs = list(_pairs(model.joints))
         if pairs:
             _report_joints(pairs, model, document.format, sink)
-        for left, right in _pairs(model.links):
+        links = list(_pairs(model.links))
+        _report_masses(links, sink)
+        for left, right in links:
             _report_links(left, right, sink)
 
 
@@ -178,6 +185,9 @@ def _report_slide(each: _Twins, format_: Format, sink: DiagnosticSink) -> bool:
     lengths = math.hypot(*one) * math.hypot(*other)
     if not lengths or dot(one, other) < _PARALLEL * lengths or not _opens_alike(each.left, each.right):
         return False
+    apart = minus(each.left_at.translation, each.right_at.translation)
+    if abs(dot(one, apart)) < _ALONG * math.hypot(*one) * math.hypot(*apart):
+        return False  # both sides of a suspension go up, and of a lift
     message = (
         f"joints {each.right.name!r} and {each.left.name!r} slide to the same side: one opens where the other closes"
     )
@@ -202,7 +212,7 @@ def _opens_alike(left: Joint, right: Joint) -> bool:
 def _report_strength(each: _Twins, sink: DiagnosticSink) -> None:
     limits = [joint.axis.limit if joint.axis else None for joint in (each.left, each.right)]
     left, right = limits
-    if left is None or right is None:
+    if left is None or right is None or is_made_up(left) or is_made_up(right):
         return
     for name in ("effort", "velocity"):
         one, other = getattr(left, name), getattr(right, name)
@@ -254,13 +264,24 @@ def _report_same_place(group: list[_Wheel], sink: DiagnosticSink) -> None:
             sink.report(rules.UNLIKE_TWIN, message, where, help=hint, related=(other.location,))
 
 
+def _report_masses(pairs: list[tuple[Link, Link]], sink: DiagnosticSink) -> None:
+    """Report links that are several times as heavy as their twins; many of the same two masses once."""
+    unlike = defaultdict[tuple[float, float], list[tuple[Link, Link]]](list)
+    for pair in pairs:
+        light, heavy = sorted(pair, key=_mass)
+        if _is_unlike(_mass(light), _mass(heavy)):
+            unlike[_mass(heavy), _mass(light)].append((heavy, light))
+    for (most, least), found in unlike.items():
+        for heavy, light in found if len(found) < _SEVERAL else found[:1]:
+            message = f"link {heavy.name!r} weighs {most:g} kg, its twin {light.name!r} {least:g} kg"
+            if len(found) >= _SEVERAL:
+                message += f"; so do {len(found) - 1} other pairs"
+            where = heavy.inertial.location.at("mass") if heavy.inertial else heavy.location
+            sink.report(rules.UNLIKE_TWIN, message, where, found=f"{most:g}", related=(light.location,))
+
+
 def _report_links(left: Link, right: Link, sink: DiagnosticSink) -> None:
-    """Report a link that is several times as heavy or large as its twin."""
-    heavy, light = sorted((left, right), key=lambda each: -_mass(each))
-    if _is_unlike(_mass(light), _mass(heavy)):
-        message = f"link {heavy.name!r} weighs {_mass(heavy):g} kg, its twin {light.name!r} {_mass(light):g} kg"
-        where = heavy.inertial.location.at("mass") if heavy.inertial else heavy.location
-        sink.report(rules.UNLIKE_TWIN, message, where, found=f"{_mass(heavy):g}", related=(light.location,))
+    """Report shapes of a link that are several times as large as those of its twin."""
     for kind in ("visuals", "collisions"):
         ours, theirs = getattr(right, kind), getattr(left, kind)
         if len(ours) == len(theirs):

@@ -103,8 +103,10 @@ def _verify_limit(joint: Joint, limit: Limit, sink: DiagnosticSink) -> None:
     if limit.effort == 0 or limit.velocity == 0:
         which = " and ".join(word for word in ("effort", "velocity") if getattr(limit, word) == 0)
         message = f"joint {joint.name!r} has the limit 0 for {which}; a controller that obeys it cannot move it"
-        # exporters write all four; two of them are an idiom for "unknown"
+        # Effort and velocity of 0 are an idiom for "unknown"; where nothing else is written, the joint is locked
+        # besides. Limits that are written and equal are `empty-range`.
         is_locked = joint.type in _LIMITED and not any((limit.lower, limit.upper, limit.effort, limit.velocity))
+        is_locked = is_locked and (limit.lower is None or limit.upper is None)
         severity = Severity.WARNING if is_locked else None
         sink.report(rules.ZERO_LIMIT, message, limit.location, found="0", severity=severity)
 

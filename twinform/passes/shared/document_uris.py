@@ -100,7 +100,9 @@ def _map_element_uris(element: Element, change: Change, holder: Sourced, inside:
         return element
     if element.source:
         holder = element
-    if text and (name in _ELEMENTS or (inside, name) in _INNER_ELEMENTS) and text.strip():
+    # The map of a shader is the name of a texture, which OGRE looks for in the folders of all scripts.
+    is_name = inside == "shader" and "/" not in (text or "")
+    if text and (name in _ELEMENTS or (inside, name) in _INNER_ELEMENTS) and text.strip() and not is_name:
         text = change(text, _HOLDERS.get(inside, "texture"), holder.location)
     if children:
         children = tuple([_map_element_uris(child, change, holder, name) for child in children])
