@@ -38,6 +38,29 @@ def names_of(document: ModelText) -> tuple[Name, ...]:
     return document.once(_collect_names)
 
 
+def definitions_in(document: ModelText) -> tuple[Name, ...]:
+    """Return all definitions in a document, without looking for references: few elements can define a name."""
+    return document.once(_collect_definitions)
+
+
+def _collect_definitions(document: ModelText) -> tuple[Name, ...]:
+    own = (name for node in document.tree.nodes if (name := _definition(document, node)) is not None)
+    return (*own, *(name for name in xacro_names(document) if name.defines))
+
+
+def _definition(document: ModelText, node: TolerantNode) -> Name | None:
+    """Return the name that the attribute `name` of an element defines, or the text of the `<name>` of an include."""
+    if node.tag in DEFINED and node.get("name") and _defines(document, node):
+        scope = surroundings(document, node.parent).scope
+        return Name(node.values["name"], node.attributes["name"].value, node, node.tag, defines=True, scope=scope)
+    include = node.parent
+    if node.tag != "name" or include is None or include.tag != "include" or not _has_text(node):
+        return None
+    span = document.tree.text_of(node)
+    text, scope = span.of(document.text), surroundings(document, include.parent).scope
+    return Name(text, span, include, "model", defines=True, scope=scope) if text else None
+
+
 class NameSurroundings(NamedTuple):
     """The nearest scope and macro of an element, itself included, and whether it is in a recorded `<state>`."""
 
@@ -112,8 +135,12 @@ def name_at(document: ModelText, offset: int) -> Name | None:
 def _model_names(document: ModelText) -> Iterator[Name]:
     for node in document.tree.nodes:
         if node.tag and not is_of_xacro(node.tag) and _may_name(document, node):
-            yield from _names_in_attributes(document, node)
-            yield from _names_in_text(document, node)
+            definition = _definition(document, node)
+            if definition is not None:
+                yield definition
+            yield from _names_in_attributes(document, node, definition)
+            if definition is None or definition.node is node:
+                yield from _names_in_text(document, node)
 
 
 def _may_name(document: ModelText, node: TolerantNode) -> bool:
@@ -134,13 +161,12 @@ def _has_names(place: SchemaPlace) -> bool:
     return any(_kind_of_row(row) is not None for row in kept)
 
 
-def _names_in_attributes(document: ModelText, node: TolerantNode) -> Iterator[Name]:
+def _names_in_attributes(document: ModelText, node: TolerantNode, definition: Name | None) -> Iterator[Name]:
     for attribute, span in node.attributes.items():
         value = node.values[attribute]
         if not value:
             continue
-        if attribute == "name" and _defines(document, node):
-            yield Name(value, span.value, node, node.tag, defines=True, scope=surroundings(document, node.parent).scope)
+        if definition is not None and span.value == definition.span:
             continue
         if attribute == "name" and node.tag in _STATES and surroundings(document, node).in_state:
             yield Name(value, span.value, node, "model", defines=False)
@@ -168,18 +194,15 @@ def _split_reference(document: ModelText, text: str, span: Span, node: TolerantN
 
 
 def _names_in_text(document: ModelText, node: TolerantNode) -> Iterator[Name]:
-    if node.children or node.empty or not node.closed:
-        return
-    kind = kind_at(document, node, None)
-    names_include = node.tag == "name" and node.parent is not None and node.parent.tag == "include"
-    if kind is None and not names_include:
-        return
-    span = document.tree.text_of(node)
-    text = span.of(document.text)
-    if names_include and text and node.parent is not None:
-        yield Name(text, span, node.parent, "model", defines=True, scope=surroundings(document, node.parent).scope)
-    elif kind is not None and text and "<" not in text:
+    kind = kind_at(document, node, None) if _has_text(node) else None
+    span = document.tree.text_of(node) if kind is not None else None
+    text = span.of(document.text) if span is not None else ""
+    if kind is not None and span is not None and text and "<" not in text:
         yield from _split_reference(document, text, span, node, kind)
+
+
+def _has_text(node: TolerantNode) -> bool:
+    return not node.children and not node.empty and node.closed
 
 
 def _defines(document: ModelText, node: TolerantNode) -> bool:

@@ -8,7 +8,7 @@ from twinform.schemas import Fact, rows_by_name
 from twinform.server.completion.plugins import propose_attributes_of_parameter, propose_parameters
 from twinform.server.completion.proposals import ITEM, ElementPlace, Proposal
 from twinform.server.completion.xacro import propose_attributes_of_xacro, propose_blocks, propose_xacro
-from twinform.server.document_names import names_of
+from twinform.server.document_names import definitions_in
 from twinform.server.documents import TextDocument
 from twinform.server.hover import text_of_row
 from twinform.server.mapping import MappingRow
@@ -95,7 +95,7 @@ def _of_other_types(parent: TolerantNode) -> frozenset[str]:
 def _in_gazebo(place: ElementPlace) -> Iterator[Proposal]:
     """Propose the tags that Gazebo reads, and what may be added to the link, joint or model of SDF."""
     reference, document = place.parent.get("reference"), place.document
-    kinds = [name.kind for name in names_of(document) if name.defines and name.text == reference]
+    kinds = [name.kind for name in definitions_in(document) if name.text == reference]
     target = "model" if reference is None else "joint" if "joint" in kinds and "link" not in kinds else "link"
     tags = {"link": LINK_TAGS, "joint": JOINT_TAGS}.get(target, {})
     there = place.siblings

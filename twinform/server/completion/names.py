@@ -8,7 +8,7 @@ from twinform.ir.frames import MODEL, WORLD
 from twinform.ir.references import ReferenceKind
 from twinform.passes.structure.rename_parts import LOOKUP_ORDER
 from twinform.server.completion.proposals import ITEM, Proposal, ValuePlace, literal
-from twinform.server.document_names import kind_at, names_of, scope_of_reference, surroundings
+from twinform.server.document_names import definitions_in, kind_at, scope_of_reference, surroundings
 from twinform.server.documents import TextDocument
 from twinform.server.includes import includes_of, target
 from twinform.server.names import Name
@@ -69,8 +69,8 @@ def definitions_of(session: Session, document: TextDocument, *kinds: str) -> Ite
     """Yield the definitions of some kinds, each name once."""
     seen: set[str] = set()
     for other in documents_with_names(session, document):
-        for name in names_of(other):
-            if name.defines and name.kind in kinds and name.text not in seen:
+        for name in definitions_in(other):
+            if name.kind in kinds and name.text not in seen:
                 seen.add(name.text)
                 yield name
 
@@ -100,8 +100,8 @@ def _names_in_scope(
     """Yield the names of SDF that count in a scope, those of nested and included models with their steps."""
     wanted = scope.get("name") if scope is not None else None
     for other in documents_with_names(session, document):
-        for name in names_of(other):
-            text = _seen_from(other, name, wanted) if name.defines and name.kind in kinds else None
+        for name in definitions_in(other):
+            text = _seen_from(other, name, wanted) if name.kind in kinds else None
             if text is not None:
                 yield text, name.kind
     for include in islice(includes_of(document), _MOST_INCLUDES):
@@ -129,8 +129,8 @@ def _names_in_include(
     called = included_as(include, document) or (model.get("name") if model is not None else None)
     if other is None or model is None or not called:
         return
-    for name in names_of(other):
-        text = _seen_from(other, name, model.get("name")) if name.defines and name.kind in kinds else None
+    for name in definitions_in(other):
+        text = _seen_from(other, name, model.get("name")) if name.kind in kinds else None
         if text is not None:
             yield f"{called}::{text}", name.kind
 

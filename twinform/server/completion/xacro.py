@@ -7,7 +7,7 @@ from twinform.diagnostics import Span
 from twinform.lazy import lazy_pattern
 from twinform.server.completion.names import definitions_of, documents_with_names, macros_around
 from twinform.server.completion.proposals import ITEM, ElementPlace, Proposal, ValuePlace, literal, values
-from twinform.server.document_names import is_in, names_of
+from twinform.server.document_names import definitions_in, is_in
 from twinform.server.documents import TextDocument
 from twinform.server.names import ELEMENTS, Name, parameter_names
 from twinform.server.navigation import search_of
@@ -165,8 +165,8 @@ def _propose_inserted(place: ValuePlace) -> Iterator[Proposal]:
         blocks = (each.name for each in parameter_names(macro) if each.block)
         yield from values(blocks, ITEM.Field, "block")
     for other in documents_with_names(place.session, place.document):
-        for name in names_of(other):
-            if name.defines and name.kind == "property" and name.node.children:
+        for name in definitions_in(other):
+            if name.kind == "property" and name.node.children:
                 yield _propose_name(name)
 
 
