@@ -13,7 +13,15 @@ from twinform.compiler.observing import Memo
 from twinform.compiler.ros_packages import MODEL_CONFIG, PackageIndex, package_name
 from twinform.dataclass import dataclass
 from twinform.diagnostics import rules
-from twinform.file_access import OutsideError, Readable, find_root, folders_around, neighborhood, own_folder
+from twinform.file_access import (
+    OutsideError,
+    Readable,
+    find_root,
+    folders_around,
+    neighborhood,
+    own_folder,
+    package_around,
+)
 from twinform.passes import AssetError
 
 _MODEL_VARIABLES = ("GZ_SIM_RESOURCE_PATH", "IGN_GAZEBO_RESOURCE_PATH", "SDF_PATH", "GAZEBO_MODEL_PATH")
@@ -112,6 +120,12 @@ class SearchPath:
         root = min((find_root(file), *asked), key=lambda each: len(each.parts))
         return SearchFolders(folders_around(file, root), neighborhood(root))
 
+    def source_of(self, path: Path) -> Path | None:
+        """Return the file that the build of a package puts where nothing is yet; None if there is none."""
+        package = package_around(path)
+        inner = own_folder(path).relative_to(package).joinpath(path.name).as_posix() if package else ""
+        return next(filter(exists, self.index.sources(package, inner)), None) if package else None
+
     def unsaved_of(self, path: str | Path) -> bytes | None:
         """Return the content of a file that is open in an editor; None for other files."""
         return self.unsaved.get(os.path.realpath(path)) if self.unsaved else None
@@ -149,8 +163,13 @@ class SearchPath:
             raise UriError(rules.URI_LEAVES_FOLDER, f"{uri!r} leads out of the folders of models and packages")
         around, neighbors = self.surroundings(beside)
         folders = (*around, neighbors) if neighbors else around
-        candidates = self._candidates(name, folders, self._asked_around(beside))
-        found = self._first_readable(uri, (folder / inner for folder in candidates), beside)
+        asked = self._asked_around(beside)
+        found = self._first_readable(uri, (each / inner for each in self._candidates(name, folders, asked)), beside)
+        if found is None and inner:
+            sources = (
+                path for each in self._candidates(name, folders, asked) for path in self.index.sources(each, inner)
+            )
+            found = self._first_readable(uri, sources, beside)
         if found is None:
             raise self._not_found(uri, (*self._roots(), *around))
         return found

@@ -1,6 +1,7 @@
 """ROS packages: folders with a package.xml that has their name."""
 
 import os
+import posixpath
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import field
@@ -13,12 +14,17 @@ from lxml import etree
 from twinform.compiler.observing import Memo
 from twinform.dataclass import dataclass
 from twinform.file_access import read_regular
+from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement
 
 MANIFEST = "package.xml"
 """The file that makes a folder a package."""
 MODEL_CONFIG = "model.config"
 """The file that makes a folder a model of Gazebo."""
+_BUILD = "CMakeLists.txt"
+_INSTALL = lazy_pattern(r"(?i)\binstall\s*\(([^()]*)\)")
+_COMMENT = lazy_pattern(r"#[^\n]*")
+_SHARE = ("share/${PROJECT_NAME}", "${CATKIN_PACKAGE_SHARE_DESTINATION}")
 _LARGEST = 2**20
 _DEEPEST = 5
 _MOST = 2000
@@ -46,6 +52,13 @@ def read_manifest(file: Path) -> XmlElement | None:
         return None
 
 
+class Install(NamedTuple):
+    """A folder of the sources of a package, and the one that it becomes in the package that was built."""
+
+    folder: str
+    target: str
+
+
 class FolderListing(NamedTuple):
     """The names in a folder that are not hidden: of its folders, and of everything by its suffix in lower case."""
 
@@ -62,10 +75,17 @@ class PackageIndex:
     names: Memo[Path, str | None] = field(default_factory=Memo[Path, str | None])
     listings: Memo[Path, FolderListing] = field(default_factory=Memo[Path, FolderListing])
     models: Memo[Path, tuple[str, ...]] = field(default_factory=Memo[Path, tuple[str, ...]])
+    installs: Memo[Path, tuple[Install, ...]] = field(default_factory=Memo[Path, "tuple[Install, ...]"])
 
     def name_of(self, folder: Path) -> str | None:
         """Return the name of the package in a folder; None where there is none."""
         return self.names.get(folder, lambda: package_name(folder))
+
+    def sources(self, package: Path, inner: str) -> Iterator[Path]:
+        """Yield the files of a package that its build may put at a path in its share folder."""
+        for folder, target in self.installs.get(package, lambda: tuple(_installs(package))):
+            if not target or inner.startswith(f"{target}/"):
+                yield package / folder / inner.removeprefix(f"{target}/")
 
     def listing(self, folder: Path) -> FolderListing:
         """Return what is in a folder; nothing of one that cannot be listed."""
@@ -88,6 +108,27 @@ class PackageIndex:
         return self.inside.get(
             folder, lambda: {called: each for each in _folders(folder) if (called := package_name(each))}
         )
+
+
+def _installs(package: Path) -> Iterator[Install]:
+    """Yield the folders that the build of a package puts elsewhere: `install(DIRECTORY ... DESTINATION share/...)`."""
+    try:
+        text = read_regular(package / _BUILD, _LARGEST)[:_LARGEST].decode(errors="replace")
+    except (OSError, ValueError):
+        return
+    shares = (*_SHARE, f"share/{package_name(package)}")
+    for found in _INSTALL.finditer(_COMMENT.sub("", text)):
+        words = found[1].split()
+        if words[:1] != ["DIRECTORY"] or "DESTINATION" not in words[:-1]:
+            continue
+        at = words.index("DESTINATION")
+        share = next((each for each in shares if f"{words[at + 1]}/".startswith(f"{each}/")), None)
+        below = words[at + 1].removeprefix(share).strip("/") if share else ""
+        for folder in words[1:at] if share else ():
+            # CMake installs `folder` with its name, and only the content of `folder/`
+            target = posixpath.join(below, "" if folder.endswith("/") else posixpath.basename(folder)).strip("/")
+            if target != posixpath.normpath(folder) and not folder.startswith(("/", "..", "$")):
+                yield Install(posixpath.normpath(folder), target)
 
 
 def _list_folder(folder: Path) -> FolderListing:

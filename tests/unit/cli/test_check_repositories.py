@@ -290,3 +290,21 @@ def test_the_path_of_a_mesh_that_xacro_has_made_is_shown_below_this_folder(run: 
     mesh = '<link name="a"><visual><geometry><mesh filename="file://$(find bot)/a.stl"/></geometry></visual></link>'
     Path("r.urdf.xacro").write_text(f"{_ROBOT}{mesh}</robot>")
     assert "the mesh 'a.stl' is not there" in run("check", ".").stdout
+
+
+def test_what_a_build_puts_elsewhere_is_found_where_it_comes_from(run: Run, here: Path) -> None:
+    Path("bot/description/control").mkdir(parents=True)
+    Path("bot/description/meshes").mkdir()
+    Path("bot/package.xml").write_text("<package><name>bot</name></package>")
+    Path("bot/CMakeLists.txt").write_text(
+        "# install(DIRECTORY nothing DESTINATION share/bot)\n"
+        "install(\n  DIRECTORY description/control description/meshes/\n  DESTINATION share/${PROJECT_NAME}\n)\n"
+    )
+    Path("bot/description/meshes/a.stl").write_bytes(b"")
+    mesh = '<visual><geometry><mesh filename="package://bot/a.stl"/></geometry></visual>'
+    Path("bot/r.urdf.xacro").write_text(f"{_ROBOT}{_include('$(find bot)/control/part.xacro')}</robot>")
+    Path("bot/description/control/part.xacro").write_text(f'{_ROBOT}\n<link name="a">{mesh}</link></robot>')
+    assert _findings(run, ".") == [("broken-mesh", "warning", "bot/description/control/part.xacro", 2)]
+    assert "the mesh 'package://bot/a.stl' is empty" in run("check", "bot/r.urdf.xacro").stdout
+    Path("bot/CMakeLists.txt").unlink()
+    assert "xacro-error" in [each[0] for each in _findings(run, ".")]

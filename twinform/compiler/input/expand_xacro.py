@@ -308,8 +308,7 @@ class _Conversation:
                 case {"find": uri, "beside": beside}:
                     return self._find(uri, (Path(beside), self.path)), b""
                 case {"read": path}:
-                    content = self.texts[path] = self.read(path)
-                    return {"size": len(content)}, content
+                    return self._read(path)
                 case {"match": pattern}:
                     return {"paths": self.files.match(pattern)}, b""
                 case _:
@@ -333,6 +332,17 @@ class _Conversation:
         if self.spent > _SECONDS_TO_ANSWER:
             message = f"the files and packages it asks for take more than {_SECONDS_TO_ANSWER} seconds to find"
             raise _TooMuchError(message)
+
+    def _read(self, path: str) -> tuple[Mapping[str, object], bytes]:
+        try:
+            content = self.read(path)
+        except FileNotFoundError:
+            source = self.search.source_of(Path(path))
+            if source is None:
+                raise
+            path, content = str(source), self.read(str(source))
+        self.texts[path] = content
+        return {"size": len(content), "path": path}, content
 
     def read(self, path: str) -> bytes:
         """What is in a file that may be read, or what an editor has of it.

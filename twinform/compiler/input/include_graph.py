@@ -195,9 +195,13 @@ class IncludeGraph:
         if path not in self._targets:
             addresses = (self._address(each.text, path) for each in self.outline(path, beside).includes)
             files = (each.folder / each.rest for each in addresses if each.folder is not None and each.is_literal)
-            there = (each for each in files if os.path.isfile(each))  # noqa: PTH113 - is_file raises for a long name
+            there = filter(None, map(self._existing, files))
             self._targets[path] = tuple(dict.fromkeys(map(os.path.realpath, there)))
         return self._targets[path]
+
+    def _existing(self, path: Path) -> Path | None:
+        """Return a file that is there, or that the build of its package will put there; None for others."""
+        return path if os.path.isfile(path) else self.search.source_of(path)  # noqa: PTH113 - is_file raises for a long name
 
     def closure(self, path: str) -> Iterator[tuple[str, Outline]]:
         """Yield a file and all that it includes, each once, with their outlines."""

@@ -26,8 +26,8 @@ class Compiler(Protocol):
         """
         ...
 
-    def read(self, path: str) -> bytes:
-        """What is in a file.
+    def read(self, path: str) -> tuple[str, bytes]:
+        """What is in a file, and its name, which is another one where a build puts the file at the given path.
 
         Raises:
             MissingFileError: there is none.
@@ -111,13 +111,13 @@ class WorkerChannel:
         """Ask where a URI leads that stands in a file."""
         return self._ask_once({"find": uri, "beside": beside}, "path")
 
-    def read(self, path: str) -> bytes:
-        """Ask for what is in a file."""
+    def read(self, path: str) -> tuple[str, bytes]:
+        """Ask for what is in a file, and where that is."""
         try:
             answer = self._ask({"read": path})
         except MissingFileError as error:
             raise MissingFileError(f"cannot read {path!r}: {error}") from error
-        return self.incoming.read(answer["size"])
+        return answer["path"], self.incoming.read(answer["size"])
 
     def match(self, pattern: str) -> list[str]:
         """Ask which files match a pattern."""

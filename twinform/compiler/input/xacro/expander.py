@@ -104,7 +104,7 @@ class Expander:
         if self.data_files is None:
             self.lacks_yaml = True
             raise ExpressionRefusedError("this process cannot read data files")
-        return self.data_files.load(self.compiler.read(path), path)
+        return self.data_files.load(self.compiler.read(path)[1], path)
 
     def _functions(self) -> dict[str, Callable[..., Value]]:
         """Every function that xacro documents; what they are given has been weighed."""
@@ -207,10 +207,12 @@ class Expander:
         filename = self._known_name(filename)
         self.parsed.add(filename)
         try:
-            return parse(self.compiler.read(filename), filename)
+            name, content = self.compiler.read(filename)
         except MissingFileError as error:
             self.xacro.filestack.pop()
             raise self.xacro.XacroException(exc=error) from error
+        self.xacro.filestack[-1] = name
+        return parse(content, name)
 
     def _known_name(self, filename: str) -> str:
         """The name by which a file is open that is included again, so that names in a circle do not grow."""

@@ -33,10 +33,10 @@ class Compiler:
             raise NotFoundError(f"there is no {uri}", "install it")
         return str(self.known[uri])
 
-    def read(self, path: str) -> bytes:
+    def read(self, path: str) -> tuple[str, bytes]:
         if not Path(path).exists():
             raise MissingFileError(f"cannot read {path!r}: No such file or directory")
-        return Path(path).read_bytes()
+        return path, Path(path).read_bytes()
 
     def match(self, pattern: str) -> list[str]:
         return sorted(map(str, Path(pattern).parent.glob(Path(pattern).name)))
