@@ -40,7 +40,7 @@ def fixed_file(name: str, data: bytes) -> FixedFile:
         load_options = LoadOptions()
         return inspect(read(text, load_options, name=name), load_options)
 
-    safe, unsafe = apply_fixes_by(look, data), apply_fixes_by(look, data, unsafe=True)
+    safe, unsafe = (apply_fixes_by(lambda texts: look(texts[""]), data, unsafe=each) for each in (False, True))
     keeps = all(each.fix and each.fix.keeps for each in safe.applied)
     same = _same(data, safe.data, name) if safe.data != data and keeps and look(data).accepted else None
     faults = [*_faults(look, data, safe, unsafe=False), *(f"unsafe: {each}" for each in _faults(look, data, unsafe))]
@@ -79,7 +79,7 @@ def _faults(
     yield from _against_rules(fixed)
     if fixed.data == data:
         return
-    again = apply_fixes_by(look, fixed.data, unsafe=unsafe)
+    again = apply_fixes_by(lambda texts: look(texts[""]), fixed.data, unsafe=unsafe)
     if again.data != fixed.data:
         yield f"a second run changes it: {again.applied[0].rule.name}"
     seen = (each for each in fixed.left.diagnostics if each.severity > Severity.INFO)

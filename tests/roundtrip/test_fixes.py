@@ -3,15 +3,20 @@
 import random
 import re
 from collections.abc import Callable
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from testbed.fixed_files import fixed_file
+from testbed.fixed_xacro import as_it_is, fixed_xacro, in_a_macro, in_properties, outline, root_of
 from tests.profile import examples
 from twinform import Document, dumps
 from twinform.compiler import LoadOptions
-from twinform.compiler.fixing import apply_fixes
+from twinform.compiler.fixing import FixResult, apply_fixes
+from twinform.schemas import XmlElement
 from twinform.testing import strategies
 
 _CHANCE = st.randoms(use_true_random=False)
@@ -43,6 +48,8 @@ _FIXED_BACK: dict[str, _Plant] = {
     "no blank": _one(r'(" )(\w+=")', r'"\2'),
 }
 """Mistakes of which the fix is certain: the text is as it was, but for what is said below."""
+_IN_VALUES = frozenset({"commas", "capitals", "unit"})
+"""Mistakes in values, which xacro leaves as they are."""
 
 
 @examples()
@@ -53,6 +60,30 @@ def test_a_mistake_with_one_meaning_is_fixed(document: Document, chance: random.
     rules = {"not-well-formed", "repaired-xml", "invalid-value"}
     made = apply_fixes(planted.encode(), LoadOptions(), rules=rules).data.decode()
     assert made.replace("<!-- a - - b -->", "") == text
+
+
+@pytest.mark.slow
+@examples(0.2)
+@given(
+    strategies.robots() | strategies.sdf_models(),
+    _CHANCE,
+    st.sampled_from(sorted(_IN_VALUES)),
+    st.sampled_from([as_it_is, in_a_macro, in_properties]),
+)
+def test_a_fix_in_xacro_expands_to_the_fix_of_what_it_expands_to(
+    document: Document, chance: random.Random, kind: str, way: Callable[[XmlElement], dict[str, str]]
+) -> None:
+    planted = _FIXED_BACK[kind](dumps(document), chance).encode()
+    with TemporaryDirectory() as folder:
+        made = fixed_xacro(Path(folder), way(root_of(planted)), unsafe=False)
+    fixed = apply_fixes(planted, LoadOptions())
+    assert [each.rule.name for each in made.applied] != [] or fixed.data == planted or way is in_properties
+    if _rules(made) == _rules(fixed):
+        assert outline(made.left.content or b"") == outline(fixed.data)
+
+
+def _rules(fixed: FixResult) -> list[str]:
+    return sorted(each.rule.name for each in fixed.applied)
 
 
 @examples()

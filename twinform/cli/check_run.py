@@ -1,6 +1,6 @@
 """A run of `twinform check`: what is done with the files that were found."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field
 from pathlib import Path
 from typing import NamedTuple
@@ -194,8 +194,8 @@ class CheckRun:
         if report.on_stderr and report.style != "text" and not silent:
             raise click.UsageError("the fixed text of standard input is printed: leave --format out, or give --diff")
 
-        def look(content: str | bytes, name: str) -> LoadResult:
-            return self._task(InputSource(content, name), report).look()
+        def look(content: str | bytes, name: str, unsaved: Mapping[str, bytes]) -> LoadResult:
+            return self._task(InputSource(content, name), report).with_unsaved(unsaved).look()
 
         def fixing(source: InputSource) -> Fixing:
             own, _ = self.by_file.unless_wrong(source.name)

@@ -174,6 +174,10 @@ class CheckTask:
         search = common.setdefault(self.load_options.search, self.load_options.search)
         return replace(self, load_options=replace(self.load_options, search=search))
 
+    def with_unsaved(self, texts: Mapping[str, bytes]) -> "CheckTask":
+        """Return the task for files that have other texts than on the disk."""
+        return replace(self, load_options=self.load_options.with_unsaved(texts))
+
     def look(self) -> LoadResult:
         """Read the file and find what is wrong in it.
 
@@ -262,7 +266,7 @@ class QuotedTexts:
             return cls({}, {})
         lines = {(name, each.location.line) for each in findings.diagnostics for name in [each.location.file or path]}
         offsets = {
-            (each.location.file or path, offset)
+            (edit.file or path, offset)
             for each in findings.diagnostics
             for edit in (each.fix.edits if each.fix else ())
             for offset in edit.span
@@ -302,7 +306,7 @@ def _known(keys: Iterable[tuple[str, int]], ask: Any) -> Iterator[tuple[tuple[st
 
 def row_of_diagnostic(one: Diagnostic) -> list[Any]:
     """Return a finding as a row of JSON."""
-    fix = one.fix and [one.fix.title, [[*edit.span, edit.new] for edit in one.fix.edits], one.fix.safety]
+    fix = one.fix and [one.fix.title, [[*edit.span, edit.new, edit.file] for edit in one.fix.edits], one.fix.safety]
     related = [list(each) for each in one.related]
     return [
         one.rule.name,
@@ -327,7 +331,7 @@ def diagnostic_of_row(row: list[Any]) -> Diagnostic:
     registered = find_rule(name)
     if registered is None:
         raise KeyError(name)
-    made = fix and Fix(fix[0], tuple(TextEdit(Span(a, b), new) for a, b, new in fix[1]), Safety(fix[2]))
+    made = fix and Fix(fix[0], tuple(TextEdit(Span(a, b), new, file) for a, b, new, file in fix[1]), Safety(fix[2]))
     places = tuple(Location(*each) for each in related)
     rule, where, level = registered.rule, Location(*location), Severity(severity)
     return Diagnostic(rule, message, where, level, found, expected, advice, places, made)

@@ -1,7 +1,9 @@
 """`twinform fix`, and the fixes of `check --fix`: their options, and the messages about them."""
 
+import os
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -11,7 +13,7 @@ from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
 from twinform.cli.completion import files, pipelines
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, file_options, model_inputs
 from twinform.cli.instrumentation import mesh_progress
-from twinform.cli.model_files import is_plain
+from twinform.cli.model_files import is_fixable, is_plain
 from twinform.cli.outputs import Rewrite, show_differences, write_back
 from twinform.cli.printing import notes_option, plural, print_line, show
 from twinform.cli.project_options import OptionsByFile, pipeline_option
@@ -26,8 +28,9 @@ from twinform.compiler import (
     inspect,
     read,
 )
-from twinform.compiler.fixing import ANOTHER_ROBOT, FixResult, Refused, apply_fixes_by
+from twinform.compiler.fixing import ANOTHER_ROBOT, FixResult, Refused, Texts, apply_fixes_by, new_rules
 from twinform.compiler.in_place import convert_in_place
+from twinform.compiler.input.include_graph import IncludeGraph
 from twinform.compiler.input.load_options import XACRO
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.dataclass import dataclass
@@ -35,8 +38,8 @@ from twinform.diagnostics import Diagnostic, DiagnosticSink, Policy, Safety, Sev
 from twinform.diagnostics.reporters import FileFindings
 from twinform.passes import FilesPass, PassError, Pipeline
 
-Look = Callable[[str | bytes, str], LoadResult]
-"""Checks a file, or the bytes of one under its name."""
+Look = Callable[[str | bytes, str, Mapping[str, bytes]], LoadResult]
+"""Checks a file, or the bytes of one under its name; other files may have texts that are not written yet."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,12 +60,13 @@ class Fixing:
 
 
 class FixedSource(NamedTuple):
-    """A fixed file: its findings now, its new text, messages about the fixes, and their number."""
+    """A fixed file: its findings now, its new text, messages about the fixes, their number, and what it includes."""
 
     loaded: LoadResult
     rewrite: Rewrite | None
     news: list[str]
     number: int
+    included: tuple[Rewrite, ...] = ()
 
 
 def run_fixes(sources: Sequence[InputSource], fixing: Callable[[InputSource], Fixing]) -> tuple[list[LoadResult], int]:
@@ -71,10 +75,9 @@ def run_fixes(sources: Sequence[InputSource], fixing: Callable[[InputSource], Fi
     Raises:
         Unusable: a file cannot be written.
     """
-    ways = [fixing(each) for each in sources]
-    done = [fix_source(each, way) for each, way in zip(sources, ways, strict=True)]
-    rewrites = [each.rewrite for each in done if each.rewrite]
-    if any(way.diff for way in ways):
+    done = fix_sources(sources, fixing)
+    rewrites = merged(rewrite for each in done for rewrite in (each.rewrite, *each.included) if rewrite)
+    if any(fixing(each).diff for each in sources):
         show_differences(rewrites)
     else:
         write_back(rewrites)
@@ -83,38 +86,112 @@ def run_fixes(sources: Sequence[InputSource], fixing: Callable[[InputSource], Fi
     return [each.loaded for each in done], sum(each.number for each in done)
 
 
-def fix_source(source: InputSource, fixing: Fixing) -> FixedSource:
-    """Fix a file without writing it; a file that cannot be fixed, such as xacro, is only checked."""
+def fix_sources(sources: Sequence[InputSource], fixing: Callable[[InputSource], Fixing]) -> list[FixedSource]:
+    """Fix files one after the other without writing them; what one changes of a shared file, the next ones read."""
+    pending: dict[str, bytes] = {}
+    done: list[FixedSource] = []
+    for source in sources:
+        fixed = fix_source(source, fixing(source), pending)
+        if fixed.included and not _suits_others(source, sources, fixing, pending, _texts_of(fixed.included)):
+            closed = tuple(each.source.name for each in fixed.included)
+            fixed = fix_source(source, fixing(source), pending, closed)
+            fixed.news.append(f"{source.name}: not changed, for other robots: {', '.join(closed)}")
+        if fixed.rewrite and is_expanded(source, fixing(source).load_options):
+            pending |= _texts_of((fixed.rewrite, *fixed.included))
+        done.append(fixed)
+    return done
+
+
+def merged(rewrites: Iterable[Rewrite]) -> list[Rewrite]:
+    """Return one rewrite for each file, from its first text to its last."""
+    found: dict[str, Rewrite] = {}
+    for each in rewrites:
+        key = each.source.name if each.is_stream else os.path.realpath(each.source.name)
+        first = found.get(key)
+        found[key] = each if first is None else replace(first, after=each.after)
+    return [*found.values()]
+
+
+def _texts_of(rewrites: Iterable[Rewrite]) -> dict[str, bytes]:
+    return {os.path.realpath(each.source.name): each.after for each in rewrites}
+
+
+def _suits_others(
+    source: InputSource,
+    sources: Sequence[InputSource],
+    fixing: Callable[[InputSource], Fixing],
+    pending: Mapping[str, bytes],
+    changed: Mapping[str, bytes],
+) -> bool:
+    """Whether nothing new is found in the other robots that include the files which one robot changes."""
+    for other in sources:
+        way = fixing(other)
+        if other is source or not is_expanded(other, way.load_options):
+            continue
+        path = os.path.realpath(other.name)
+        read = {path, *(file for file, _ in IncludeGraph(way.load_options.search).closure(path))}
+        if read.isdisjoint(changed):
+            continue
+        before = way.look(other.content, other.name, pending)
+        if new_rules(before, way.look(other.content, other.name, {**pending, **changed}), Severity.WARNING):
+            return False
+    return True
+
+
+def is_expanded(source: InputSource, load_options: LoadOptions) -> bool:
+    """Whether a file is one of xacro."""
+    if isinstance(source.content, bytes) or load_options.xacro is False:
+        return False
+    return bool(load_options.xacro) or source.name.lower().endswith(XACRO)
+
+
+def fix_source(
+    source: InputSource, fixing: Fixing, pending: Mapping[str, bytes] | None = None, closed: Collection[str] = ()
+) -> FixedSource:
+    """Fix a file without writing it.
+
+    Of a xacro file, those that it includes are fixed too, except `closed` ones; what is `pending` is their text, by
+    paths without links.
+    """
     sink = DiagnosticSink(source.name)
+    pending = pending or {}
     try:
-        data = _read_fixable(source, sink, fixing.load_options)
+        data = _read(source, sink, fixing.load_options, pending)
     except UnreadableError:
         return FixedSource(LoadResult(source.name, None, tuple(sink.diagnostics), unreadable=True), None, [], 0)
-    if data is None:
-        return FixedSource(fixing.look(source.content, source.name), None, [], 0)
+    expands = is_expanded(source, fixing.load_options)
+
+    def look(texts: Texts) -> LoadResult:
+        if not expands:
+            return fixing.look(texts[""], source.name, {})
+        files = {os.path.realpath(name or source.name): text for name, text in texts.items()}
+        return fixing.look(source.content, source.name, {**pending, **files})
+
     found = apply_fixes_by(
-        lambda text: fixing.look(text, source.name),
+        look,
         data,
         unsafe=fixing.unsafe,
         wanted=fixing.wants,
         load_options=fixing.load_options,
+        closed=closed,
     )
     rewrite = Rewrite(source, data, found.data)
-    return FixedSource(
-        found.left, rewrite, _describe(source.name, found, "would fix" if fixing.diff else "fixed"), len(found.applied)
-    )
+    included = tuple(Rewrite(InputSource(name, name), *texts) for name, texts in found.included.items())
+    news = _describe(source.name, found, "would fix" if fixing.diff else "fixed")
+    return FixedSource(found.left, rewrite, news, len(found.applied), included)
 
 
-def _read_fixable(source: InputSource, sink: DiagnosticSink, load_options: LoadOptions) -> bytes | None:
-    """Read a file that can be fixed; None for xacro, whose findings are about the expanded text.
+def _read(source: InputSource, sink: DiagnosticSink, load_options: LoadOptions, pending: Mapping[str, bytes]) -> bytes:
+    """Read the text of a file.
 
     Raises:
         UnreadableError: it cannot be read.
     """
     if isinstance(source.content, bytes):
         return source.content
-    if load_options.xacro or source.name.lower().endswith(XACRO):
-        return None
+    known = pending.get(os.path.realpath(source.name))
+    if known is not None:
+        return known
     path = Path(source.content)
     return read_bytes(path, sink, load_options.limits, load_options.search.readable(path))
 
@@ -129,6 +206,7 @@ def _describe(name: str, found: FixResult, verb: str) -> list[str]:
     lines = [f"{name}: {verb} {shown}"] if counts else []
     guesses = [each for each in found.applied if each.fix and each.fix.safety is not Safety.SAFE]
     lines += _first(name, [f"unsafe: {_title(each)}" for each in guesses])
+    lines += [f"{name}: {verb} in {', '.join(found.included)}"] if found.included else []
     lines += _first(name, [f"the robot differs: {each}" for each in found.changes])
     return lines + _first(name, [f"not fixed: {_title(each.finding)}: {_reason(each)}" for each in found.refused])
 
@@ -190,16 +268,18 @@ def command(
 ) -> None:
     """Fix robot models in their files, and run passes on them.
 
-    IN are URDF or SDF files, folders of them, or globs in quotes; - is standard input, which goes to standard output.
+    IN are URDF, SDF or xacro files, folders of them, or globs in quotes; - is standard input, which goes to standard
+    output. Passes are for files without xacro; fixes of xacro are made where the text is written, in all files of it.
     Only what a fix or a pass changes is changed: comments, layout and the spelling of all else stay. All is written,
     or, where a pass cannot run, nothing. Exit code: 0 where all went well, 1 with errors, 2 where a file could not be
     read or written.
     """
-    sources, arguments = model_inputs(words, exclusion_of(ctx, exclude, force=force_exclude), is_plain)
+    kind = is_plain if passes else is_fixable
+    sources, arguments = model_inputs(words, exclusion_of(ctx, exclude, force=force_exclude), kind)
     by_file = OptionsByFile(ctx, arguments)
 
-    def look(content: str | bytes, name: str) -> LoadResult:
-        load_options = by_file.of(name).load_options
+    def look(content: str | bytes, name: str, unsaved: Mapping[str, bytes]) -> LoadResult:
+        load_options = by_file.of(name).load_options.with_unsaved(unsaved)
         return as_refused(inspect(read(content, load_options, name=name), load_options))
 
     def report(name: str, diagnostics: tuple[Diagnostic, ...]) -> None:
@@ -211,11 +291,12 @@ def command(
 
     for source in sources:
         _require_model(source, passes)
-    runs = [_run(source, passes, fixing(source), report) for source in sources]
-    rewrites = [each for each in runs if isinstance(each, Rewrite)]
-    if len(rewrites) < len(runs):
+    done = fix_sources(sources, fixing)
+    runs = [_run(source, each, passes, fixing(source), report) for source, each in zip(sources, done, strict=True)]
+    rewrites = merged(rewrite for each in runs if not isinstance(each, int) for rewrite in each)
+    if any(isinstance(each, int) for each in runs):
         if len(runs) > 1:
-            wrong = len(runs) - len(rewrites)
+            wrong = sum(isinstance(each, int) for each in runs)
             print_line(f"nothing is written: {wrong} of {len(runs)} files could not be changed", err=True)
         ctx.exit(max(each for each in runs if isinstance(each, int)))
     if diff:
@@ -229,16 +310,17 @@ def _require_model(source: InputSource, passes: Pipeline | None) -> None:
     Raises:
         click.UsageError: it is JSON or xacro, or a pass makes other files.
     """
-    if source.format == "json" or source.name.lower().endswith(XACRO):
+    if source.format == "json" or (passes and source.name.lower().endswith(XACRO)):
         raise click.UsageError(f"{source.name} is not URDF or SDF: change it by hand, or convert it first")
     made = [step.only_file for step in passes or () if isinstance(step, FilesPass) and step.only_file]
     if made:
         raise click.UsageError(f"a pass writes {made[0]} beside the result: give it to convert")
 
 
-def _run(source: InputSource, passes: Pipeline | None, fixing: Fixing, report: Report) -> Rewrite | int:
-    """Fix a file and run passes on it; return the new text, or the exit code if it cannot be changed."""
-    fixed = fix_source(source, fixing)
+def _run(
+    source: InputSource, fixed: FixedSource, passes: Pipeline | None, fixing: Fixing, report: Report
+) -> list[Rewrite] | int:
+    """Run passes on a fixed file; return the new texts, or the exit code if it cannot be changed."""
     rewrite, news = fixed.rewrite, fixed.news
     if rewrite is None or fixed.loaded.unreadable:
         report(source.name, fixed.loaded.diagnostics)
@@ -258,7 +340,7 @@ def _run(source: InputSource, passes: Pipeline | None, fixing: Fixing, report: R
         news = [*news, f"{source.name}: {plural(len(updated.changes), 'change')} by passes"]
     for line in news:
         print_line(line, err=True)
-    return rewrite
+    return [rewrite, *fixed.included]
 
 
 def _format_of(rewrite: Rewrite) -> Language:

@@ -83,6 +83,11 @@ def is_plain(path: Path, *, named: bool = False) -> bool:
     return is_text(path, named=named) and not path.name.lower().endswith((*XACRO, ".json"))
 
 
+def is_fixable(path: Path, *, named: bool = False) -> bool:
+    """Whether a file is a model, with or without xacro."""
+    return not path.name.lower().endswith(".json") and is_model(path, named=named)
+
+
 def _start(path: Path, size: int) -> bytes:
     from twinform.file_access import Readable  # noqa: PLC0415 - few names leave it open
 

@@ -106,7 +106,7 @@ def _patched(source: bytes, own: XmlElement, tree: XmlElement, conversion: Conve
     text = SourceText.of(source)
     made = sorted(edits(text, own, tree), key=lambda edit: edit.span)
     lines = Lines(text.text)
-    changes = [TextChange(lines.place(span.start), span.of(text.text), new) for span, new in made]
+    changes = [TextChange(lines.place(span.start), span.of(text.text), new) for span, new, _ in made]
     return Updated(conversion, text.with_text(apply(text.text, made)).data, tuple(changes), source)
 
 

@@ -102,10 +102,14 @@ class Span(NamedTuple):
 
 
 class TextEdit(NamedTuple):
-    """An edit: the text at `span` becomes `new`; an empty span inserts."""
+    """An edit: the text at `span` becomes `new`; an empty span inserts.
+
+    `file` is empty for the file that was read, and names another one that it includes.
+    """
 
     span: Span
     new: str
+    file: str = ""
 
 
 class Safety(StrEnum):

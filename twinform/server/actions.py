@@ -1,12 +1,13 @@
 """Code actions: fixes of findings, and passes that change a document in place."""
 
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 from typing import NamedTuple
 
 from lsprotocol import types
 
 from twinform.diagnostics import Fix, Safety, Span, TextEdit
-from twinform.server.diagnostics import as_protocol, span_of
+from twinform.server.diagnostics import DocumentOf, as_protocol, span_of
 from twinform.server.documents import TextDocument
 from twinform.server.mapping import FormatName
 from twinform.server.session import Session
@@ -67,18 +68,22 @@ def _offer_fixes(session: Session, document: TextDocument, where: types.Range) -
         fix = found.fix
         if fix is None or fix.safety is Safety.DISPLAY or here.end < piece.start or here.start > piece.end:
             continue
+        edit = edit_of(document, fix.edits, session.files.document)
+        if edit is None:
+            continue
         yield types.CodeAction(
             title=fix.title if fix.safety is Safety.SAFE else f"{fix.title} (the model may change)",
             kind=types.CodeActionKind.QuickFix,
             diagnostics=[as_protocol(found, document, session.files.document)],
             is_preferred=fix.safety is Safety.SAFE,
-            edit=edit_of(document, fix.edits),
+            edit=edit,
         )
 
 
 def _offer_fix_all(session: Session, document: TextDocument) -> Iterator[types.CodeAction]:
     fixes = (each.fix for each in session.findings(document))
-    edits = compatible_edits(fix for fix in fixes if fix is not None and fix.safety is Safety.SAFE)
+    own = (fix for fix in fixes if fix is not None and not any(edit.file for edit in fix.edits))
+    edits = compatible_edits(fix for fix in own if fix.safety is Safety.SAFE)
     if edits:
         yield types.CodeAction(
             title="Fix all safe problems of the file", kind=FIX_ALL, edit=edit_of(document, edits), is_preferred=True
@@ -107,14 +112,23 @@ def _offer_passes(document: TextDocument) -> Iterator[types.CodeAction]:
             yield types.CodeAction(title=each.title, kind=types.CodeActionKind.RefactorRewrite, command=command)
 
 
-def edit_of(document: TextDocument, edits: Iterable[TextEdit]) -> types.WorkspaceEdit:
-    """Convert edits of a document to an edit of the workspace."""
-    return types.WorkspaceEdit(changes={document.uri: text_edits(document, edits)})
+def edit_of(
+    document: TextDocument, edits: Iterable[TextEdit], document_of: DocumentOf = lambda _: None
+) -> types.WorkspaceEdit | None:
+    """Convert edits of a document, and of files that they name, to an edit of the workspace; None if one is unknown."""
+    changes: dict[str, list[types.TextEdit]] = {}
+    for edit in edits:
+        changed = document_of(Path(edit.file)) if edit.file else document
+        if changed is None:
+            return None
+        changes.setdefault(changed.uri, []).extend(text_edits(changed, [edit]))
+    return types.WorkspaceEdit(changes=changes)
 
 
 def text_edits(document: TextDocument, edits: Iterable[TextEdit]) -> list[types.TextEdit]:
     """Convert edits to those of the protocol, which counts a byte order mark as a character."""
     mark = document.text.startswith("\ufeff")
     return [
-        types.TextEdit(document.positions.range(Span(span.start + mark, span.end + mark)), new) for span, new in edits
+        types.TextEdit(document.positions.range(Span(span.start + mark, span.end + mark)), new)
+        for span, new, _ in edits
     ]

@@ -9,6 +9,7 @@ import asyncio
 import os
 from collections.abc import Awaitable, Callable, Mapping
 from concurrent.futures import BrokenExecutor, Future
+from dataclasses import replace
 from pathlib import Path
 from typing import ParamSpec, TypeVar
 
@@ -199,9 +200,18 @@ class Session:
         self.worker.stop()
 
     def findings(self, document: TextDocument) -> tuple[Diagnostic, ...]:
-        """Return the findings in this state of a document; none if it was not checked yet."""
-        found = self.found.get(document.uri)
-        return found[1] if found is not None and found[0] is document else ()
+        """Return the findings in this state of a document, by its own check and by those of documents that include it.
+
+        Edits of their fixes name all other files.
+        """
+        here = document.path.absolute()
+        found = [
+            _seen_from(each, str(here), "" if top is document else str(top.path.absolute()))
+            for uri, (top, diagnostics) in self.found.items()
+            if self.documents.get(uri) is top
+            for each in by_file(diagnostics, top.path.absolute()).get(here, ())
+        ]
+        return tuple(found)
 
     def _changed(self, document: TextDocument, pause: float) -> None:
         if document.excess:
@@ -215,6 +225,7 @@ class Session:
         """Check the documents that include a document again."""
         for uri, files in self._read.items():
             if document.is_file and uri != document.uri and str(document.path.absolute()) in files:
+                self.found.pop(uri, None)  # the edits of fixes are for the text that it had
                 self._checks.want(uri)
 
     def job(self, uri: str) -> CheckJob | None:
@@ -264,6 +275,14 @@ class Session:
             state = self.documents.state(file)
             version = state.version if state is not None else None
             self._publish(types.PublishDiagnosticsParams(file, _drop_repeats(together), version))
+
+
+def _seen_from(finding: Diagnostic, here: str, top: str) -> Diagnostic:
+    """Return a finding of the check of a file `top` as one about the file `here`; no name is the same file."""
+    if finding.fix is None or not top:
+        return finding
+    edits = (edit._replace(file="" if edit.file == here else edit.file or top) for edit in finding.fix.edits)
+    return replace(finding, fix=replace(finding.fix, edits=tuple(edits)))
 
 
 def _drop_repeats(found: list[types.Diagnostic]) -> list[types.Diagnostic]:

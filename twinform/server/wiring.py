@@ -12,7 +12,7 @@ from pygls.lsp.server import LanguageServer
 from pygls.protocol import default_converter
 
 from twinform import __version__
-from twinform.server.actions import FIX_ALL, RUN_PASSES, actions, edit_of, text_edits, word_of
+from twinform.server.actions import FIX_ALL, RUN_PASSES, actions, text_edits, word_of
 from twinform.server.checking import Rewritten, SettingsOf, format_document, no_settings, run_passes
 from twinform.server.closing_tags import TRIGGERS, closing, linked_names
 from twinform.server.completion import complete
@@ -226,8 +226,8 @@ def _rewrite(server: LanguageServer, session: Session) -> None:
         elif not done.edits:
             _tell(server, f"{pipeline} has nothing to change")
         else:
-            edit = types.ApplyWorkspaceEditParams(edit_of(document, done.edits), f"twinform: {pipeline}")
-            await server.workspace_apply_edit_async(edit)
+            edit = types.WorkspaceEdit(changes={document.uri: text_edits(document, done.edits)})
+            await server.workspace_apply_edit_async(types.ApplyWorkspaceEditParams(edit, f"twinform: {pipeline}"))
 
 
 async def _run_rewrite(

@@ -29,6 +29,11 @@ class Editor:
         """The text."""
         return self.around.text
 
+    def text_with(self, element: XmlElement) -> str:
+        """Return the text in which an element stands."""
+        del element  # there is one text only
+        return self.text
+
     def set_attribute(self, element: XmlElement, name: str, value: str) -> TextEdit:
         """Set an attribute: between its own quotes, or after the last attribute if it is new."""
         place = self.places[element]
@@ -107,12 +112,17 @@ class Editor:
             return self.around.behind(last.whole.end)
         return place.asides[-1].end if place.asides else self.around.behind(place.start_tag.end)
 
-    def comment_out(self, span: Span) -> TextEdit:
-        """Turn a piece of the text into a comment."""
+    def replace(self, element: XmlElement, span: Span, new: str) -> TextEdit:
+        """Replace a piece of an element."""
+        del element  # there is one text only
+        return TextEdit(span, new)
+
+    def comment_out(self, element: XmlElement, span: Span) -> TextEdit:
+        """Turn a piece of the text of an element into a comment."""
         piece = span.of(self.text)
         start = span.start + len(piece) - len(piece.lstrip())
         inside = Span(start, start + len(piece.strip()))
-        return TextEdit(inside, f"<!-- {inside.of(self.text)} -->")
+        return self.replace(element, inside, f"<!-- {inside.of(self.text)} -->")
 
 
 def patch(source: SourceText, before: XmlElement, after: XmlElement) -> SourceText:
@@ -252,7 +262,7 @@ class _Patching(Editor):
         inside = replace(self, edits=[])
         inside.change(old, new)
         start, end = self.places[old].whole
-        moved = [TextEdit(Span(span.start - start, span.end - start), new) for span, new in inside.edits]
+        moved = [TextEdit(Span(span.start - start, span.end - start), new) for span, new, _ in inside.edits]
         return apply(self.text[start:end], moved)
 
     def _close(self, old: XmlElement) -> None:

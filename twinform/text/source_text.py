@@ -84,7 +84,7 @@ def apply(text: str, edits: Iterable[TextEdit]) -> str:
     """
     pieces: list[str] = []
     here = 0
-    for span, new in sorted(edits, key=lambda edit: edit.span):
+    for span, new, _ in sorted(edits, key=lambda edit: edit.span):
         if span.start < here:
             raise OverlapError(f"two edits overlap at offset {span.start}")
         pieces += (text[here : span.start], new)

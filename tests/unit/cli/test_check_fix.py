@@ -133,11 +133,66 @@ def test_of_several_files_each_is_fixed(run: Run, robot: Path, tmp_path: Path) -
     assert (robot.read_text(), other.read_text()) == (FIXED, "<robot")
 
 
-def test_a_xacro_file_is_looked_at_and_left(run: Run, tmp_path: Path) -> None:
-    path = tmp_path / "r.urdf.xacro"
-    path.write_text(ROBOT)
-    assert run("check", "--fix", path).exit_code == 1
-    assert path.read_text() == ROBOT
+MACROS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="part" params="name type">
+    <link name="${name}">
+      <inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+    </link>
+    <joint name="${name}_joint" type="${type}"><parent link="base"/><child link="${name}"/><axis xyz="%s"/></joint>
+  </xacro:macro>
+</robot>
+"""
+CALLS = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="%s"/>
+  <link name="base"/>
+  <xacro:part name="a" type="%s"/>
+</robot>
+"""
+
+
+def test_a_text_of_xacro_is_fixed_in_the_file_where_it_stands(run: Run, tmp_path: Path) -> None:
+    robot, macros = tmp_path / "r.urdf.xacro", tmp_path / "macros.xacro"
+    macros.write_text(MACROS % "0, 0, 1")
+    robot.write_text(CALLS % ("macros.xacro", "continuous"))
+    done = run("check", "--fix", tmp_path)
+    assert macros.read_text() == MACROS % "0 0 1"
+    assert robot.read_text() == CALLS % ("macros.xacro", "continuous")
+    assert done.stderr.startswith(f"{robot}: fixed 1 x invalid-value\n{robot}: fixed in {macros}\n")
+
+
+def test_a_shared_file_is_fixed_once_for_all_robots(run: Run, tmp_path: Path) -> None:
+    macros = tmp_path / "macros.xacro"
+    macros.write_text(MACROS % "0, 0, 1")
+    for name in "ab":
+        (tmp_path / f"{name}.urdf.xacro").write_text(CALLS % ("macros.xacro", "continuous"))
+    done = run("fix", tmp_path, "--diff")
+    assert done.stdout.count("+++") == 1
+    assert run("fix", tmp_path).exit_code == 0
+    assert macros.read_text() == MACROS % "0 0 1"
+
+
+def test_a_shared_file_is_left_where_another_robot_would_be_wrong(run: Run, tmp_path: Path) -> None:
+    macros = tmp_path / "macros.xacro"
+    text = MACROS.replace('type="${type}"', 'type="continuous"').replace('parent link="base"', 'parent link="bsae"')
+    macros.write_text(text % "0 0 1")
+    robot = CALLS % ("macros.xacro", "x")
+    (tmp_path / "a.urdf.xacro").write_text(robot)
+    (tmp_path / "b.urdf.xacro").write_text(robot.replace('link name="base"', 'link name="bsae"'))
+    done = run("check", "--fix", "--unsafe-fixes", tmp_path)
+    assert macros.read_text() == text % "0 0 1"
+    assert "a.urdf.xacro: not changed, for other robots: " in done.stderr
+
+
+def test_a_file_outside_of_the_package_is_left(run: Run, tmp_path: Path) -> None:
+    shared, own = tmp_path / "share", tmp_path / "own"
+    for folder in (shared / "parts", own):
+        folder.mkdir(parents=True)
+        (folder / "package.xml").write_text(f"<package><name>{folder.name}</name></package>")
+    (shared / "parts" / "macros.xacro").write_text(MACROS % "0, 0, 1")
+    (own / "r.urdf.xacro").write_text(CALLS % ("$(find parts)/macros.xacro", "continuous"))
+    done = run("check", "--fix", "--path", shared, own)
+    assert "invalid-value" in done.stdout
+    assert (shared / "parts" / "macros.xacro").read_text() == MACROS % "0, 0, 1"
 
 
 def test_a_file_is_not_written_where_nothing_changes(run: Run, robot: Path) -> None:

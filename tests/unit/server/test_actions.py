@@ -7,7 +7,7 @@ from lsprotocol import types
 from tests.unit.server.test_half_typed import session_with
 from twinform.diagnostics import Diagnostic, Fix, Location, Safety, Severity, Span, TextEdit, rules
 from twinform.server.actions import FIX_ALL, actions, compatible_edits, edit_of
-from twinform.server.checking import CheckJob, EditorSettings, check, format_document, run_passes
+from twinform.server.checking import CheckJob, EditorSettings, check, format_document, no_settings, run_passes
 from twinform.server.documents import TextDocument
 from twinform.server.session import Session
 from twinform.text import apply
@@ -20,7 +20,7 @@ def finding(text: str, start: int, safety: Safety) -> Diagnostic:
     span = Span(start, start + len(' nam="b"'))
     fix = Fix("delete the attribute 'nam'", (TextEdit(span, ""),), safety)
     line = text.count("\n", 0, start) + 1
-    where = Location("a.urdf", line, "/robot/link/@nam", start - text.rfind("\n", 0, start) + 1)
+    where = Location("", line, "/robot/link/@nam", start - text.rfind("\n", 0, start) + 1)
     return Diagnostic(rules.UNKNOWN_ATTRIBUTE, "no", where, Severity.WARNING, fix=fix)
 
 
@@ -85,6 +85,42 @@ def test_a_byte_order_mark_moves_the_edits() -> None:
 
 def job(path: Path, text: str | None = None) -> CheckJob:
     return CheckJob(path, {} if text is None else {str(path.resolve()): text.encode()}, EditorSettings())
+
+
+MACROS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="part" params="name"><link name="${name}"><inertial/></link></xacro:macro>
+</robot>
+"""
+CALLS = """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="macros.xacro"/>
+  <link name="base"><visual><geometry><box size="1,1,1"/></geometry></visual></link>
+  <xacro:part name="a"/>
+</robot>
+"""
+
+
+def test_fixes_of_xacro_are_offered_in_the_file_where_the_text_stands(tmp_path: Path) -> None:
+    (tmp_path / "macros.xacro").write_text(MACROS)
+    (tmp_path / "r.urdf.xacro").write_text(CALLS)
+    session = Session(no_settings, lambda _: None)
+    top, macros = (
+        session.documents.follow((tmp_path / name).as_uri(), (tmp_path / name).read_text(), 1, "urdf")
+        for name in ("r.urdf.xacro", "macros.xacro")
+    )
+    wrong = MACROS.replace("inertial", "inertal")
+    macros = session.documents.follow(macros.uri, wrong, 2, "urdf")
+    found = check(CheckJob(top.path, {str(macros.path.resolve()): wrong.encode()}, EditorSettings()))
+    session.found[top.uri] = (top, found.diagnostics)
+    (fix,) = actions(session, top, range_of(top, "1,1,1"), ["quickfix"])
+    assert after(top, fix.edit) == CALLS.replace("1,1,1", "1 1 1")
+    (fix,) = actions(session, macros, range_of(macros, "inertal"), ["quickfix"])
+    assert after(macros, fix.edit) == wrong.replace("inertal", "inertial")
+    assert actions(session, top, range_of(top, "include"), ["quickfix"]) == []
+
+
+def range_of(document: TextDocument, word: str) -> types.Range:
+    start = document.text.index(word)
+    return document.positions.range(Span(start, start))
 
 
 def test_passes_change_the_text_of_the_editor_and_nothing_else(tmp_path: Path) -> None:

@@ -5,8 +5,8 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from twinform.compiler.fixing.site import FindingSite, Fixers, safe, unsafe
-from twinform.diagnostics import Fix, Safety, TextEdit, meant_name, rules
+from twinform.compiler.fixing.site import FindingSite, Fixers, revealing, unsafe
+from twinform.diagnostics import Fix, Safety, meant_name, rules
 from twinform.lazy import lazy_pattern
 from twinform.schemas import VALUE_TYPES, format_value
 
@@ -56,15 +56,16 @@ class Guess(NamedTuple):
 def _invalid_value(site: FindingSite) -> Fix | None:
     text = site.value
     word = meant_name(site.finding.help)
+    # What cannot be read is no part of the robot before.
     if word is not None:
         certain = word.lower() == text.strip().lower()
-        return (safe if certain else unsafe)(f"Write {word!r}", *site.set_value(word))
+        return (revealing if certain else unsafe)(f"Write {word!r}", *site.set_value(word))
     parses = _parser(site)
     if parses is None or not text.strip() or len(text) > _LONGEST or len(site.element):
         return None
     for guess in guesses(text, site.finding.expected or ""):
         if guess.text != text and parses(guess.text):
-            return Fix(f"Write {guess.text!r}", site.set_value(guess.text), guess.safety)
+            return Fix(f"Write {guess.text!r}", site.set_value(guess.text), guess.safety, keeps=False)
     return None
 
 
@@ -185,13 +186,14 @@ def _unnormalized_quaternion(site: FindingSite) -> Fix | None:
 
 def _split_value(site: FindingSite) -> Fix | None:
     """Move the comments in a value before its element."""
-    place, text = site.edit.places[site.element], site.edit.text
+    place, text = site.edit.places[site.element], site.edit.text_with(site.element)
     if place.content is None or place.children:
         return None
     value = " ".join("".join(run.of(text) for run in place.texts()).split())
     comments = "".join(aside.of(text) for aside in place.asides)
-    moved = TextEdit(place.start_tag._replace(end=place.start_tag.start), comments)
-    return unsafe(f"Put the comment before the element, whose text is {value!r}", moved, TextEdit(place.content, value))
+    moved = site.edit.replace(site.element, place.start_tag._replace(end=place.start_tag.start), comments)
+    bare = site.edit.replace(site.element, place.content, value)
+    return unsafe(f"Put the comment before the element, whose text is {value!r}", moved, bare)
 
 
 def _negative_mass(site: FindingSite) -> Fix | None:

@@ -1,8 +1,8 @@
 """Applies fixes until nothing changes. A fix that causes a new finding, or another robot by mistake, is taken back."""
 
 from bisect import bisect_left, insort
-from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
 from typing import TYPE_CHECKING
 
@@ -32,7 +32,9 @@ _PREDICATE = lazy_pattern(r"\[(?:@name='(?:.*?'\](?=[/\[]|$)|.*)|\d+\](?=[/\[]|$
 
 Group = list[Diagnostic]
 """Findings that one fix fixes."""
-Look = Callable[[bytes], LoadResult]
+Texts = Mapping[str, bytes]
+"""The bytes of a file, by an empty name, and of those that it includes and that are not what is on the disk."""
+Look = Callable[[Texts], LoadResult]
 """Reads a file and reports what is wrong with it."""
 
 
@@ -48,7 +50,8 @@ class Refused:
 class FixResult:
     """The fixed bytes, the findings that were fixed, in order, and what is found now.
 
-    `changes` say how the robot differs from the one before, where that could be read.
+    `changes` say how the robot differs from the one before, where that could be read. `included` are the files that
+    were changed besides, with their bytes before and after.
     """
 
     data: bytes
@@ -57,6 +60,7 @@ class FixResult:
     rounds: int
     refused: tuple[Refused, ...] = ()
     changes: tuple[str, ...] = ()
+    included: Mapping[str, tuple[bytes, bytes]] = field(default_factory=dict[str, tuple[bytes, bytes]])
 
 
 def apply_fixes(
@@ -69,8 +73,8 @@ def apply_fixes(
 ) -> FixResult:
     """Apply the fixes of a file, of all rules or only of some; `name` is its path."""
 
-    def look(text: bytes) -> LoadResult:
-        return as_refused(inspect(read(text, load_options, name=name), load_options))
+    def look(texts: Texts) -> LoadResult:
+        return as_refused(inspect(read(texts[""], load_options, name=name), load_options))
 
     return apply_fixes_by(
         look,
@@ -88,14 +92,16 @@ def apply_fixes_by(
     unsafe: bool = False,
     wanted: Callable[[Diagnostic], bool] = lambda _: True,
     load_options: LoadOptions | None = None,
+    closed: Collection[str] = (),
 ) -> FixResult:
     """Apply the fixes of wanted findings in rounds, until `look` finds nothing more that can be fixed.
 
     The robots before and after are compared with what their files include, which `load_options` say where to find.
+    Files that are `closed` are not changed.
     """
-    first = state = _State(data, look(data))
+    first = state = _State({"": data}, look({"": data}))
     load_options = load_options or LoadOptions()
-    fixing = _FixRun(look, Safety.UNSAFE if unsafe else Safety.SAFE, wanted, load_options)
+    fixing = _FixRun(look, Safety.UNSAFE if unsafe else Safety.SAFE, wanted, load_options, frozenset(closed))
     while fixing.rounds < MOST_ROUNDS:
         offered = _most_severe(fixing.offered(state.loaded))
         if not offered:
@@ -108,15 +114,23 @@ def apply_fixes_by(
     applied, refused = tuple(fixing.applied), tuple(fixing.refused)
     keeps = all(each.fix and each.fix.keeps for each in applied)
     changes = () if keeps else _differences(first.loaded, state.loaded, load_options)
-    return FixResult(state.data, applied, state.loaded, fixing.rounds, refused, changes)
+    included = {name: (first.text(name), text) for name, text in state.texts.items() if name}
+    return FixResult(state.texts[""], applied, state.loaded, fixing.rounds, refused, changes, included)
 
 
 @dataclass(frozen=True, slots=True)
 class _State:
-    """A text, and what is found in it."""
+    """The text of a file and of those of its files that were changed, and what is found in them."""
 
-    data: bytes
+    texts: Texts
     loaded: LoadResult
+
+    def text(self, name: str) -> bytes:
+        """Return the bytes of the file or, by its name, of one that it includes."""
+        found = self.texts.get(name)
+        if found is not None:
+            return found
+        return (self.loaded.expansion.texts if self.loaded.expansion else self.loaded.texts)[name]
 
 
 @dataclass(slots=True)
@@ -127,6 +141,7 @@ class _FixRun:
     most: Safety
     wanted: Callable[[Diagnostic], bool]
     load_options: LoadOptions
+    closed: frozenset[str] = frozenset()
     rounds: int = 0
     checks: int = 0
     applied: list[Diagnostic] = field(default_factory=list[Diagnostic])
@@ -142,7 +157,8 @@ class _FixRun:
         ]
 
     def _is_allowed(self, fix: Fix) -> bool:
-        return fix.safety is Safety.SAFE or fix.safety is self.most
+        is_open = self.closed.isdisjoint(edit.file for edit in fix.edits)
+        return is_open and (fix.safety is Safety.SAFE or fix.safety is self.most)
 
     def applied_to(self, state: _State, offered: Sequence[Diagnostic]) -> _State:
         """Apply the fixes that do not overlap and make nothing worse."""
@@ -153,11 +169,11 @@ class _FixRun:
         pending, best = [*filter(None, pending)], state
         while pending:
             groups = pending.pop()
-            if self.checks >= _most_checks(state.data):
+            if self.checks >= _most_checks(state.texts[""]):
                 self._refuse(groups, ("too-many-tries",))
                 continue
             after = self._apply_groups(state, [*good, *groups])
-            new = _new_rules(best.loaded, after.loaded, min(group[0].severity for group in groups))
+            new = new_rules(best.loaded, after.loaded, min(group[0].severity for group in groups))
             if not new and _keeps(groups[0]) and _differences(best.loaded, after.loaded, self.load_options):
                 new = (ANOTHER_ROBOT,)
             if not new:
@@ -178,11 +194,15 @@ class _FixRun:
             self.tried.update(map(_key, group))
 
     def _apply_groups(self, state: _State, groups: Iterable[Group]) -> _State:
-        source = SourceText.of(state.data)
-        edits = [edit for first, *_ in groups if first.fix for edit in first.fix.edits]
-        data = source.with_text(apply(source.text, edits)).data
+        by_file: defaultdict[str, list[TextEdit]] = defaultdict(list)
+        for edit in (edit for first, *_ in groups if first.fix for edit in first.fix.edits):
+            by_file[edit.file].append(edit)
+        texts = dict(state.texts)
+        for name, edits in by_file.items():
+            source = SourceText.of(state.text(name))
+            texts[name] = source.with_text(apply(source.text, edits)).data
         self.checks += 1
-        return _State(data, self.look(data))
+        return _State(texts, self.look(texts))
 
 
 def _keeps(group: Group) -> bool:
@@ -219,12 +239,11 @@ def _without_overlaps(offered: Iterable[Diagnostic]) -> Iterator[Group]:
     for each in offered:
         if each.fix:
             groups.setdefault(each.fix.edits, []).append(each)
-    taken: list[Span] = []
+    taken: defaultdict[str, list[Span]] = defaultdict(list)
     for edits, group in groups.items():
-        found = [edit.span for edit in group[0].fix.edits] if group[0].fix else []
-        if edits and not any(_overlaps(span, taken) for span in found):
-            for span in found:
-                insort(taken, span)
+        if edits and not any(_overlaps(edit.span, taken[edit.file]) for edit in edits):
+            for edit in edits:
+                insort(taken[edit.file], edit.span)
             yield group
 
 
@@ -243,11 +262,15 @@ def _most_severe(offered: Sequence[Diagnostic]) -> list[Diagnostic]:
     return [each for each in offered if each.is_error] or [*offered]
 
 
-def _new_rules(before: LoadResult, after: LoadResult, least: Severity) -> tuple[str, ...]:
+def new_rules(before: LoadResult, after: LoadResult, least: Severity) -> tuple[str, ...]:
     """Return the rules of the findings that were not there before, without notes where something worse was fixed.
 
-    Of a text that was no XML, only what could be read so far was known: it is enough that more can be read.
+    Of a text that was no XML, only what could be read so far was known: it is enough that more can be read. Of a xacro
+    file that cannot be expanded, the first fault is known: it is enough that it is gone.
     """
+    if before.texts and after.texts:
+        left = {(each.rule, each.message) for each in before.diagnostics if each.is_error}
+        return () if left.isdisjoint((each.rule, each.message) for each in after.diagnostics) else _error_rules(after)
     if before.unreadable or after.unreadable:
         return (
             ()

@@ -64,7 +64,7 @@ def _text_as_attribute(site: FindingSite, name: str) -> Fix | None:
     text = next((each for each in (written, *certain) if each and _is_valid(fact, each, site.file.format)), None)
     if text is None:
         return None
-    slash = TextEdit(Span(place.start_tag.end - 1, place.end_tag.end), "/>")
+    slash = site.edit.replace(site.element, Span(place.start_tag.end - 1, place.end_tag.end), "/>")
     return safe(f'Write {name}="{text}"', site.edit.set_attribute(site.element, name, text), slash)
 
 
@@ -161,12 +161,12 @@ def _stray_text(site: FindingSite) -> Fix | None:
 
 def _without_stray_text(site: FindingSite) -> Fix | None:
     """Make all texts of an element that begin as found comments, or delete them where they say nothing."""
-    runs = _runs_of_text(site).get(site.finding.found, [])
-    if not runs or any("--" in run.of(site.edit.text) and _says_something(run.of(site.edit.text)) for run in runs):
+    runs, text = _runs_of_text(site).get(site.finding.found, []), site.edit.text_with(site.element)
+    if not runs or any("--" in run.of(text) and _says_something(run.of(text)) for run in runs):
         return None
-    if any(_says_something(run.of(site.edit.text)) for run in runs):
-        return safe("Make the text a comment", *(site.edit.comment_out(run) for run in runs))
-    return safe("Delete the characters that belong to nothing", *(_without_text(site.edit.text, run) for run in runs))
+    if any(_says_something(run.of(text)) for run in runs):
+        return safe("Make the text a comment", *(site.edit.comment_out(site.element, run) for run in runs))
+    return safe("Delete the characters that belong to nothing", *(_without_text(site, run) for run in runs))
 
 
 def _runs_of_text(site: FindingSite) -> Mapping[str | None, list[Span]]:
@@ -174,8 +174,9 @@ def _runs_of_text(site: FindingSite) -> Mapping[str | None, list[Span]]:
     memo = site.file.memo.setdefault("runs of text", {})
     if site.element not in memo:
         found = memo[site.element] = defaultdict[str, list[Span]](list)
+        text = site.edit.text_with(site.element)
         for run in site.edit.places[site.element].texts():
-            found[" ".join(run.of(site.edit.text).split())[:_SHOWN]].append(run)
+            found[" ".join(run.of(text).split())[:_SHOWN]].append(run)
     return memo[site.element]
 
 
@@ -191,10 +192,10 @@ def _says_something(text: str) -> bool:
     return any(map(str.isalnum, text))
 
 
-def _without_text(text: str, run: Span) -> TextEdit:
-    piece = run.of(text)
+def _without_text(site: FindingSite, run: Span) -> TextEdit:
+    piece = run.of(site.edit.text_with(site.element))
     start = run.start + len(piece) - len(piece.lstrip())
-    return TextEdit(Span(start, start + len(piece.strip())), "")
+    return site.edit.replace(site.element, Span(start, start + len(piece.strip())), "")
 
 
 def _outside_version(site: FindingSite) -> Fix | None:

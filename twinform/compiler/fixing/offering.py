@@ -6,9 +6,11 @@ theirs through the entry-point group `twinform.fixes`, where the name of an entr
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
+from functools import cache, cached_property
+from pathlib import Path
 from typing import cast
 
+from twinform.compiler.fixing.expanded_editor import ExpandedEditor
 from twinform.compiler.fixing.site import (
     FindingSite,
     FixableFile,
@@ -18,8 +20,11 @@ from twinform.compiler.fixing.site import (
     TextFixers,
     touches_expressions,
 )
+from twinform.compiler.fixing.xacro_values import ComputedError
 from twinform.compiler.input.loading import LoadResult
+from twinform.compiler.input.xacro_mistakes import MOST_TAGS
 from twinform.diagnostics import Diagnostic, Fix, catalog, rules
+from twinform.file_access import Readable
 from twinform.lazy import lazy_pattern
 
 # Rules whose path may lead to an element that is not written: in URDF a <limit> implies its axis.
@@ -32,47 +37,110 @@ _ATTRIBUTE = lazy_pattern(r"/@[^/\]']+$")
 def with_fixes(loaded: LoadResult, wanted: Callable[[Diagnostic], bool] = lambda _: True) -> tuple[Diagnostic, ...]:
     """Return the findings of a file, the wanted ones with their fixes; offsets are in `SourceText.of(content).text`.
 
-    Findings about other files, or about what xacro has made, get no fix.
+    Findings about other files get no fix, unless they are xacro files that the file includes.
     """
     if not any(each.rule.fix and wanted(each) for each in loaded.diagnostics):
         return loaded.diagnostics
-    file = FixableFile.of(loaded)
+    files = _Files(loaded)
+    found = tuple(_offer(each, files) if wanted(each) else each for each in loaded.diagnostics)
+    editor = files.whole.expanded if files.whole else None
+    return found if editor is None else tuple(_only_agreed(each, editor) for each in found)
+
+
+class _Files:
+    """The files that findings are about: what was read, as it was expanded, or a xacro file as it is written."""
+
+    def __init__(self, loaded: LoadResult) -> None:
+        self.loaded = loaded
+        self._texts = loaded.expansion.texts if loaded.expansion else loaded.texts
+        self._sources: dict[str, FixableFile | None] = {}
+        around = Readable.of(Path(loaded.path)) if self._texts else Readable()
+        # packages beside the robot's own, and those of the system, are somebody else's
+        self._own = Readable(around.around, single=around.single)
+
+    @cached_property
+    def whole(self) -> FixableFile | None:
+        """The file that was read."""
+        return FixableFile.of(self.loaded)
+
+    def is_own(self, name: str) -> bool:
+        """Tell whether a file is the robot's own: the one that was read, or one in its repository or package."""
+        return not name or self._own.allows(name)
+
+    def about(self, finding: Diagnostic) -> FixableFile | None:
+        """Return the file that a finding is about; None for one that no fix may change."""
+        name = finding.location.file
+        if _is_about_expanded(finding, self.loaded) or not self._texts:
+            return self.whole if name == self.loaded.path or self.loaded.expansion else None
+        if name not in self._sources and self._texts.get(name, b"").count(b"<") in range(1, MOST_TAGS):
+            as_it_is = replace(self.loaded, path=name, content=self._texts[name], tree=None, expansion=None, origins={})
+            self._sources[name] = FixableFile.of(as_it_is)
+        return self._sources.get(name)
+
+
+def _is_about_expanded(finding: Diagnostic, loaded: LoadResult) -> bool:
+    return bool(finding.related and loaded.origins) and finding.related[0].file == loaded.text_name
+
+
+def _offer(finding: Diagnostic, files: _Files) -> Diagnostic:
+    """Return a finding with its fix, or with what stands against one."""
+    file = files.about(finding) if finding.rule.fix else None
     if file is None:
-        return loaded.diagnostics
-    return tuple(replace(each, fix=_offer(each, file)) if wanted(each) else each for each in loaded.diagnostics)
+        return finding
+    about = finding
+    if file.expanded:
+        about = replace(finding, location=finding.related[0], related=finding.related[1:])
+    try:
+        fix = _make_fix(about, file)
+    except ComputedError as error:
+        return _without_fix(finding, str(error))
+    kept = _kept(fix, file) if fix and fix.edits else None
+    if kept and file is not files.whole and file.loaded.path != files.loaded.path:
+        kept = replace(kept, edits=tuple(edit._replace(file=file.loaded.path) for edit in kept.edits))
+    return replace(finding, fix=kept if kept and all(files.is_own(edit.file) for edit in kept.edits) else None)
 
 
-def _offer(finding: Diagnostic, file: FixableFile) -> Fix | None:
-    if finding.rule.fix is None or finding.location.file != file.loaded.path:
-        return None
-    fix = _make_fix(finding, file)
-    if fix is None or not fix.edits:
-        return None
+def _without_fix(finding: Diagnostic, why: str) -> Diagnostic:
+    return replace(finding, fix=None, help="; ".join(filter(None, (finding.help, f"no fix is offered: {why}"))))
+
+
+def _only_agreed(finding: Diagnostic, editor: ExpandedEditor) -> Diagnostic:
+    """Return a finding without a fix that changes other parts of the robot too."""
+    if finding.fix is None or editor.is_agreed(finding.fix):
+        return finding
+    return _without_fix(finding, "not all that comes from this text needs it")
+
+
+def _kept(fix: Fix, file: FixableFile) -> Fix | None:
+    """Return what is left of a fix without edits that change nothing; None where it must not be made."""
     if len(fix.edits) > _MANY_EDITS:
         # what fixes all places at once is the same for each of a thousand findings
         offered = file.memo.setdefault("offered", set())
         if (fix.title, fix.edits[0].span) in offered:
             return None
         offered.add((fix.title, fix.edits[0].span))
-    changes = tuple(edit for edit in fix.edits if edit.span.of(file.text) != edit.new)
-    return replace(fix, edits=changes) if changes and not touches_expressions(fix, file.text) else None
+    edits = dict.fromkeys(fix.edits)  # a text of a macro is changed once for all its calls
+    changes = tuple(edit for edit in edits if edit.span.of(file.text_of(edit)) != edit.new)
+    return (
+        replace(fix, edits=changes) if changes and (file.expanded or not touches_expressions(fix, file.text)) else None
+    )
 
 
 def _make_fix(finding: Diagnostic, file: FixableFile) -> Fix | None:
     by_text = text_fixer_of(finding.rule.name)
     if by_text is not None:
         return by_text(finding, file)
-    if file.parts is None:
+    if file.parts is None or finding.location.file != file.loaded.text_name:
         return None
     # Fixes are made here from the finding and its element, and not where something is found: no
     # check is slower for them.
     fixer = fixer_of(finding.rule.name)
     where = finding.location
-    element = file.parts.find(where)
+    element = file.find(where)
     missing = None
     if element is None and finding.rule.name in _ABOUT_WHAT_IS_NOT_THERE:
         path, _, missing = where.path.rpartition("/")
-        element = file.parts.find(where._replace(path=path))
+        element = file.find(where._replace(path=path))
     if element is None or fixer is None:
         return None
     name = where.path.rpartition("/@")[2] if _ATTRIBUTE.search(where.path) else None
@@ -105,9 +173,9 @@ def fixers() -> Fixers:
 @cache
 def text_fixers() -> TextFixers:
     """Return our own fixers that work on the text of a file, by the names of their rules."""
-    from twinform.compiler.fixing import fix_names, fix_xml_syntax  # noqa: PLC0415 - as above
+    from twinform.compiler.fixing import fix_names, fix_xacro, fix_xml_syntax  # noqa: PLC0415 - as above
 
-    return {**fix_names.TEXT_FIXERS, **fix_xml_syntax.TEXT_FIXERS}
+    return {**fix_names.TEXT_FIXERS, **fix_xacro.TEXT_FIXERS, **fix_xml_syntax.TEXT_FIXERS}
 
 
 def fixer_of(rule: str) -> Fixer | None:

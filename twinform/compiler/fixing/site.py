@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import Any
 
+from twinform.compiler.fixing.expanded_editor import ExpandedEditor
 from twinform.compiler.input.finding_lines import PartFinder
 from twinform.compiler.input.front_ends import ROOTS, declared_version
 from twinform.compiler.input.loading import LoadResult, read_tree_again
@@ -31,7 +32,10 @@ _BETWEEN_WORDS = lazy_pattern(r"\s+|::|,")
 
 @dataclass(frozen=True)
 class FixableFile:
-    """The text of a file that was read, its elements and their places; `parts` is None where the text is not XML."""
+    """The text of a file that was read, its elements and their places; `parts` is None where the text is not XML.
+
+    What a xacro file expands to has an editor that changes the xacro files.
+    """
 
     loaded: LoadResult
     source: SourceText
@@ -39,8 +43,8 @@ class FixableFile:
 
     @classmethod
     def of(cls, loaded: LoadResult) -> "FixableFile | None":
-        """Prepare a file for fixers; None for a document in memory, for JSON, and for what xacro has made."""
-        if loaded.content is None or loaded.origins:
+        """Prepare a file for fixers; None for a document in memory and for JSON."""
+        if loaded.content is None or (loaded.origins and loaded.expansion is None):
             return None
         try:
             source = SourceText.of(loaded.content)
@@ -49,20 +53,32 @@ class FixableFile:
         try:
             root = read_tree_again(loaded.content) if loaded.tree is None else loaded.tree
             require_well_formed(masked(source.text))
-        except (UnreadableError, UnplacedError, ValueError):
-            return cls(loaded, source)
-        return cls(loaded, source, PartFinder(root))
+            file = cls(loaded, source, PartFinder(root))
+            if loaded.expansion is None or file.expanded:
+                return file
+        except (UnreadableError, UnplacedError, ValueError, LookupError):
+            return cls(loaded, source) if loaded.expansion is None else None
+        return None
 
     @cached_property
     def edit(self) -> Editor:
         """The editor, which knows the place of each element."""
         # Most fixers look at the element first and have nothing to edit, and to find all places takes
         # as long as to read and check the file.
+        if self.expanded is not None:
+            return self.expanded
         if self.parts is None:
             return Editor(TextSurroundings("", "\n", ""), {})
         place = spans(masked(self.text))
         places = dict(zip(self.root.iter("*"), place.walk(), strict=True))
         return Editor(TextSurroundings.of(self.source, place), places)
+
+    @cached_property
+    def expanded(self) -> ExpandedEditor | None:
+        """The editor of what xacro has made."""
+        if self.loaded.expansion is None or self.parts is None:
+            return None
+        return ExpandedEditor.of(self.root, self.loaded.expansion, self.loaded.path)
 
     @property
     def root(self) -> XmlElement:
@@ -74,6 +90,10 @@ class FixableFile:
     def text(self) -> str:
         """The text."""
         return self.source.text
+
+    def text_of(self, edit: TextEdit) -> str:
+        """Return the text that an edit changes."""
+        return self.expanded.source_of(edit) if self.expanded else self.text
 
     @cached_property
     def lines(self) -> Lines:
@@ -120,6 +140,24 @@ class FixableFile:
     def version(self) -> Version:
         """The version by which the document was read."""
         return declared_version(self.root, self.format, DiagnosticSink())
+
+    def find(self, where: Location) -> XmlElement | None:
+        """Return the element that a location leads to, which may be where the element was written."""
+        if self.parts is None:
+            return None
+        if self.expanded is None or where.file == self.loaded.text_name:
+            return self.parts.find(where)
+        found = (self.parts.find(where._replace(line=each.sourceline or 0)) for each in self._written_at(where))
+        return next((each for each in found if each is not None), None)
+
+    def _written_at(self, where: Location) -> list[XmlElement]:
+        """Return the elements that were written on the line of a location."""
+        if "written" not in self.memo and self.expanded:
+            by_place: defaultdict[tuple[str, int] | None, list[XmlElement]] = defaultdict(list)
+            for each in self.expanded.places:
+                by_place[self.expanded.place_of(each)].append(each)
+            self.memo["written"] = by_place
+        return self.memo["written"][where.file, where.line]
 
     def row_of(self, element: XmlElement) -> Fact | None:
         """Return the row of the facts table by which an element is read, with the rows of its content."""
@@ -174,7 +212,7 @@ class FindingSite:
 
     def part(self, where: Location) -> XmlElement | None:
         """Return the element that another location leads to."""
-        return self.file.parts.find(where) if self.file.parts else None
+        return self.file.find(where)
 
 
 Fixer = Callable[[FindingSite], Fix | None]

@@ -18,11 +18,12 @@ from typing import Any, cast
 from lxml import etree
 
 from twinform.child_python import python_command
+from twinform.compiler.input.expansion import Expansion, MacroCall, PartOrigin
 from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.input.parsing import UnreadableError, parse, read_bytes
 from twinform.compiler.input.size_limits import LARGEST
 from twinform.compiler.input.xacro_files import AllowedFiles, DeniedError, variable
-from twinform.compiler.input.xacro_mistakes import report_mistakes
+from twinform.compiler.input.xacro_mistakes import report_mistakes, report_unprefixed
 from twinform.compiler.input.xacro_needs import (
     absent_packages,
     report_empty_arguments,
@@ -33,7 +34,6 @@ from twinform.compiler.input.xacro_needs import (
 )
 from twinform.compiler.observing import note_failure, note_variable
 from twinform.compiler.resolve_uris import SearchPath, UriError
-from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, LineOrigins, Location, nearest_name, rules
 from twinform.lazy import lazy_pattern
 from twinform.schemas import usual_namespace
@@ -63,40 +63,37 @@ _TEXT_IN_BRACES = lazy_pattern(r"is the text '(\{\w+\})'")
 _REMARKS = {"warning: ": rules.XACRO_WARNING, "error: ": rules.XACRO_WARNING}
 
 
-@dataclass(frozen=True, slots=True)
-class Expansion:
-    """The expanded text, and where the elements on its lines were written.
+class ExpansionError(UnreadableError):
+    """A xacro file cannot be expanded; `texts` are the files that were read until then, by their names."""
 
-    `strays` are the places of texts that stand in another file than the element around them, and `texts` all files
-    that were read, by their names.
-    """
-
-    text: bytes
-    origins: LineOrigins
-    strays: Mapping[str, Location]
-    texts: Mapping[str, bytes]
+    def __init__(self, texts: Mapping[str, bytes]) -> None:
+        super().__init__()
+        self.texts = texts
 
 
 def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expansion:
     """The text of a xacro file.
 
     Raises:
-        UnreadableError: it cannot be expanded; the diagnostics tell why.
+        ExpansionError: it cannot be expanded; the diagnostics tell why.
+        UnreadableError: it cannot be read, or becomes too large.
     """
     search = load_options.search
     if search.unsaved_of(path) is None:
         read_bytes(path, sink, load_options.limits, search.readable(path))  # says what is wrong, if it cannot be read
     outcome = _ask_worker(path, load_options)
     _report_remarks(outcome, sink)
+    texts = {shown_name(file, sink.file): each for file, each in outcome.get("texts", {}).items()}
     if "text" not in outcome:
         if not (outcome.get("syntax") and _report_syntax(outcome["place"][0], path, load_options, sink)):
             _report_failure(outcome, path, load_options, sink)
-        raise UnreadableError
+            report_unprefixed(texts, sink)
+        raise ExpansionError(texts)
     report_missing_packages(outcome["absent"], sink)
     for name in outcome["unused"]:
         message = f"the argument {name!r} is not one of the file's"
         sink.report(rules.UNUSED_ARGUMENT, message, Location(line=1), found=name)
-    report_mistakes(sink.file, {shown_name(file, sink.file): each for file, each in outcome["texts"].items()}, sink)
+    report_mistakes(sink.file, texts, sink)
     text = outcome["text"].encode()
     if len(text) > LARGEST:
         message = f"the expanded file has {len(text):,} bytes; the limit is {LARGEST:,}"
@@ -106,7 +103,10 @@ def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expan
     # command prints and by which the writer orders children. Findings name the file that the author
     # can edit first.
     strays = {text: Location(shown_name(file, sink.file), line) for text, file, line in outcome["strays"]}
-    return Expansion(text, _origins(text, outcome["places"], sink.file), strays, outcome["texts"])
+    names = {place[0]: shown_name(place[0], sink.file) for place in (*outcome["places"], *outcome["calls"]) if place}
+    parts = [PartOrigin(names[place[0]], *place[1:]) if place else None for place in outcome["places"]]
+    calls = [MacroCall(names[file], number, around) for file, number, around in outcome["calls"]]
+    return Expansion(text, _origins(text, parts), strays, texts, parts, calls)
 
 
 def _report_failure(outcome: Mapping[str, Any], path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> None:
@@ -126,11 +126,14 @@ def _report_failure(outcome: Mapping[str, Any], path: Path, load_options: LoadOp
         return
     found = _EXPAT.search(outcome["error"])
     column = int(found[1]) + 1 if found else 0
-    advice = _meant_name(outcome) or outcome.get("help")
+    unknown = outcome.get("unknown")
+    meant = nearest_name(unknown["name"], unknown["known"]) if unknown else None
+    advice = _advice(outcome, meant) or outcome.get("help")
     where = Location(shown_name(file, sink.file), line, "", column)
     message = shown_message(outcome["error"], sink.file)
     if not report_empty_arguments(message, path, where, load_options, sink):
-        sink.report(rules.XACRO_ERROR, message, where, help=advice or None)
+        name = unknown and unknown["name"]
+        sink.report(rules.XACRO_ERROR, message, where, found=name, expected=meant, help=advice or None)
 
 
 def _report_syntax(file: str, path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> bool:
@@ -151,7 +154,7 @@ def _report_syntax(file: str, path: Path, load_options: LoadOptions, sink: Diagn
     return True
 
 
-def _meant_name(outcome: Mapping[str, Any]) -> str:
+def _advice(outcome: Mapping[str, Any], near: str | None) -> str:
     """Say which name may have been meant by an unknown one, and where that is defined."""
     text = _TEXT_IN_BRACES.search(outcome["error"])
     if text:
@@ -159,7 +162,6 @@ def _meant_name(outcome: Mapping[str, Any]) -> str:
     unknown = outcome.get("unknown")
     if unknown is None:
         return ""
-    near = nearest_name(unknown["name"], unknown["known"])
     if near:
         place = unknown["known"][near]
         where = f" ({Path(place[0]).name}:{place[1]})" if place else ""
@@ -176,18 +178,15 @@ def _report_remarks(outcome: Mapping[str, Any], sink: DiagnosticSink) -> None:
         sink.report(rule, text.removeprefix(start), Location(shown_name(file, sink.file), line))
 
 
-def _origins(text: bytes, places: list[tuple[str, int] | None], main: str) -> LineOrigins:
-    """Elements are in the same order in the expanded text and in the list of places."""
+def _origins(text: bytes, parts: Iterable[PartOrigin | None]) -> LineOrigins:
+    """Elements are in the same order in the expanded text and in the list of their origins."""
     parser = etree.XMLParser(remove_comments=True, remove_pis=True, resolve_entities=False, no_network=True)
     try:
         root = etree.fromstring(text, parser)
     except etree.XMLSyntaxError:
         return LineOrigins()  # reading the text will say what is wrong with it
-    pairs = zip(root.iter(), places, strict=False)
-    names = {file: shown_name(file, main) for file in {place[0] for place in places if place}}
-    return LineOrigins.of(
-        (element.sourceline or 0, Location(names[place[0]], place[1])) for element, place in pairs if place
-    )
+    pairs = zip(root.iter(), parts, strict=False)
+    return LineOrigins.of((element.sourceline or 0, Location(*part[:2])) for element, part in pairs if part)
 
 
 def _ask_worker(path: Path, load_options: LoadOptions) -> dict[str, Any]:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NamedTuple, TypedDict
 
 from twinform.compiler.input.allowances import Allowances
+from twinform.compiler.input.expansion import Expansion
 from twinform.compiler.input.size_limits import LARGEST, MOST_TAGS, USUAL_LIMITS, Limits, parse_size
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.resolve_uris import SearchPath
@@ -147,6 +148,10 @@ class LoadOptions:
         """Return the options for a reader that knows SDF up to a version, or unchanged where that is None."""
         return self if sdf_version is None else replace(self, sdf_version=sdf_version)
 
+    def with_unsaved(self, texts: Mapping[str, bytes]) -> "LoadOptions":
+        """Return the options for reading files that have other texts than on the disk, by paths without links."""
+        return replace(self, search=replace(self.search, unsaved={**self.search.unsaved, **texts})) if texts else self
+
     def allowances(self, file: str, origins: Mapping[str, LineOrigins] | None = None) -> Allowances:
         """Return what may be left out of the findings about a file."""
         return Allowances(file, self.allow, self.limits, self.tolerant, origins or {})
@@ -176,7 +181,8 @@ class LoadResult:
     their files, `entries` what became of parts of them, and `mixed` means that the files may be of several versions.
     `allowed` are the findings that the caller or a comment in a file allows, and `allowances` decide about further
     findings. `comments` are those of the file, where they are kept. Where some part lacks what it needs, there is no
-    document, and what could be `recovered` of it.
+    document, and what could be `recovered` of it. `expansion` is that of a xacro file, and `texts` are the files that
+    were read of one which cannot be expanded.
     """
 
     path: str
@@ -194,6 +200,8 @@ class LoadResult:
     allowances: Allowances | None = field(default=None, repr=False, compare=False)
     comments: Comments | None = field(default=None, repr=False, compare=False)
     recovered: Recovered | None = field(default=None, repr=False, compare=False)
+    expansion: Expansion | None = field(default=None, repr=False, compare=False)
+    texts: Mapping[str, bytes] = field(default_factory=dict[str, bytes], repr=False, compare=False)
 
     @property
     def text_name(self) -> str:

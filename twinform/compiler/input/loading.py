@@ -94,11 +94,11 @@ def _read_source(source: str | Path | bytes, sink: DiagnosticSink, load_options:
         if not isinstance(source, bytes) and (load_options.xacro or str(source).lower().endswith(XACRO)):
             return _read_xacro(Path(source), sink, load_options)
         text = source if isinstance(source, bytes) else bytes_of(Path(source), sink, load_options)
-    except UnreadableError:
-        # Fixes of XML are made in the text of a xacro file, which nothing has expanded.
-        is_broken = any(each.rule is rules.NOT_WELL_FORMED for each in sink.diagnostics)
-        content = _unexpanded(Path(source), load_options) if is_broken and not isinstance(source, bytes) else None
-        return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True, content=content)
+    except UnreadableError as error:
+        # Fixes of what cannot be expanded are made in the texts of the files, which nothing has expanded.
+        texts: Mapping[str, bytes] = getattr(error, "texts", {})
+        content = texts.get(sink.file)
+        return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True, content=content, texts=texts)
     allowances = load_options.allowances(sink.file)
     if not _JSON.match(text):
         allowances.read(text, sink)
@@ -199,9 +199,16 @@ def _read_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> 
         from twinform.compiler.input.xacro_mistakes import with_calls  # noqa: PLC0415 - few files have any
 
         sink.diagnostics[:] = with_calls(sink.diagnostics, expansion.texts)
+    if any(each.rule is rules.UNPREFIXED_ELEMENT for each in sink.diagnostics):
+        from twinform.compiler.input.xacro_mistakes import without_unprefixed  # noqa: PLC0415 - as above
+
+        sink.diagnostics[:] = without_unprefixed(sink.diagnostics)
     allowances.settle(sink)
     allowed = (*loaded.allowed, *sink.allowed)
-    return replace(loaded, path=sink.file, diagnostics=tuple(sink.diagnostics), origins=sink.origins, allowed=allowed)
+    found = tuple(sink.diagnostics)
+    return replace(
+        loaded, path=sink.file, diagnostics=found, origins=sink.origins, allowed=allowed, expansion=expansion
+    )
 
 
 def _unexpanded(path: Path, load_options: LoadOptions) -> bytes:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 from twinform.compiler.input.include_graph import IncludeGraph
 from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.resolve_uris import UriError
-from twinform.diagnostics import DiagnosticSink, Location, rules
+from twinform.diagnostics import DiagnosticSink, Location, did_you_mean, rules
 from twinform.file_access import Readable, package_around
 
 _ENDINGS = (".launch", ".launch.xml", ".launch.py", ".launch.yaml")
@@ -122,7 +122,15 @@ def report_missing_arguments(
     if first in defaults:
         message += f"; the default of {first!r} stands behind this place"
     known = values_in_launch_files(path, names, load_options.search.readable(path))
-    sink.report(rules.MISSING_ARGUMENT, message, where, found=f"$(arg {first})", help=_advice(path, names, known))
+    meant = did_you_mean(first, _defined_arguments(path, load_options)) if len(names) == 1 and not known else None
+    help = "\n".join(filter(None, (meant, _advice(path, names, known))))
+    sink.report(rules.MISSING_ARGUMENT, message, where, found=f"$(arg {first})", help=help)
+
+
+def _defined_arguments(path: Path, load_options: LoadOptions) -> set[str]:
+    """Return the arguments that a file or one that it includes defines."""
+    closure = IncludeGraph(load_options.search).closure(os.path.realpath(path))
+    return {name for _, each in closure for name in each.arguments}
 
 
 def report_empty_arguments(

@@ -50,24 +50,25 @@ class Reporter(Protocol):
 
 
 class PlacedEdit(NamedTuple):
-    """An edit of a fix between two places, given as lines and columns from 1."""
+    """An edit of a fix in a file, between two places given as lines and columns from 1."""
 
     start: tuple[int, int]
     end: tuple[int, int]
     new: str
+    file: str
 
 
 def placed_edits(diagnostic: Diagnostic, file: str, texts: FileTexts) -> list[PlacedEdit] | None:
     """Return the edits of a finding's fix; None if it has none or their places are unknown."""
     if diagnostic.fix is None:
         return None
-    name = diagnostic.location.file or file
     found: list[PlacedEdit] = []
-    for span, new in diagnostic.fix.edits:
+    for span, new, other in diagnostic.fix.edits:
+        name = other or file
         start, end = texts.place(name, span.start), texts.place(name, span.end)
         if start is None or end is None:
             return None
-        found.append(PlacedEdit(start, end, new))
+        found.append(PlacedEdit(start, end, new, name))
     return found
 
 

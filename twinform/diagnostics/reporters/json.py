@@ -9,8 +9,8 @@ from twinform.diagnostics.reporters.file_findings import NO_TEXTS, FileFindings,
 def json(files: Sequence[FileFindings]) -> str:
     """`{"files": [{"path", "diagnostics": [...]}]}`; every key is always there, and 0 means an unknown line or column.
 
-    Columns count characters from 1, and ends are behind the piece. Only a finding in another file than the one that was
-    asked for, such as an included one, names its `file`.
+    Columns count characters from 1, and ends are behind the piece. Only what is in another file than the one that was
+    asked for, such as an included one, names its `file`: findings, and edits of fixes.
     """
     import json as jsonlib  # noqa: PLC0415 - few runs write it
 
@@ -52,7 +52,14 @@ def _fix(diagnostic: Diagnostic, file: str, texts: FileTexts) -> dict[str, objec
     if diagnostic.fix is None or replacements is None:
         return None
     edits = [
-        {"line": start[0], "column": start[1], "end_line": end[0], "end_column": end[1], "new": new}
-        for start, end, new in replacements
+        {
+            "line": start[0],
+            "column": start[1],
+            "end_line": end[0],
+            "end_column": end[1],
+            "new": new,
+            **({} if name == file else {"file": name}),
+        }
+        for start, end, new, name in replacements
     ]
     return {"title": diagnostic.fix.title, "safety": str(diagnostic.fix.safety), "edits": edits}

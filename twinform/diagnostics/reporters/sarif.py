@@ -1,13 +1,13 @@
 """The report for code scanning: SARIF 2.1.0."""
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import quote
 
 from twinform.diagnostics.catalog import HOME, catalog, rule_address
 from twinform.diagnostics.diagnostic import Diagnostic, Location, Rule, Safety, Severity
-from twinform.diagnostics.reporters.file_findings import FileFindings, placed_edits
+from twinform.diagnostics.reporters.file_findings import FileFindings, PlacedEdit, placed_edits
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 _FINGERPRINT = "finding/v1"
@@ -96,24 +96,27 @@ def _fixes(diagnostic: Diagnostic, file: FileFindings) -> list[dict[str, object]
     edits = placed_edits(diagnostic, file.path, file.texts)
     if diagnostic.fix is None or not edits:
         return []
-    replacements = [
-        {
-            "deletedRegion": {
-                "startLine": start[0],
-                "startColumn": start[1],
-                "endLine": end[0],
-                "endColumn": end[1],
-            },
-            "insertedContent": {"text": new},
-        }
-        for start, end, new in edits
+    by_file: defaultdict[str, list[PlacedEdit]] = defaultdict(list)
+    for edit in edits:
+        by_file[edit.file].append(edit)
+    changes = [
+        {"artifactLocation": {"uri": _uri(name)}, "replacements": [*map(_replacement, found)]}
+        for name, found in by_file.items()
     ]
-    artifact = {"uri": _uri(diagnostic.location.file or file.path)}
-    changes = [{"artifactLocation": artifact, "replacements": replacements}]
     # SARIF has no field for it, and a reader that shows only the text has to know it too.
     safety = str(diagnostic.fix.safety)
     title = diagnostic.fix.title if diagnostic.fix.safety is Safety.SAFE else f"{diagnostic.fix.title} ({safety})"
     return [{"description": {"text": title}, "artifactChanges": changes, "properties": {"safety": safety}}]
+
+
+def _replacement(edit: PlacedEdit) -> dict[str, object]:
+    region = {
+        "startLine": edit.start[0],
+        "startColumn": edit.start[1],
+        "endLine": edit.end[0],
+        "endColumn": edit.end[1],
+    }
+    return {"deletedRegion": region, "insertedContent": {"text": edit.new}}
 
 
 def _uri(file: str) -> str:

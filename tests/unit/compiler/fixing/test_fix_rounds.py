@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from twinform.compiler import LoadOptions, LoadResult, inspect, read
-from twinform.compiler.fixing import apply_fixes, apply_fixes_by
+from twinform.compiler.fixing import Texts, apply_fixes, apply_fixes_by
 from twinform.compiler.fixing.fix_rounds import MOST_ROUNDS
 from twinform.diagnostics import Diagnostic, Fix, Location, Rule, Safety, Severity, Span, TextEdit
 
@@ -109,8 +109,9 @@ BAD = Rule(name="bad", severity=Severity.WARNING, finds="", matters="", example=
 WORSE = Rule(name="worse", severity=Severity.WARNING, finds="", matters="", example="", better="")
 
 
-def _look(data: bytes) -> LoadResult:
+def _look(texts: Texts) -> LoadResult:
     """Finds each letter b, and each c, which nobody can fix."""
+    data = texts[""]
     text = data.decode()
     found = [
         Diagnostic(BAD if letter == "b" else WORSE, letter, Location("", 1, f"/{letter}{at}"), Severity.WARNING)
@@ -168,9 +169,9 @@ def test_a_large_file_is_not_read_as_often_to_find_the_bad_fixes(
     monkeypatch.setattr("twinform.compiler.fixing.fix_rounds.with_fixes", _offering(edits))
     looks: list[bytes] = []
 
-    def look(data: bytes) -> LoadResult:
-        looks.append(data)
-        return _look(data[:300])
+    def look(texts: Texts) -> LoadResult:
+        looks.append(texts[""])
+        return _look({"": texts[""][:300]})
 
     fixed = apply_fixes_by(look, text)
     assert (len(looks), fixed.data) == (1 + most, text)

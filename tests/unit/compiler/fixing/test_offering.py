@@ -45,10 +45,12 @@ def test_expressions_are_left_alone(value: str) -> None:
     assert _offered(_box(value).encode())["invalid-value"].fix is None
 
 
-def test_what_xacro_makes_has_none(tmp_path: Path) -> None:
+def test_what_xacro_makes_is_fixed_where_it_is_written(tmp_path: Path) -> None:
     path = tmp_path / "r.urdf.xacro"
     path.write_text(_box("1,1,1"))
-    assert _offered(path)["invalid-value"].fix is None
+    fix = _offered(path)["invalid-value"].fix
+    assert fix
+    assert apply(path.read_text(), fix.edits) == _box("1 1 1")
 
 
 def test_json_has_none() -> None:

@@ -8,8 +8,12 @@ from xml.parsers.expat import ExpatError
 
 _MOST_TAGS = 1_000_000
 _KEY = "source"
+_NUMBER = "number"
+_CALL = "call"
 
 FileLine = tuple[str, int]
+PartPlace = tuple[str, int, int, int]
+"""A file and line, the number of the element in the file from 0, and that of the call in which it was evaluated."""
 
 
 class BadFileError(Exception):
@@ -41,11 +45,14 @@ class _Builder(expatbuilder.ExpatBuilderNS):
     def __init__(self, file: str) -> None:
         super().__init__()
         self.file = file
+        self.count = 0
 
     def start_element_handler(self, name: str, attributes: Any) -> None:
         super().start_element_handler(name, attributes)
         element: Any = self.curNode
         element.setUserData(_KEY, (self.file, self.getParser().CurrentLineNumber), _KEEPER)
+        element.setUserData(_NUMBER, self.count, _KEEPER)
+        self.count += 1
 
     def character_data_handler_cdata(self, data: str) -> None:
         super().character_data_handler_cdata(data)
@@ -85,12 +92,13 @@ def place_of(node: Any) -> FileLine | None:
     return None
 
 
-def places_below(root: Any) -> Iterator[FileLine | None]:
+def places_below(root: Any) -> Iterator[PartPlace | None]:
     """The places of all elements in the order of the document; no recursion, since the document may be deep."""
     stack = [root]
     while stack:
         element = stack.pop()
-        yield element.getUserData(_KEY)
+        source = element.getUserData(_KEY)
+        yield (*source, element.getUserData(_NUMBER), element.getUserData(_CALL) or 0) if source else None
         stack.extend(node for node in reversed(element.childNodes) if node.nodeType == node.ELEMENT_NODE)
 
 
@@ -110,10 +118,11 @@ def _texts_in(element: Any) -> Iterator[tuple[str, str, int]]:
 
 
 class Call(NamedTuple):
-    """A macro that is being expanded, and where it is called."""
+    """A macro that is being expanded, where it is called, and the number of the call from 1."""
 
     macro: str
     place: FileLine
+    number: int
 
 
 class Definitions:
@@ -124,11 +133,16 @@ class Definitions:
         self.properties: dict[str, FileLine | None] = {}
         self.macros: dict[str, FileLine | None] = {}
         self.calls: list[Call] = []
+        self.made: list[tuple[str, int, int]] = []
+        """All calls so far: the file, the number of the element in it, and that of the call around it, or 0."""
         self.files = files
 
     def note(self, function: str, node: Any) -> None:
         """Note the element, and the definition, that a function of xacro is about to read."""
         self.here = place_of(node)
+        if function == "eval_all" and node.getUserData(_CALL) is None:
+            # A block is evaluated where it is written first, and then once more where it is inserted.
+            node.setUserData(_CALL, self._call, _KEEPER)
         known = {"grab_property": self.properties, "grab_macro": self.macros}.get(function)
         if known is not None:
             known[node.getAttribute("name").removeprefix("xacro:")] = self.here
@@ -138,8 +152,13 @@ class Definitions:
         place = place_of(node)
         if place is None or not node.tagName.startswith("xacro:"):
             return False
-        self.calls.append(Call(node.tagName.removeprefix("xacro:"), place))
+        self.made.append((place[0], node.getUserData(_NUMBER), self._call))
+        self.calls.append(Call(node.tagName.removeprefix("xacro:"), place, len(self.made)))
         return True
+
+    @property
+    def _call(self) -> int:
+        return self.calls[-1].number if self.calls else 0
 
     def around(self) -> str:
         """Say which macro is being expanded, and where it is called."""
@@ -147,7 +166,7 @@ class Definitions:
         inside = [call for call in self.calls if call.macro in self.macros and call.place != self.here]
         if not inside:
             return ""
-        macro, (file, line) = inside[-1]
+        macro, (file, line), _ = inside[-1]
         return f" (in macro {macro!r}, called at {basename(file)}:{line})"
 
     def circle(self) -> str:

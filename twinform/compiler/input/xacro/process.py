@@ -126,7 +126,7 @@ def _expanded(expander: Expander, arguments: dict[str, str]) -> dict[str, Any]:
         return {"error": str(error), "place": error.place, "syntax": error.is_syntax}
     except Exception as error:  # noqa: BLE001 - an expression may raise anything, and it is the file's fault
         return {**description(error, expander.definitions), "place": expander.place()}
-    return {"text": text, "places": places, "strays": strays}
+    return {"text": text, "places": places, "calls": expander.definitions.made, "strays": strays}
 
 
 def main() -> None:
