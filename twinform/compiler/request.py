@@ -10,7 +10,7 @@ from twinform.passes import NO_ASSETS, Assets, Pass, Pipeline
 from twinform.passes.carriers.annotations import has_mixed_words, source_version
 from twinform.passes.legalise import Target, legalisation
 from twinform.request_options import URDF_VERSIONS, Language, Requested, RequestOptions, UrdfVersion, known_sdf_version
-from twinform.schemas import DEFAULT_SDF_VERSION, versions_of
+from twinform.schemas import DEFAULT_SDF_VERSION, print_version, version_read, versions_of
 
 _OPTIONS = tuple(each.name for each in fields(Requested))
 
@@ -74,12 +74,17 @@ class ConversionRequest(Requested):
         """Return the target for a document: in the requested version, or else in the one that it came from."""
         own = source.version if source.format is Format.SDF else None
         before = None if source.format is format_ else source_version(source, format_)
+        if source.format is format_ is Format.URDF:
+            before = print_version(version_read("urdf", source.version))
         before = before if before in versions_of(format_) else None
         version = self.sdf_version or own or before or DEFAULT_SDF_VERSION
         known: dict[str, UrdfVersion] = {each: each for each in URDF_VERSIONS}
         urdf = self.urdf_version or known.get(before or "", "1.0")
-        back = (version if format_ is Format.SDF else urdf) == before and has_mixed_words(source)
-        return Target(format_, version, urdf, self.requested, back, self.mixed)
+        if source.format is format_:  # words of a newer URDF stay in an older one, whose readers ignore them
+            mixed = format_ is Format.URDF and urdf != before
+        else:
+            mixed = (version if format_ is Format.SDF else urdf) == before and has_mixed_words(source)
+        return Target(format_, version, urdf, self.requested, mixed, self.mixed)
 
 
 def _pipeline(passes: str | Iterable[Pass] | None) -> Pipeline:

@@ -63,7 +63,7 @@ def _tidy_shape(link: Link, part: Part, names: set[str], sink: DiagnosticSink) -
     elif isinstance(shape, Capsule):
         message = f"a capsule of link {link.name!r} becomes a cylinder and two spheres"
         sink.report(REPLACED_SHAPE, message, part.location)
-        yield from _replace_capsule(part, shape, names)
+        yield from shapes_of_capsule(part, shape, names)
     elif geometry.opaque:
         message = f"what is beside the shape of a {kind} of link {link.name!r} is left out"
         sink.report(REPLACED_SHAPE, message, part.location)
@@ -78,7 +78,8 @@ def _drop(part: Visual | Collision, message: str, sink: DiagnosticSink) -> None:
     sink.account(Fate.DROPPED, REPLACED_SHAPE, message, part.location)
 
 
-def _replace_capsule(part: Part, shape: Capsule, names: set[str]) -> Iterator[Part]:
+def shapes_of_capsule(part: Part, shape: Capsule, names: set[str]) -> Iterator[Part]:
+    """Yield a cylinder and two spheres that are a capsule together; `names` are taken, and get theirs."""
     radius, length = sizes(shape)
     yield replace_fields(part, geometry=Geometry(shape=Cylinder(radius=radius, length=length)))
     for height in (length / 2, -length / 2):

@@ -5,9 +5,9 @@ from functools import cache, lru_cache
 
 from twinform.dataclass import dataclass
 from twinform.ir import Format
+from twinform.ir.versions import parse_version, version_read, versions_of
 from twinform.passes.framework.pass_base import Pass
 from twinform.request_options import USUAL, Requested, UrdfVersion
-from twinform.schemas import versions_of
 
 __all__ = ["Target", "legalisation"]
 
@@ -33,7 +33,9 @@ def legalisation(source: Format, version: str | None, target: Target) -> tuple[P
     """Every pass that a document of `source` in `version` needs before the target's back end can write it."""
     # imported here: a conversion goes one way only, and each way has many passes
     if source is target.format:
-        if source is Format.URDF or version == target.sdf_version:
+        if source is Format.URDF:
+            return _between_urdf(version, target.urdf_version)
+        if version == target.sdf_version:
             return ()
         from twinform.passes.sdf_versions import change_version  # noqa: PLC0415 - see above
 
@@ -45,6 +47,14 @@ def legalisation(source: Format, version: str | None, target: Target) -> tuple[P
     from twinform.passes.legalise.to_urdf.sequence import to_urdf  # noqa: PLC0415 - see above
 
     return to_urdf(target.urdf_version, target.requested, mixed=target.mixed, mixed_source=target.mixed_source)
+
+
+def _between_urdf(declared: str | None, version: UrdfVersion) -> tuple[Pass, ...]:
+    if version_read("urdf", declared) == parse_version(version):
+        return ()
+    from twinform.passes.legalise.fit_urdf_version import FitUrdfVersion  # noqa: PLC0415 - few ask for it
+
+    return (FitUrdfVersion.unchecked(version=version),)
 
 
 @cache
@@ -59,4 +69,5 @@ def _ways() -> Iterator[tuple[Pass, ...]]:
         yield legalisation(Format.URDF, None, Target(Format.SDF, version))
         for other in versions:
             yield legalisation(Format.SDF, version, Target(Format.SDF, other))
+    yield legalisation(Format.URDF, None, Target(Format.URDF, urdf_version="1.2"))
     yield legalisation(Format.SDF, versions[-1], Target(Format.URDF))

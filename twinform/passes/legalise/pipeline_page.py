@@ -10,6 +10,7 @@ from twinform.passes.framework.pass_base import Pass
 from twinform.passes.framework.passes_page import summary
 from twinform.passes.framework.pipeline import Pipeline
 from twinform.passes.legalise import Target, legalisation
+from twinform.request_options import URDF_VERSIONS
 from twinform.schemas import versions_of
 
 _INTRODUCTION = """\
@@ -58,6 +59,9 @@ def directions() -> Iterator[ConversionDirection]:
     remark = "Of these, those run that lie between the two versions."
     yield ConversionDirection("From older SDF to newer", Format.SDF, oldest, Target(Format.SDF, newest), remark)
     yield ConversionDirection("From newer SDF to older", Format.SDF, newest, Target(Format.SDF, oldest), remark)
+    remark = "Where `--urdf-version` asks for another version than that of the file, newer or older."
+    to = Target(Format.URDF, urdf_version=URDF_VERSIONS[-1])
+    yield ConversionDirection("From URDF to another version", Format.URDF, None, to, remark)
 
 
 def pipeline_page() -> str:

@@ -5,6 +5,7 @@ from twinform.passes.carriers.misplaced import DropMisplaced
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.changed_names import RestoreNames
 from twinform.passes.legalise.drop_stale import DropStale
+from twinform.passes.legalise.fit_urdf_version import FitUrdfVersion
 from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers
 from twinform.passes.legalise.to_urdf.build_tree import BuildTree
 from twinform.passes.legalise.to_urdf.carry_the_rest import CarryTheRest
@@ -96,6 +97,8 @@ def to_urdf(
         UnpackUrdf.unchecked(),
         RestoreInertias.unchecked(),
         PlaceFreeLinks.unchecked(carriers=carriers),
+        # What came back from an older URDF begins to mean something.
+        *(() if urdf_version == "1.0" else (FitUrdfVersion.unchecked(version=urdf_version),)),
         # Last: whatever carrier nobody has taken by now fits nothing any more.
         DropStale.unchecked(to=Format.URDF),
         RoundTinyNumbers.unchecked(to=Format.URDF),
