@@ -3,6 +3,7 @@
 In a folder of somebody else use the command, or `python -P -m twinform`.
 """
 
+import gc
 import sys
 import warnings
 
@@ -12,11 +13,15 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any, NoReturn
 
+# New objects before the garbage collector looks for cycles; with Python's default of 700 it walks all imports again.
+_MANY = 50_000
+
 end_on_signals()  # before the command line is imported, which takes longer than many commands
 
 
 def program() -> "NoReturn":
     """Run the command line and leave the process, as the installed script does; `main` is for other programs."""
+    gc.set_threshold(_MANY)  # before the imports, which make half of all objects
     from twinform.cli import main  # noqa: PLC0415 - see above
     from twinform.cli.process import distrust_current_folder, run  # noqa: PLC0415 - see above
 

@@ -6,7 +6,6 @@ the streams, calls the exit handlers, and leaves the rest to the system.
 
 import atexit
 import errno
-import gc
 import os
 import sys
 import threading
@@ -16,10 +15,6 @@ from pathlib import Path
 from typing import NoReturn
 
 import twinform
-
-# New objects before the garbage collector looks for cycles; with Python's default of 700 it walks all imports again.
-_MANY = 50_000
-
 
 _UNREAD = 128 + 13
 """Exit code of a program that is ended by a broken pipe, as shells give it."""
@@ -101,7 +96,6 @@ def _stop_importing_from(folder: Path) -> None:
 
 def run(command: Callable[[], object]) -> NoReturn:
     """Run a command line that ends with `SystemExit`, and leave the process with its exit code."""
-    gc.set_threshold(_MANY)
     try:
         command()
     except SystemExit as end:

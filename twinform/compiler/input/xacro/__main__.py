@@ -1,5 +1,6 @@
 """The script that starts the process which expands xacro."""
 
+import gc
 import sys
 from os.path import abspath, dirname
 from types import ModuleType
@@ -22,6 +23,7 @@ def add_packages() -> None:
 
 
 if __name__ == "__main__":
+    gc.set_threshold(50_000)  # trees of XML are full of circles, among which it would look for garbage all the time
     add_packages()
     from twinform.compiler.input.xacro.process import main
 
