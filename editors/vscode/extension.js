@@ -14,7 +14,12 @@ async function start() {
     "twinform",
     { command, args },
     {
-      documentSelector: LANGUAGES.flatMap((language) => [{ scheme: "file", language }, { scheme: "untitled", language }]),
+      documentSelector: [
+        ...LANGUAGES.flatMap((language) => [{ scheme: "file", language }, { scheme: "untitled", language }]),
+        // what names joints and links; the server leaves other YAML alone
+        { scheme: "file", language: "yaml" },
+        { scheme: "file", pattern: "**/*.srdf" },
+      ],
       // close_tags.js asks for them
       middleware: { provideOnTypeFormattingEdits: () => [] },
     },

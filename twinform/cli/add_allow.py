@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from twinform.cli.inputs import InputSource
+from twinform.cli.model_files import PARAMETERS
 from twinform.cli.outputs import Rewrite
 from twinform.cli.printing import plural, print_line
 from twinform.diagnostics import Diagnostic, Span, TextEdit, rules
@@ -48,6 +49,8 @@ def allow_found(sources: Sequence[InputSource], found: Iterable[Diagnostic]) -> 
 def _with_comments(source: InputSource, found: Sequence[Diagnostic]) -> tuple[Rewrite | None, Sequence[Diagnostic]]:
     """Return a file with comments, and the findings that none of these allow."""
     path = Path(source.name)
+    if path.name.lower().endswith(PARAMETERS):  # comments are of XML here
+        return None, found
     try:
         data = Readable.of(path).read(path)
         before = SourceText.of(data)

@@ -67,6 +67,12 @@ check_options = group(
     help="Read-only passes, such as 'check-inertia,check-limits', or @NAME for one that the configuration names.",
 )
 @consumers_option
+@click.option(
+    "--robot",
+    type=click.Path(exists=True, dir_okay=False),
+    metavar="FILE",
+    help="The robot that SRDF and parameters of controllers, MoveIt and Nav2 are for; else it is looked for.",
+)
 @exclude_options
 @exit_options
 @run_options
@@ -86,9 +92,10 @@ def command(
 ) -> None:
     """Find everything that is wrong with robot models.
 
-    IN are URDF, SDF, xacro or JSON files, folders of them, or globs in quotes; - is standard input. Arguments of xacro
-    are written NAME:=VALUE. The nearest twinform.toml of each file has its settings. Exit code: 0 without errors, 1
-    with errors, 2 where a file that is named cannot be opened.
+    IN are URDF, SDF, xacro or JSON files, files that name the parts of a robot (SRDF, and YAML for controllers, MoveIt
+    and Nav2), folders of them, or globs in quotes; - is standard input. Arguments of xacro are written NAME:=VALUE. The
+    nearest twinform.toml of each file has its settings. Exit code: 0 without errors, 1 with errors, 2 where a file that
+    is named cannot be opened.
     """
     # How a file is read, the rules, passes and consumers depend on its configuration: `OptionsByFile` has them.
     exclusion = partial(exclusion_of, ctx, exclude, force=force_exclude)

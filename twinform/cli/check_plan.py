@@ -1,4 +1,4 @@
-"""What `twinform check` does with each file: whether it is a robot or a part of others, and who named it."""
+"""What `twinform check` does with each file: whether it is a robot, part of one or a companion, and who named it."""
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from twinform.cli.model_files import PARAMETERS, SRDF, is_companion_file
 from twinform.compiler.input.load_options import XACRO
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Severity, is_typo, rules
@@ -46,9 +47,11 @@ class CheckPlan:
         """
         typed = {os.path.abspath(word) for word in words}  # noqa: PTH100 - links stay links
         named = frozenset(each.name for each in sources if os.path.abspath(each.name) in typed)  # noqa: PTH100 - as above
-        files = [each.content for each in sources if isinstance(each.content, str) and _may_be_part(each.content)]
+        names = [each.content for each in sources if isinstance(each.content, str)]
+        companions = {name: "companion" for name in names if _is_companion(name)}
+        files = [name for name in names if _may_be_part(name)]
         if not files or load_options.xacro is False:
-            return cls({}, named)
+            return cls(companions, named)
 
         def read() -> list[str]:
             from twinform.compiler.input.include_graph import IncludeGraph  # noqa: PLC0415 - few files are xacro
@@ -56,7 +59,7 @@ class CheckPlan:
             return list(IncludeGraph(load_options.search).roles(files).values())
 
         roles = remember(("roles", files, load_options.search), read)
-        return cls(dict(zip(files, roles, strict=True)), named)
+        return cls({**companions, **dict(zip(files, roles, strict=True))}, named)
 
 
 def with_outside_faults(loaded: "LoadResult", *, named: bool) -> "LoadResult":
@@ -87,6 +90,10 @@ def _is_near_model(root: str) -> bool:
 def folders_asked(words: Sequence[str]) -> tuple[Path, ...]:
     """Return the folders of a command line, in which packages are looked for as in a workspace."""
     return tuple(Path(word) for word in words if os.path.isdir(word) and may_be_root(Path(word).absolute()))  # noqa: PTH112 - is_dir raises where a name is too long
+
+
+def _is_companion(name: str) -> bool:
+    return name.lower().endswith((SRDF, *PARAMETERS)) and is_companion_file(Path(name))
 
 
 def _may_be_part(name: str) -> bool:

@@ -185,6 +185,12 @@ class CheckTask:
             click.UsageError: a pass changes the model.
             Unusable: a pass is at fault.
         """
+        if self.role == "companion":
+            from twinform.compiler.companions.check_companion import check_companion  # noqa: PLC0415 - few have any
+
+            content = self.source.content if isinstance(self.source.content, bytes) else None
+            found = check_companion(Path(self.source.name), self.load_options, content)
+            return found if self.load_options.strict else with_outside_faults(found, named=self.named)
         if self.role != "part":
             loaded = self._look_at_robot()
             if self.role == "robot" or not loaded.unreadable:

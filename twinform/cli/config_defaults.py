@@ -11,7 +11,7 @@ from click.core import ParameterSource
 from twinform.cli.command import combine_options
 from twinform.cli.config_file import ConfigError, Searched, Table, section
 from twinform.cli.presets import with_preset
-from twinform.cli.settings_of_files import PerFile, RuleSettings, parse_patterns
+from twinform.cli.settings_of_files import OwnSettings, PerFile, RuleSettings, parse_patterns
 from twinform.dataclass import dataclass
 
 if TYPE_CHECKING:
@@ -90,6 +90,21 @@ class Project:
         for folder in self.paths:
             require_inside(self.path, Path(folder), "paths")
         return self.paths
+
+    def robot_of(self, own: OwnSettings) -> str:
+        """Return the file of the robot that a file is for; empty where its settings name none.
+
+        Raises:
+            ConfigError: it is outside of the folder of the configuration.
+        """
+        if self.path is None or own.robot is None:
+            return ""
+        name, key = own.robot
+        if not self.trusted:
+            from twinform.cli.config_trust import require_inside  # noqa: PLC0415 - few files name one
+
+            require_inside(self.path, self.path.parent / name, key)
+        return str(self.path.parent / name)
 
     @property
     def variables(self) -> Sequence[str]:

@@ -67,6 +67,7 @@ class FileSettings(RuleTable):
     strict: bool | None = None
     passes: str | None = None
     check_passes: str | None = None
+    robot: str | None = None
 
 
 def _type_of(kind: Any, option: Option) -> Any:

@@ -36,6 +36,7 @@ HELD: Mapping[str, Hold] = {
     "files.ignore": "nothing to hold",
     "files.match": "nothing to hold",
     "files.passes": "known passes",
+    "files.robot": "inside its folder",
     "files.select": "nothing to hold",
     "files.strict": "nothing to hold",
     "for": "nothing to hold",

@@ -10,6 +10,7 @@ from click.core import ParameterSource
 from twinform.cli.command import Command
 from twinform.cli.completion import files
 from twinform.cli.config_defaults import settings_of
+from twinform.cli.followed import describe_followed, followed_files
 from twinform.cli.gazebo_files import GazeboFiles, companion_options, version_for
 from twinform.cli.inputs import InputSource, inputs, reading_options
 from twinform.cli.instrumentation import InstrumentationOptions, watching_options
@@ -209,7 +210,20 @@ class _ConvertRun:
         planned = [(job, self._options_for(job)) for job in todo]
         outputs = self._outputs([job.path for job in todo if in_place and job.path], check=check)
         outputs.require_apart([place for job, own in planned for place in own.places(job, outputs)])
-        return self._end(outputs, [run_job(job, own, _label(job, todo), outputs) for job, own in planned])
+        codes = [run_job(job, own, _label(job, todo), outputs) for job, own in planned]
+        if in_place and not max(codes):
+            self._follow(planned, outputs)
+        return self._end(outputs, codes)
+
+    def _follow(self, planned: "Sequence[tuple[ConversionJob, Options]]", outputs: Outputs) -> None:
+        """Add the files that name parts which passes have renamed."""
+        for job, own in planned:
+            if job.path in outputs.as_read:
+                found = followed_files({job.path: outputs.as_read[job.path]}, own.request.passes, own.load_options)
+                for each in found:
+                    outputs.as_read[each.path] = each.before
+                    outputs.add("--in-place", each.path, each.after)
+                    outputs.news += describe_followed(each)
 
     def _options_for(self, job: ConversionJob) -> Options:
         return self.options.for_file(self.by_file.of(job.source.name))

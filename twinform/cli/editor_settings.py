@@ -36,6 +36,7 @@ def _convert_settings(project: Project, own: OwnSettings) -> EditorSettings:
         strict=bool(defaults.get("strict") if own.strict is None else own.strict),
         search=SearchPath.of(project.folders),
         arguments=own.arguments,
+        robot=project.robot_of(own),
         allow=policy.allow,
         profiles=_profiles(str(defaults.get("profiles") or "")),
     )

@@ -11,6 +11,7 @@ import click
 
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
 from twinform.cli.completion import files, pipelines
+from twinform.cli.followed import describe_followed, followed_files
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, file_options, model_inputs
 from twinform.cli.instrumentation import mesh_progress
 from twinform.cli.model_files import is_fixable, is_plain
@@ -270,9 +271,10 @@ def command(
 
     IN are URDF, SDF or xacro files, folders of them, or globs in quotes; - is standard input, which goes to standard
     output. Passes are for files without xacro; fixes of xacro are made where the text is written, in all files of it.
-    Only what a fix or a pass changes is changed: comments, layout and the spelling of all else stay. All is written,
-    or, where a pass cannot run, nothing. Exit code: 0 where all went well, 1 with errors, 2 where a file could not be
-    read or written.
+    Only what a fix or a pass changes is changed: comments, layout and the spelling of all else stay. Where a pass
+    renames, files that name the parts follow: SRDF, and parameters of controllers, MoveIt and Nav2. All is written, or,
+    where a pass cannot run, nothing. Exit code: 0 where all went well, 1 with errors, 2 where a file could not be read
+    or written.
     """
     kind = is_plain if passes else is_fixable
     sources, arguments = model_inputs(words, exclusion_of(ctx, exclude, force=force_exclude), kind)
@@ -299,6 +301,11 @@ def command(
             wrong = sum(isinstance(each, int) for each in runs)
             print_line(f"nothing is written: {wrong} of {len(runs)} files could not be changed", err=True)
         ctx.exit(max(each for each in runs if isinstance(each, int)))
+    robots = {Path(each.source.name): each.before for each in rewrites if not each.is_stream}
+    followed = followed_files(robots, passes, by_file.usual.load_options) if passes else []
+    rewrites += [Rewrite(InputSource(str(each.path), str(each.path)), each.before, each.after) for each in followed]
+    for line in (line for each in followed for line in describe_followed(each)):
+        print_line(line, err=True)
     if diff:
         ctx.exit(FINDINGS if show_differences(rewrites) else 0)
     write_back(rewrites)

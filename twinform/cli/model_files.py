@@ -8,6 +8,8 @@ from typing import Protocol
 from twinform.compiler.input.load_options import XACRO
 from twinform.dataclass import dataclass
 
+SRDF = ".srdf"
+PARAMETERS = (".yaml", ".yml")
 _MODELS = (".urdf", ".sdf", ".world")
 _JSON_MARK = b"urn:twinform:document:"
 _ENOUGH = 2**12
@@ -64,13 +66,26 @@ def is_model(path: Path, *, named: bool = False) -> bool:
 
 
 def is_checked(path: Path, *, named: bool = False) -> bool:
-    """Whether a file is a model, or a xacro file with parts of one."""
+    """Whether a file is a model, a xacro file with parts of one, or one that names the parts of one."""
     name = path.name.lower()
     if name.endswith(".world"):
         # worlds of Stage, a simulator in the plane, have the same ending and are no XML
         start = _start(path, _ENOUGH).lstrip(_BLANK)
         return not start or start.startswith((b"<", b"\0<"))
-    return is_model(path, named=named) if name.endswith(".json") else named or name.endswith((*_MODELS, *XACRO))
+    if name.endswith(PARAMETERS):
+        return is_companion_file(path)
+    return is_model(path, named=named) if name.endswith(".json") else named or name.endswith((*_MODELS, SRDF, *XACRO))
+
+
+def is_companion_file(path: Path) -> bool:
+    """Whether a file that is no xacro names the parts of a robot: SRDF, and YAML with parameters that do."""
+    name = path.name.lower()
+    if not name.endswith(PARAMETERS):
+        return name.endswith(SRDF)
+    from twinform.compiler.companions.check_companion import is_companion  # noqa: PLC0415 - many folders have none
+    from twinform.compiler.companions.yaml_leaves import LARGEST  # noqa: PLC0415 - as above
+
+    return is_companion(path, _start(path, LARGEST + 1))
 
 
 def is_text(path: Path, *, named: bool = False) -> bool:

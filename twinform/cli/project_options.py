@@ -116,7 +116,8 @@ class OptionsByFile:
                 project=settings_of(ctx),
             )
             search = replace(load_options.search, asked=self.asked) if self.asked else load_options.search
-            load_options = replace(load_options, search=self._searches.setdefault(search, search))
+            robot = str(ctx.params.get("robot") or "")
+            load_options = replace(load_options, robot=robot, search=self._searches.setdefault(search, search))
             request = cast("RequestOptions", params_of(ctx, RequestOptions))
             self._known[ctx] = ResolvedOptions(load_options, policy, ctx.params.get(self.option), request)
         return self._known[ctx]
@@ -126,6 +127,8 @@ class OptionsByFile:
         load_options = replace(usual.load_options, arguments={**own.arguments, **self.arguments}, allow=policy.allow)
         if own.strict is not None and not self._is_typed("strict"):
             load_options = replace(load_options, strict=own.strict)
+        if not self._is_typed("robot"):
+            load_options = replace(load_options, robot=settings_of(ctx).robot_of(own))
         configured = own.check_passes if self.option == "check_passes" else own.passes
         passes = usual.passes
         if configured is not None and not self._is_typed(self.option):

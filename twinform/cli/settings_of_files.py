@@ -45,13 +45,15 @@ class RuleSettings(NamedTuple):
 class OwnSettings:
     """The settings of one file beyond those of the project; None if a setting is not given.
 
-    Pipelines have the key that they come from, and rules are listed table by table.
+    Pipelines, and the file of the robot that this one is for, have the key that they come from; rules are listed table
+    by table.
     """
 
     arguments: Mapping[str, str] = field(default_factory=dict[str, str])
     strict: bool | None = None
     passes: tuple[str, str] | None = None
     check_passes: tuple[str, str] | None = None
+    robot: tuple[str, str] | None = None
     rules: Sequence[RuleSettings] = ()
 
 
@@ -99,6 +101,7 @@ class PerFile:
             check_passes=_last_given(
                 (table.check_passes, f"{key}.check-passes") for key, table in fitting if table.check_passes is not None
             ),
+            robot=_last_given((table.robot, f"{key}.robot") for key, table in fitting if table.robot is not None),
             rules=[RuleSettings.of(table, key) for key, table in fitting],
         )
 

@@ -76,6 +76,10 @@ class PackageIndex:
     listings: Memo[Path, FolderListing] = field(default_factory=Memo[Path, FolderListing])
     models: Memo[Path, tuple[str, ...]] = field(default_factory=Memo[Path, tuple[str, ...]])
     installs: Memo[Path, tuple[Install, ...]] = field(default_factory=Memo[Path, "tuple[Install, ...]"])
+    robots: Memo[Path, tuple[Path, ...]] = field(default_factory=Memo[Path, tuple[Path, ...]])
+    """The robots below a folder, which those who ask for them find."""
+    parts: Memo[object, object] = field(default_factory=Memo[object, object])
+    """What is in robots and their SRDF files, which those who ask for it read."""
 
     def name_of(self, folder: Path) -> str | None:
         """Return the name of the package in a folder; None where there is none."""

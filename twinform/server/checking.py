@@ -4,11 +4,13 @@ The editor's text counts for every open file, also if another file includes it. 
 process and its time: xacro is expanded in the same confined process as by the command `check`.
 """
 
+import os
 from collections.abc import Callable, Mapping
 from dataclasses import field, replace
 from pathlib import Path
 from typing import NamedTuple
 
+from twinform.compiler.companions.check_companion import check_companion, is_companion, may_be_companion
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.fixing import with_fixes
 from twinform.compiler.formatting import formatted
@@ -83,7 +85,13 @@ class Checked:
 def check(job: CheckJob) -> Checked:
     """Check a document as `twinform check` does."""
     load_options = job.load_options
-    loaded = as_refused(inspect(read(str(job.path), load_options), load_options))
+    data = job.unsaved.get(os.path.realpath(job.path), b"")
+    if is_companion(job.path, data):
+        loaded = check_companion(job.path, load_options, data)
+    elif may_be_companion(job.path):  # YAML of something else
+        return Checked((), frozenset())
+    else:
+        loaded = as_refused(inspect(read(str(job.path), load_options), load_options))
     found = job.settings.policy.apply(_locate_findings(loaded, job.unsaved))
     if job.is_part:
         found = tuple(each for each in found if not _is_of_whole_robot(each))

@@ -12,6 +12,7 @@ from twinform.diagnostics import Span
 from twinform.file_access import Readable
 from twinform.lazy import lazy_pattern
 from twinform.passes.structure.rename_parts import RESERVED
+from twinform.server.companions import Definition, definition_of, followed_edits, mention_at
 from twinform.server.document_names import defined, name_at, names_of, resolve_in, surroundings
 from twinform.server.documents import TextDocument
 from twinform.server.includes import includes_of, target
@@ -52,6 +53,10 @@ def definitions(session: Session, document: TextDocument, offset: int) -> list[D
             path = target(include, document, search)
             other = session.files.document(path) if path is not None else None
             return [DocumentPlace(other, Span(0, 0))] if other is not None else []
+    named = mention_at(document, offset)
+    if named is not None:
+        there = definition_of(session, document, named)
+        return [DocumentPlace(there.document, there.name.span)] if there is not None else []
     name = name_at(document, offset)
     if name is None:
         return []
@@ -169,6 +174,9 @@ def prepare(document: TextDocument, offset: int) -> types.PrepareRenamePlacehold
     Raises:
         RenameRefusedError: it cannot be changed.
     """
+    named = mention_at(document, offset)
+    if named is not None:
+        return types.PrepareRenamePlaceholder(range=document.positions.range(named.place), placeholder=named.name)
     name = name_at(document, offset)
     if name is None:
         return None
@@ -183,6 +191,12 @@ def rename(session: Session, document: TextDocument, offset: int, new: str) -> t
     Raises:
         RenameRefusedError: it cannot have the new name.
     """
+    named = mention_at(document, offset)
+    if named is not None:
+        there = definition_of(session, document, named)
+        if there is None:
+            raise RenameRefusedError(f"no robot is known that has {named.name!r}: where it is defined has to be known")
+        document, offset = there.document, there.name.span.start
     name = name_at(document, offset)
     if name is None:
         return None
@@ -199,6 +213,8 @@ def rename(session: Session, document: TextDocument, offset: int, new: str) -> t
             raise RenameRefusedError(f"{each.document.path.name} is not well-formed: names in it may be missed")
         edit = types.TextEdit(each.document.positions.range(each.name.span), new)
         changes.setdefault(each.document.uri, []).append(edit)
+    for each in followed_edits(session, [Definition(*one) for one in what], new):
+        changes.setdefault(each.document.uri, []).append(each.edit)
     return types.WorkspaceEdit(changes=changes)
 
 

@@ -95,7 +95,7 @@ def test_macros_without_a_fault_are_no_robot_and_no_error(run: Run, here: Path) 
         "<xacro:macro name='m' params='a b:=1'><link name='${a}_$(arg side)'/></xacro:macro></robot>"
     )
     Path("empty.urdf").write_text("<robot><!-- a place for what others add --></robot>")
-    Path("groups.srdf.xacro").write_text(f'{_ROBOT}<xacro:groups/><group name="arm"/></robot>')
+    Path("groups.srdf.xacro").write_text(f'{_PART}<xacro:macro name="m"><group name="arm"/></xacro:macro></robot>')
     Path("plane.world").write_text("define floorplan model ( boundary 1 )")
     done = run("check", ".")
     assert (done.exit_code, done.stdout) == (0, "")

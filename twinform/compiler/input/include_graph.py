@@ -35,7 +35,10 @@ class Mention(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Outline:
-    """The parts of a file that connect it with others; `arguments` are those declared, with their defaults."""
+    """The parts of a file that connect it with others; `arguments` are those declared, with their defaults.
+
+    It `has_semantics` if elements of SRDF stand in its root.
+    """
 
     root: str = ""
     is_robot: bool = False
@@ -43,6 +46,7 @@ class Outline:
     arguments: dict[str, str | None] = field(default_factory=dict[str, str | None])
     asked: tuple[Mention, ...] = ()
     packages: tuple[Mention, ...] = ()
+    has_semantics: bool = False
 
 
 _MOST_TAGS = 100_000
@@ -73,6 +77,7 @@ def outline(data: bytes, *, plain: bool = False) -> Outline:
         tags.arguments,
         tuple(asked.get("arg", ())),
         tuple(asked.get("find", ())),
+        not _SEMANTICS.isdisjoint(tags.children),
     )
 
 
@@ -139,8 +144,8 @@ def _refuse_doctype(*_: object) -> None:
     raise expat.ExpatError("the document has a DOCTYPE")
 
 
-Role = Literal["robot", "part", "either"]
-"""Whether a file is checked as a robot, as a part of others, or as a part if it is no robot by itself."""
+Role = Literal["robot", "part", "either", "companion"]
+"""Whether a file is checked as a robot, as a part of others, as a part if it is no robot by itself, or as SRDF."""
 _FIND = lazy_pattern(r"\$\(\s*find\s+(?P<package>[\w.-]+)\s*\)/*")
 _PACKAGE = lazy_pattern(r"package://(?P<package>[\w.-]+)/*")
 _DIRNAME = lazy_pattern(r"\$\(\s*dirname\s*\)/*")
@@ -221,10 +226,15 @@ class IncludeGraph:
             self.outline(path, name)  # the name decides whether a link is followed
         named = self._named_by_expressions(known)
         roots = self._roots(list(known))
-        return {
-            name: "part" if path not in roots or _is_semantic(path) else "either" if path in named else "robot"
-            for name, path in paths.items()
-        }
+        included = {target for path in known for target in self.included(path) if target != path}
+
+        def role(path: str) -> Role:
+            if _is_semantic(path):
+                outline = self.outline(path)
+                return "companion" if path not in included and (outline.is_robot or outline.has_semantics) else "part"
+            return "part" if path not in roots else "either" if path in named else "robot"
+
+        return {name: role(path) for name, path in paths.items()}
 
     def _roots(self, paths: list[str]) -> set[str]:
         """Return the robots from which the others are reached; one of each circle that nothing else leads to."""

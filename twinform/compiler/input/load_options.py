@@ -99,7 +99,8 @@ class LoadOptions:
     the files allow; allowed errors are left out only if the caller is `tolerant`.
     `profiles` are those of the consumers that the files are for. `variables` are environment variables that xacro files
     may read besides those of ROS and Gazebo; `*` may stand in a name. `sdf_version` is the newest version that the
-    reader of the files knows: of a folder with a model in several versions, the newest one up to it is read.
+    reader of the files knows: of a folder with a model in several versions, the newest one up to it is read. `robot` is
+    the file of the robot that files which name parts of one are for, where somebody has said so.
     """
 
     strict: bool = False
@@ -115,6 +116,7 @@ class LoadOptions:
     profiles: "tuple[Profile, ...]" = ()
     variables: tuple[str, ...] = ()
     sdf_version: str = DEFAULT_SDF_VERSION
+    robot: str = ""
 
     @classmethod
     def of(

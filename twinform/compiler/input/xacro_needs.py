@@ -45,7 +45,7 @@ def values_in_launch_files(path: Path, names: Iterable[str], readable: Readable)
     """Return the values of arguments in launch files beside a xacro file that mention it."""
     found: dict[str, Passed] = {}
     wanted = list(names)
-    for file, text in _texts(path, readable):
+    for file, text in launch_files_of(path, readable):
         for name in wanted:
             value = None if name in found else _value(name, text)
             if value:
@@ -61,7 +61,7 @@ def _value(name: str, text: str) -> str | None:
     return None
 
 
-def _texts(path: Path, readable: Readable) -> Iterator[tuple[Path, str]]:
+def launch_files_of(path: Path, readable: Readable) -> Iterator[tuple[Path, str]]:
     """Yield the launch files beside a file, in its folder and those called `launch`, that have its name in them."""
     package = package_around(path)
     above = [path.parent, path.parent / "launch", path.parent.parent / "launch"]

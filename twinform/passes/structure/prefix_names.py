@@ -28,15 +28,16 @@ class PrefixNames(ModelEdit):
 
     def edit_model(self, model: Model, place: EditContext) -> Model:
         """The model with prefixed names."""
-        scope = scope_of(model, self._choose, deep=False)
+        scope = scope_of(model, self.new_name, deep=False)
         if not scope.changes or report_clashes(model, scope, place.format, place.sink):
             return model
         return rename_model(model, scope, place.format, place.sink)
 
     def update_world(self, before: World, after: World) -> World:
         """The world, whose joints and frames follow the new names."""
-        return rename_in_world(before, after, lambda model: scope_of(model, self._choose, deep=False), self.model)
+        return rename_in_world(before, after, lambda model: scope_of(model, self.new_name, deep=False), self.model)
 
-    def _choose(self, part: Part, name: str) -> str:
+    def new_name(self, part: Part, name: str) -> str:
+        """Return the name that a part has afterwards."""
         del part
         return name if name.startswith(self.prefix) and not self.again else self.prefix + name

@@ -97,16 +97,17 @@ class Rename(ModelEdit):
 
     def edit_model(self, model: Model, place: EditContext) -> Model:
         """The model with the new names."""
-        scope = scope_of(model, self._choose)
+        scope = scope_of(model, self.new_name)
         if not scope.changes or report_clashes(model, scope, place.format, place.sink):
             return model
         return rename_model(model, scope, place.format, place.sink)
 
     def update_world(self, before: World, after: World) -> World:
         """The world, whose joints and frames follow the new names."""
-        return rename_in_world(before, after, lambda model: scope_of(model, self._choose), self.model)
+        return rename_in_world(before, after, lambda model: scope_of(model, self.new_name), self.model)
 
-    def _choose(self, part: Part, name: str) -> str:
+    def new_name(self, part: Part, name: str) -> str:
+        """Return the name that a part has afterwards."""
         if part not in self.kinds:
             return name
         return next((new for rule in self._rules if (new := rule.apply(name)) is not None), name)

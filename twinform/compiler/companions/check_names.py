@@ -1,0 +1,114 @@
+"""Reports names in companion files that no robot and no group has."""
+
+from collections.abc import Collection, Iterable, Sequence
+
+from twinform.compiler.companions.name_places import Mention, is_made
+from twinform.compiler.companions.robot_parts import RobotParts
+from twinform.compiler.companions.srdf_tree import SrdfTree
+from twinform.dataclass import dataclass
+from twinform.diagnostics import DiagnosticSink, Location, Severity, did_you_mean, is_typo, near_names, rules
+
+_ELSEWHERE = frozenset({"map", "odom", "world", "earth", "utm"})
+"""Frames that ROS has for what is no part of a robot (REP 105)."""
+
+
+@dataclass(frozen=True, slots=True)
+class KnownParts:
+    """What names may mean: parts of any of some robots, and groups and virtual joints of SRDF files."""
+
+    robots: Sequence[RobotParts]
+    semantics: Sequence[SrdfTree] = ()
+
+    @property
+    def whose(self) -> str:
+        """The robots in words."""
+        if len(self.robots) == 1:
+            return f"the robot {self.robots[0].name!r} does not have"
+        return f"none of {len(self.robots)} robots has"
+
+    @property
+    def links(self) -> Collection[str]:
+        """All links."""
+        return {name for robot in self.robots for name in robot.links}
+
+    @property
+    def joints(self) -> Collection[str]:
+        """All joints, with those that SRDF adds."""
+        virtual = {name for each in self.semantics for name in each.names("virtual_joint")}
+        return virtual.union(*(robot.joints for robot in self.robots))
+
+    @property
+    def groups(self) -> Collection[str]:
+        """All groups."""
+        return {name for each in self.semantics for name in each.names("group")}
+
+    @property
+    def sensors(self) -> Collection[str]:
+        """All sensors of `<ros2_control>`."""
+        return {name for robot in self.robots for name in robot.sensors}
+
+
+def report_names(found: Iterable[Mention[Location]], known: KnownParts, sink: DiagnosticSink) -> None:
+    """Report each name in a file that is none of what is known."""
+    links, joints, groups, sensors = known.links, known.joints, known.groups, known.sensors
+    controlled = all(robot.is_controlled for robot in known.robots)
+    for each in found:
+        if is_made(each.text):
+            continue
+        match each.kind:
+            case "joint" | "driven joint" if known.robots:
+                _report_stale(each, "joint", joints, known, sink)
+            case "interface" if known.robots and "/" in each.text:
+                _report_stale(each, "joint", joints, known, sink)
+            case "group" if groups:
+                _report_group(each, groups, sink)
+            case "sensor" if known.robots and controlled and each.text not in sensors:
+                message = f"the sensor {each.text!r} is in no <ros2_control> of the robot"
+                _report(each, message, sensors, sink, Severity.ERROR)
+            case "link" if known.robots and each.leaf.path[-1].text.startswith("@"):
+                _report_stale(each, "link", links, known, sink)
+            case "link" | "frame" if known.robots:
+                _report_frame(each, links, known, sink)
+            case "controller" if each.text not in each.leaf.beside and "/" not in each.text:
+                message = f"the controller {each.text!r} is listed here, and not described in this file"
+                _report(each, message, each.leaf.beside, sink)
+            case _:
+                pass
+
+
+def _report_stale(
+    mention: Mention[Location], what: str, names: Collection[str], known: KnownParts, sink: DiagnosticSink
+) -> None:
+    if mention.name in names:
+        return
+    # the controller manager ends, or refuses to activate the controller
+    severity = Severity.ERROR if mention.kind == "driven joint" else None
+    _report(mention, f"there is no {what} {mention.name!r}, which {known.whose}", names, sink, severity)
+
+
+def _report_group(mention: Mention[Location], groups: Collection[str], sink: DiagnosticSink) -> None:
+    if mention.text not in groups:
+        _report(mention, f"there is no group {mention.text!r} in SRDF", groups, sink)
+
+
+def _report_frame(mention: Mention[Location], links: Collection[str], known: KnownParts, sink: DiagnosticSink) -> None:
+    """Report a frame that is no link; one that may be of something else only where a link is meant."""
+    name = mention.text.rpartition("/")[2]
+    if not name or name in links or name in _ELSEWHERE:
+        return
+    if mention.kind == "frame" and not any(is_typo(name, each) for each in near_names(name, links)):
+        return
+    message = f"there is no link {name!r} for this frame, which {known.whose}"
+    hint = did_you_mean(name, links)
+    sink.report(rules.STALE_FRAME, message, mention.place, found=mention.text, help=hint)
+
+
+def _report(
+    mention: Mention[Location],
+    message: str,
+    names: Collection[str],
+    sink: DiagnosticSink,
+    severity: Severity | None = None,
+) -> None:
+    hint = did_you_mean(mention.name, names)
+    sink.report(rules.STALE_NAME, message, mention.place, found=mention.text, help=hint, severity=severity)

@@ -1,0 +1,72 @@
+"""SRDF as a tree: of a file, or of the text that a xacro file expands to."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from twinform.compiler.companions.name_places import Leaf, Step
+from twinform.compiler.input.load_options import LoadOptions, expanded_name
+from twinform.compiler.input.parsing import UnreadableError, parse
+from twinform.dataclass import dataclass
+from twinform.diagnostics import DiagnosticSink, Location, rules
+from twinform.schemas import XmlElement, path_of
+from twinform.schemas.xml import children
+
+
+@dataclass(frozen=True, slots=True)
+class SrdfTree:
+    """The root of an SRDF file, and the name of its text in locations."""
+
+    name: str
+    root: XmlElement
+
+    def names(self, tag: str) -> list[str]:
+        """Return the names of all elements of a tag directly in the root."""
+        return [each.get("name") or "" for each in self.root.iterchildren(tag)]
+
+
+def read_srdf(path: Path, data: bytes, sink: DiagnosticSink, load_options: LoadOptions) -> SrdfTree:
+    """Read an SRDF file, which is expanded if it is xacro.
+
+    Raises:
+        UnreadableError: it is no XML, or cannot be expanded.
+    """
+    name = sink.file
+    if path.suffix.lower() == ".xacro":
+        from twinform.compiler.input.expand_xacro import expand  # noqa: PLC0415 - few files need it
+
+        if load_options.xacro is False:
+            sink.report(rules.XACRO_REFUSED, "this is a xacro file, and xacro is refused here", Location(line=1))
+            raise UnreadableError
+        expansion = expand(path, load_options, sink)
+        name, data = expanded_name(name), expansion.text
+        sink.origins[name] = expansion.origins
+    root = parse(data, sink, load_options.limits)
+    if root.tag != "robot":
+        where = Location(line=root.sourceline or 0, path=f"/{root.tag}")
+        message = f"the root element is <{root.tag}>; SRDF has <robot>"
+        sink.report(rules.UNKNOWN_ROOT, message, where, found=str(root.tag), expected="robot")
+        raise UnreadableError
+    return SrdfTree(name, root)
+
+
+def leaves_of(srdf: SrdfTree) -> Iterator[Leaf[Location]]:
+    """Yield the attributes of a file with the elements that lead to them."""
+    paths: dict[XmlElement, tuple[Step[Location], ...]] = {srdf.root: ()}
+    for element in srdf.root.iterdescendants("*"):
+        around = element.getparent()
+        above = paths.get(around, ()) if around is not None else ()
+        paths[element] = here = (*above, Step(str(element.tag), place_of(element)))
+        for name, value in element.items():
+            where = place_of(element, str(name))
+            yield Leaf((*here, Step(f"@{name}", where)), Step(str(value).strip(), where))
+
+
+def place_of(element: XmlElement, attribute: str = "") -> Location:
+    """Return the place of an element, or of an attribute of it."""
+    path = path_of(element)
+    return Location(line=element.sourceline or 0, path=f"{path}/@{attribute}" if attribute else path)
+
+
+def elements(element: XmlElement, *tags: str) -> Iterator[XmlElement]:
+    """Yield the children of an element with one of some tags, in their order."""
+    return (each for each in children(element) if each.tag in tags)
