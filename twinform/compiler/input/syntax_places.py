@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
-from twinform.compiler.input.xml_recovery import XmlError
+from twinform.compiler.input.xml_recovery import REPAIRS, XmlError
 from twinform.diagnostics import Location, Span, nearest_name
 from twinform.lazy import lazy_pattern
 from twinform.text import Lines, SourceText
@@ -41,6 +41,9 @@ _HERE = lazy_pattern(r"</?[\w:.-]+|--|[\w:.-]+|\S")
 """The piece at the place that libxml2 reports, for all other errors."""
 _DOCTYPE = lazy_pattern(rf"(?:\s++|{COMMENT}|{INSTRUCTION})*+(?P<piece><!DOCTYPE)")
 _OPEN_TAG = lazy_pattern(r"</?(?P<piece>[\w:.-]+)")
+_OPEN_ATTRIBUTE = lazy_pattern(r"\s(?P<piece>[^\s=<>\"']+\s*=)")
+_NAME_CHARACTER = lazy_pattern(r"[\w.-]")
+_INSTRUCTION = lazy_pattern(r"<\?[\w-]*")
 _OPEN_VALUE = lazy_pattern(r"\s(?P<piece>[^\s=<>\"']+\s*=\s*[\"'])")
 
 
@@ -80,6 +83,11 @@ class SyntaxPlaces:
         offset = self._offset(error)
         if offset is None:
             return None
+        instruction = _open_instruction(error, text, offset)
+        if instruction is not None:
+            return Span(*instruction.span())
+        if error.kind == "ERR_ATTRIBUTE_NOT_STARTED" and not _NAME_CHARACTER.match(text, offset):
+            return _last_before(_OPEN_ATTRIBUTE, text, offset)
         if error.kind == "ERR_TAG_NOT_FINISHED":
             return _start_of_element(error, text, self._starts)
         if error.kind == "ERR_LT_IN_ATTRIBUTE":
@@ -158,6 +166,12 @@ def _last_before(pattern: re.Pattern[str], text: str, end: int) -> Span | None:
     return None
 
 
+def _open_instruction(error: XmlError, text: str, offset: int) -> re.Match[str] | None:
+    """Find the beginning of the declaration or instruction that an error is in, or behind if it is never closed."""
+    start = text.rfind("<?", 0, offset + 1) if error.kind not in REPAIRS else -1
+    return _INSTRUCTION.match(text, start) if start >= 0 and text.find("?>", start, offset) < 0 else None
+
+
 def _unclosed_value(text: str, offset: int) -> Span | None:
     """Return a `<` in a value, or the beginning of a value that goes on over lines: its quotes are not closed."""
     opened = _last_before(_OPEN_VALUE, text, offset)
@@ -221,6 +235,9 @@ _ADVICE = {
     r" needs > or />": "close the tag with >, or with /> if nothing is in it",
     r" ends nothing: ": "delete it, or write the start tag that is missing before it",
     r"</\S+ ends the <(\S+)> of line \d+$": r"write </\1>",
+    r"/ of line \d+ needs >$": "write > behind the /",
+    r"no name follows (?:<|')\S+:": "write the name behind the colon",
+    r"the file ends before its first tag$": "write <robot> or <sdf> with the model in it",
     r"^<(\S+)> of line \d+ is not closed before (\S+)$": r"write </\1> before this \2",
     r" has no closing quote": "close the quotes; a '<' that is meant is written &lt;",
 }
@@ -228,11 +245,22 @@ _ADVICE = {
 
 def described(error: XmlError, text: str, offset: int) -> XmlError:
     """Say what is wrong and what helps; in libxml2's words where it is seldom wrong in a model."""
+    instruction = _open_instruction(error, text, offset)
+    if instruction is not None:
+        return _describe_instruction(error, text, instruction)
     words = _IN_PLAIN_WORDS.get(error.kind)
     said = words if isinstance(words, str) else words(_Site(error, text, offset)) if words else ""
     advice = (found.expand(text) for pattern, text in _ADVICE.items() if (found := re.search(pattern, said)))
     is_cut = "was cut off" in (error.help or "")
     return error._replace(message=said or error.message, help=error.help if is_cut else next(advice, error.help))
+
+
+def _describe_instruction(error: XmlError, text: str, found: re.Match[str]) -> XmlError:
+    line = text.count("\n", 0, found.start()) + 1
+    if text[: found.start()].strip("\ufeff \t\r\n"):
+        return error._replace(message=f"{found[0]} of line {line} is never closed", help="close it with ?>")
+    message = f"the declaration {found[0]} of line {line} is not complete"
+    return error._replace(message=message, help="write <?xml version='1.0'?>")
 
 
 def _last(pattern: re.Pattern[str], text: str) -> re.Match[str] | None:
@@ -266,7 +294,7 @@ def _attribute_twice(site: _Site) -> str:
 
 def _no_blank(site: _Site) -> str:
     """Tell a quote that is missing from a blank, and both from a tag that is not closed."""
-    if site.here in {"<", ""}:
+    if site.here in {"<", "", "/"}:
         return _open_tag(site)
     value = _last(re.compile(r"""(?<![\w:.-])[\w:.-]++\s*+=\s*+(?:"([^"]*+)"|'([^']*+)')"""), site.before)
     if value and (value[1] or value[2] or "").rstrip().endswith("="):
@@ -284,6 +312,8 @@ def _open_tag(site: _Site) -> str:
     name = found[1]
     start = max(0, site.offset - _READ_BEFORE) + found.start()
     line = site.text.count("\n", 0, start) + 1
+    if site.here == "/":
+        return f"<{name}/ of line {line} needs >"
     needs = ">" if name.startswith("/") else "> or />"
     return f"<{name} of line {line} needs {needs}"
 
@@ -292,8 +322,31 @@ def _no_name(site: _Site) -> str:
     if site.error.message.startswith("xmlParseEntityRef"):
         return "'&' is written &amp; in XML"
     if not site.error.message.startswith("error parsing attribute name"):
-        return "no name follows '<'"
+        return _nameless(site)
     return _open_tag(site) if site.here in {"<", ""} else f"{site.here!r} stands where {site.tag} can have an attribute"
+
+
+def _nameless(site: _Site) -> str:
+    before = site.text[: site.offset]
+    around = _open_elements(f"{before}x>")
+    place = f" in <{around[-1]}>" if around else ""
+    return f"no name follows the '<' of line {before.count(chr(10)) + 1}{place}"
+
+
+def _no_local_name(site: _Site) -> str:
+    found = _QUOTED.search(site.error.message)
+    prefix = found[1] if found else ""
+    if not prefix.endswith(":"):
+        return ""
+    line = site.text.count("\n", 0, site.offset) + 1
+    is_tag = site.before.rstrip().endswith((f"<{prefix}", f"</{prefix}"))
+    return f"no name follows <{prefix} of line {line}" if is_tag else f"no name follows {prefix!r} in {site.tag}"
+
+
+def _no_element(site: _Site) -> str:
+    if site.text[site.offset :].strip():
+        return "the file does not begin with a tag"
+    return "the file ends before its first tag"
 
 
 def _mismatch(site: _Site) -> str:
@@ -369,6 +422,8 @@ _IN_PLAIN_WORDS: Mapping[str, str | Callable[[_Site], str]] = {
     "ERR_UNDECLARED_ENTITY": _with_quoted("&{}; is not known to XML"),
     "ERR_COMMENT_NOT_FINISHED": "the comment that begins here is never closed",
     "ERR_CDATA_NOT_FINISHED": "the CDATA section that begins here is never closed",
+    "ERR_DOCUMENT_EMPTY": _no_element,
+    "NS_ERR_QNAME": _no_local_name,
     "ERR_DOCUMENT_END": "something follows the end tag of the root element",
     "ERR_INVALID_CHAR": "a control character stands here",
     "ERR_RESERVED_XML_NAME": "<?xml ...?> does not stand at the very beginning of the file",

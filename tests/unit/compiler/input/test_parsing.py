@@ -137,7 +137,8 @@ def test_json_that_is_no_document_is_refused(text: str) -> None:
 
 
 NO_MODEL = "a model begins with '<': delete what stands before it, or name another file if this is no model"
-NO_START = "not well-formed XML: Start tag expected, '<' not found"
+NO_START = "not well-formed XML: the file ends before its first tag"
+NO_TAG = "write <robot> or <sdf> with the model in it"
 ENCODING = "save the file as UTF-8, or name an encoding that it may have, such as UTF-8 or ISO-8859-1"
 CROWD = " ".join(f"{{}}a{n}='1'" for n in range(257))
 NOWHERE = Location("r.urdf")
@@ -147,7 +148,7 @@ FINDINGS: dict[str, tuple[bytes, list[tuple[str, Location, str, str | None]]]] =
     "nothing": (b" \n", [("unreadable-file", NOWHERE, "the file is empty", None)]),
     "no element": (
         b"<!-- a -->",
-        [("not-well-formed", TOP._replace(column=11, end_line=1, end_column=11), NO_START, NO_MODEL)],
+        [("not-well-formed", TOP._replace(column=11, end_line=1, end_column=11), NO_START, NO_TAG)],
     ),
     "zero bytes": (
         b"\0\0",
@@ -155,7 +156,7 @@ FINDINGS: dict[str, tuple[bytes, list[tuple[str, Location, str, str | None]]]] =
             (
                 "not-well-formed",
                 TOP._replace(column=1, end_line=1, end_column=2),
-                "not well-formed XML: Document is empty",
+                "not well-formed XML: the file does not begin with a tag",
                 NO_MODEL,
             )
         ],

@@ -10,6 +10,7 @@ ROBOT = """<robot name="r">
   </link>
 </robot>
 """
+DECLARATION = "the declaration <?xml of line 1 is not complete"
 CASES = {
     "a quote that is not closed": ('"a">', '"a>', 2, "the value of 'name' in <link> has no closing quote"),
     "a quote that another one ends": (
@@ -35,9 +36,14 @@ CASES = {
     "an end tag too many": ("</robot>", "</link></robot>", 5, "</link> ends nothing: <robot> of line 1 is open here"),
     "an ampersand": ('"a"', '"a & b"', 2, "'&' is written &amp; in XML"),
     "an entity": ('"a"', '"&nbsp;"', 2, "&nbsp; is not known to XML"),
-    "a bracket in a text": ("</link>", "1 < 2</link>", 4, "no name follows '<'"),
+    "a bracket in a text": ("</link>", "1 < 2</link>", 4, "no name follows the '<' of line 4 in <link>"),
     "a bracket in a value": ('"a"', '"a<b"', 2, "'<' stands in the value of 'name' in <link>"),
     "a slash": ("<visual>", "<visual/ x='1'>", 3, "'/' stands where <visual> can have an attribute"),
+    "a slash that ends no tag": ("/>", "/", 3, "<box/ of line 3 needs >"),
+    "a prefix alone": ("<visual>", "<visual><a:", 3, "no name follows <a: of line 3"),
+    "a declaration that is not complete": ("<robot", '<?xml version="1.0\n<robot', 1, DECLARATION),
+    "an instruction that is not closed": ("</link>", "<?pi </link>", 4, "<?pi of line 4 is never closed"),
+    "no value at the end of a line": ('="a"', "=\n", 2, "the value of 'name' in <link> has no quotes"),
     "an attribute twice": ('name="a"', 'name="a" name="b"', 2, "<link> has the attribute 'name' twice"),
     "no value": ('name="a"', "name", 2, "the attribute 'name' of <link> has no value"),
     "something behind the root": ("</robot>", "</robot>x", 5, "something follows the end tag of the root element"),
