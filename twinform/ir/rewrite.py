@@ -48,7 +48,7 @@ def rewrite(
 
 
 def _rewritten(kind: type[Node], change: Callable[[Any], Node], having: int, node: Node) -> Any:
-    if not census_of(node) & having:
+    if having != ANYTHING and not census_of(node) & having:
         return node
     fields, is_wanted = _plan(type(node), kind)
     if fields:
@@ -236,8 +236,8 @@ def _bit_of_part(part: Opaque) -> int:
 def _bits_of_element(element: Element) -> int:
     """The bit of an element, and those of names in a namespace in it."""
     found = _bit_of_name(element.name) if element.name.startswith("{") else PLAIN
-    if element.children:
-        found |= union_of(_bits_of_element(child) & PREFIXED for child in element.children)
+    for child in element.children:
+        found |= _bits_of_element(child) & PREFIXED
     return found
 
 

@@ -59,7 +59,7 @@ def scoped_elements(element: Element) -> Iterator[Element]:
     """Yield the elements, of one and all inside it, that libsdformat refuses for their names."""
     if element.name == _PLUGIN or ":" in element.name:
         return
-    if any(name == "name" and SCOPE in value for name, value in element.attributes):
+    if SCOPE in (element.get("name") or ""):
         yield element
     for child in element.children:
         yield from scoped_elements(child)

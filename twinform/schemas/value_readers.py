@@ -128,14 +128,12 @@ def element_xml(element: Any, parent: XmlElement | None = None) -> XmlElement:
 
 def read_element(element: XmlElement, file: str, above: Source | None, *, kept: bool = False) -> Element:
     """Read a subtree as an `Element`, with sources below the given one; a `kept` one has no text behind it."""
-    tag = str(element.tag)
+    tag, text, tail = element.tag, element.text, None if kept else element.tail
     if above is not None:
         above = locate(Source, (file, element.sourceline or 0, above, tag, element.get("name")))
-    attributes = tuple(element.items())
-    text = (element.text or "").strip() or None
     children = tuple([read_element(child, file, above) for child in element]) if len(element) else ()
-    tail = None if kept else (element.tail or "").strip() or None
-    return _make_element((above, tag, attributes, text, children, tail))
+    text, tail = (text.strip() or None) if text else None, (tail.strip() or None) if tail else None
+    return _make_element((above, tag, tuple(element.items()), text, children, tail))
 
 
 def keep_content(child: XmlElement, node: Data, field: str, context: Context) -> None:

@@ -271,6 +271,7 @@ def _attributes(text: str, here: int) -> dict[str, AttributeSpan]:
 _TOKEN = lazy_pattern(rf"({COMMENT}|{INSTRUCTION})|{SECTION}|<(/)[^\s<>/!?]{_REST_OF_TAG}|<([^\s<>/!?]){_REST_OF_TAG}")
 _ASIDE, _END, _START = 1, 2, 3
 _TAG_NAME = lazy_pattern(r"<([^\s<>/]+)")
+_TAG_NAMES = lazy_pattern(r"<(?![!?])([^\s<>/]+)")
 _MOST = 4000
 """So many tags are looked at for one element: a hostile file has hundreds of them around a million others."""
 
@@ -297,7 +298,9 @@ class Tags:
     @cached_property
     def names(self) -> list[str]:
         """The name of each element, with its prefix."""
-        return [start_tag_name(self.text, start) for start in self.starts]
+        found: list[str] = _TAG_NAMES.findall(self.text)
+        # there are more where some stand in comments
+        return found if len(found) == len(self) else [start_tag_name(self.text, start) for start in self.starts]
 
     def element(self, place: int) -> ElementSpan:
         """Find an element with all inside it; of a very large one, the start tag alone.
