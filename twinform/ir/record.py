@@ -15,7 +15,6 @@ from typing import (
     Annotated,
     Any,
     ClassVar,
-    NamedTuple,
     ParamSpec,
     Self,
     TypeVar,
@@ -81,9 +80,13 @@ class Record:
             TypeError: there is no such field, or one is missing.
         """
         kind = cast("type[AnyRecord]", cls)
-        if missing := required_fields(kind) - values.keys():
-            raise TypeError(f"{kind.__name__} lacks {', '.join(sorted(missing))}")
-        return _maker(kind)(values)
+        make = _keyword_maker(kind)
+        try:
+            return make(**values)
+        except TypeError:
+            missing, unknown = required_fields(kind) - values.keys(), values.keys() - fields_of(kind).keys()
+            what = f"lacks {', '.join(sorted(missing))}" if missing else f"has no field {', '.join(sorted(unknown))}"
+            raise TypeError(f"{kind.__name__} {what}") from None
 
     def replace(self, **changes: Any) -> Self:
         """Return a copy of the object with other values, which are validated.
@@ -100,7 +103,7 @@ class Record:
             AttributeError: there is no such field.
         """
         kind = self.__class__
-        made = _functions(kind).duplicate(self)
+        made = _duplicator(kind)(self)
         for name, value in changes.items():
             setattr(made, name, value)
         made.__class__ = kind
@@ -205,7 +208,7 @@ def maker(kind: type[AnyRecord]) -> Callable[[dict[str, Any]], AnyRecord]:
 
 @cache
 def _maker(kind: type[Any]) -> Callable[[dict[str, Any]], Any]:
-    fill = filler(kind)
+    fill: Callable[[Iterable[object]], Any] = filler(kind)
     defaults = {name: each.default for name, each in fields_of(kind).items()}
 
     def make(values: dict[str, Any]) -> Any:
@@ -218,9 +221,26 @@ def _maker(kind: type[Any]) -> Callable[[dict[str, Any]], Any]:
     return make
 
 
+@cache
 def filler(kind: type[AnyRecord]) -> Callable[[Iterable[object]], AnyRecord]:
     """What makes objects of a class from values of all its fields, in their order, that need no validation."""
-    return _functions(kind).fill
+    # The unpacking makes a name too many an error that costs nothing.
+    return _compiled(kind, "values", ["{}, = values".format(", ".join(f"_made.{name}" for name in kind.field_names))])
+
+
+@cache
+def _keyword_maker(kind: type[AnyRecord]) -> Callable[..., AnyRecord]:
+    """What makes objects of a class from values by name, which for a few of them is quicker than from a dictionary."""
+    required = required_fields(kind)
+    optional = [f"{name}=_defaults[{name!r}]" for name in kind.field_names if name not in required]
+    lines = [f"_made.{name} = {name}" for name in kind.field_names]
+    return _compiled(kind, ", ".join([*sorted(required), *optional]), lines)
+
+
+@cache
+def _duplicator(kind: type[AnyRecord]) -> Callable[[AnyRecord], Any]:
+    """What makes a draft with the values of another object."""
+    return _compiled(kind, "other", [f"_made.{name} = other.{name}" for name in kind.field_names], is_draft=True)
 
 
 def _restored(kind: type[AnyRecord], *values: object) -> AnyRecord:
@@ -228,16 +248,9 @@ def _restored(kind: type[AnyRecord], *values: object) -> AnyRecord:
     return filler(kind)(values)
 
 
-class _Functions(NamedTuple):
-    """What makes an object of the values of all fields, and what makes a draft with the values of another object."""
-
-    fill: Callable[[Any], Any]
-    duplicate: Callable[[Any], Any]
-
-
 @cache
-def _functions(kind: type[Record]) -> _Functions:
-    """The functions that make objects of a class.
+def _draft(kind: type[Record]) -> type[Any]:
+    """The class of objects that are being made.
 
     A frozen object could be filled by `object.__setattr__`, field by field, which takes three times as long. A draft
     has the same slots and is not frozen; it becomes the object by `__class__`. It has its own `__delattr__`, as both
@@ -246,16 +259,19 @@ def _functions(kind: type[Record]) -> _Functions:
     if "__slots__" not in vars(kind):
         raise TypeError(f"{kind.__name__} needs the decorator `record`")
     writable = {"__setattr__": object.__setattr__, "__delattr__": object.__delattr__}
-    draft = type(kind.__name__, kind.__bases__, {"__slots__": vars(kind)["__slots__"], **writable})
-    scope: dict[str, Any] = {"new": partial(object.__new__, draft), "kind": kind}
-    # Compiled for each class when they are first needed, in 0.1 ms. The unpacking makes a name too
-    # many an error that costs nothing.
-    made = ["made = new()", "made._census = None"]
-    fill = [f"{', '.join(f'made.{name}' for name in kind.field_names)}, = values", "made.__class__ = kind"]
-    duplicate = [f"made.{name} = other.{name}" for name in kind.field_names]
-    for head, lines in (("fill(values)", fill), ("duplicate(other)", duplicate)):
-        exec("\n    ".join([f"def {head}:", *made, *lines, "return made"]), scope)  # noqa: S102 - our field names, as in namedtuple
-    return _Functions(scope["fill"], scope["duplicate"])
+    return type(kind.__name__, kind.__bases__, {"__slots__": vars(kind)["__slots__"], **writable})
+
+
+def _compiled(
+    kind: type[Record], parameters: str, lines: Iterable[str], *, is_draft: bool = False
+) -> Callable[..., Any]:
+    """Compile a function that makes objects of a class; for each class this is done when it is first needed."""
+    defaults = {name: each.default for name, each in fields_of(kind).items()}
+    scope: dict[str, Any] = {"_new": partial(object.__new__, _draft(kind)), "_kind": kind, "_defaults": defaults}
+    last = [] if is_draft else ["_made.__class__ = _kind"]
+    body = "\n    ".join(["_made = _new()", "_made._census = None", *lines, *last, "return _made"])
+    exec(f"def make({parameters}):\n    {body}", scope)  # noqa: S102 - our field names, as in namedtuple
+    return scope["make"]
 
 
 def amend(part: Record, name: str, value: object) -> None:
