@@ -36,14 +36,16 @@ _OPPOSITES = frozenset(_SIDES.split())
 def did_you_mean(name: str, known: Iterable[str | None], but: Collection[str | None] = ()) -> str | None:
     """Return the sentence that suggests known names, `but` none of these; None if no name is near."""
     others = list(islice(known, _MOST_KNOWN + 1))
-    return suggest(near_names(name, others, but=but) or _longer_or_shorter(name, others, but))
+    near = near_names(name, others, but=but)
+    if near or len(name) > _LONGEST or len(others) > _MOST_KNOWN or "::" in name:
+        return suggest(near)
+    return suggest(_longer_or_shorter(name, frozenset(filter(None, others)), frozenset(but)))
 
 
-def _longer_or_shorter(name: str, known: Sequence[str | None], but: Collection[str | None]) -> tuple[str, ...]:
+@lru_cache(maxsize=64)  # as for `_near_known`
+def _longer_or_shorter(name: str, known: frozenset[str], but: frozenset[str | None]) -> tuple[str, ...]:
     """Return the only known name that has a word more or less, such as `elbow` for `elbow_joint`."""
-    if len(name) > _LONGEST or len(known) > _MOST_KNOWN or "::" in name:
-        return ()
-    words, by_word = _words(name), _by_word(frozenset(filter(None, known)))
+    words, by_word = _words(name), _by_word(known)
     # A word of very many names tells none of them apart.
     lists = [each for each in (by_word.get(word, ()) for word in words) if len(each) <= _MOST_OF_A_WORD]
     others = {each for names in lists for each in names if each not in but and len(each) <= _LONGEST}

@@ -36,6 +36,7 @@ from twinform.compiler.input.load_options import (
 from twinform.compiler.input.parsing import (
     UnreadableError,
     has_comment_after_text,
+    may_be_unexpanded,
     parse,
     read_bytes,
     refuse_excess,
@@ -274,7 +275,7 @@ def read_document(
     if may_split:
         report_split_values(root, sink)
     comments = take_comments(root) if with_comments else None
-    if b"<xacro:" in text or b"${" in text:
+    if may_be_unexpanded(text):
         report_unexpanded(root, sink)
     format_, build = ROOTS[str(root.tag)]
     if format_ == "urdf":

@@ -301,6 +301,14 @@ _SETTINGS = frozenset({"ros2_control", "transmission"})
 _MAY_HAVE_EXPRESSIONS = etree.XPath("descendant-or-self::*[(text() | @*)[contains(., '${')]]")
 
 
+def may_be_unexpanded(text: bytes) -> bool:
+    """Tell whether a text has elements of xacro or expressions outside of its comments."""
+    if not (b"<xacro:" in text or b"${" in text):
+        return False
+    without_comments = _ASIDE.sub(lambda found: found[0] if found[0].startswith(b"<![") else b"", text)
+    return b"<xacro:" in without_comments or b"${" in without_comments
+
+
 def report_unexpanded(root: XmlElement, sink: DiagnosticSink) -> None:
     """Report elements of xacro, and, as an error, expressions where the robot itself should be."""
     macros = [element for element in root.iter() if "xacro" in (tag := str(element.tag)) and _is_of_xacro(tag)]

@@ -237,6 +237,9 @@ def _fit_to_version(
     document: Document, text: str, sink: DiagnosticSink, parts: WrittenParts | None, *, kept: AbstractSet[str] | None
 ) -> str:
     """Return the text of a document that its schema refuses, without what `_validate` leaves out."""
+    # To read the document takes several times as long, and elements that no version has are kept.
+    if is_valid_without_unknown(parse_written(text), document.format, written_version(document)):
+        return text
     if parts is None:
         parts = []
         text = _plain_text(document, parts)
@@ -335,8 +338,7 @@ def _validate(
     Elements that the version does not have are left out, except those named in `kept`; all stay where it is None.
     """
     errors = libxml2_errors(root, format_, version)
-    # To read the document takes several times as long, and elements that no version has are kept.
-    if not errors or is_valid_without_unknown(root, format_, version):
+    if not errors:
         return
     found = DiagnosticSink(file=sink.file)
     context = Context(found, sink.file, format_, version)

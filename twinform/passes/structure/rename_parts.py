@@ -21,6 +21,7 @@ from twinform.ir import (
 )
 from twinform.ir.frames import MODEL, WORLD
 from twinform.ir.record import Sourced
+from twinform.ir.rewrite import OPAQUE, bits_of, census_of
 from twinform.ir.scopes import nested_models, outer_models
 from twinform.lazy import lazy_pattern
 from twinform.passes.shared.nodes import map_elements
@@ -159,6 +160,10 @@ def rename_in_world(before: World, after: World, scope: Callable[[Model], Rename
     return follow_references(after, RenamedScope("", own, inner), Format.SDF, DiagnosticSink())
 
 
+_HAVING = OPAQUE | bits_of(Plugin)
+"""What may have names in elements without a type."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Renamer:
     """Renames in one model."""
@@ -195,58 +200,61 @@ class _Renamer:
 
     def follow_in_untyped(self, node: AnyNode) -> AnyNode:
         """The node with new names in opaque parts and plugins, its own and those below, except in nested models."""
+        if not census_of(node) & _HAVING:
+            return node
         update: dict[str, object] = {}
         if node.opaque:
-            update["opaque"] = map_elements(node.opaque, lambda each: self.follow_in_element(each, "", node.location))
+            update["opaque"] = map_elements(node.opaque, lambda each: self.follow_in_element(each, "", node))
         if isinstance(node, Plugin | GazeboExtension):
-            holder = "plugin" if isinstance(node, Plugin) else ""
-            update["content"] = tuple(self.follow_in_element(each, holder, node.location) for each in node.content)
+            around = "plugin" if isinstance(node, Plugin) else ""
+            update["content"] = tuple([self.follow_in_element(each, around, node) for each in node.content])
         changed = _copy_if_changed(node, update)
         return map_children(changed, lambda each: each if isinstance(each, Model) else self.follow_in_untyped(each))
 
-    def follow_in_element(self, element: Element, holder: str, where: Location) -> Element:
-        """The element with new names; `holder` is the name of the element around it."""
-        where = element.location if element.source else where
+    def follow_in_element(self, element: Element, around: str, placed: Sourced) -> Element:
+        """The element with new names; `around` is the name of the element around it, and `placed` what has a place."""
+        if element.source:
+            placed = element
         inner = self.scope.inner.get(element.get("name") or "") if element.name in _MODELS else None
         if inner is not None:
-            return self.follow_in_state(element, inner, where)
+            return self.follow_in_state(element, inner, placed)
         attributes = tuple(
-            (key, self.follow_attribute(element, key, value, where)) for key, value in element.attributes
+            [(key, self.follow_attribute(element, key, value, placed)) for key, value in element.attributes]
         )
         update: dict[str, object] = {
             "attributes": attributes,
-            "text": self.follow_text(element, holder, where),
-            "children": tuple(self.follow_in_element(child, element.name, where) for child in element.children),
+            "text": self.follow_text(element, around, placed),
+            "children": tuple([self.follow_in_element(child, element.name, placed) for child in element.children]),
         }
         return _copy_if_changed(element, update)
 
-    def follow_in_state(self, element: Element, scope: RenamedScope, where: Location) -> Element:
+    def follow_in_state(self, element: Element, scope: RenamedScope, placed: Sourced) -> Element:
         """The state of a model in a world, in which the names of the model are looked up."""
         new = self.scope.own["model"]
         attributes = tuple(
             (key, new.get(value, value) if key == "name" else value) for key, value in element.attributes
         )
         inside = _Renamer(scope, self.format, self.sink)
-        children = tuple(inside.follow_in_element(child, element.name, where) for child in element.children)
+        children = tuple(inside.follow_in_element(child, element.name, placed) for child in element.children)
         return _copy_if_changed(element, {"attributes": attributes, "children": children})
 
-    def follow_attribute(self, element: Element, key: str, value: str, where: Location) -> str:
+    def follow_attribute(self, element: Element, key: str, value: str, placed: Sourced) -> str:
         kind = kind_of_attribute(element, key)
         if kind is None or (key == "name" and element.name not in _DEFINES and kind == "frame"):
             if key != "name":  # which is a thing's own
-                self.report_unfollowed(value, f"{key!r} of <{element.name}>", where)
+                self.report_unfollowed(value, f"{key!r} of <{element.name}>", placed)
             return value
         return self.scope.follow(kind, value)
 
-    def follow_text(self, element: Element, holder: str, where: Location) -> str | None:
+    def follow_text(self, element: Element, around: str, placed: Sourced) -> str | None:
         text = element.text
         if not text:
             return text
         if element.name == "collision":
             return self.follow_collision(text)
-        kind = kind_of_text(element, holder)
+        kind = kind_of_text(element, around)
         if kind is None:
-            self.report_unfollowed(text, f"the text of <{element.name}>", where)
+            self.report_unfollowed(text, f"the text of <{element.name}>", placed)
             return text
         whole = self.scope.find(kind, text)
         if whole is not None:
@@ -263,11 +271,11 @@ class _Renamer:
                 return new + text[len(old) :]
         return text
 
-    def report_unfollowed(self, value: str, place: str, where: Location) -> None:
+    def report_unfollowed(self, value: str, place: str, placed: Sourced) -> None:
         new = self.scope.find("any", value)
         if new is not None and new != value:
             message = f"{place} is {value!r}, which is called {new!r} now; check whether this refers to it"
-            self.sink.report(rules.UNFOLLOWED_NAME, message, where, found=value)
+            self.sink.report(rules.UNFOLLOWED_NAME, message, placed.location, found=value)
 
 
 def _copy_if_changed(node: Changed, update: dict[str, object]) -> Changed:

@@ -42,6 +42,10 @@ from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_FIELDS, LINK_TAG
 AnyNode = TypeVar("AnyNode", bound=Node)
 _FoldPart: TypeAlias = Callable[[Any, list[GazeboExtension]], Any]
 
+_NOT_OF_LINKS = frozenset(MODEL_TAGS | JOINT_TAGS)
+_NOT_OF_JOINTS = frozenset(MODEL_TAGS | LINK_TAGS)
+_NOT_OF_MODELS = frozenset(LINK_TAGS | JOINT_TAGS)
+
 
 class FoldGazebo(ModelPass):
     """Fold `<gazebo>` elements into the links, joints and the model that they refer to.
@@ -151,7 +155,7 @@ class _Fold:
             self._keep(extension, (), rules.URDF_ONLY, "this <gazebo> sets nothing in the model")
 
     def _link(self, link: Link, extensions: list[GazeboExtension]) -> Link:
-        elsewhere = {**MODEL_TAGS, **({} if link.name in self.joints else JOINT_TAGS)}
+        elsewhere = _NOT_OF_LINKS if link.name not in self.joints else frozenset(MODEL_TAGS)
         sorter = self._sort(extensions, LINK_TAGS, elsewhere, shapes=True, idle=partial(lacks_shapes, link))
         if link.name in self.joints:
             # A reference to a name that a link and a joint share means the link; only tags that joints
@@ -178,13 +182,13 @@ class _Fold:
                 moved = extension.copy(reference=name)
                 self._misplaced(moved, list(extension.content), f"the floating joint {joint.name!r}")
             return joint
-        elsewhere = {**MODEL_TAGS, **LINK_TAGS}
-        sorter = self._sort(extensions, JOINT_TAGS, elsewhere, unfit=is_part_of_axis if joint.type == "fixed" else None)
+        unfit = is_part_of_axis if joint.type == "fixed" else None
+        sorter = self._sort(extensions, JOINT_TAGS, _NOT_OF_JOINTS, unfit=unfit)
         joint = set_joint_fields(joint, sorter.values)
         return self._merge(joint, "joint", sorter.rest)
 
     def _model(self, model: Model, extensions: list[GazeboExtension]) -> Model:
-        sorter = self._sort(extensions, MODEL_TAGS, {**LINK_TAGS, **JOINT_TAGS})
+        sorter = self._sort(extensions, MODEL_TAGS, _NOT_OF_MODELS)
         links, joints, frames = len(model.links), len(model.joints), len(model.frames)
         model = self._merge(set_model_fields(model, sorter.values), "model", sorter.rest)
         return model.copy(
@@ -226,7 +230,7 @@ class _Fold:
         self,
         extensions: list[GazeboExtension],
         tags: dict[str, Any],
-        elsewhere: dict[str, Any],
+        elsewhere: frozenset[str],
         *,
         shapes: bool = False,
         unfit: Callable[[Element], bool] | None = None,

@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, Source, rules
-from twinform.ir import Collision, GazeboExtension, Model
+from twinform.ir import Collision, GazeboExtension, Model, replace_fields
 from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.name_shapes import name_all
@@ -29,7 +29,7 @@ class FollowLumpedNames(ModelPass):
             return model
         names = names_of_libsdformat(model)
         extensions = tuple(self._extension(each, model, names, sink) for each in model.extensions)
-        return model.copy(extensions=extensions)
+        return replace_fields(model, extensions=extensions)
 
     def _extension(
         self, extension: GazeboExtension, model: Model, names: dict[str, Followed], sink: DiagnosticSink
@@ -49,7 +49,7 @@ class FollowLumpedNames(ModelPass):
                 hint = "convert with --passes 'lump-fixed-joints{compat=libsdformat}'"
                 sink.report(rules.UNSEEN_COLLISION, message, element.location, found=found.name, help=hint)
         content = tuple(followed(part, names, carriers=self.carriers) for part in extension.content)
-        return extension.copy(content=content)
+        return replace_fields(extension, content=content)
 
 
 def own_collisions(model: Model) -> dict[Source, Followed]:

@@ -31,7 +31,6 @@ from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_value
 from twinform.ir.rewrite import node_fields
 from twinform.ir.solids import with_written_defaults
-from twinform.passes.carriers.carriers import from_xml
 from twinform.passes.shared.gazebo_tags import SCRIPT_URI, Tag
 from twinform.schemas import Context, element_xml, format_value, reader, table
 
@@ -92,14 +91,20 @@ def set_joint_fields(joint: Joint, values: Values) -> Joint:
 
 def _physics(values: list[tuple[str, object]]) -> Opaque:
     """The `<physics>` of a joint from paths below it and their values."""
-    root = etree.Element("physics")
+    inside: dict[str, Any] = {}
     for path, value in values:
-        holder = root
-        for step in path.split("/"):
-            found = holder.find(step)
-            holder = found if found is not None else etree.SubElement(holder, step)
-        holder.text = format_value(value)
-    return Opaque.unchecked(element=from_xml(root))
+        holder = inside
+        *outer, last = path.split("/")
+        for step in outer:
+            holder = holder.setdefault(step, {})
+        holder[last] = format_value(value)
+    return Opaque.unchecked(element=_element("physics", inside))
+
+
+def _element(name: str, inside: str | dict[str, Any]) -> Element:
+    if isinstance(inside, str):
+        return Element.unchecked(name=name, text=inside)
+    return Element.unchecked(name=name, children=tuple([_element(*each) for each in inside.items()]))
 
 
 AnyNode = TypeVar("AnyNode", bound=Node)

@@ -97,7 +97,7 @@ class Sorter:
     def __init__(
         self,
         tags: dict[str, Tag],
-        elsewhere: Iterable[str],
+        elsewhere: frozenset[str],
         sink: DiagnosticSink,
         *,
         shapes: bool = False,
@@ -105,7 +105,7 @@ class Sorter:
         idle: Callable[[Element], bool] | None = None,
     ) -> None:
         self._tags = tags
-        self._elsewhere = frozenset(elsewhere)
+        self._elsewhere = elsewhere
         self._notes = sink
         self._shapes = shapes
         self._unfit = unfit

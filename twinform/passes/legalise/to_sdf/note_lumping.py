@@ -1,7 +1,7 @@
 """Where Gazebo does something else with the `<gazebo>` tags of a URDF than with the SDF made of it."""
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Severity, rules
@@ -44,19 +44,19 @@ class NoteLumping(ModelPass):
         # that misses a shape for its name. So our SDF has what is written, and this pass says where
         # Gazebo reads the URDF in another way.
         if model.extensions and not came_from(model, Format.SDF):
-            _report_flags(model, sink)
+            hosts = lumped_links(model)
+            _report_flags(model, hosts, sink)
             find_early_static(model, sink)
             for field in KINDS:
-                _report_shapes(model, field, sink)
+                _report_shapes(model, field, hosts, sink)
         return model
 
 
-def _report_flags(model: Model, sink: DiagnosticSink) -> None:
+def _report_flags(model: Model, hosts: Mapping[str, str], sink: DiagnosticSink) -> None:
     """Report flags that are not those of the whole body that Gazebo makes."""
     own = _settings(model)
     if not own:
         return
-    hosts = lumped_links(model)
     alike = defaultdict[tuple[str, str], dict[str, list[str]]](dict)
     massless = {link.name for link in model.links if is_massless(link)}
     for link in sorted(model.links, key=lambda link: link.name in massless):
@@ -102,13 +102,12 @@ def _text(value: object) -> str:
     return str(value)
 
 
-def _report_shapes(model: Model, field: str, sink: DiagnosticSink) -> None:
+def _report_shapes(model: Model, field: str, hosts: Mapping[str, str], sink: DiagnosticSink) -> None:
     """Report shapes to which Gazebo applies other tags than those of their link."""
     there = {name: extensions for name, extensions in blocks_by_reference(model.extensions).items() if name}
     tags = {name: words for name in there if (words := _words(shape_elements(block_content(there, name), field)))}
     if not tags:
         return
-    hosts = lumped_links(model)
     for seen in seen_shapes(model, field):
         seen_by = tagging_links(seen, KINDS[field], hosts) & tags.keys()
         own = {seen.link} & tags.keys()
