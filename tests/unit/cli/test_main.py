@@ -68,6 +68,8 @@ _UNUSED = {
         "twinform.passes.legalise",
         "twinform.passes.framework.pass_base",
         "twinform.cli.config_settings",
+        "twinform.diagnostics.reporters.sarif",
+        "twinform.passes.mesh_jobs.job",
         "twinform.storage",
     ],
     "convert": [

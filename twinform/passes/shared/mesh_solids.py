@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import field
 from pathlib import Path
-from typing import NamedTuple, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Rule, rules
@@ -11,8 +11,10 @@ from twinform.ir import Element, Mesh, Vector3
 from twinform.ir.solids import Solid, times_each
 from twinform.ir.transform import times_power
 from twinform.passes.framework.assets import AssetError, Assets
-from twinform.passes.mesh_jobs.job import MeshJob, MeshResult, Options
 from twinform.passes.mesh_jobs.mesh_files import EXTRA, READ, RefusedMeshError, content_of, kind_of
+
+if TYPE_CHECKING:
+    from twinform.passes.mesh_jobs.job import MeshResult, Options
 
 
 class MeshError(Exception):
@@ -42,8 +44,8 @@ class Meshes:
 
     assets: Assets
     hull: bool = False
-    _known: dict[tuple[object, ...], MeshResult] = field(
-        default_factory=dict[tuple[object, ...], MeshResult], repr=False
+    _known: "dict[tuple[object, ...], MeshResult]" = field(
+        default_factory=dict[tuple[object, ...], "MeshResult"], repr=False
     )
 
     def solid(self, mesh: Mesh, density: float) -> Solid:
@@ -82,7 +84,7 @@ class Meshes:
         files = self._result("surface", mesh, {}).files
         return MeshTriangles(files["points"], files["faces"])
 
-    def _result(self, name: str, mesh: Mesh, options: Options) -> MeshResult:
+    def _result(self, name: str, mesh: Mesh, options: "Options") -> "MeshResult":
         """The result of a job on the file of a mesh, run at most once."""
         uri = mesh.uri or ""
         try:
@@ -105,7 +107,7 @@ def _vector(found: object) -> Vector3:
     return x, y, z
 
 
-def _run_job(name: str, path: Path, uri: str, options: Options) -> MeshResult:
+def _run_job(name: str, path: Path, uri: str, options: "Options") -> "MeshResult":
     # A FIFO or a device under the name of a mesh would block the reader or never end.
     if not path.is_file():
         raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} is no file")
@@ -113,6 +115,7 @@ def _run_job(name: str, path: Path, uri: str, options: Options) -> MeshResult:
         message = f"the mesh {uri!r} is in no format that is read here: {', '.join(sorted(READ))}"
         raise MeshError(rules.UNREADABLE_MESH, message)
     from twinform.passes.mesh_jobs.child_process import do  # noqa: PLC0415 - most runs read no mesh
+    from twinform.passes.mesh_jobs.job import MeshJob  # noqa: PLC0415 - as above
 
     try:
         result = do(MeshJob(name, options, kind_of(path), content_of(path)))
