@@ -13,7 +13,7 @@ from twinform.cli.checked_file import CheckedFile, Reporting, is_elsewhere
 from twinform.cli.command import FINDINGS, UNUSABLE
 from twinform.cli.flags import group
 from twinform.cli.printing import plural, print_document, print_line, show
-from twinform.diagnostics import Diagnostic, Policy, Safety, Severity
+from twinform.diagnostics import Diagnostic, Policy, Safety, Severity, rules
 from twinform.diagnostics.reporters import REPORTERS, FileFindings
 from twinform.diagnostics.reporters.file_findings import cause_of
 
@@ -43,7 +43,10 @@ exit_options = group(
 
 
 class OnceInAllFiles:
-    """Leaves out findings about an included file that were reported before, for another robot or call of a macro."""
+    """Leaves out findings that were reported before, for another robot or call of a macro.
+
+    These are findings about files that others include, and about packages, whichever files ask for them.
+    """
 
     def __init__(self) -> None:
         self.repeated = 0
@@ -51,10 +54,11 @@ class OnceInAllFiles:
         self._first: dict[object, str] = {}
 
     def is_new(self, finding: Diagnostic, robot: str) -> bool:
-        """Whether a finding about a file that a robot includes was not asked about before."""
+        """Whether a finding that several robots may have was not asked about before."""
         where = finding.location
         cause = cause_of(replace(finding, help=None))  # advice may name the robot
-        key = (os.path.abspath(where.file), where.line, cause)  # noqa: PTH100 - many strings
+        place = (os.path.abspath(where.file), where.line, cause)  # noqa: PTH100 - many strings
+        key = (finding.rule, finding.found) if finding.rule is rules.MISSING_PACKAGE else place
         is_new = key not in self._first
         self.repeated += self._first.setdefault(key, robot) != robot
         return is_new
@@ -135,10 +139,13 @@ class CheckReport:
         return findings if len(kept) == len(findings.diagnostics) else findings._replace(diagnostics=kept)
 
     def _is_known(self, finding: Diagnostic, path: str) -> bool:
-        if not is_elsewhere(finding, path):
+        is_of_others = is_elsewhere(finding, path)
+        if not is_of_others and finding.rule is not rules.MISSING_PACKAGE:
             return False
         if not self.once.is_new(finding, path):
             return True
+        if not is_of_others:
+            return False
         baseline = self.baselines.of(path)
         if baseline is None or baseline.run.unknown(path, [finding]):
             return bool(baseline) and self.baselines.update and finding.severity is not Severity.INFO
@@ -169,7 +176,7 @@ class CheckReport:
         more = (
             (self.unreadable, "could not be read"),
             (self.waiting, "not checked, for want of arguments or packages"),
-            (self.once.repeated, "of the same places in other robots"),
+            (self.once.repeated, "in other files too"),
             (self.allowed, "allowed"),
             (self.known, "in the baseline"),
             (self.fixed, "fixed"),

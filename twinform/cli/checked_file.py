@@ -167,7 +167,7 @@ class CheckTask:
     @property
     def seconds(self) -> float:
         """How long the check takes, as measured over the corpus: each expansion of xacro has a process of its own."""
-        return 0.08 if self.load_options.xacro or self.name.endswith(XACRO) else 0.005
+        return 0.08 if self.load_options.xacro or self.name.lower().endswith(XACRO) else 0.005
 
     def sharing(self, common: dict[Any, Any]) -> "CheckTask":
         """Return the task with the search path of other tasks, which knows what is in folders."""

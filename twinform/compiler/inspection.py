@@ -14,6 +14,7 @@ from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.load_options import CheckOptions, Input, LoadResult, checking_options
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.mistakes import report_mistakes
+from twinform.compiler.mistakes.misspelt_parts import join_misspelt_parts
 from twinform.compiler.named_files import report_named_files
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Rule, Severity, did_you_mean, rules
 from twinform.diagnostics.rules import MISSING_INERTIAL, UNKNOWN_COLLISION
@@ -77,7 +78,7 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
         # seem unused.
         if not whole.has_errors:
             report_unused(loaded.allowances, whole)
-    ordered = sorted(whole.diagnostics, key=lambda each: each.location.line)
+    ordered = sorted(join_misspelt_parts(whole.diagnostics), key=lambda each: each.location.line)
     return replace(loaded, diagnostics=tuple(ordered), allowed=tuple(whole.allowed))
 
 

@@ -1,5 +1,6 @@
 """Missing files that a model names: meshes, textures and includes, and paths that only Windows reads."""
 
+import os
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
@@ -103,7 +104,7 @@ def _report_found(
     """Report what is wrong with a file that is there, and with its package, the first time that it is named."""
     path, search, files = around
     is_new = use.uri.startswith("package://") and _holder(use.uri) not in holders
-    mesh_fault = find_mesh_fault(use.uri, _shown(use.uri, sink.file), files)
+    mesh_fault = find_mesh_fault(use.uri, _shown(use), files)
     faults = (find_package_fault(use.uri, search, path) if is_new else None, mesh_fault)
     for each in filter(None, faults):
         sink.report(each.rule, each.message, _place(use, parts), found=use.uri, help=each.help)
@@ -143,7 +144,7 @@ def _look_for(use: _Use, path: Path, search: SearchPath, files: MeshFiles, *, as
 def _report_missing(missing: Iterable[_Missing], parts: PartFinder | None, sink: DiagnosticSink) -> None:
     first, *others = missing
     use = first.use
-    message = f"the {_WORDS[use.kind]} {_shown(use.uri, sink.file)!r} is not there"
+    message = f"the {_WORDS[use.kind]} {_shown(use)!r} is not there"
     if others:
         message += f", nor is anything else of {_holder(use.uri) or 'what is named by a path'}: {len(others)} more"
     hint = suggest(first.near) or first.looked
@@ -151,11 +152,14 @@ def _report_missing(missing: Iterable[_Missing], parts: PartFinder | None, sink:
     sink.report(rules.MISSING_FILE, message, _place(use, parts), found=use.uri, help=hint, related=related)
 
 
-def _shown(uri: str, main: str) -> str:
-    """Return a URI as a finding shows it: a path that xacro has made absolute, as the file is named."""
-    from twinform.compiler.input.xacro_needs import shown_name  # noqa: PLC0415 - few files have such a URI
+def _shown(use: _Use) -> str:
+    """Return a URI as a message has it: an absolute path, as `$(find)` makes it, is named as the file itself is."""
+    path = unquote(use.uri.removeprefix("file://"))
+    if not path.startswith(os.sep):
+        return use.uri
+    from twinform.compiler.input.xacro_needs import shown_name  # noqa: PLC0415 - few files have absolute paths
 
-    return shown_name(uri.removeprefix("file://"), main) if uri.startswith("file:///") else uri
+    return shown_name(path, use.where.file)
 
 
 def _place(use: _Use, parts: PartFinder | None) -> Location:

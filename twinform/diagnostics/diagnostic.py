@@ -128,13 +128,19 @@ class Fix:
     """Edits of the text that fix a finding; `title` says what they do as a command to a person.
 
     A fix that `keeps` the robot is not made where another one comes of it. Others are meant to change what readers
-    take a file for: guesses, and values that stand in the file where no reader looks.
+    take a file for: guesses, and values that stand in the file where no reader looks. Safe fixes keep it unless they
+    say otherwise, and no others do.
     """
 
     title: str
     edits: tuple[TextEdit, ...]
     safety: Safety = Safety.SAFE
-    keeps: bool = True
+    keeps: bool | None = None
+
+    @property
+    def keeps_robot(self) -> bool:
+        """Whether the robot is meant to be the same afterwards."""
+        return self.safety is Safety.SAFE if self.keeps is None else self.keeps
 
 
 class Severity(IntEnum):

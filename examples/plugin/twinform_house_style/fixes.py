@@ -15,4 +15,4 @@ def house_style(site: FindingSite) -> Fix | None:
         edits += [site.edit.set_attribute(each, str(key), new) for key, value in each.attrib.items() if value == old]
         if each.text == old and not len(each):
             edits += site.edit.set_text(each, new)
-    return Fix(f"Call it {new}", tuple(edits), Safety.UNSAFE, keeps=False) if edits else None
+    return Fix(f"Call it {new}", tuple(edits), Safety.UNSAFE) if edits else None

@@ -51,7 +51,7 @@ def test_one_fault_in_a_part_is_one_finding_however_many_robots_include_it(run: 
     Path("part.xacro").write_text(f'{_PART}<link name="arm"/>\n\n oops\n<joint name="j" type="fixed">'
                                   '<parent link="base"/><child link="arm"/></joint></robot>')  # fmt: skip
     assert _findings(run, ".") == [("stray-text", "warning", "part.xacro", 3)]
-    assert "2 of the same places in other robots" in run("check", ".").stderr
+    assert "2 in other files too" in run("check", ".").stderr
     assert run("check", ".", "--baseline", "known.json", "--update-baseline").exit_code == 0
     Path("one.urdf.xacro").unlink()
     assert run("check", ".", "--baseline", "known.json").stdout == ""
@@ -308,3 +308,38 @@ def test_what_a_build_puts_elsewhere_is_found_where_it_comes_from(run: Run, here
     assert "the mesh 'package://bot/a.stl' is empty" in run("check", "bot/r.urdf.xacro").stdout
     Path("bot/CMakeLists.txt").unlink()
     assert "xacro-error" in [each[0] for each in _findings(run, ".")]
+
+
+def test_a_package_that_is_missing_is_one_finding(run: Run, here: Path) -> None:
+    for name in ("one", "two", "three"):
+        Path(f"{name}.urdf.xacro").write_text(f"{_ROBOT}{_include('$(find nowhere)/a.xacro')}</robot>")
+    Path("three.urdf.xacro").write_text(f"{_ROBOT}{_include('$(find elsewhere)/a.xacro')}</robot>")
+    assert [each[0] for each in _findings(run, ".")] == ["missing-package"] * 2
+    assert "3 not checked, for want of arguments or packages; 1 in other files too" in run("check", ".").stderr
+
+
+def test_two_places_on_a_line_are_not_in_other_robots(run: Run, here: Path) -> None:
+    Path("r.urdf.xacro").write_text(f'{_ROBOT}{_include("part.xacro")}<link name="base"/></robot>')
+    Path("part.xacro").write_text(f'{_PART}<link name="arm"><colour/></link><link name="leg"><colour/></link></robot>')
+    assert "other files" not in run("check", ".").stderr
+
+
+def test_a_path_made_by_find_is_named_as_the_file_is(run: Run, here: Path) -> None:
+    Path("arm").mkdir()
+    Path("arm/package.xml").write_text("<package><name>arm</name></package>")
+    for number, uri in enumerate(("$(find arm)/no.stl", "file://$(find arm)/no.stl")):
+        mesh = f'<visual><geometry><mesh filename="{uri}"/></geometry></visual>'
+        Path(f"arm/r{number}.urdf.xacro").write_text(f'{_ROBOT}<link name="base">{mesh}</link></robot>')
+    assert run("check", ".").stdout.count("the mesh 'arm/no.stl' is not there") == 2
+
+
+def test_xacro_in_a_file_that_is_called_so_is_expanded(run: Run, here: Path) -> None:
+    text = (
+        f'{_ROBOT}<xacro:macro name="m" params="n"><link name="${{n}}"/></xacro:macro><xacro:m n="a"/><link name="b"/>'
+        '<joint name="j" type="fixed"><parent link="a"/><child link="b"/><origin rpy="0 ${pi} 0"/></joint></robot>'
+    )
+    Path("r.xacro.urdf").write_text(text)
+    assert _findings(run, ".") == _findings(run, "r.xacro.urdf") == []
+    assert " 3.14" in run("convert", "r.xacro.urdf", "--to", "urdf").stdout
+    Path("r.urdf").write_text(text)
+    assert [each[:2] for each in _findings(run, "r.urdf")] == [("unexpanded-xacro", "error")]

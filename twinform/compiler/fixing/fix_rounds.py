@@ -112,7 +112,7 @@ def apply_fixes_by(
             continue  # what was refused is not tried again, so that there is less each time
         state = after
     applied, refused = tuple(fixing.applied), tuple(fixing.refused)
-    keeps = all(each.fix and each.fix.keeps for each in applied)
+    keeps = all(each.fix and each.fix.keeps_robot for each in applied)
     changes = () if keeps else _differences(first.loaded, state.loaded, load_options)
     included = {name: (first.text(name), text) for name, text in state.texts.items() if name}
     return FixResult(state.texts[""], applied, state.loaded, fixing.rounds, refused, changes, included)
@@ -206,7 +206,7 @@ class _FixRun:
 
 
 def _keeps(group: Group) -> bool:
-    return group[0].fix is not None and group[0].fix.keeps
+    return group[0].fix is not None and group[0].fix.keeps_robot
 
 
 def _differences(before: LoadResult, after: LoadResult, load_options: LoadOptions) -> tuple[str, ...]:

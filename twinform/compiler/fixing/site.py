@@ -236,12 +236,12 @@ def revealing(title: str, *edits: TextEdit) -> Fix:
 
 def unsafe(title: str, *edits: TextEdit) -> Fix:
     """Make a fix that may change the robot, or is a guess."""
-    return Fix(title, edits, Safety.UNSAFE, keeps=False)
+    return Fix(title, edits, Safety.UNSAFE)
 
 
 def careful(title: str, *edits: TextEdit) -> Fix:
     """Make an unsafe fix that is not made where another robot comes of it."""
-    return Fix(title, edits, Safety.UNSAFE)
+    return Fix(title, edits, Safety.UNSAFE, keeps=True)
 
 
 def display(title: str, *edits: TextEdit) -> Fix:

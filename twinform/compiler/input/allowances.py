@@ -197,6 +197,8 @@ _REFERENCES = frozenset(
         rules.UNKNOWN_REFERENCE,
     }
 )
+OF_OTHER_PARTS = _REFERENCES | _OF_THE_TREE
+"""The rules of findings about parts that another part of the file should have made."""
 _JOINT = lazy_pattern(r"/joint(?=[\[/]|$)")
 _PREDICATE_END = lazy_pattern(r"\](?=/|$)")
 _ENDS = ("/parent", "/child")

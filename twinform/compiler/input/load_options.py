@@ -49,7 +49,7 @@ class FileOptions(TypedDict, total=False):
     ]
     xacro: Annotated[
         bool | None,
-        Option(help="Expand all files, or none; by default those called .xacro. It evaluates expressions in them."),
+        Option(help="Expand all files, or none; by default those called .xacro, .xacro.urdf or .xacro.sdf."),
     ]
     max_size: Annotated[
         int,
@@ -93,10 +93,10 @@ class LoadOptions:
     """How files are read.
 
     `search` has the folders for URIs, and `arguments` are those of xacro. `xacro` selects which files are expanded: by
-    default those whose names end in `.xacro`, all where it is true, and none where it is false. `limits` are the
-    largest sizes of files. Without `keep_tree` the result has no tree, which needs more memory than the document; with
-    `keep_comments` it has the comments. Findings of the rules in `allow` are left out, as are those that comments in
-    the files allow; allowed errors are left out only if the caller is `tolerant`.
+    default those whose names end in `.xacro`, `.xacro.urdf` or `.xacro.sdf`, all where it is true, and none where it is
+    false. `limits` are the largest sizes of files. Without `keep_tree` the result has no tree, which needs more memory
+    than the document; with `keep_comments` it has the comments. Findings of the rules in `allow` are left out, as are
+    those that comments in the files allow; allowed errors are left out only if the caller is `tolerant`.
     `profiles` are those of the consumers that the files are for. `variables` are environment variables that xacro files
     may read besides those of ROS and Gazebo; `*` may stand in a name. `sdf_version` is the newest version that the
     reader of the files knows: of a folder with a model in several versions, the newest one up to it is read. `robot` is

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Unpack
 
 from twinform.compiler.conversion_error import CompileError
-from twinform.compiler.input.allowances import Allowances, content_of, without_consequences
+from twinform.compiler.input.allowances import OF_OTHER_PARTS, Allowances, content_of, without_consequences
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.front_ends import (
     LARGE,
@@ -36,17 +36,16 @@ from twinform.compiler.input.load_options import (
 from twinform.compiler.input.parsing import (
     UnreadableError,
     has_comment_after_text,
-    may_be_unexpanded,
     parse,
     read_bytes,
     refuse_excess,
     report_split_values,
     report_tabbed_numbers,
-    report_unexpanded,
     strip_default_namespace,
 )
 from twinform.compiler.input.size_limits import LIFTED_LIMITS, USUAL_LIMITS, Limits, excess_of_json
 from twinform.compiler.input.take_comments import may_have_comments, take_comments
+from twinform.compiler.input.unexpanded_xacro import may_be_unexpanded, report_unexpanded, without_what_follows
 from twinform.compiler.output.source_comments import Comments
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, rules
 from twinform.ir import Document, Format
@@ -128,6 +127,7 @@ def _read_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, all
     verify(document, found)
     if document.format is Format.URDF:
         check_extensions(document, found)
+    found.diagnostics = [*without_what_follows(found.diagnostics, sink, OF_OTHER_PARTS)]
     if found.diagnostics:
         kept = without_consequences(found.diagnostics, sink.diagnostics, context.stand_ins)
         whole = read_tree_again(text) if tree is None else tree

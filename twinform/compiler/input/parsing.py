@@ -9,9 +9,8 @@ Macros and `${...}` of xacro stay as they are in files whose names do not end in
 
 import codecs
 import re
-from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple, cast
+from typing import cast
 
 from lxml import etree
 
@@ -228,7 +227,8 @@ def _unreadable(sink: DiagnosticSink, message: str, help: str | None = None) -> 
 
 _KINDS = bytes.maketrans(b"\t\r123456789", b"\n\n000000000")
 """Maps all digits to one, and all line breaks and tabs to one."""
-_ASIDE = lazy_pattern(f"{COMMENT}|{INSTRUCTION}|{SECTION}".encode())
+ASIDE = lazy_pattern(f"{COMMENT}|{INSTRUCTION}|{SECTION}".encode())
+"""What is no tag and no text that has to be parsed: comments, instructions and sections."""
 _ATTRIBUTE = lazy_pattern(rb"""(?<![\w:.-])([\w:.-]++)\s*+=\s*+(?:"([^"<]*+)"|'([^'<]*+)')""")
 _TABBED = lazy_pattern(rb"""["'][-+.\deE ]*+(?:[\t\r\n]|&#)[-+.\deE \t\r\n&#xaAdD;]*+["']""")
 """Numbers in quotes with a break or a character reference between them: a quick test that few files pass."""
@@ -245,7 +245,7 @@ def report_tabbed_numbers(text: bytes, sink: DiagnosticSink) -> None:
     """Report numbers of a URDF file with tabs or new lines between them, which an XML parser turns into blanks."""
     if not _has_break_after_digit(text):
         return
-    bare = _ASIDE.sub(_line_breaks, text)
+    bare = ASIDE.sub(_line_breaks, text)
     if not _TABBED.search(bare):
         return
     line, counted = 1, 0
@@ -291,69 +291,3 @@ def _is_split(element: XmlElement) -> bool:
     pieces = [element.text, *(child.tail for child in element)]
     comments_only = len(element) and all(child.tag is etree.Comment for child in element)
     return bool(comments_only and (element.text or "").strip() and any((piece or "").strip() for piece in pieces[1:]))
-
-
-_EXPAND_HELP = "give the file the suffix .xacro, or pass --xacro"
-# Neither part of the robot nor of what Gazebo makes of it: expressions there are for whoever reads
-# them.
-_SETTINGS = frozenset({"ros2_control", "transmission"})
-# Nearly no element has an expression, and libxml2 finds that out faster than Python.
-_MAY_HAVE_EXPRESSIONS = etree.XPath("descendant-or-self::*[(text() | @*)[contains(., '${')]]")
-
-
-def may_be_unexpanded(text: bytes) -> bool:
-    """Tell whether a text has elements of xacro or expressions outside of its comments."""
-    if not (b"<xacro:" in text or b"${" in text):
-        return False
-    without_comments = _ASIDE.sub(lambda found: found[0] if found[0].startswith(b"<![") else b"", text)
-    return b"<xacro:" in without_comments or b"${" in without_comments
-
-
-def report_unexpanded(root: XmlElement, sink: DiagnosticSink) -> None:
-    """Report elements of xacro, and, as an error, expressions where the robot itself should be."""
-    macros = [element for element in root.iter() if "xacro" in (tag := str(element.tag)) and _is_of_xacro(tag)]
-    if macros:
-        where = Location(line=macros[0].sourceline or 0, path=f"/{root.tag}")
-        message = f"{_count(len(macros), 'element')} of xacro will not be expanded"
-        sink.report(rules.UNEXPANDED_XACRO, message, where, found="xacro", help=_EXPAND_HELP)
-    found = list(_with_expressions(root))
-    # A file that is not called `.xacro` and has `${...}` in its links or joints is a robot that
-    # nobody wrote: an error. In <ros2_control> and <transmission> they are strings for another
-    # program.
-    expressions, severity = [each for each in found if not each.is_aside], Severity.ERROR
-    if not expressions:
-        expressions, severity = found, Severity.WARNING
-    if expressions:
-        element, text, _ = expressions[0]
-        shown = text if len(text) <= 60 else text[:57] + "..."
-        message = f"xacro expressions in {_count(len(expressions), 'element')} are not expanded: {shown!r}"
-        where = Location(line=element.sourceline or 0, path=path_of(element))
-        sink.report(rules.UNEXPANDED_XACRO, message, where, found=shown, help=_EXPAND_HELP, severity=severity)
-
-
-class _Expression(NamedTuple):
-    """An element with `${...}`, and whether it is in a part that only other programs read."""
-
-    element: XmlElement
-    text: str
-    is_aside: bool
-
-
-def _is_of_xacro(tag: str) -> bool:
-    return tag.partition("}")[0].endswith("xacro")
-
-
-def _with_expressions(root: XmlElement) -> Iterator[_Expression]:
-    """Yield the elements that have `${...}`, except those that only plugins or xacro read."""
-    for element in _MAY_HAVE_EXPRESSIONS(root):
-        around = {str(each.tag) for each in (element, *element.iterancestors())}
-        if any(tag[0] == "{" or tag == "plugin" for tag in around):
-            continue
-        texts = (element.text or "", *element.values())
-        found = next((each.strip() for each in texts if "${" in each and "}" in each), None)
-        if found is not None:
-            yield _Expression(element, found, not _SETTINGS.isdisjoint(around))
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}{'' if number == 1 else 's'}"

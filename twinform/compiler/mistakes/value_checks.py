@@ -5,6 +5,8 @@ from typing import NamedTuple
 
 from lxml import etree
 
+from twinform.compiler.input.load_options import XACRO
+from twinform.compiler.input.unexpanded_xacro import elements_of_xacro
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement, path_of
@@ -120,9 +122,9 @@ _SUBSTITUTION = lazy_pattern(r"\$\((?:find|arg|env|optenv|eval|dirname)\b[^)]*\)
 def report_substitutions(tree: XmlElement, sink: DiagnosticSink) -> None:
     """Report what xacro and roslaunch put in the place of `$(...)`, once for each kind of element of a robot."""
     seen: set[tuple[str, str]] = set()
-    # Launch files expand robot.xacro.urdf as well.
-    is_urdf = tree.tag == "robot" and ".xacro" not in sink.file
-    for element in _MAY_HAVE_SUBSTITUTIONS(tree) if is_urdf else ():
+    if tree.tag != "robot" or sink.file.lower().endswith(XACRO) or next(elements_of_xacro(tree), None) is not None:
+        return  # it is expanded, or was reported as a whole
+    for element in _MAY_HAVE_SUBSTITUTIONS(tree):
         for text in (element.text or "", *element.attrib.values()):
             found = _SUBSTITUTION.search(text)
             if found and (found[0], tag_of(element)) not in seen:

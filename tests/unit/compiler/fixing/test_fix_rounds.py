@@ -188,3 +188,26 @@ def test_what_is_left_is_what_a_look_at_the_result_finds() -> None:
     fixed = apply_fixes(LATE.encode(), LoadOptions())
     again = inspect(read(fixed.data, LoadOptions()), LoadOptions())
     assert fixed.left.diagnostics == again.diagnostics
+
+
+@pytest.mark.parametrize(("keeps", "made"), [(None, b"'2'"), (True, b"'1'")])
+def test_an_unsafe_fix_that_says_nothing_may_make_another_robot(
+    monkeypatch: pytest.MonkeyPatch, keeps: bool | None, made: bytes
+) -> None:
+    inertia = b"<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>"
+    text = (
+        b"<robot name='r'><link name='base'><colr/><inertial><mass value='1'/>"
+        + inertia
+        + b"</inertial></link></robot>"
+    )
+    start = text.index(b"1'")
+
+    def offer(loaded: LoadResult, _: object) -> tuple[Diagnostic, ...]:
+        fix = Fix("Make it heavier", (TextEdit(Span(start, start + 1), "2"),), Safety.UNSAFE, keeps)
+        offered = fix if loaded.content == text else None
+        return tuple(replace(each, fix=offered) for each in loaded.diagnostics if each.rule.name == "unknown-element")
+
+    monkeypatch.setattr("twinform.compiler.fixing.fix_rounds.with_fixes", offer)
+    fixed = apply_fixes(text, LoadOptions(), unsafe=True)
+    assert fixed.data == text.replace(b"'1'/>", made + b"/>", 1)
+    assert bool(fixed.changes) == (keeps is None)
