@@ -29,6 +29,8 @@ _LARGEST = 2**20
 _DEEPEST = 5
 _MOST = 2000
 """The number of entries of a folder that are looked at."""
+_MOST_WALKED = 10_000
+"""The number of folders in which packages are looked for below one: an editor may have a whole home folder open."""
 _SKIPPED = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 
 
@@ -75,7 +77,7 @@ class PackageIndex:
     names: Memo[Path, str | None] = field(default_factory=Memo[Path, str | None])
     listings: Memo[Path, FolderListing] = field(default_factory=Memo[Path, FolderListing])
     models: Memo[Path, tuple[str, ...]] = field(default_factory=Memo[Path, tuple[str, ...]])
-    installs: Memo[Path, tuple[Install, ...]] = field(default_factory=Memo[Path, "tuple[Install, ...]"])
+    installs: Memo[Path, tuple[Install, ...]] = field(default_factory=Memo[Path, tuple[Install, ...]])
     robots: Memo[Path, tuple[Path, ...]] = field(default_factory=Memo[Path, tuple[Path, ...]])
     """The robots below a folder, which those who ask for them find."""
     parts: Memo[object, object] = field(default_factory=Memo[object, object])
@@ -163,7 +165,7 @@ def _folders(folder: Path) -> Iterator[Path]:
 def _packages_below(root: Path) -> Iterator[tuple[str, Path]]:
     """Yield every package below a folder with its name; a package does not contain others."""
     depth = len(root.parts)
-    for place, folders, files in os.walk(root):
+    for place, folders, files in islice(os.walk(root), _MOST_WALKED):
         here = Path(place)
         name = package_name(here) if MANIFEST in files else None
         if name is not None:

@@ -94,9 +94,8 @@ def _files_of(robot: Path, options: LoadOptions) -> set[str]:
 
 def _options_of(session: Session, path: Path) -> LoadOptions:
     """Return the options for a file, with what lies in the workspace as it is now."""
-    options = session.settings_of(path).load_options
-    search = replace(options.search, index=PackageIndex(), asked=tuple(session.folders))
-    return replace(options, search=search)
+    options = session.settings(path).load_options
+    return replace(options, search=replace(options.search, index=PackageIndex()))
 
 
 def _mentions_in(document: TextDocument) -> list[Mention[Span]]:

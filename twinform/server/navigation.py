@@ -42,7 +42,7 @@ class Found(NamedTuple):
 
 def search_of(session: Session, document: TextDocument) -> SearchPath:
     """Return the search path for the URIs of a document."""
-    return session.settings_of(document.path).load_options.search
+    return session.settings(document.path).load_options.search
 
 
 def definitions(session: Session, document: TextDocument, offset: int) -> list[DocumentPlace]:

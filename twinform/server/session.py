@@ -18,7 +18,7 @@ from pebble import ProcessExpired
 
 from twinform.compiler.workers import ProcessExecutor
 from twinform.diagnostics import Diagnostic
-from twinform.server.checking import Checked, CheckJob, SettingsOf, check
+from twinform.server.checking import Checked, CheckJob, EditorSettings, SettingsOf, check
 from twinform.server.diagnostics import as_protocol, by_file, notice
 from twinform.server.documents import DocumentFiles, Documents, TextDocument
 from twinform.server.includes import IncludedNeighbors
@@ -235,7 +235,19 @@ class Session:
             return None
         root = document.tree.root
         is_part = document.is_xacro and root is not None and root.tag == "robot" and root.get("name") is None
-        return CheckJob(document.path.absolute(), self._unsaved(document), self.settings_of(document.path), is_part)
+        return CheckJob(document.path.absolute(), self._unsaved(document), self.settings(document.path), is_part)
+
+    def settings(self, path: Path) -> EditorSettings:
+        """Return the settings for a file, which finds packages in all folders of the workspace.
+
+        A package in the file's own folder of the workspace is found as by `check FOLDER`.
+        """
+        settings = self.settings_of(path)
+        options = settings.load_options
+        others = tuple(each for each in self.folders if not path.absolute().is_relative_to(each.absolute()))
+        workspaces = (*options.search.workspaces, *others)
+        search = replace(options.search, asked=tuple(self.folders), workspaces=workspaces)
+        return replace(settings, load_options=replace(options, search=search))
 
     def _unsaved(self, document: TextDocument) -> Mapping[str, bytes]:
         """Return the texts of all open files, and of a document, which may be no file."""

@@ -114,6 +114,7 @@ async def answer(one: Editor, request: dict[str, str], folder: Path) -> Any:
     if request["method"] == "completion":
         return choices(found)
     if request["method"] == "passes":
+        assert one.edits, one.messages
         found = one.edits.pop().edit
     return shown(converter.unstructure(found), f"{folder.as_uri()}/")
 
