@@ -4,6 +4,7 @@ The robots are of our own, in the shape of public ones: an arm with MoveIt, a ca
 """
 
 import json
+import re
 import shutil
 from pathlib import Path
 
@@ -212,3 +213,48 @@ def test_other_yaml_is_left_alone(run: Run, robots: Path) -> None:
         (robots / "lifter" / _MOVEIT / name).write_text(text, encoding="utf-8")
     assert _findings(run, robots / "lifter") == []
     assert "7 files" in run("check", robots / "lifter", "--no-config").stderr
+
+
+_RENAME = "rename{names=[turn:pan,pedestal:base,tool_plate:wrist]}"
+_FOLLOWING = {
+    _SRDF: 6,
+    f"{_MOVEIT}/joint_limits.yaml": 1,
+    f"{_MOVEIT}/moveit_controllers.yaml": 1,
+    f"{_MOVEIT}/ros2_controllers.yaml": 2,
+}
+
+
+@pytest.mark.parametrize("command", ["fix", "convert"])
+def test_a_rename_follows_everywhere_and_changes_no_other_byte(run: Run, robots: Path, command: str) -> None:
+    lifter = robots / "lifter"
+    before = {path: path.read_bytes() for path in lifter.rglob("*") if path.is_file()}
+    urdf = lifter / "lifter_description/urdf/lifter.urdf"
+    options = ("--in-place", "--to", "urdf") if command == "convert" else ()
+    done = run(command, urdf, *options, "--passes", _RENAME, "--no-config")
+    assert done.exit_code == 0, done.stderr
+    changed = {path for path, data in before.items() if path.read_bytes() != data}
+    assert changed == {urdf, *(lifter / name for name in _FOLLOWING)}
+    for name, count in _FOLLOWING.items():
+        path = lifter / name
+        old = before[path].decode()
+        assert path.read_text(encoding="utf-8") == re.sub(
+            r"\b(turn|pedestal|tool_plate)\b",
+            lambda found: {"turn": "pan", "pedestal": "base", "tool_plate": "wrist"}[found[0]],
+            old,
+        )
+        assert f"{path}: {count} name{'s' if count > 1 else ''} followed" in done.stderr
+    assert _findings(run, lifter) == []
+
+
+def test_a_prefix_follows_and_what_another_robot_has_stays(run: Run, robots: Path) -> None:
+    lifter = robots / "lifter"
+    urdf = lifter / "lifter_description/urdf/lifter.urdf"
+    done = run("fix", urdf, "--passes", "prefix-names{prefix=l_}", "--diff", "--no-config")
+    assert "+    joints: [l_turn, l_raise]" in done.stdout
+    assert urdf.read_text(encoding="utf-8").count("l_turn") == 0
+    shutil.rmtree(lifter / "lifter_moveit_config")
+    limits = lifter / "limits.yaml"
+    limits.write_text("joint_limits:\n  turn: {max_velocity: 1}\n", encoding="utf-8")
+    shutil.copy(urdf, lifter / "lifter_description/urdf/other.urdf")
+    assert run("fix", urdf, "--passes", "rename{names=[turn:pan]}", "--no-config").exit_code == 0
+    assert "turn" in limits.read_text(encoding="utf-8")

@@ -1,5 +1,6 @@
 """Where URIs lead, in a small tree of folders."""
 
+import pickle
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -131,3 +132,7 @@ def test_nothing_above_the_repository_is_looked_at(tree: Path) -> None:
     search = SearchPath.of(environment={})
     with pytest.raises(UriError):
         search.find("model://table", tree / "project/worlds/room.sdf")
+
+
+def test_a_search_path_goes_to_other_processes_with_what_it_knows() -> None:
+    assert pickle.loads(pickle.dumps(SearchPath.of([], {}))) == SearchPath.of([], {})

@@ -15,7 +15,7 @@ from twinform.compiler.companions.find_robots import (
     is_semantic,
     semantics_around,
 )
-from twinform.compiler.companions.name_places import Leaf, Mention, Step, mentions
+from twinform.compiler.companions.name_places import Leaf, Mention, Step, is_known, mentions
 from twinform.compiler.companions.robot_parts import RobotParts, read_parts
 from twinform.compiler.companions.srdf_tree import SrdfTree, leaves_of, read_srdf
 from twinform.compiler.companions.yaml_leaves import YamlError, YamlText, is_surely_meant, may_name_parts, read_yaml
@@ -105,7 +105,9 @@ def _check_yaml(path: Path, data: bytes, sink: DiagnosticSink, load_options: Loa
     found = list(mentions(leaves))
     robots = _robots_for(path, data, found, sink, load_options)
     if robots is not None:
-        report_names(found, KnownParts(robots, _groups_beside(path, load_options)), sink)
+        has_groups = any(each.kind == "group" for each in found)
+        groups = _groups_beside(path, load_options) if has_groups else ()
+        report_names(found, KnownParts(robots, groups), sink)
         if len(robots) == 1:
             report_limits(leaves, robots[0], sink)
             report_interfaces(leaves, robots[0], sink)
@@ -134,7 +136,7 @@ class _Places:
         return Leaf(tuple(path), Step(leaf.value.text, self.of(leaf.value.place, whole)), leaf.beside)
 
 
-_OF_ROBOT = frozenset({"joint", "driven joint", "link"})
+_OF_ROBOT = frozenset({"joint", "driven joint", "interface", "link"})
 
 
 def _robots_for(
@@ -145,11 +147,13 @@ def _robots_for(
     Groups and the like are looked up where there is no robot at all.
     """
     names = {each.name for each in found if each.kind in _OF_ROBOT}
+    frames = {each.name for each in found if each.kind == "frame"}
     candidates = find_robots(path, data, load_options)
     if not names:
         return []
     robots = [] if len(candidates.robots) > MOST_ROBOTS else _read_all(candidates.robots, load_options)
-    problem = _problem(candidates, robots, names)
+    is_fitting = any(_has(each, name) for each in robots if each is not None for name in names | frames)
+    problem = _problem(candidates, robots, len(names), is_fitting=is_fitting)
     if problem:
         help = 'say which with --robot FILE, or in twinform.toml: [[files]] match = ["{}"], robot = "..."'
         sink.report(rules.ROBOT_NOT_FOUND, problem, Location(line=1), help=help.format(path.name))
@@ -171,8 +175,8 @@ def _key(arguments: Mapping[str, str]) -> tuple[tuple[str, str], ...]:
     return tuple(sorted(arguments.items()))
 
 
-def _problem(candidates: Candidates, robots: list[RobotParts | None], names: set[str]) -> str:
-    """Say why names cannot be looked up; empty if they can."""
+def _problem(candidates: Candidates, robots: list[RobotParts | None], names: int, *, is_fitting: bool) -> str:
+    """Say why so many names cannot be looked up; empty if they can. `is_fitting` is true if a robot has one of them."""
     count = len(candidates.robots)
     if not count or (robots and not any(each is None or each.links for each in robots)):
         return "no robot is found that this file is for, so the names in it are not looked up"
@@ -181,15 +185,14 @@ def _problem(candidates: Candidates, robots: list[RobotParts | None], names: set
     broken = [path.name for path, each in zip(candidates.robots, robots, strict=True) if each is None]
     if broken:
         return f"{broken[0]} cannot be read as a whole, so the names in this file are not looked up"
-    is_known = any(_has(each, name) for each in robots if each is not None for name in names)
-    if not is_known and (candidates.by == "place" or (candidates.by == "package" and len(names) > 1)):
+    if not is_fitting and (candidates.by == "place" or (candidates.by == "package" and names > 1)):
         which = candidates.robots[0].name if count == 1 else f"{count} robots"
         return f"no name in this file is one of {which}; it seems to be for another robot"
     return ""
 
 
 def _has(robot: RobotParts, name: str) -> bool:
-    return name in robot.links or name in robot.joints
+    return is_known(name, robot.links) or is_known(name, robot.joints)
 
 
 def _groups_beside(path: Path, load_options: LoadOptions) -> tuple[SrdfTree, ...]:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from twinform.compiler.companions.name_places import Leaf, Step, is_made
 from twinform.compiler.companions.robot_parts import DrivenJoint, RobotParts
-from twinform.diagnostics import DiagnosticSink, Location, Severity, rules
+from twinform.diagnostics import DiagnosticSink, Location, rules
 
 _PARAMETERS = "ros__parameters"
 
@@ -103,4 +103,4 @@ def _known(what: str, driven: DrivenJoint) -> str:
 
 
 def _report(message: str, step: Step[Location], sink: DiagnosticSink, help: str | None = None) -> None:
-    sink.report(rules.MISSING_INTERFACE, message, step.place, found=step.text, help=help, severity=Severity.ERROR)
+    sink.report(rules.MISSING_INTERFACE, message, step.place, found=step.text, help=help)

@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Iterable, Sequence
 
-from twinform.compiler.companions.name_places import Mention, is_made
+from twinform.compiler.companions.name_places import Mention, is_known
 from twinform.compiler.companions.robot_parts import RobotParts
 from twinform.compiler.companions.srdf_tree import SrdfTree
 from twinform.dataclass import dataclass
@@ -53,23 +53,22 @@ def report_names(found: Iterable[Mention[Location]], known: KnownParts, sink: Di
     links, joints, groups, sensors = known.links, known.joints, known.groups, known.sensors
     controlled = all(robot.is_controlled for robot in known.robots)
     for each in found:
-        if is_made(each.text):
-            continue
         match each.kind:
             case "joint" | "driven joint" if known.robots:
                 _report_stale(each, "joint", joints, known, sink)
             case "interface" if known.robots and "/" in each.text:
                 _report_stale(each, "joint", joints, known, sink)
+                _report_interface(each, known.robots, sink)
             case "group" if groups:
                 _report_group(each, groups, sink)
-            case "sensor" if known.robots and controlled and each.text not in sensors:
+            case "sensor" if known.robots and controlled and not is_known(each.text, sensors):
                 message = f"the sensor {each.text!r} is in no <ros2_control> of the robot"
                 _report(each, message, sensors, sink, Severity.ERROR)
             case "link" if known.robots and each.leaf.path[-1].text.startswith("@"):
                 _report_stale(each, "link", links, known, sink)
             case "link" | "frame" if known.robots:
                 _report_frame(each, links, known, sink)
-            case "controller" if each.text not in each.leaf.beside and "/" not in each.text:
+            case "controller" if not is_known(each.text, each.leaf.beside) and "/" not in each.text:
                 message = f"the controller {each.text!r} is listed here, and not described in this file"
                 _report(each, message, each.leaf.beside, sink)
             case _:
@@ -79,23 +78,34 @@ def report_names(found: Iterable[Mention[Location]], known: KnownParts, sink: Di
 def _report_stale(
     mention: Mention[Location], what: str, names: Collection[str], known: KnownParts, sink: DiagnosticSink
 ) -> None:
-    if mention.name in names:
+    if is_known(mention.name, names):
         return
     # the controller manager ends, or refuses to activate the controller
     severity = Severity.ERROR if mention.kind == "driven joint" else None
     _report(mention, f"there is no {what} {mention.name!r}, which {known.whose}", names, sink, severity)
 
 
+def _report_interface(mention: Mention[Location], robots: Sequence[RobotParts], sink: DiagnosticSink) -> None:
+    """Report an interface of a joint that has others, of the only robot that is meant."""
+    driven = robots[0].driven.get(mention.name) if len(robots) == 1 else None
+    name = mention.text.rpartition("/")[2]
+    if driven is not None and name not in driven.commands | driven.states:
+        message = f"the joint {mention.name!r} has no interface {name!r} in <ros2_control>"
+        hint = f"it has {', '.join(sorted(driven.commands | driven.states))}"
+        sink.report(rules.MISSING_INTERFACE, message, mention.place, found=mention.text, help=hint)
+
+
 def _report_group(mention: Mention[Location], groups: Collection[str], sink: DiagnosticSink) -> None:
-    if mention.text not in groups:
+    if not is_known(mention.text, groups):
         _report(mention, f"there is no group {mention.text!r} in SRDF", groups, sink)
 
 
 def _report_frame(mention: Mention[Location], links: Collection[str], known: KnownParts, sink: DiagnosticSink) -> None:
     """Report a frame that is no link; one that may be of something else only where a link is meant."""
     name = mention.text.rpartition("/")[2]
-    if not name or name in links or name in _ELSEWHERE:
+    if not name or is_known(name, links) or name in _ELSEWHERE:
         return
+    # a driver may publish `tool0_controller` beside the link `tool0`
     if mention.kind == "frame" and not any(is_typo(name, each) for each in near_names(name, links)):
         return
     message = f"there is no link {name!r} for this frame, which {known.whose}"

@@ -76,9 +76,12 @@ def robots_around(path: Path, search: SearchPath) -> tuple[Path, ...]:
 
 
 def semantics_around(path: Path, search: SearchPath) -> tuple[Path, ...]:
-    """Return the SRDF files in the package of a file, those for others left out."""
-    top = package_around(path) or own_folder(path)
-    return search.index.robots.get(top / _ASSISTANT, lambda: tuple(_semantics_below(top, search)))
+    """Return the SRDF files in the package of a file, or else in all of its repository; parts of others left out."""
+    for top in (package_around(path) or own_folder(path), _root(path, search)):
+        found = search.index.robots.get(top / _ASSISTANT, lambda top=top: tuple(_semantics_below(top, search)))
+        if found:
+            return found[:MOST_ROBOTS]
+    return ()
 
 
 def files_around(path: Path, search: SearchPath, kind: Callable[[Path], bool]) -> Iterator[Path]:

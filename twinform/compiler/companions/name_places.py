@@ -66,6 +66,8 @@ dof_names                                               driven joint
 ros__parameters/joints                                  driven joint
 ros__parameters/joint                                   driven joint
 ros__parameters/joint_name                              driven joint
+ros__parameters/joint_names                             joint
+ros__parameters/starting_point_limits/<joint>           joint
 ros__parameters/gains/<joint>/*                         joint
 ros__parameters/constraints/<joint>/*                   joint
 ros__parameters/extra_joints                            frame
@@ -73,7 +75,7 @@ sensor_name                                             sensor
 max_effort_interface                                    interface
 max_velocity_interface                                  interface
 ros__parameters/frame_id                                frame
-ros__parameters/**/child_frame_id                       frame
+ros__parameters/**/child_frame_id                       link
 ros__parameters/kinematics/base                         link
 ros__parameters/kinematics/tip                          link
 ros__parameters/ft_sensor/frame/id                      link
@@ -108,6 +110,7 @@ joint_limits/<joint>/max_position                       joint
 <group>/planner_configs                                 group
 <group>/default_planner_config                          group
 move_group_name                                         group
+animate_endeffector_segment                             link
 planning_frame                                          frame
 ee_frame_name                                           link
 robot_link_command_frame                                link
@@ -116,7 +119,7 @@ robot_link_command_frame                                link
 robot_base_frame                                        link
 base_frame_id                                           link
 base_link_frame                                         link
-ros__parameters/base_frame                              link
+ros__parameters/**/base_frame                           link
 ros__parameters/**/sensor_frame                         link
 base_link_frame_output                                  frame
 ros__parameters/**/global_frame                         frame
@@ -126,8 +129,12 @@ ros__parameters/**/odom_frame_id                        frame
 ros__parameters/**/map_frame                            frame
 ros__parameters/**/world_frame                          frame
 ros__parameters/**/target_frame                         frame
+ros__parameters/**/target_frames                        frame
 ros__parameters/**/output_frame                         frame
 ros__parameters/**/box_frame                            frame
+ros__parameters/**/camera_frame                         frame
+ros__parameters/**/laser_frame                          frame
+ros__parameters/**/imu_frame                            frame
 """
 
 Place = TypeVar("Place")
@@ -237,9 +244,22 @@ def mentions(leaves: Iterable[Leaf[Place]]) -> Iterator[Mention[Place]]:
                 break
 
 
-_MADE = re.compile(r"[$<>{}\\\s]")
+_EXPRESSION = re.compile(r"\$\([^)]*\)|\$\{[^}]*\}|<\w+>")
 
 
 def is_made(name: str) -> bool:
     """Whether a name is made by an expression or a template, such as `$(var prefix)joint_1` or `<namespace>/imu`."""
-    return _MADE.search(name) is not None
+    return _EXPRESSION.search(name) is not None
+
+
+def without_expressions(name: str) -> str:
+    """Return what a name is where all of its expressions are empty, as prefixes and namespaces mostly are."""
+    return _EXPRESSION.sub("", name).removeprefix("/")
+
+
+def is_known(name: str, names: Collection[str]) -> bool:
+    """Whether a name is one of some, or may become one: the values of its expressions are not known."""
+    if not is_made(name):
+        return name in names
+    end = without_expressions(name)
+    return any(each.endswith(end) for each in names)

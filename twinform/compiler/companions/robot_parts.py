@@ -1,11 +1,11 @@
 """The names in robots that companion files may mention: links, joints with their limits, and what is driven."""
 
 import math
-import re
 from collections.abc import Collection, Mapping
 from dataclasses import field
 from pathlib import Path
 
+from twinform.compiler.companions.name_places import without_expressions
 from twinform.compiler.input.load_options import LoadOptions, LoadResult
 from twinform.compiler.input.loading import read
 from twinform.dataclass import dataclass
@@ -100,21 +100,13 @@ def _parts_of(path: Path, document: Document, loaded: LoadResult) -> RobotParts 
     return RobotParts(
         path,
         model.name,
-        tuple(dict.fromkeys(_bare(each.name) for each in model.links)),
-        {_bare(each.name): each for each in model.joints},
-        {_bare(each.child): each for each in model.joints if each.child},
+        tuple(dict.fromkeys(without_expressions(each.name) for each in model.links)),
+        {without_expressions(each.name): each for each in model.joints},
+        {without_expressions(each.child): each for each in model.joints if each.child},
         _driven(blocks),
         {each.get("name") or "" for block in blocks for each in block.iterchildren("sensor", "gpio")},
         bool(blocks),
     )
-
-
-_EXPRESSION = re.compile(r"\$\{[^}]*\}|\$\([^)]*\)")
-
-
-def _bare(name: str) -> str:
-    """Return a name without expressions: a file may be expanded by whoever loads it, with a prefix that is empty."""
-    return _EXPRESSION.sub("", name) if "$" in name else name
 
 
 def _driven(blocks: list[XmlElement]) -> dict[str, DrivenJoint]:
