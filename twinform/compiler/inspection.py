@@ -164,6 +164,7 @@ def report_driven_joints(document: Document, sink: DiagnosticSink) -> None:
 
 def _report_unknown_joints(model: Model, document: Document, sink: DiagnosticSink) -> None:
     joints = {joint.name for joint in model.joints}
+    unknown: list[tuple[str, str, Location]] = []
     for holder in _HOLDERS:
         for part, element in urdf_elements(model, document.format, holder):
             called = element.get("name") or ""
@@ -172,9 +173,13 @@ def _report_unknown_joints(model: Model, document: Document, sink: DiagnosticSin
                 sink.report(rules.TRANSMISSION_WITHOUT_JOINT, message, part.location, expected="<joint name='...'>")
             for name, where in _named_joints(element, part.location):
                 if name not in joints and "$" not in name:
-                    message = f"<{holder}> {called!r} names the joint {name!r}, which the robot does not have"
-                    hint = did_you_mean(name, joints)
-                    sink.report(rules.UNKNOWN_DRIVEN_JOINT, message, where, found=name, help=hint)
+                    unknown.append((f"<{holder}> {called!r} names the joint {name!r}", name, where))
+    hints = [did_you_mean(name, joints) for _, name, _ in unknown]
+    is_of_another = len(unknown) >= _MANY and not any(hints)  # a hand that the robot does not have
+    rest = f", nor has it {len(unknown) - 1} others that are driven" if is_of_another else ""
+    for (message, name, where), hint in list(zip(unknown, hints, strict=True))[: 1 if is_of_another else None]:
+        whole = f"{message}, which the robot does not have{rest}"
+        sink.report(rules.UNKNOWN_DRIVEN_JOINT, whole, where, found=name, help=hint)
 
 
 def _named_joints(element: Element, place: Location) -> Iterator[tuple[str, Location]]:

@@ -21,6 +21,8 @@ from twinform.schemas import XmlElement
 _MOST = 1000
 # The most missing files for which similar names are looked for.
 _MOST_NEAR = 50
+_MANY = 5
+"""So many missing files of one package are one finding, though others of it are there: a folder was moved."""
 _WORDS: dict[Kind, str] = {"mesh": "mesh", "texture": "file", "include": "included model"}
 
 
@@ -75,8 +77,9 @@ def report_named_files(
         if is_elsewhere(gone[0].use.uri, search, path):
             _report_elsewhere(holder, gone, parts, sink)
             continue
-        for group in ((each,) for each in gone) if holder in found else (gone,):
-            _report_missing(group, parts, sink)
+        some_are_there = holder in found
+        for group in ((each,) for each in gone) if some_are_there and len(gone) < _MANY else (gone,):
+            _report_missing(group, parts, sink, some_are_there=some_are_there)
     return files
 
 
@@ -141,12 +144,17 @@ def _look_for(use: _Use, path: Path, search: SearchPath, files: MeshFiles, *, as
     return None
 
 
-def _report_missing(missing: Iterable[_Missing], parts: PartFinder | None, sink: DiagnosticSink) -> None:
+def _report_missing(
+    missing: Iterable[_Missing], parts: PartFinder | None, sink: DiagnosticSink, *, some_are_there: bool = True
+) -> None:
     first, *others = missing
     use = first.use
     message = f"the {_WORDS[use.kind]} {_shown(use)!r} is not there"
-    if others:
-        message += f", nor is anything else of {_holder(use.uri) or 'what is named by a path'}: {len(others)} more"
+    holder = _holder(use.uri) or "what is named by a path"
+    if others and some_are_there:
+        message += f", nor are {len(others)} more files of {holder}"
+    elif others:
+        message += f", nor is anything else of {holder}: {len(others)} more"
     hint = suggest(first.near) or first.looked
     related = tuple(each.use.where for each in others)
     sink.report(rules.MISSING_FILE, message, _place(use, parts), found=use.uri, help=hint, related=related)

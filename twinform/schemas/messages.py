@@ -205,6 +205,7 @@ _DIALECTS = {
     "mujoco": "MuJoCo reads it",
     "nasa": "NASA's tools read it",
     "old": "it was proposed in the early days of ROS, and few programs read it",
+    "idyntree": "iDynTree reads it",
     "pal": "PAL Robotics' controllers read it",
 }
 

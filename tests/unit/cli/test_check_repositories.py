@@ -285,13 +285,6 @@ def test_a_template_of_another_program_is_no_broken_model(run: Run, here: Path, 
     assert run("check", "t.sdf").exit_code == 1
 
 
-def test_the_path_of_a_mesh_that_xacro_has_made_is_shown_below_this_folder(run: Run, here: Path) -> None:
-    Path("package.xml").write_text("<package><name>bot</name></package>")
-    mesh = '<link name="a"><visual><geometry><mesh filename="file://$(find bot)/a.stl"/></geometry></visual></link>'
-    Path("r.urdf.xacro").write_text(f"{_ROBOT}{mesh}</robot>")
-    assert "the mesh 'a.stl' is not there" in run("check", ".").stdout
-
-
 def test_what_a_build_puts_elsewhere_is_found_where_it_comes_from(run: Run, here: Path) -> None:
     Path("bot/description/control").mkdir(parents=True)
     Path("bot/description/meshes").mkdir()
@@ -343,3 +336,27 @@ def test_xacro_in_a_file_that_is_called_so_is_expanded(run: Run, here: Path) -> 
     assert " 3.14" in run("convert", "r.xacro.urdf", "--to", "urdf").stdout
     Path("r.urdf").write_text(text)
     assert [each[:2] for each in _findings(run, "r.urdf")] == [("unexpanded-xacro", "error")]
+
+
+def test_a_plain_file_of_properties_is_no_robot(run: Run, here: Path) -> None:
+    text = '<xacro:property name="a" value="1"/><material name="m"><color rgba="${a} 0 0 1"/></material>'
+    Path("common.urdf").write_text(f"{_ROBOT}{text}</robot>")
+    assert _findings(run, ".") == []
+    Path("common.urdf").write_text('<robot name="r"><material name="m"><color rgba="1 0 0 1"/></material></robot>')
+    assert ("no-links", "error", "common.urdf", 1) in _findings(run, ".")
+
+
+def test_a_folder_of_meshes_that_was_moved_is_one_finding(run: Run, here: Path) -> None:
+    Path("package.xml").write_text("<package><name>bot</name></package>")
+    Path("here.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+
+    def robot(count: int) -> str:
+        uris = ["here.obj", *(f"old/part_{number}.obj" for number in range(count))]
+        visual = '<visual><geometry><mesh filename="package://bot/{}"/></geometry></visual>\n'
+        return f'<robot name="r"><link name="a">\n{"".join(map(visual.format, uris))}</link></robot>'
+
+    Path("r.urdf").write_text(robot(4))
+    assert [row[0] for row in _findings(run, ".")] == 4 * ["missing-file"]
+    Path("r.urdf").write_text(robot(7))
+    assert [row[0] for row in _findings(run, ".")] == ["missing-file"]
+    assert "is not there, nor are 6 more files of package://bot" in run("check", ".").stdout

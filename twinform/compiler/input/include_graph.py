@@ -58,7 +58,8 @@ UNKNOWN = Outline(is_robot=True)
 def outline(data: bytes, *, plain: bool = False) -> Outline:
     """Return the outline of a xacro file, or of a `plain` URDF file, which other files may include.
 
-    A plain file without a name for its robot that has elements of xacro, or no link, is a part of others.
+    A plain file without a name for its robot that has elements of xacro, or no link, is a part of others, and so is
+    one that has nothing but materials and definitions of xacro.
     """
     if data.count(b"<") > _MOST_TAGS:
         return UNKNOWN
@@ -72,7 +73,7 @@ def outline(data: bytes, *, plain: bool = False) -> Outline:
     asked = _asked(text) if "$(" in text else {}
     return Outline(
         tags.root,
-        tags.makes_robot() if not plain else tags.root != "robot" or "name" in tags.attributes,
+        tags.makes_plain_robot() if plain else tags.makes_robot(),
         tuple(tags.includes),
         tags.arguments,
         tuple(asked.get("arg", ())),
@@ -125,6 +126,11 @@ class _Tags:
 
     def _end(self, _: str) -> None:
         self._depth -= 1
+
+    def makes_plain_robot(self) -> bool:
+        """Whether a file that nothing expands is a robot."""
+        is_named = self.root != "robot" or "name" in self.attributes
+        return is_named and ("xmlns:xacro" not in self.attributes or self.makes_robot())
 
     def makes_robot(self) -> bool:
         """Whether a file makes a robot, and does not only define macros for others.

@@ -30,10 +30,6 @@ _FORMS = (
 )
 
 
-_HOLE = re.compile(r"cannot read '[^']*/(?:/[^']*)?'")
-"""The message about a path of which a part is empty."""
-
-
 class Passed(NamedTuple):
     """A value of an argument, and the launch file that passes it."""
 
@@ -142,7 +138,8 @@ def report_empty_arguments(
     """
     defaults, _ = _arguments_of(path, load_options)
     names = [name for name, default in defaults.items() if not default and name not in load_options.arguments]
-    if not names or not _HOLE.match(error):
+    path_read = error.removeprefix("cannot read '").partition("'")[0]
+    if not names or path_read == error or not ("//" in path_read or path_read.endswith("/")):
         return False
     shown, verb = ", ".join(map(repr, names)), "is" if len(names) == 1 else "are"
     message = f"{shown} {verb} empty unless passed, and a path lacks a part: {error}"

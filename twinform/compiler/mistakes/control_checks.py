@@ -41,6 +41,7 @@ _CLASSES = (*HARDWARE, *TRANSMISSIONS, *HARDWARE_INTERFACES)
 _TYPO = 0.8
 _CLASS_TYPO = 0.9
 _TWICE = 2
+_SEVERAL = 3
 _SLACK = 1e-3
 """How far limits may differ by rounding, relative to their size."""
 
@@ -59,26 +60,32 @@ def report_control(document: Document, tree: XmlElement, sink: DiagnosticSink) -
         _report_block(block, joints, commanded, sink)
     _report_repeated("<transmission>", transmissions, sink)
     _report_repeated("actuator", [each for one in transmissions for each in one.iterchildren("actuator")], sink)
-    _report_repeated(
-        "joint of a transmission", [each for one in transmissions for each in one.iterchildren("joint")], sink
-    )
+    # Each kind has a loader of its own: one that reads the ends of an arm may name joints that others drive.
+    for kind in {text_of(each.find("type")): None for each in transmissions}:
+        own = [each for each in transmissions if text_of(each.find("type")) == kind]
+        _report_repeated("joint of a transmission", [each for one in own for each in one.iterchildren("joint")], sink)
     for one in transmissions:
         for each in one.iter("type", "hardwareInterface"):
             _report_class(each, sink)
 
 
 def _report_repeated(what: str, elements: list[XmlElement], sink: DiagnosticSink) -> None:
+    """Report names that stand twice; as one finding where there are several, since all were copied together."""
     first: dict[str, XmlElement] = {}
     counts = Counter(element.get("name") for element in elements)
+    found: list[tuple[str, XmlElement]] = []
     for element in elements:
         name = element.get("name")
         if what == "actuator" and counts[name] > _TWICE:  # one motor that pulls the tendons of many joints
             continue
         if name and first.setdefault(name, element) is not element:
-            message = f"{what} {name!r} stands here twice; was it copied?"
-            sink.report(
-                rules.REPEATED_CONTROL, message, place_of(element), found=name, related=(place_of(first[name]),)
-            )
+            found.append((name, element))
+    others = ", ".join(repr(name) for name, _ in found[1:])
+    for name, element in found if len(found) < _SEVERAL else found[:1]:
+        message = f"{what} {name!r} stands here twice; was it copied?"
+        if len(found) >= _SEVERAL:
+            message = f"{what} {name!r} stands here twice, and so do {others}; were they copied?"
+        sink.report(rules.REPEATED_CONTROL, message, place_of(element), found=name, related=(place_of(first[name]),))
 
 
 def _report_block(

@@ -222,7 +222,7 @@ _HEAVY = 50000.0
 """A mass in the boxes around shapes, kg/m^3."""
 _LARGE_MOMENT = 300.0
 _SMALL_MOMENT = 1e-3
-_FELT = 0.03
+FELT = 0.03
 """A sum of moments, kg m^2, below which no inertia is too large: nobody feels it, and it keeps a simulation stable."""
 _OFF = 0.5
 """How far a center of mass may be away from the link, m."""
@@ -254,7 +254,7 @@ def _is_suspect(link: Link, inertial: Inertial, files: MeshFiles) -> bool:
     thin, wide = min(map(min, known)), sum(map(max, known)) + sum(map(_offset, holders))
     volume = min(math.prod(each) for each in known)
     return (
-        trace > max(_LARGE_MOMENT * mass * thin * thin / 4, _FELT)
+        trace > max(_LARGE_MOMENT * mass * thin * thin / 4, FELT)
         or 0 < trace < _SMALL_MOMENT * mass * wide * wide
         or mass > _HEAVY * volume
         or _offset(inertial) > _OFF

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 
 from twinform.compiler.mistakes.mesh_checks import MeshFiles
+from twinform.compiler.mistakes.scale_checks import FELT
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Format, Inertial, Link, Mesh, Model, Vector3
 from twinform.ir.bounds import Bounds, placed_bounds
@@ -17,7 +18,7 @@ _DENSITIES = (0.0, 200000.0)
 """The least and greatest density, kg/m^3: gold has 19,300, boxes of test worlds 120,000, and a dummy none."""
 _WEIGHS = 1.0
 """A body below this mass, kg, may be a point with any density."""
-_ROOM = Room(sizes=3.0, meters=0.5, most=1000.0, least=1e-4)
+_ROOM = Room(sizes=3.0, meters=0.5, most=1000.0, least=1e-4, felt=FELT)
 
 
 class _UnitCheck(PlausibilityCheck):

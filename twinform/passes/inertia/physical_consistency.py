@@ -173,12 +173,14 @@ class Room(NamedTuple):
         meters: how far it may be outside whatever the size is, m.
         most: how many times as large an inertia may be as the largest that is possible.
         least: how small it may be, as a part of that of the box around the shapes, filled evenly.
+        felt: the sum of moments below which an inertia is never too large, kg m^2.
     """
 
     sizes: float = _SLACK
     meters: float = 0.0
     most: float = 1.0
     least: float = 0.0
+    felt: float = 0.0
 
 
 _NO_ROOM = Room()
@@ -239,7 +241,7 @@ class PlausibilityCheck:
         most = (reach * reach * body.mass for reach in reaches)
         spread = zip(_second_moments(body.inertia), most, _AXES, strict=True)
         factor, axis = max((found / limit if limit else 0.0, axis) for found, limit, axis in spread)
-        if factor > self.room.most:
+        if factor > self.room.most and sum(body.inertia[:3]) >= self.room.felt:
             message = (
                 f"the inertia of link {link.name!r} is too large for its shapes along {axis}: "
                 f"{factor:.3g} times what {body.mass:.4g} kg within them can have"

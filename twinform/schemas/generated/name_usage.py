@@ -80,6 +80,7 @@ loop_joint name type
 link1 link xyz rpy
 link2 link xyz rpy
 torsional_spring stiffness rest_angle
+parent link joint
 origin xyz rpy quat_xyzw
 horizontal samples resolution min_angle max_angle
 vertical samples resolution min_angle max_angle

@@ -240,8 +240,10 @@ class _Fold:
         sorter = Sorter(tags, elsewhere, self.sink, shapes=shapes, unfit=unfit, idle=idle)
         for extension in extensions:
             sorter.sort(extension)
+        of = "a link" if shapes else "a joint"
         for extension, elements in sorter.misplaced:
-            self._misplaced(extension, elements, f"{extension.reference!r}" if extension.reference else "the model")
+            target = repr(extension.reference) if extension.reference else "the model"
+            self._misplaced(extension, elements, target, of if extension.reference else target)
         for extension, elements in sorter.ignored:
             if self.is_back:  # made so that libsdformat lets the links be
                 continue
@@ -257,9 +259,10 @@ class _Fold:
             self._keep(extension, elements, rule, message)
         return sorter
 
-    def _misplaced(self, extension: GazeboExtension, elements: list[Element], target: str) -> None:
+    def _misplaced(self, extension: GazeboExtension, elements: list[Element], target: str, of: str = "") -> None:
         for element in elements:
-            message = f"<{element.name}> has no effect in a <gazebo> for {target}"
+            # Without the name, so that a tag that was copied to many links is one finding.
+            message = f"<{element.name}> has no effect in a <gazebo> for {of or target}"
             where = place_of(element, extension)
             self.sink.report(rules.GAZEBO_TAG_WITHOUT_TARGET, message, where, found=element.name)
         if elements:
