@@ -14,7 +14,7 @@ from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.load_options import CheckOptions, Input, LoadResult, checking_options
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.mistakes import report_mistakes
-from twinform.compiler.mistakes.misspelt_parts import join_misspelt_parts
+from twinform.compiler.mistakes.joined_findings import join_findings
 from twinform.compiler.named_files import report_named_files
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Rule, Severity, did_you_mean, rules
 from twinform.diagnostics.rules import MISSING_INERTIAL, UNKNOWN_COLLISION
@@ -78,7 +78,7 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
         # seem unused.
         if not whole.has_errors:
             report_unused(loaded.allowances, whole)
-    ordered = sorted(join_misspelt_parts(whole.diagnostics), key=lambda each: each.location.line)
+    ordered = sorted(join_findings(whole.diagnostics), key=lambda each: each.location.line)
     return replace(loaded, diagnostics=tuple(ordered), allowed=tuple(whole.allowed))
 
 
@@ -192,12 +192,14 @@ def _named_joints(element: Element, place: Location) -> Iterator[tuple[str, Loca
             yield name, place.at(f"{child.name}[@name='{name}']")
 
 
+_FIX_ROOT = "if it is meant to stay where it is, fix it to the world by a joint of type fixed with the parent world"
 _ADD_INERTIAL = "write one, or compute it from the shapes: --passes fill-inertia{density=...}"
 
 
 def report_massless(document: Document, sink: DiagnosticSink) -> None:
     """Report links that move and have no mass, once where no link has any; in SDF, where they have 1 kg, as an info."""
     if document.format is Format.SDF:
+        children = {joint.child for model in document.models for joint in model.joints}
         for link in (link for body in moving_bodies(document) for link in body if link.inertial is None):
             # In SDF the default is often meant. In URDF, Gazebo drops such a link.
             message = f"link {link.name!r} moves but has no <inertial>; simulators take 1 kg and 1 kg m^2"
@@ -206,7 +208,7 @@ def report_massless(document: Document, sink: DiagnosticSink) -> None:
                 message,
                 link.location,
                 expected="<inertial>",
-                help=_ADD_INERTIAL,
+                help=_ADD_INERTIAL if link.name in children else f"{_ADD_INERTIAL}; {_FIX_ROOT}",
                 severity=Severity.INFO,
             )
         return

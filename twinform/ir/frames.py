@@ -319,7 +319,9 @@ _RELATIVE = "is given relative to"
 def _circle(path: list[_Vertex], relation: str) -> FrameError:
     """The error for a circle of frames, at the first attribute in the file that makes it one."""
     places = [_place(vertex, relation) for vertex in path]
-    order = [(not place.path.rpartition("/")[2].startswith("@"), not place.line, place.line) for place in places]
+    order = [
+        (not place.path.rpartition("/")[2].startswith("@"), not place.line, place.line, place.path) for place in places
+    ]
     first = order.index(min(order))
     turned = path[first:] + path[:first]
     names = [f"{vertex.kind} {vertex.name!r}" for vertex in turned[:6]]

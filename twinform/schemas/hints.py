@@ -84,15 +84,15 @@ def _other(format_: str) -> str:
     return "sdf" if format_ == "urdf" else "urdf"
 
 
-def moved_to(format_: str, fact: Fact, around: Sequence[str], version: Version) -> str | None:
-    """For a value that a version has further out, in one of the elements `around` it."""
+def new_holder(format_: str, fact: Fact, around: Sequence[str], version: Version) -> str | None:
+    """Return which of the elements `around` a value has it in a later version; None if it did not move further out."""
     definitions = table(format_).definitions
     for holder in around[1:]:
         rows = definitions[holder].children if holder in definitions else ()
         if fact.type and any(
             row.name == fact.name and row.type == fact.type and row.exists_in(version) for row in rows
         ):
-            return f"write it in <{holder}>, where it is now"
+            return holder
     return None
 
 

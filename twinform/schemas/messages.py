@@ -8,7 +8,7 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, nearest_name, rules
 from twinform.ir.versions import Version, parse_version, print_version, versions_of
 from twinform.schemas.facts import Fact
-from twinform.schemas.hints import dialect_of, hint_for_attribute, hint_for_element, hint_for_word, moved_to, words_of
+from twinform.schemas.hints import dialect_of, hint_for_attribute, hint_for_element, hint_for_word, new_holder, words_of
 from twinform.schemas.xml import Places, XmlElement, path_of
 
 _COLORS = frozenset({"color", "color4"})
@@ -155,7 +155,10 @@ def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
     step = name if fact.is_attribute else ""
     severity = None if context.declared or context.sink.strict else Severity.INFO
     is_gone = not fact.is_attribute and fact.until < context.version
-    hint = moved_to(context.format, fact, _around(element), context.version) if is_gone else None
+    holder = new_holder(context.format, fact, _around(element), context.version) if is_gone else None
+    hint = f"write it in <{holder}>, where it is now" if holder else None
+    if holder:
+        message = message.replace("was removed", f"moved to <{holder}>", 1)
     details: FindingDetails = {"found": name, "help": hint, "severity": severity}
     if context.format == "urdf":  # urdfdom 6 ignores an attribute of a later version, and knows no shape of one
         details["refused"] = not fact.is_attribute
@@ -292,7 +295,11 @@ def missing_text(context: Context, element: XmlElement, expected: str) -> None:
 def blank_value(context: Context, element: XmlElement, expected: str, *, refused: bool) -> None:
     """A value that was left blank where that means something; `refused` is whether libsdformat asks for it."""
     message = f"<{element.tag}> is empty; expected {expected}"
-    context.report(rules.BLANK_VALUE, element, message, found="", expected=expected, refused=refused)
+    value = element.get("value")
+    hint = None
+    if value is not None and context.format == "sdf" and _is_shown(context):
+        hint = f"SDF writes <{element.tag}>{value}</{element.tag}>; value='...' is URDF"
+    context.report(rules.BLANK_VALUE, element, message, found="", expected=expected, refused=refused, help=hint)
 
 
 def repeated(context: Context, element: XmlElement) -> None:
@@ -302,7 +309,11 @@ def repeated(context: Context, element: XmlElement) -> None:
     if parent is not None and element.tag == "camera" and parent.get("type") == "multicamera":
         return  # which is what this type of sensor is for, although the specification counts one
     holder = "its parent" if parent is None else f"<{parent.tag}>"
-    context.report(rules.REPEATED_ELEMENT, element, f"<{element.tag}> occurs more than once in {holder}")
+    message = f"<{element.tag}> occurs more than once in {holder}"
+    other = next(element.itersiblings("{*}*", preceding=True), None)
+    if other is not None and next(element.itersiblings(str(element.tag), preceding=True), None) is None:
+        message = f"<{element.tag}> stands beside <{other.tag}> in {holder}, which has one of them"
+    context.report(rules.REPEATED_ELEMENT, element, message)
 
 
 def invalid_value(context: Context, element: XmlElement, step: str, text: str, expected: str) -> None:

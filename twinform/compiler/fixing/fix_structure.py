@@ -3,12 +3,14 @@
 import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
+from copy import deepcopy
 
 from twinform.compiler.fixing.fix_names import free_name
 from twinform.compiler.fixing.fix_numbers import guesses, numbers_of, text_of_number
 from twinform.compiler.fixing.site import FindingSite, Fixers, careful, display, revealing, safe, unsafe
 from twinform.diagnostics import Diagnostic, Fix, Safety, Span, TextEdit, is_typo, nearest_name, rules
 from twinform.schemas import VALUE_TYPES, Fact, parse_version, print_version, table, versions_of
+from twinform.schemas.hints import new_holder
 from twinform.text import same_element
 
 # Products of inertia: whoever leaves them out means zero.
@@ -199,7 +201,10 @@ def _without_text(site: FindingSite, run: Span) -> TextEdit:
 
 
 def _outside_version(site: FindingSite) -> Fix | None:
-    """Declare the first version that has everything in the file."""
+    """Move what has another place now, or declare the first version that has everything in the file."""
+    moved = _moved_out(site)
+    if moved is not None:
+        return moved
     if "version" not in site.file.memo:
         site.file.memo["version"] = _first_fitting_version(site)
     version = site.file.memo["version"]
@@ -207,6 +212,19 @@ def _outside_version(site: FindingSite) -> Fix | None:
         return None
     # From SDF 1.5 on an axis is in the frame of its joint, and with other versions other things change.
     return careful(f"Declare version {version}", site.edit.set_attribute(site.file.root, "version", version))
+
+
+def _moved_out(site: FindingSite) -> Fix | None:
+    """Move a value to the element around it that has it in the declared version, unless there is one."""
+    rows = [row for row in _rows_at(site, site) if site.attribute is None and row.until < site.file.version]
+    around = list(site.element.iterancestors())
+    names = [str(each.tag) for each in around]
+    found = next((new_holder(site.file.format, row, names, site.file.version) for row in rows), None)
+    holder = around[names.index(found)] if found else None
+    if holder is None or holder.find(str(site.element.tag)) is not None:
+        return None
+    edits = (site.edit.remove(site.element), site.edit.insert(holder, deepcopy(site.element)))
+    return unsafe(f"Move <{site.element.tag}> into <{found}>", *edits)
 
 
 def _first_fitting_version(site: FindingSite) -> str | None:

@@ -15,7 +15,11 @@ from twinform.ir.visual import Collision, Visual
 _ROUNDING = 5e-15
 _BEYOND_ROUNDING = 1e-3
 """The share of the trace by which a moment below zero is none that was cut off."""
-_HELP = "correct the numbers, or let --passes balance-inertia write the nearest that a body can have"
+_BALANCE = "or let --passes balance-inertia write the nearest that a body can have"
+_HELP = f"correct the numbers, {_BALANCE}"
+_SLIGHT = 0.05
+"""The share of the largest moment by which it is too large where digits were cut off, or one was copied wrongly."""
+_MOMENTS = ("ixx", "iyy", "izz")
 # Far above what rounding does to the minors of a matrix, relative to powers of its trace.
 _DOUBT = 1e-12
 # Traces whose third power is far from the limits of a double.
@@ -112,9 +116,22 @@ def report_moments(
             f"the principal moments {listed} violate the triangle inequality"
         )
         expected = f"at most {moments[0] + moments[1]:.6g}"
-        _report(
-            rules.IMPOSSIBLE_INERTIA, f"{message}; Gazebo refuses it", where, sink, listed, expected, refused=in_sdf
-        )
+        message += "; Gazebo refuses it"
+        help = _how_to_correct(matrix)
+        _report(rules.IMPOSSIBLE_INERTIA, message, where, sink, listed, expected, refused=in_sdf, help=help)
+
+
+def _how_to_correct(matrix: Symmetric) -> str:
+    """Say which moment is too large by how much; where the axes are turned, no number of the file is one."""
+    moments, products = matrix[:3], matrix[3:]
+    largest = max(range(3), key=lambda axis: moments[axis])
+    others = [axis for axis in range(3) if axis != largest]
+    excess = moments[largest] - sum(moments[axis] for axis in others)
+    if any(products) or excess <= 0:
+        return _HELP
+    slight = "it was rounded or copied wrongly: " if excess < _SLIGHT * moments[largest] else ""
+    one, other = (_MOMENTS[axis] for axis in others)
+    return f"{slight}raise {one} + {other} by at least {excess:.3g}, lower {_MOMENTS[largest]}, {_BALANCE}"
 
 
 def _report(
@@ -126,11 +143,10 @@ def _report(
     expected: str | None = None,
     *,
     refused: bool = False,
+    help: str = _HELP,
 ) -> None:
     if not sink.has(rule, where):  # a pass that is stricter looks again at what `check` has looked at
-        sink.report(
-            rule, message, where, found=found, expected=expected, help=_HELP if found else None, refused=refused
-        )
+        sink.report(rule, message, where, found=found, expected=expected, help=help if found else None, refused=refused)
 
 
 def _place(inertial: Inertial) -> Location:
