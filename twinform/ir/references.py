@@ -11,7 +11,16 @@ from twinform.ir.link import Link
 from twinform.ir.model import GazeboExtension, Include, Model
 from twinform.ir.node import Node
 from twinform.ir.pose import Frame, Pose
-from twinform.ir.rewrite import classes_below, classes_in, map_children, node_fields
+from twinform.ir.rewrite import (
+    RARE,
+    bits_of,
+    census_of,
+    classes_below,
+    classes_in,
+    map_children,
+    node_fields,
+    union_of,
+)
 from twinform.ir.sensor import Sensor
 from twinform.ir.visual import Material
 
@@ -64,6 +73,8 @@ class _Mapper:
     poses: dict[type[Node], ReferenceKind]
 
     def inside(self, node: AnyNode) -> AnyNode:
+        if not census_of(node) & _referring():
+            return node
         changed = self.own(node, REFERENCES.get(type(node), {}))
         return map_children(changed, lambda child: self.child(child, node)) if _has_more(type(node)) else changed
 
@@ -84,6 +95,15 @@ class _Mapper:
             if name and (new := self.change(kind, name)) != name:
                 update[field] = new
         return node.copy(**update) if update else node
+
+
+@cache
+def _referring() -> int:
+    """The bits of nodes that may refer to something: of fields that few models write, and otherwise of classes."""
+    return union_of(
+        bits_of(kind, *(fields if fields.keys() <= {*RARE.get(kind, ())} else ()))
+        for kind, fields in REFERENCES.items()
+    )
 
 
 @cache

@@ -8,7 +8,7 @@ it stood in, or, where these have no place, at the nearest part that has one.
 import re
 from collections import defaultdict
 from collections.abc import Iterable
-from itertools import islice
+from itertools import chain, islice
 from typing import NamedTuple
 
 from lxml import etree
@@ -81,10 +81,11 @@ class _CommentPlacing:
         """Comments at the end of elements that are empty otherwise."""
         self.root = self._target_at(text.index("\n<") + 1)
         self.parts: defaultdict[int, list[tuple[Source, int]]] = defaultdict(list)
+        files, by_line = comments.files, self.parts
         for part, start in parts:
             source: Source = part.source
-            if source.file in comments.files:
-                self.parts[source.line].append((source, start))
+            if source.file in files:
+                by_line[source.line].append((source, start))
         self.places: dict[XmlElement, int] = {}
         self.known: dict[XmlElement, _Target | None] = {}
         self.ends: dict[_Target, int] = {}
@@ -135,7 +136,7 @@ class _CommentPlacing:
         """Put a comment before what an element, or the next one, has become, or else at the end of their parent."""
         parent = element.getparent()
         is_outside = self.comments.partial and (parent is None or self._target(parent) is None)
-        for each in (element, *islice(element.itersiblings("*"), 0 if is_outside else _FAR)):
+        for each in chain((element,), islice(element.itersiblings("*"), 0 if is_outside else _FAR)):
             target = self._target(each)
             if target == self.root:
                 self.top.append(_format_comment(comment))
@@ -280,8 +281,8 @@ class _CommentPlacing:
             start = self.text.rfind("<", done, found.start())
             done = found.end()
             if start >= 0 and self.text.find(">", start, found.start()) < 0:  # it is no text
-                tag = _START.match(self.text, start)
-                made.setdefault((tag[0][1:].rpartition(":")[2] if tag else "", found[1]), start)
+                tag = self.text[start + 1 : self.text.index(" ", start)].rpartition(":")[2]
+                made.setdefault((tag, found[1]), start)
         return made
 
     def _target_of_child(self, element: XmlElement) -> _Target | None:

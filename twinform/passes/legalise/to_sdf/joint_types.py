@@ -149,7 +149,10 @@ class UrdfJoints(ModelPass):
     def _without_axis(self, joint: Joint, sink: DiagnosticSink) -> Joint:
         if joint.axis is None:
             return joint
-        rest = [child for child in to_element(joint, "joint", "urdf").children if child.name in OF_AN_AXIS]
+        # Carriers and the like, which most joints have more of, are not written for that.
+        opaque = tuple([part for part in joint.opaque if _first_step(part) in OF_AN_AXIS])
+        alone = Joint.unchecked(name=joint.name, type=joint.type, axis=joint.axis, opaque=opaque)
+        rest = [child for child in to_element(alone, "joint", "urdf").children if child.name in OF_AN_AXIS]
         kept = joint.copy(axis=None)
         message = f"the {joint.type} joint {joint.name!r} has no axis"
         return self._keep(kept, [Opaque.unchecked(element=child) for child in rest], message, sink)
@@ -264,3 +267,8 @@ def planar_chain(joint: Joint, names: Names) -> PlanarChain:
         Link.unchecked(name=second_link, pose=Pose.unchecked(relative_to=second), inertial=TOKEN, source=source),
     )
     return PlanarChain(links, (slide, shift, turn))
+
+
+def _first_step(part: Opaque) -> str:
+    """The element of a joint that an opaque part is in, or is itself."""
+    return part.at.partition("/")[0] or (part.element.name if part.element else "")
