@@ -1,25 +1,34 @@
 // Starts `twinform lsp` for URDF, SDF and xacro files: all that the extension knows is in that server.
 
-const { commands, extensions, window, workspace } = require("vscode");
+const { commands, extensions, Position, Uri, window, workspace } = require("vscode");
 const { LanguageClient } = require("vscode-languageclient/node");
 const { tagCloser } = require("./close_tags");
+const { preview, stopPreview } = require("./preview");
 
 const LANGUAGES = ["urdf", "sdf", "xacro"];
 
+const STARTED_WITH = ["twinform.command", "twinform.codeLens", "twinform.checkWorkspace"];
+
 let client;
 
+function option(name) {
+  return workspace.getConfiguration("twinform").get(name);
+}
+
 async function start() {
-  const [command, ...args] = workspace.getConfiguration("twinform").get("command");
+  const [command, ...args] = option("command");
   client = new LanguageClient(
     "twinform",
     { command, args },
     {
+      initializationOptions: { codeLens: option("codeLens"), checkWorkspace: option("checkWorkspace") },
       documentSelector: [
         ...LANGUAGES.flatMap((language) => [{ scheme: "file", language }, { scheme: "untitled", language }]),
         // what names joints and links; the server leaves other YAML alone
         { scheme: "file", language: "yaml" },
         { scheme: "file", pattern: "**/*.srdf" },
       ],
+      synchronize: { fileEvents: workspace.createFileSystemWatcher("**/*.{urdf,sdf,world,xacro}") },
       // close_tags.js asks for them
       middleware: { provideOnTypeFormattingEdits: () => [] },
     },
@@ -46,11 +55,19 @@ async function restart() {
   await start();
 }
 
+// What a lens above a name runs.
+async function showReferences(uri, { line, character }) {
+  await commands.executeCommand("editor.action.findReferences", Uri.parse(uri), new Position(line, character));
+}
+
 async function activate(context) {
   context.subscriptions.push(
     commands.registerCommand("twinform.restart", restart),
+    commands.registerCommand("twinform.showReferences", showReferences),
+    commands.registerCommand("twinform.preview", () => preview(option("command"))),
+    { dispose: stopPreview },
     tagCloser(LANGUAGES, () => client),
-    workspace.onDidChangeConfiguration((change) => change.affectsConfiguration("twinform.command") && restart()),
+    workspace.onDidChangeConfiguration((change) => STARTED_WITH.some((name) => change.affectsConfiguration(name)) && restart()),
   );
   // LemMinX takes our languages as well, but wakes up for XML only.
   extensions.getExtension("redhat.vscode-xml")?.activate();

@@ -107,7 +107,9 @@ class Editor:
 
 
 @asynccontextmanager
-async def editor(folder: Path, encodings: list[types.PositionEncodingKind] | None = None) -> AsyncGenerator[Editor]:
+async def editor(
+    folder: Path, encodings: list[types.PositionEncodingKind] | None = None, options: object = None
+) -> AsyncGenerator[Editor]:
     """An editor with a folder open; the server has ended properly behind it."""
     one = Editor()
     command = [sys.executable, "-m", "twinform", "lsp"]
@@ -115,7 +117,9 @@ async def editor(folder: Path, encodings: list[types.PositionEncodingKind] | Non
     general = types.GeneralClientCapabilities(position_encodings=encodings)
     capabilities = types.ClientCapabilities(general=general)
     folders = [types.WorkspaceFolder(folder.as_uri(), folder.name)]
-    params = types.InitializeParams(capabilities=capabilities, workspace_folders=folders)
+    params = types.InitializeParams(
+        capabilities=capabilities, workspace_folders=folders, initialization_options=options
+    )
     started = await one.request(types.INITIALIZE, params)
     one.capabilities = started.capabilities
     one.client.initialized(types.InitializedParams())

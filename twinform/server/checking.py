@@ -16,11 +16,13 @@ from twinform.compiler.fixing import with_fixes
 from twinform.compiler.formatting import formatted
 from twinform.compiler.in_place import convert_in_place
 from twinform.compiler.input.finding_spans import SourceFiles, with_columns
+from twinform.compiler.input.include_graph import IncludeGraph
 from twinform.compiler.input.load_options import LoadOptions, LoadResult
 from twinform.compiler.input.loading import read
 from twinform.compiler.input.size_limits import Limits
 from twinform.compiler.inspection import as_refused, inspect
 from twinform.compiler.request import ConversionRequest
+from twinform.compiler.resolve_uris import SearchPath
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Policy, Span, TextEdit, rules
 from twinform.passes import FilesPass, PassError, PipelineError, parse_pipeline
@@ -96,6 +98,11 @@ def check(job: CheckJob) -> Checked:
     if job.is_part:
         found = tuple(each for each in found if not _is_of_whole_robot(each))
     return Checked(found, frozenset(str(path.absolute()) for path in load_options.search.seen))
+
+
+def robots_among(files: list[str], search: SearchPath) -> list[str]:
+    """Return the files that are checked as robots, and not as parts of others."""
+    return [file for file, role in IncludeGraph(search).roles(files).items() if role in {"robot", "either"}]
 
 
 def _is_of_whole_robot(found: Diagnostic) -> bool:

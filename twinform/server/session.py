@@ -18,10 +18,12 @@ from pebble import ProcessExpired
 
 from twinform.compiler.workers import ProcessExecutor
 from twinform.diagnostics import Diagnostic
-from twinform.server.checking import Checked, CheckJob, EditorSettings, SettingsOf, check
+from twinform.server.checking import Checked, CheckJob, EditorSettings, SettingsOf, check, robots_among
 from twinform.server.diagnostics import as_protocol, by_file, notice
 from twinform.server.documents import DocumentFiles, Documents, TextDocument
-from twinform.server.includes import IncludedNeighbors
+from twinform.server.editor_options import EditorOptions
+from twinform.server.includes import ENDINGS, IncludedNeighbors, files_below
+from twinform.server.locations import file_of, uri_of
 
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
@@ -110,6 +112,12 @@ class Checks:
         if task is not None:
             task.cancel()
 
+    async def wait_for(self, uri: str) -> None:
+        """Wait until a document is checked."""
+        task = self._tasks.get(uri)
+        if task is not None:
+            await asyncio.wait((task,))
+
     def stop(self) -> None:
         """Cancel all checks."""
         for uri in list(self._tasks):
@@ -151,6 +159,8 @@ class Checks:
 
 
 Publish = Callable[[types.PublishDiagnosticsParams], None]
+_MOST_ROBOTS = 200
+"""The robots of a workspace that are checked without being open."""
 _ADVICE = "it is not followed while you type; run `twinform check` on it, and open it again once it is smaller"
 
 
@@ -163,6 +173,7 @@ class Session:
         self.neighbors = IncludedNeighbors(self.files)
         self.folders: list[Path] = []
         self.snippets = False
+        self.options = EditorOptions()
         self.found: dict[str, tuple[TextDocument, tuple[Diagnostic, ...]]] = {}
         self.settings_of = settings_of
         self._publish = publish
@@ -170,6 +181,8 @@ class Session:
         self._checks = Checks(self.worker, self.job, self._show)
         self._shown: dict[str, dict[str, list[types.Diagnostic]]] = {}
         self._read: dict[str, frozenset[str]] = {}
+        self._robots: frozenset[str] = frozenset()
+        self._listing: asyncio.Task[None] | None = None
 
     def opened(self, item: types.TextDocumentItem) -> None:
         """Follow a document that was opened."""
@@ -193,9 +206,43 @@ class Session:
         self._publish_for(uri, {uri: []})
         if document is not None:
             self._check_includers(document)
+        if uri in self._robots:
+            self._checks.want(uri)
+
+    def check_workspace(self) -> None:
+        """Check the robots of the workspace that are not open, if the editor wants it."""
+        if self.options.check_workspace and (self._listing is None or self._listing.done()):
+            self._listing = asyncio.get_running_loop().create_task(self._check_robots())
+
+    async def _check_robots(self) -> None:
+        """Check one robot after the other, so that a document waits for no more than one of them."""
+        files = [str(path) for path in files_below(self.folders, ENDINGS)]
+        if not files:
+            return
+        try:
+            settings = self.settings(Path(files[0]))
+            robots = await self.worker.run(robots_among, files, settings.load_options.search)
+        except TaskError:
+            return  # whatever it is, the check of a document says so
+        self._robots = frozenset(uri_of(Path(file)) for file in robots[:_MOST_ROBOTS])
+        for uri in sorted(self._robots):
+            if self.documents.state(uri) is None:
+                self._checks.want(uri, pause=0)
+                await self._checks.wait_for(uri)
+
+    def changed_on_disk(self, uri: str) -> None:
+        """Check a file that is not open again, and what includes it, after something else has changed it."""
+        path = file_of(uri)
+        document = self.files.document(path) if path is not None and self.documents.state(uri) is None else None
+        if document is not None:
+            self._check_includers(document)
+        if uri in self._robots and self.documents.state(uri) is None:
+            self._checks.want(uri)
 
     def stop(self) -> None:
         """End all checks and the worker."""
+        if self._listing is not None:
+            self._listing.cancel()
         self._checks.stop()
         self.worker.stop()
 
@@ -230,12 +277,21 @@ class Session:
 
     def job(self, uri: str) -> CheckJob | None:
         """Return what the worker has to know of a document; None if the document is not followed."""
-        document = self.documents.get(uri)
+        document = self._document(uri)
         if document is None:
+            if self.documents.state(uri) is None:  # a file that is gone
+                self._publish_for(uri, {uri: []})
             return None
         root = document.tree.root
         is_part = document.is_xacro and root is not None and root.tag == "robot" and root.get("name") is None
         return CheckJob(document.path.absolute(), self._unsaved(document), self.settings(document.path), is_part)
+
+    def _document(self, uri: str) -> TextDocument | None:
+        """Return an open document that is followed, or the file of a robot of the workspace that is not open."""
+        if uri not in self._robots or self.documents.state(uri) is not None:
+            return self.documents.get(uri)
+        path = file_of(uri)
+        return self.files.document(path) if path is not None else None
 
     def settings(self, path: Path) -> EditorSettings:
         """Return the settings for a file, which finds packages in all folders of the workspace.
@@ -256,14 +312,15 @@ class Session:
 
     async def _show(self, uri: str, outcome: Checked | str) -> None:
         """Show the result of a check."""
-        document = self.documents.get(uri)
+        document = self._document(uri)
         if document is None:
             return
         if isinstance(outcome, str):
             self._publish_for(uri, {uri: [notice(outcome)]})
             return
         self._read[uri] = outcome.files
-        self.found[uri] = (document, outcome.diagnostics)
+        if self.documents.get(uri) is document:
+            self.found[uri] = (document, outcome.diagnostics)
         made: dict[str, list[types.Diagnostic]] = {}
         for file, found in by_file(outcome.diagnostics, document.path.absolute()).items():
             of_file = document if file == document.path.absolute() else self.files.document(file)

@@ -15,10 +15,13 @@ from twinform import __version__
 from twinform.server.actions import FIX_ALL, RUN_PASSES, actions, text_edits, word_of
 from twinform.server.checking import Rewritten, SettingsOf, format_document, no_settings, run_passes
 from twinform.server.closing_tags import TRIGGERS, closing, linked_names
+from twinform.server.code_lens import lenses, resolve_lens
 from twinform.server.completion import complete
 from twinform.server.document_outline import folds, links, outline, search
 from twinform.server.documents import TextDocument
+from twinform.server.editor_options import EditorOptions
 from twinform.server.hover import hover, warm_up
+from twinform.server.inlay_hints import inlay_hints
 from twinform.server.locations import file_of
 from twinform.server.navigation import (
     DocumentPlace,
@@ -60,16 +63,18 @@ def make_server(settings_of: SettingsOf = no_settings, worker: Worker | None = N
     """Make a server that is ready to start."""
     server = Server(settings_of, worker)
     session = server.session
+    _begin_and_end(server, session)
     _follow_documents(server, session)
     _help_typing(server, session)
     _answer_at_places(server, session)
     _answer_about_documents(server, session)
+    _annotate(server, session)
     _rewrite(server, session)
     return server
 
 
-def _follow_documents(server: Server, session: Session) -> None:
-    """Keep documents in step with the editor, from the beginning of the session to its end."""
+def _begin_and_end(server: Server, session: Session) -> None:
+    """Take what the editor says of itself and of its folders, and end with it."""
 
     @server.feature(types.INITIALIZE)
     def initialize(params: types.InitializeParams) -> None:
@@ -77,17 +82,28 @@ def _follow_documents(server: Server, session: Session) -> None:
         session.folders = _folders(server)
         text = params.capabilities.text_document
         item = text.completion.completion_item if text and text.completion else None
+        session.options = EditorOptions.of(params.initialization_options)
         session.snippets = bool(item and item.snippet_support)
         if params.process_id is not None and server.on_parent is not None:
             server.on_parent(params.process_id)
 
-    @server.feature(types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS)
-    def moved(_: types.DidChangeWorkspaceFoldersParams) -> None:
-        session.folders = _folders(server)
-
     @server.feature(types.INITIALIZED)
     def initialized(_: types.InitializedParams) -> None:
         threading.Thread(target=warm_up, daemon=True).start()
+        session.check_workspace()
+
+    @server.feature(types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS)
+    def moved(_: types.DidChangeWorkspaceFoldersParams) -> None:
+        session.folders = _folders(server)
+        session.check_workspace()
+
+    @server.feature(types.SHUTDOWN)
+    def shutdown(*_: object) -> None:
+        session.stop()
+
+
+def _follow_documents(server: Server, session: Session) -> None:
+    """Keep documents in step with the editor, and with the files that others change."""
 
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     def opened(params: types.DidOpenTextDocumentParams) -> None:
@@ -101,9 +117,12 @@ def _follow_documents(server: Server, session: Session) -> None:
     def closed(params: types.DidCloseTextDocumentParams) -> None:
         session.closed(params.text_document.uri)
 
-    @server.feature(types.SHUTDOWN)
-    def shutdown(*_: object) -> None:
-        session.stop()
+    @server.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
+    def changed_on_disk(params: types.DidChangeWatchedFilesParams) -> None:
+        if any(each.type is not types.FileChangeType.Changed for each in params.changes):
+            session.check_workspace()
+        for each in params.changes:
+            session.changed_on_disk(each.uri)
 
 
 def _at_place(
@@ -200,6 +219,24 @@ def _answer_about_documents(server: LanguageServer, session: Session) -> None:
     def acted(params: types.CodeActionParams) -> list[types.CodeAction]:
         only = None if params.context.only is None else [word_of(each) for each in params.context.only]
         return about(params, lambda document: actions(session, document, params.range, only))
+
+
+def _annotate(server: LanguageServer, session: Session) -> None:
+    """Answer what an editor shows in or above the lines of a document."""
+
+    @server.feature(types.TEXT_DOCUMENT_INLAY_HINT)
+    def hinted(params: types.InlayHintParams) -> list[types.InlayHint]:
+        document = session.documents.get(params.text_document.uri)
+        return [] if document is None else inlay_hints(session, document, params.range)
+
+    @server.feature(types.TEXT_DOCUMENT_CODE_LENS, types.CodeLensOptions(resolve_provider=True))
+    def lensed(params: types.CodeLensParams) -> list[types.CodeLens]:
+        document = session.documents.get(params.text_document.uri)
+        return [] if document is None or not session.options.code_lens else lenses(document)
+
+    @server.feature(types.CODE_LENS_RESOLVE)
+    def resolved(lens: types.CodeLens) -> types.CodeLens:
+        return resolve_lens(session, lens)
 
 
 def _rewrite(server: LanguageServer, session: Session) -> None:

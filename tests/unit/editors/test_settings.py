@@ -41,7 +41,7 @@ def test_the_commands_and_settings_that_the_script_uses_are_declared() -> None:
     declared = {each["command"] for each in PACKAGE["contributes"]["commands"]}
     assert set(re.findall(r'registerCommand\("([^"]+)"', SCRIPT)) == declared
     settings = PACKAGE["contributes"]["configuration"]["properties"]
-    assert {f"twinform.{name}" for name in re.findall(r'get\("([^"]+)"\)', SCRIPT)} == set(settings)
+    assert {f"twinform.{name}" for name in re.findall(r'(?:\bget|\boption)\("([^"]+)"\)', SCRIPT)} == set(settings)
     program, command = settings["twinform.command"]["default"]
     assert program == "twinform"
     assert command in COMMANDS
