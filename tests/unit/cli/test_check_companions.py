@@ -215,6 +215,15 @@ def test_other_yaml_is_left_alone(run: Run, robots: Path) -> None:
     assert "7 files" in run("check", robots / "lifter", "--no-config").stderr
 
 
+def test_controllers_that_are_described_elsewhere_are_not_stale(run: Run, robots: Path) -> None:
+    others = {
+        "poses.yaml": "walk_pose:\n  controller_names:\n    - arm_controller\n    - head_controller\n",
+    }
+    for name, text in others.items():
+        (robots / "lifter" / _MOVEIT / name).write_text(text, encoding="utf-8")
+    assert _findings(run, robots / "lifter") == []
+
+
 _RENAME = "rename{names=[turn:pan,pedestal:base,tool_plate:wrist]}"
 _FOLLOWING = {
     _SRDF: 6,

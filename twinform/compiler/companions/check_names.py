@@ -52,6 +52,9 @@ def report_names(found: Iterable[Mention[Location]], known: KnownParts, sink: Di
     """Report each name in a file that is none of what is known."""
     links, joints, groups, sensors = known.links, known.joints, known.groups, known.sensors
     controlled = all(robot.is_controlled for robot in known.robots)
+    found = list(found)
+    # A list for another program names controllers of which none is described beside it.
+    describes = any(is_known(each.text, each.leaf.beside) for each in found if each.kind == "controller")
     for each in found:
         match each.kind:
             case "joint" | "driven joint" if known.robots:
@@ -69,6 +72,8 @@ def report_names(found: Iterable[Mention[Location]], known: KnownParts, sink: Di
             case "link" | "frame" if known.robots:
                 _report_frame(each, links, known, sink)
             case "controller" if not is_known(each.text, each.leaf.beside) and "/" not in each.text:
+                if not describes and not _is_misspelt(each.text, each.leaf.beside):
+                    continue
                 message = f"the controller {each.text!r} is listed here, and not described in this file"
                 _report(each, message, each.leaf.beside, sink)
             case _:
@@ -100,13 +105,17 @@ def _report_group(mention: Mention[Location], groups: Collection[str], sink: Dia
         _report(mention, f"there is no group {mention.text!r} in SRDF", groups, sink)
 
 
+def _is_misspelt(name: str, known: Collection[str]) -> bool:
+    return any(is_typo(name, each) for each in near_names(name, known))
+
+
 def _report_frame(mention: Mention[Location], links: Collection[str], known: KnownParts, sink: DiagnosticSink) -> None:
     """Report a frame that is no link; one that may be of something else only where a link is meant."""
     name = mention.text.rpartition("/")[2]
     if not name or is_known(name, links) or name in _ELSEWHERE:
         return
     # a driver may publish `tool0_controller` beside the link `tool0`
-    if mention.kind == "frame" and not any(is_typo(name, each) for each in near_names(name, links)):
+    if mention.kind == "frame" and not _is_misspelt(name, links):
         return
     message = f"there is no link {name!r} for this frame, which {known.whose}"
     hint = did_you_mean(name, links)
