@@ -16,7 +16,17 @@ from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.mistakes import report_mistakes
 from twinform.compiler.mistakes.joined_findings import join_findings
 from twinform.compiler.named_files import report_named_files
-from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Rule, Severity, did_you_mean, nearest_name, rules
+from twinform.diagnostics import (
+    Diagnostic,
+    DiagnosticSink,
+    Location,
+    Rule,
+    Severity,
+    did_you_mean,
+    is_typo,
+    near_names,
+    rules,
+)
 from twinform.diagnostics.rules import MISSING_INERTIAL, UNKNOWN_COLLISION
 from twinform.diagnostics.suppressions import NO_SUPPRESSIONS
 from twinform.ir import Document, Element, Format, Link, Model
@@ -151,7 +161,6 @@ def _report_unknown_collision(
 
 
 _HOLDERS = ("transmission", "ros2_control")
-_MISSPELT = 0.9
 _JOINTS = ("joint", "passive_joint")
 # Elements of a transmission that name the joint that it drives; the last four are those of the PR2.
 _WITH_JOINT = frozenset({*_JOINTS, "gap_joint", "simulated_actuated_joint", "flexJoint", "rollJoint"})
@@ -177,7 +186,8 @@ def _report_unknown_joints(model: Model, document: Document, sink: DiagnosticSin
                     unknown.append((f"<{holder}> {called!r} names the joint {name!r}", name, where))
     hints = [did_you_mean(name, joints) for _, name, _ in unknown]
     # A hand that the robot does not have, where nothing is misspelt.
-    is_of_another = len(unknown) >= _MANY and not any(nearest_name(name, joints, _MISSPELT) for _, name, _ in unknown)
+    is_misspelt = any(is_typo(name, each) for _, name, _ in unknown for each in near_names(name, joints))
+    is_of_another = len(unknown) >= _MANY and not is_misspelt
     rest = f", nor has it {len(unknown) - 1} others that are driven" if is_of_another else ""
     for (message, name, where), hint in list(zip(unknown, hints, strict=True))[: 1 if is_of_another else None]:
         whole = f"{message}, which the robot does not have{rest}"
