@@ -11,7 +11,8 @@ from click.core import ParameterSource
 from twinform.cli.command import combine_options
 from twinform.cli.config_file import ConfigError, Searched, Table, section
 from twinform.cli.presets import with_preset
-from twinform.cli.settings_of_files import OwnSettings, PerFile, RuleSettings, parse_patterns
+from twinform.cli.rule_settings import RuleSettings
+from twinform.cli.settings_of_files import OwnSettings, PerFile, parse_patterns
 from twinform.dataclass import dataclass
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ class Project:
         return cls(
             path,
             settings.paths,
-            RuleSettings.of(settings),
+            settings.rules(),
             settings.preset,
             tuple(settings.pipelines),
             NamedPipelines(path, settings.pipelines),

@@ -9,6 +9,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationErr
 
 from twinform.cli.config_file import ConfigError, Table
 from twinform.cli.presets import PRESETS, PresetName
+from twinform.cli.rule_settings import RuleSettings
 from twinform.compiler.input.load_options import FileOptions
 from twinform.diagnostics.diagnostic import GROUPS
 from twinform.diagnostics.sink import WARNINGS
@@ -57,6 +58,10 @@ class RuleTable(BaseModel):
     ignore: _Rules
     select: _Rules
     extend_select: _Rules
+
+    def rules(self, key: str = "") -> RuleSettings:
+        """Return the rules of the table, whose key is given where it is not that of the whole configuration."""
+        return RuleSettings(self.allow, self.deny, self.ignore, self.select, self.extend_select, key)
 
 
 class FileSettings(RuleTable):

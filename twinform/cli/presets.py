@@ -6,7 +6,7 @@ from typing import Literal, get_args
 
 import click
 
-from twinform.cli.settings_of_files import RuleSettings
+from twinform.cli.rule_settings import RuleSettings
 from twinform.dataclass import dataclass
 from twinform.diagnostics.sink import WARNINGS
 

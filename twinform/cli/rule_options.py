@@ -10,7 +10,7 @@ from twinform.cli.config_defaults import Project, settings_of
 from twinform.cli.config_file import ConfigError
 from twinform.cli.flags import group
 from twinform.cli.presets import PRESETS, preset_of, preset_option
-from twinform.cli.settings_of_files import RuleSettings
+from twinform.cli.rule_settings import RuleSettings
 from twinform.diagnostics import Policy
 from twinform.diagnostics.diagnostic import GROUPS
 from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule

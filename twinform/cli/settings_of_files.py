@@ -1,44 +1,20 @@
 """The settings that the tables `[[files]]` of a configuration have for single files."""
 
 import os
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import field
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from twinform.cli.config_file import ConfigError
 from twinform.dataclass import dataclass
 
 if TYPE_CHECKING:
-    from twinform.cli.config_settings import FileSettings, RuleTable
+    from twinform.cli.config_settings import FileSettings
     from twinform.cli.path_patterns import PathPatterns
+    from twinform.cli.rule_settings import RuleSettings
 
 Value = TypeVar("Value")
-
-
-class RuleSettings(NamedTuple):
-    """The rules that a table of the configuration or a command line names, and the key of the table.
-
-    With `select` nothing else is reported, `extend_select` adds to that, `allow` and `ignore` both leave rules out, and
-    findings of `deny` are errors.
-    """
-
-    allow: Sequence[str] = ()
-    deny: Sequence[str] = ()
-    ignore: Sequence[str] = ()
-    select: Sequence[str] = ()
-    extend_select: Sequence[str] = ()
-    key: str = ""
-
-    @classmethod
-    def of(cls, table: "RuleTable", key: str = "") -> "RuleSettings":
-        """Return the rules of a table."""
-        return cls(table.allow, table.deny, table.ignore, table.select, table.extend_select, key)
-
-    def named(self) -> Iterator[tuple[str, str]]:
-        """Yield each key with each rule or group that it has."""
-        for option in ("allow", "deny", "ignore", "select", "extend_select"):
-            yield from ((option.replace("_", "-"), name) for name in getattr(self, option))
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +30,7 @@ class OwnSettings:
     passes: tuple[str, str] | None = None
     check_passes: tuple[str, str] | None = None
     robot: tuple[str, str] | None = None
-    rules: Sequence[RuleSettings] = ()
+    rules: "Sequence[RuleSettings]" = ()
 
 
 NO_OWN_SETTINGS = OwnSettings()
@@ -102,7 +78,7 @@ class PerFile:
                 (table.check_passes, f"{key}.check-passes") for key, table in fitting if table.check_passes is not None
             ),
             robot=_last_given((table.robot, f"{key}.robot") for key, table in fitting if table.robot is not None),
-            rules=[RuleSettings.of(table, key) for key, table in fitting],
+            rules=[table.rules(key) for key, table in fitting],
         )
 
 

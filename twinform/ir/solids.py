@@ -13,6 +13,8 @@ from twinform.ir.node import Vector3
 from twinform.ir.rewrite import replace_fields
 from twinform.ir.transform import Transform, common_exponent, safe_sum, times_power
 
+FELT = 0.03
+"""A sum of moments, kg m^2, below which no inertia is too large: nobody feels it, and it keeps a simulation stable."""
 Symmetric = tuple[float, float, float, float, float, float]
 """xx, yy, zz, xy, xz, yz of a symmetric 3x3 matrix."""
 

@@ -22,6 +22,7 @@ from twinform.ir import (
     Visual,
 )
 from twinform.ir.bounds import bounds
+from twinform.ir.solids import FELT
 from twinform.passes.shared.moving_bodies import movable_models
 
 # Of 1,448 corpus files, the longest offset in a robot of URDF is 15 m, but for a model that was made to be large, and
@@ -222,8 +223,6 @@ _HEAVY = 50000.0
 """A mass in the boxes around shapes, kg/m^3."""
 _LARGE_MOMENT = 300.0
 _SMALL_MOMENT = 1e-3
-FELT = 0.03
-"""A sum of moments, kg m^2, below which no inertia is too large: nobody feels it, and it keeps a simulation stable."""
 _OFF = 0.5
 """How far a center of mass may be away from the link, m."""
 

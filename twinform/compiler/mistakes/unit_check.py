@@ -3,11 +3,11 @@
 from collections.abc import Iterable
 
 from twinform.compiler.mistakes.mesh_checks import MeshFiles
-from twinform.compiler.mistakes.scale_checks import FELT
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Format, Inertial, Link, Mesh, Model, Vector3
 from twinform.ir.bounds import Bounds, placed_bounds
 from twinform.ir.defaults import MOMENT
+from twinform.ir.solids import FELT
 from twinform.passes.inertia.physical_consistency import PlausibilityCheck, Room
 from twinform.passes.shared.link_shapes import PlacedShape, ShapePlaces
 
