@@ -40,7 +40,7 @@ REASONS: Mapping[str, Mapping[str, str]] = {
         "fcntl": "one process at a time writes into a folder",
         "difflib": "click takes `-o` for a long option first, and looks for similar ones",
     },
-    "format": _ALL | {"fcntl": "one process at a time writes into a folder"},
+    "format": _ALL,
     "diff": _ALL,
 }  # fmt: skip
 """Why a command imports modules of the standard library beside those that click and lxml import."""

@@ -10,14 +10,13 @@ import click
 
 from twinform.cli.check_plan import OUTSIDE, with_outside_faults
 from twinform.cli.command import Unusable
+from twinform.cli.diagnostic_rows import diagnostic_of_row, row_of_diagnostic
 from twinform.cli.inputs import InputSource, read_model
 from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, as_refused, inspect
 from twinform.compiler.input.load_options import XACRO, ReadingOptions
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Diagnostic, Fix, Location, Policy, Rule, Safety, Severity, rules
-from twinform.diagnostics.diagnostic import Span, TextEdit
+from twinform.diagnostics import Diagnostic, Location, Policy, Rule, Severity, rules
 from twinform.diagnostics.reporters import NO_TEXTS, FileFindings, FileTexts
-from twinform.diagnostics.rule_registry import find_rule
 from twinform.passes import PassError
 
 if TYPE_CHECKING:
@@ -308,36 +307,3 @@ def _known(keys: Iterable[tuple[str, int]], ask: Any) -> Iterator[tuple[tuple[st
         found = ask(*key)
         if found is not None:
             yield key, found
-
-
-def row_of_diagnostic(one: Diagnostic) -> list[Any]:
-    """Return a finding as a row of JSON."""
-    fix = one.fix and [one.fix.title, [[*edit.span, edit.new, edit.file] for edit in one.fix.edits], one.fix.safety]
-    related = [list(each) for each in one.related]
-    return [
-        one.rule.name,
-        one.message,
-        list(one.location),
-        one.severity,
-        one.found,
-        one.expected,
-        one.help,
-        related,
-        fix,
-    ]
-
-
-def diagnostic_of_row(row: list[Any]) -> Diagnostic:
-    """Make a finding of a row of JSON.
-
-    Raises:
-        ValueError, TypeError, LookupError: it is none.
-    """
-    name, message, location, severity, found, expected, advice, related, fix = row
-    registered = find_rule(name)
-    if registered is None:
-        raise KeyError(name)
-    made = fix and Fix(fix[0], tuple(TextEdit(Span(a, b), new, file) for a, b, new, file in fix[1]), Safety(fix[2]))
-    places = tuple(Location(*each) for each in related)
-    rule, where, level = registered.rule, Location(*location), Severity(severity)
-    return Diagnostic(rule, message, where, level, found, expected, advice, places, made)

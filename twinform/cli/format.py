@@ -6,16 +6,15 @@ from typing import Any, Literal
 
 import click
 
-from twinform.cli.checked_file import diagnostic_of_row, row_of_diagnostic
 from twinform.cli.command import FINDINGS, UNUSABLE, Command, Unusable
 from twinform.cli.completion import files as files_of
 from twinform.cli.config_defaults import config_options
 from twinform.cli.config_file import ConfigError
+from twinform.cli.diagnostic_rows import diagnostic_of_row, row_of_diagnostic
 from twinform.cli.file_runs import RunOptions, open_file_run, run_options
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, size_option
 from twinform.cli.model_files import is_text
 from twinform.cli.nearest_projects import ContextByFile, finding_of
-from twinform.cli.outputs import Rewrite, write_back
 from twinform.cli.printing import plural, print_document, print_line, print_text, show
 from twinform.compiler import CompileError
 from twinform.compiler.formatting import formatted
@@ -219,7 +218,7 @@ class _FormatReport:
             self._print_changes(source, before, after)
         elif isinstance(source.content, bytes):
             print_document(after)
-        elif not _write(Rewrite(source, before, after)):
+        elif not _write(source, before, after):
             return "unusable"
         return "same" if before == after else "changed"
 
@@ -237,10 +236,12 @@ class _FormatReport:
         return ", ".join(parts) + (f", {found['unusable']} could not be formatted" if found["unusable"] else "")
 
 
-def _write(rewrite: Rewrite) -> bool:
+def _write(source: InputSource, before: bytes, after: bytes) -> bool:
     """Write a file; return whether that worked."""
+    from twinform.cli.outputs import Rewrite, write_back  # noqa: PLC0415 - `--check` and `--diff` write nothing
+
     try:
-        write_back([rewrite])
+        write_back([Rewrite(source, before, after)])
     except Unusable as error:
         print_line(f"Error: {error.message}", err=True)
         return False

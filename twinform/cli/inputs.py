@@ -23,8 +23,7 @@ from twinform.cli.model_files import (
     is_model,
 )
 from twinform.cli.nearest_projects import NearestProjects
-from twinform.compiler import LoadOptions, LoadResult, read
-from twinform.compiler.input.load_options import XACRO, FileOptions, ReadingOptions
+from twinform.compiler.input.load_options import XACRO, FileOptions, LoadOptions, ReadingOptions
 from twinform.compiler.input.size_limits import LARGEST
 from twinform.diagnostics import Policy
 from twinform.file_access import STREAMS, Readable, read_up_to
@@ -34,6 +33,7 @@ from twinform.option import declared_options
 if TYPE_CHECKING:
     from twinform.cli.config_defaults import Project
     from twinform.cli.path_patterns import FolderWalk
+    from twinform.compiler import LoadResult
     from twinform.profiles import Profile
 
 
@@ -154,8 +154,10 @@ exclude_options = combine_options(
 """Gives a command `--exclude PATTERN` and `--force-exclude`."""
 
 
-def read_model(source: InputSource, load_options: LoadOptions, options: ReadingOptions) -> LoadResult:
+def read_model(source: InputSource, load_options: LoadOptions, options: ReadingOptions) -> "LoadResult":
     """Read a source, and expand its includes if the options ask for that."""
+    from twinform.compiler import read  # noqa: PLC0415 - a formatter reads text alone
+
     loaded = read(source.content, load_options, name=source.name)
     if not options.get("expand_includes"):
         return loaded

@@ -78,7 +78,7 @@ _UNUSED = {
         "twinform.compiler.expand_includes",
         "twinform.compiler.audit",
     ],
-    "format": ["twinform.passes.legalise"],
+    "format": ["twinform.passes.legalise", "twinform.compiler.input.loading", "twinform.ir.verify", "twinform.storage"],
     "diff": [
         "twinform.passes.framework.options_model",
         "twinform.passes.legalise.to_urdf.sequence",
