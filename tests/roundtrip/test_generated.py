@@ -14,6 +14,7 @@ from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Axis, Document, Format, Joint, Link, Mesh
 from twinform.ir.frames import FrameGraph
+from twinform.request_options import URDF_VERSIONS, UrdfVersion
 from twinform.schemas import table
 from twinform.testing import assert_round_trip, strategies
 
@@ -58,6 +59,17 @@ def test_a_robot_comes_back_from_sdf(robot: Document) -> None:
 @given(strategies.sdf_models())
 def test_a_model_comes_back_from_urdf(model: Document) -> None:
     assert_round_trip(model, via="urdf")
+
+
+@pytest.mark.parametrize("version", URDF_VERSIONS[1:])
+def test_a_robot_of_a_newer_version_comes_back_from_sdf(version: UrdfVersion) -> None:
+    @examples(0.4)
+    @given(strategies.robots(version=version))
+    def comes_back(robot: Document) -> None:
+        assert twinform.loads(_text(robot)) == robot
+        assert_round_trip(robot, via="sdf")
+
+    comes_back()
 
 
 @pytest.mark.parametrize("version", table("sdf").versions)

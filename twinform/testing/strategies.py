@@ -36,6 +36,7 @@ from twinform.ir import (
     Visual,
     World,
 )
+from twinform.request_options import UrdfVersion
 
 __all__ = [
     "geometries",
@@ -228,14 +229,19 @@ def robots(
     min_links: int = 1,
     max_links: int = 8,
     joint_types: tuple[str, ...] = URDF_TYPES,
-    shapes: tuple[type[Any], ...] = URDF_SHAPES,
+    shapes: tuple[type[Any], ...] | None = None,
+    version: UrdfVersion = "1.0",
 ) -> st.SearchStrategy[Document]:
-    """Draw URDF documents: a tree of links with joints of every type but planar, as the front end reads them."""
+    """Draw URDF documents: a tree of links with joints of every type but planar, as the front end reads them.
+
+    Those of 1.1 have quaternions and capsules too, those of 1.2 its limits.
+    """
     _require(min_links, max_links)
+    shapes = shapes or (URDF_SHAPES if version == "1.0" else (*URDF_SHAPES, Capsule))
     segment = st.tuples(
         _bodies(Format.URDF, shapes), st.sampled_from(joint_types), _maybe(poses()), _axes(), st.integers(0, _MOST)
     )
-    return _segments(segment, min_links, max_links).map(_robot)
+    return _segments(segment, min_links, max_links).map(lambda segments: _robot(segments, version))
 
 
 def _require(least: int, most: int) -> None:
@@ -257,7 +263,7 @@ def _segments(segment: st.SearchStrategy[Any], least: int, most: int) -> st.Sear
     return st.tuples(needed, others).map(present)
 
 
-def _robot(segments: list[tuple[dict[str, Any], Any, Pose | None, Axis, int]]) -> Document:
+def _robot(segments: list[tuple[dict[str, Any], Any, Pose | None, Axis, int]], version: UrdfVersion) -> Document:
     links: list[Link] = []
     joints: list[Joint] = []
     for number, (body, kind, pose, axis, pick) in enumerate(segments):
@@ -265,9 +271,22 @@ def _robot(segments: list[tuple[dict[str, Any], Any, Pose | None, Axis, int]]) -
         links.append(Link(name=f"link_{number}", pose=placed, **body))
         if number:
             parent, child = f"link_{pick % number}", f"link_{number}"
-            joints.append(_urdf_joint(f"joint_{number}", kind, parent, child, pose, axis))
+            # the number that picks the parent also picks the words of newer versions
+            origin = _TURNED if version != "1.0" and pick % 3 else pose
+            moving = axis.copy(limit=_newer(axis.limit, pick)) if version == "1.2" else axis
+            joints.append(_urdf_joint(f"joint_{number}", kind, parent, child, origin, moving))
     model = Model(name="robot", links=tuple(links), joints=tuple(joints))
-    return Document(format=Format.URDF, models=(model,))
+    return Document(format=Format.URDF, version=None if version == "1.0" else version, models=(model,))
+
+
+_TURNED = Pose(xyz=(0.0, 0.5, 1.0), quat_xyzw=(0.0, 0.6, 0.0, 0.8))
+
+
+def _newer(limit: Limit | None, pick: int) -> Limit | None:
+    """A limit as URDF 1.2 may have it: without effort and velocity, and with others."""
+    if limit is None or pick % 2:
+        return limit
+    return limit.copy(effort=None, velocity=None, acceleration=float(pick), jerk=None if pick % 4 else 0.5)
 
 
 def _urdf_joint(name: str, kind: JointType, parent: str, child: str, pose: Pose | None, axis: Axis) -> Joint:

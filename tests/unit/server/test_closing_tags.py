@@ -73,12 +73,12 @@ def test_another_character_than_the_one_that_was_typed_closes_nothing() -> None:
     assert closing(document, 0, ">") == []
 
 
-LINKED = {
+LINKED = (
     "<robot><«li|nk» name='a'><visual/></«link»></robot>",
     "<robot><«link» name='a'></«link|»></robot>",
     "<«|robot»><link><link/></link></«robot»>",
     "<«a»><a></a></«|a»>",
-}
+)
 NOT_LINKED = (
     "<robot><li|nk/></robot>",
     "<robot><li|nk></robot>",

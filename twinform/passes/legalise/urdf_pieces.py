@@ -7,6 +7,7 @@ from functools import cached_property
 from twinform.ir import Element, Joint, Link, Mimic, Model, Node, Opaque
 from twinform.ir.verify.verify_joints import useless_leader
 from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_FIELDS, LINK_TAGS, MODEL_TAGS
+from twinform.request_options import UrdfVersion
 
 _ABOUT_JOINTS = frozenset({"transmission", "ros2_control"})
 OF_AN_AXIS = frozenset({"axis", "limit", "dynamics", "mimic"})
@@ -25,10 +26,11 @@ def joints_of(element: Element) -> Iterator[str]:
 
 
 class Standing:
-    """What stands in a model by now, in the notation of URDF, where something that traveled is to come back."""
+    """What stands in a model by now, in the notation of a version of URDF, where what traveled is to come back."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, urdf_version: UrdfVersion) -> None:
         self.model = model
+        self.takes_any_limit = urdf_version == "1.2"
 
     @cached_property
     def links(self) -> Mapping[str, Link]:
@@ -83,7 +85,8 @@ def _misfit_of_joint(piece: Opaque, joint: Joint, standing: Standing) -> str:
     attribute = piece.attribute[0] if piece.attribute else ""
     if attribute == "type" and not piece.at and joint.type not in BALLS:
         return f"the joint is {joint.type} by now"
-    if piece.at == "limit" and (joint.axis is None or not joint.axis.limit):
+    has_limit = joint.axis is not None and joint.axis.limit is not None
+    if piece.at == "limit" and not has_limit and not (standing.takes_any_limit and joint.type in _ENDLESS):
         return "the joint has no limits any more"
     if piece.at == "limit" and attribute in _ENDS and joint.type not in _ENDLESS:
         return f"the joint is {joint.type} and has limits of its own"

@@ -29,6 +29,7 @@ from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import NAMESPACE, to_element
 from twinform.passes.shared.nodes import map_elements
+from twinform.request_options import UrdfVersion
 from twinform.schemas import Context, element_xml, format_value, reader, table
 
 
@@ -43,6 +44,14 @@ def in_radians(transform: Transform, relative_to: str | None = None) -> Pose:
     elif written.degrees and rpy is not None:
         rpy = (math.radians(rpy[0]), math.radians(rpy[1]), math.radians(rpy[2]))
     return Pose.unchecked(xyz=written.xyz, rpy=rpy, relative_to=relative_to, source=written.source)
+
+
+def in_urdf(transform: Transform, relative_to: str | None, version: UrdfVersion) -> Pose:
+    """The pose in the notation of a version of URDF: a quaternion stays one where that has quaternions."""
+    written = transform.notation
+    if version == "1.0" or written is None or written.quat_xyzw is None:
+        return in_radians(transform, relative_to)
+    return Pose.unchecked(xyz=written.xyz, quat_xyzw=written.quat_xyzw, relative_to=relative_to, source=written.source)
 
 
 POSE = "pose"

@@ -35,10 +35,11 @@ from twinform.passes.shared.poses import (
     ElementPoses,
     Posed,
     Rebasing,
-    in_radians,
+    in_urdf,
     offset_attributes,
     pose_attributes,
 )
+from twinform.request_options import UrdfVersion
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 _MOVED = PLAIN | bits_of(Pose, "relative_to", "degrees", "quat_xyzw", "rotation_format")
@@ -58,6 +59,7 @@ class RebaseLinks(ToUrdfPass):
     """
 
     name: ClassVar[str] = "rebase-links"
+    urdf_version: UrdfVersion = "1.0"
 
     def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with each link in the frame of its joint."""
@@ -68,12 +70,12 @@ class RebaseLinks(ToUrdfPass):
         framed = frozenset(joint.child or "" for joint in model.joints if _is_of_frame(joint))
         named = _unmoved_links(model, graph, bases) if keeper.back else frozenset[str]()
         links = tuple(
-            _Rebase(graph, link.name, bases[link.name], keeper, framed=framed, named=named).link(
+            _Rebase(graph, link.name, bases[link.name], keeper, self.urdf_version, framed=framed, named=named).link(
                 link, carried_by.get(link.name)
             )
             for link in model.links
         )
-        joints = tuple(_place_joint(joint, graph, bases, keeper) for joint in model.joints)
+        joints = tuple(_place_joint(joint, graph, bases, keeper, self.urdf_version) for joint in model.joints)
         roots = [link.name for link in model.links if link.name not in carried_by]
         model = model.copy(links=links, joints=joints)
         return _place_model(model, graph, roots, keeper)
@@ -87,6 +89,7 @@ class _Rebase:
     name: str
     base: Base
     keeper: UrdfKeeper
+    urdf_version: UrdfVersion
     kind: Kind = "link"
     framed: frozenset[str] = frozenset()
     """Links that are frames in SDF, which have ledger entries of their own."""
@@ -130,7 +133,7 @@ class _Rebase:
 
     def _write(self, holder: AnyPosed, tag: str, transform: Transform) -> AnyPosed:
         written = holder.pose
-        made = transform.to_pose() if tag in {"sensor", "light"} else in_radians(transform)
+        made = transform.to_pose() if tag in {"sensor", "light"} else in_urdf(transform, None, self.urdf_version)
         moved = holder.copy(pose=made)
         if written is None or made == written:
             return moved
@@ -212,11 +215,13 @@ def _is_plain(holder: Posed) -> bool:
     )
 
 
-def _place_joint(joint: Joint, graph: FrameGraph, bases: Mapping[str, Base], keeper: UrdfKeeper) -> Joint:
+def _place_joint(
+    joint: Joint, graph: FrameGraph, bases: Mapping[str, Base], keeper: UrdfKeeper, version: UrdfVersion
+) -> Joint:
     written = joint.pose
     (name, kind), (parent, held) = bases.get(joint.child or "", (joint.name, "joint")), bases[joint.parent or WORLD]
-    made = in_radians(graph.pose(name, parent, kind=kind, base=held), joint.parent)
-    rebase = _Rebase(graph, joint.name, (name, kind), keeper, "joint")
+    made = in_urdf(graph.pose(name, parent, kind=kind, base=held), joint.parent, version)
+    rebase = _Rebase(graph, joint.name, (name, kind), keeper, version, "joint")
     placed = rebase.poses.joint(joint).copy(pose=made)
     offset = graph.pose(joint.name, name, kind="joint", base=kind)
     if not offset.is_identity:

@@ -81,7 +81,7 @@ def to_urdf(
         RelateGearboxes.unchecked(carriers=carriers),
         UnfoldJoints.unchecked(carriers=carriers),
         MapJoints.unchecked(carriers=carriers, urdf_version=urdf_version),
-        RebaseLinks.unchecked(carriers=carriers),
+        RebaseLinks.unchecked(carriers=carriers, urdf_version=urdf_version),
         MapGeometry.unchecked(carriers=carriers, urdf_version=words),  # what it carries is where it will be
         ShareVisuals.unchecked(carriers=carriers, urdf_version=words),
         MapMaterials.unchecked(carriers=carriers),
@@ -94,7 +94,7 @@ def to_urdf(
         RestoreShapes.unchecked(),
         RestoreNames.unchecked(to=Format.URDF),
         RestoreLumpedNames.unchecked(),
-        UnpackUrdf.unchecked(),
+        UnpackUrdf.unchecked(urdf_version=urdf_version),
         RestoreInertias.unchecked(),
         PlaceFreeLinks.unchecked(carriers=carriers),
         # What came back from an older URDF begins to mean something.

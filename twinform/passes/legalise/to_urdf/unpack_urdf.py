@@ -12,6 +12,7 @@ from twinform.passes.carriers.carriers import bits_of_ours, is_carrier, is_dangl
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.urdf_pieces import Standing, misfit
 from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_TAGS, MODEL_TAGS, Tag
+from twinform.request_options import UrdfVersion
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -26,14 +27,16 @@ class UnpackUrdf(ModelPass):
     """
 
     name: ClassVar[str] = "unpack-urdf"
+    urdf_version: UrdfVersion = "1.0"
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without carriers of what URDF can express."""
         if sink.has_errors:
             return model
-        change = partial(_unpack_node, Standing(model), sink)
+        change = partial(_unpack_node, Standing(model, self.urdf_version), sink)
         model = map_children(model, lambda child: rewrite(child, Node, change, having=bits_of_ours("urdf")))
-        model = _unpack_parts(_restore_world(model), partial(misfit, node=model, standing=Standing(model)), sink)
+        standing = Standing(model, self.urdf_version)
+        model = _unpack_parts(_restore_world(model), partial(misfit, node=model, standing=standing), sink)
         return _restore_overruled(model, sink)
 
 
