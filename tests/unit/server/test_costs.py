@@ -5,12 +5,18 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pytest
+from lsprotocol import types
 
 from tests.profile import DEEP
+from twinform.diagnostics import Span
 from twinform.server.checking import no_settings
+from twinform.server.closing_tags import closing, linked_names
+from twinform.server.code_lens import lenses, resolve_lens
+from twinform.server.completion import complete
 from twinform.server.document_outline import outline, search
 from twinform.server.documents import TextDocument
 from twinform.server.hover import hover
+from twinform.server.inlay_hints import inlay_hints
 from twinform.server.navigation import RenameRefusedError, references, rename
 from twinform.server.session import Session
 
@@ -61,12 +67,21 @@ SHAPES: Mapping[str, tuple[str, Callable[[int], str]]] = {
     "expressions": ("${p", lambda n: _urdf(f'{_MACRO}<link name="{"${p}" * n}"/></xacro:macro>')),
 }
 ANSWERS: Mapping[str, Callable[[Session, TextDocument, int], object]] = {
+    "completion": complete,
+    "completion of elements": lambda session, document, _: complete(session, document, len(document.text) // 2),
+    "closing tags": lambda _, document, offset: (closing(document, offset, ">"), linked_names(document, offset)),
+    "hints": lambda session, document, _: inlay_hints(session, document, _whole(document)),
+    "lenses": lambda session, document, _: [resolve_lens(session, each) for each in lenses(document)[:1]],
     "hover": hover,
     "references": references,
     "rename": lambda session, document, offset: rename(session, document, offset, "b"),
     "outline": lambda _session, document, _offset: outline(document),
     "search": lambda session, _document, _offset: search(session, ""),
 }
+
+
+def _whole(document: TextDocument) -> types.Range:
+    return document.positions.range(Span(0, len(document.text)))
 
 
 def calls(shape: str, answer: str, size: int, folder: Path) -> int:

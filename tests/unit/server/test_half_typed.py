@@ -13,12 +13,16 @@ from lsprotocol import types
 from testbed.editor.client import Editor, editor
 from tests.profile import DEEP
 from tests.unit.server.test_diagnostics import HOSTILE
+from twinform.diagnostics import Span
 from twinform.server.actions import actions
 from twinform.server.checking import no_settings
+from twinform.server.closing_tags import closing, linked_names
+from twinform.server.code_lens import lenses, resolve_lens
 from twinform.server.completion import complete
 from twinform.server.document_outline import folds, links, outline
 from twinform.server.documents import TextDocument
 from twinform.server.hover import hover
+from twinform.server.inlay_hints import inlay_hints
 from twinform.server.navigation import RenameRefusedError, definitions, prepare, references, rename, search_of
 from twinform.server.session import Session
 
@@ -48,6 +52,13 @@ def ask_everything(session: Session, document: TextDocument, offset: int) -> Non
     outline(document)
     folds(document)
     links(document, search_of(session, document))
+    linked_names(document, offset)
+    for typed in (">", "/"):
+        for edit in closing(document, offset, typed):
+            assert document.positions.span(edit.range).end <= len(document.text)
+    inlay_hints(session, document, document.positions.range(Span(0, len(document.text))))
+    for lens in lenses(document)[:2]:
+        resolve_lens(session, lens)
     where = document.positions.position(offset)
     actions(session, document, types.Range(where, where), None)
 

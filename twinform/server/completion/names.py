@@ -21,6 +21,12 @@ _MOST_INCLUDES = 20
 """The includes of a document whose models are read for one answer."""
 
 
+_DEEPEST = 8
+"""The most steps of a name such as `model::model::link`."""
+_DEEPEST_TREE = 256
+"""The depth of elements beyond which no reader takes a file."""
+
+
 def propose_names(place: ValuePlace) -> Iterator[Proposal]:
     """Propose what may be named in a value, if it is a reference."""
     kind = _kind_of_value(place)
@@ -77,7 +83,9 @@ def definitions_of(session: Session, document: TextDocument, *kinds: str) -> Ite
 
 def macros_around(node: TolerantNode | None) -> Iterator[TolerantNode]:
     """Yield the macros of xacro around an element, the nearest first."""
-    while node is not None:
+    for _ in range(_DEEPEST_TREE):
+        if node is None:
+            return
         if node.tag == "xacro:macro":
             yield node
         node = node.parent
@@ -113,10 +121,11 @@ def _names_in_scope(
 def _seen_from(document: TextDocument, name: Name, wanted: str | None) -> str | None:
     """Return how a name is written in the scope of that name; None if it is not inside of it."""
     steps, scope = [name.text], name.scope
-    while scope is not None and scope.get("name") != wanted:
+    while scope is not None and scope.get("name") != wanted and len(steps) < _DEEPEST:
         steps.append(scope.get("name") or "")
         scope = surroundings(document, scope.parent).scope
-    return "::".join(reversed(steps)) if scope is not None and all(steps) else None
+    is_inside = scope is not None and scope.get("name") == wanted
+    return "::".join(reversed(steps)) if is_inside and all(steps) else None
 
 
 def _names_in_include(
