@@ -6,7 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from twinform.cli.config_file import ConfigError, _configuration_in  # pyright: ignore[reportPrivateUsage]
 from twinform.cli.editor_settings import settings_of
+from twinform.cli.nearest_projects import NearestProjects
 
 from .conftest import GOOD, WARNED, WRONG, Run
 
@@ -156,3 +158,48 @@ def test_arguments_and_passes_are_those_of_the_nearest(run: Run, repository: Pat
     done = run("check", ".")
     assert "arm/r.urdf.xacro" not in done.stdout
     assert "arm/deep/r.urdf.xacro" in done.stdout
+
+
+def test_a_configuration_is_read_once_and_a_folder_looked_into_once(
+    run: Run, repository: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = repository / "arm"
+    for number in range(30):
+        _write(folder / "warned.urdf", WARNED)
+        folder /= f"f{number}"
+    _write(repository / "arm/twinform.toml", "strict = [")
+    looked: list[Path] = []
+
+    def look(folder: Path) -> object:
+        looked.append(folder)
+        return _configuration_in(folder)
+
+    monkeypatch.setattr("twinform.cli.config_file._configuration_in", look)
+    projects = NearestProjects()
+    for file in (repository / "arm").rglob("*.urdf"):
+        with pytest.raises(ConfigError):
+            projects.of(str(file))
+    assert len(looked) == len(set(looked)) == 31
+    assert run("check", ".", "--format", "json").stdout.count("wrong-configuration") == 1
+
+
+def test_the_nearest_counts_alone_and_ends_at_the_repository(run: Run, repository: Path) -> None:
+    _write(repository / "twinform.toml", "deny = ['unknown-element']")
+    _write(repository / "arm/twinform.toml", "")
+    _write(repository / "leg/.git/HEAD", "")
+    errors = _errors(run, ".")
+    assert (errors["arm/warned.urdf"], errors["warned.urdf"]) == (0, 1)
+    # a repository in this one has no configuration: that of the current folder counts, as for any file without one
+    assert errors["leg/warned.urdf"] == 1
+    assert settings_of(repository / "leg/warned.urdf").policy.deny == frozenset()
+
+
+def test_fixes_use_the_settings_of_each_file(run: Run, repository: Path) -> None:
+    shape = '<visual><geometry><sphere radius="1,5"/></geometry></visual>'
+    text = f'<robot name="r"><link name="a">{shape}</link></robot>'
+    for name in ("arm/r.urdf", "leg/r.urdf"):
+        _write(repository / name, text)
+    _write(repository / "arm/twinform.toml", "allow = ['invalid-value', 'unknown-element']")
+    run("check", "arm/r.urdf", "leg/r.urdf", "--fix", "--unsafe-fixes")
+    assert "1,5" in Path("arm/r.urdf").read_text()
+    assert "1.5" in Path("leg/r.urdf").read_text()

@@ -124,7 +124,7 @@ def verify_limits_there(joint: Joint, sink: DiagnosticSink, version: Version) ->
     needed = _NEEDED if version < _POSITIONS_SINCE else _POSITIONS if joint.type in _LIMITED else ()
     missing = [name for name in needed if limit and getattr(limit, name) is None]
     if limit and missing:
-        message = f"the limit of joint {joint.name!r} has no {' and no '.join(missing)}"
+        message = f"<limit> of joint {joint.name!r} has no {' and no '.join(map(repr, missing))}"
         sink.report(rules.PARTIAL_LIMIT, message, limit.location, expected=f"@{missing[0]}")
     if joint.type in _LIMITED and limit is None:
         message = f"{joint.type} joint {joint.name!r} has no <limit>"

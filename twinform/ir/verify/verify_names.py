@@ -73,7 +73,7 @@ def report_reserved(kinds: Kinds, severity: Severity, sink: DiagnosticSink, *, s
             elif scoped and "::" in name:
                 message = f"{kind} {name!r} has '::' in its name, which stands between a model and what is in it"
             elif not all(part.strip() for part in name.split("::")):
-                message = f"{kind} {name!r} has nothing on one side of '::', where a name belongs"
+                message = f"{kind} {name!r} has an empty name before or behind '::'"
                 sink.report(rules.RESERVED_NAME, message, where, found=name, severity=Severity.WARNING)
                 continue
             else:

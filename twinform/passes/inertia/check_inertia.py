@@ -126,7 +126,7 @@ def _check_ratio(each: ConnectedBodies, masses: Mapping[int, float], limit: floa
         return
     ends = zip((each.parent, each.child), weights, strict=True)
     words = " and ".join(f"{body[0].name!r} with {mass:.4g} kg" for body, mass in ends)
-    message = f"joint {each.joint.name!r} connects {words}"
+    message = f"joint {each.joint.name!r} connects {words}: at {heavy / light:.3g} to 1, simulations may get unstable"
     found, expected = f"{heavy / light:.4g}", f"at most {limit:g}"
     sink.report(MASS_RATIO, message, each.joint.location, found=found, expected=expected)
 

@@ -36,8 +36,14 @@ class SoftLimits(NamedTuple):
 
     def __str__(self) -> str:
         """The range as messages have it."""
-        lower, upper = ("open" if end is None else f"{end:g}" for end in self)
-        return f"{lower} to {upper}"
+        return range_words(self.lower, self.upper)
+
+
+def range_words(lower: float | None, upper: float | None) -> str:
+    """Return a range as messages have it, of which one end or both may be missing."""
+    if lower is None:
+        return "unlimited" if upper is None else f"at most {upper:g}"
+    return f"at least {lower:g}" if upper is None else f"{lower:g} to {upper:g}"
 
 
 def find_faults(joint: Joint) -> Iterator[LimitFinding]:

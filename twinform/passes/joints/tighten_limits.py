@@ -9,7 +9,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import TIGHTENED_LIMIT, UNTIGHTENED_LIMIT
 from twinform.ir import Document, Joint, Limit, rewrite
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
-from twinform.passes.joints.check_limits import SoftLimits, limit_location, soft_limits
+from twinform.passes.joints.check_limits import SoftLimits, limit_location, range_words, soft_limits
 
 _BOUNDED = frozenset({"revolute", "prismatic"})
 
@@ -48,7 +48,7 @@ class TightenLimits(Pass):
         if (lower, upper) == (limit.lower, limit.upper):
             return joint
         where = limit_location(joint, limit)
-        was, now = (_format_range(*ends) for ends in ((limit.lower, limit.upper), (lower, upper)))
+        was, now = (range_words(*ends) for ends in ((limit.lower, limit.upper), (lower, upper)))
         if lower is not None and upper is not None and lower >= upper:
             message = f"the limits of joint {joint.name!r} are left at {was}: {now} would leave no range"
             sink.report(UNTIGHTENED_LIMIT, message, where, found=was)
@@ -67,8 +67,3 @@ class TightenLimits(Pass):
 
 def _move_end(end: float | None, by: float) -> float | None:
     return end if end is None or not by or math.isinf(end) else end + by
-
-
-def _format_range(lower: float | None, upper: float | None) -> str:
-    low, high = ("open" if end is None else f"{end:g}" for end in (lower, upper))
-    return f"{low} to {high}"

@@ -72,7 +72,7 @@ def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: VersionKe
     if resolved.parent == resolved.child:
         report_self_joint(joint, resolved, keeper.sink)
         return joint
-    message = f"joint {joint.name!r} connects the links that {named_ends(pieces)} moves with"
+    message = f"joint {joint.name!r} is attached to {named_ends(pieces)}; what is written is the link that carries it"
     gone: tuple[str, ...] = ()
     weight = len(pieces)
     # A joint is posed in its child. Another child means other numbers for the same place.

@@ -267,7 +267,7 @@ class _Fold:
             self.sink.report(rules.GAZEBO_TAG_WITHOUT_TARGET, message, where, found=element.name)
         if elements:
             names = ", ".join(f"<{element.name}>" for element in elements)
-            message = f"{names} has no effect on {target}"
+            message = f"{names} {'have' if len(elements) > 1 else 'has'} no effect on {target}"
             self._keep(extension, elements, rules.GAZEBO_TAG_WITHOUT_TARGET, message)
 
     def _keep(

@@ -35,7 +35,7 @@ def _resolve_joint(joint: Joint, links: set[str], graph: FrameGraph, keeper: Urd
     if resolved.parent == resolved.child:
         report_self_joint(joint, resolved, keeper.sink)
         return joint
-    message = f"joint {joint.name!r} connects the links that {named_ends(pieces)} moves with"
+    message = f"joint {joint.name!r} is attached to {named_ends(pieces)}; what is written is the link that carries it"
     keeper.account(rules.JOINT_END, message, joint.location, sum(piece.weight for piece in pieces))
     ends = {piece.element.name: piece.element.text for piece in pieces if piece.element}
     return keeper.annotate(resolved, ENDS, attributes=ends)
