@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Unpack
 
 from twinform.compiler.input.allowances import report_unused, without_consequences
 from twinform.compiler.input.finding_lines import with_exact_lines
-from twinform.compiler.input.load_options import CheckOptions, Input, LoadResult, checking_options
+from twinform.compiler.input.load_options import AnyCheckOptions, Input, LoadResult, checking_options
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.mistakes import report_mistakes
 from twinform.compiler.mistakes.joined_findings import join_findings
@@ -122,6 +122,8 @@ def _with_lines(sink: DiagnosticSink, loaded: LoadResult) -> list[Diagnostic]:
     return found if loaded.tree is None else list(with_exact_lines(found, loaded.tree, sink.file))
 
 
+_COMPANIONS = frozenset({".srdf", ".xacro", ".yaml", ".yml"})
+"""The suffixes of files that may name parts of a robot in another file."""
 _DEFAULT_COLLISION = "__default__"
 """The name in SDF of a collision that is not written."""
 
@@ -264,7 +266,7 @@ def _has_mass(link: Link) -> bool:
 
 
 def check(
-    source: Input, *, name: str = "", passes: "str | Pipeline | None" = None, **options: Unpack[CheckOptions]
+    source: Input, *, name: str = "", passes: "str | Pipeline | None" = None, **options: Unpack[AnyCheckOptions]
 ) -> LoadResult:
     """Read a file, the bytes of one or a document, and say everything that is wrong with it.
 
@@ -275,7 +277,8 @@ def check(
     `max_tags` tags are refused. Findings of the rules in `allow` are left out, as are those that comments in the files
     allow; they are `allowed` in the result. `profiles` are those of the consumers of the model, or their names
     with commas between. Xacro files may read the environment variables that `env` names besides those of ROS and
-    Gazebo.
+    Gazebo. SRDF, and YAML with parameters that name joints and links, are held against the `robot`, or one that is
+    found near them.
 
     Raises:
         ReadOnlyPassError: a pass would change the model.
@@ -283,12 +286,18 @@ def check(
         PipelineError: `passes` is not a pipeline.
         TypeError: there is no such option.
     """
-    require_options(options, CheckOptions)
-    load_options = checking_options(options)
+    require_options(options, AnyCheckOptions)
+    load_options = replace(checking_options(options), robot=str(options.get("robot", "")))
     if isinstance(passes, str):
         from twinform.passes import parse_pipeline  # noqa: PLC0415 - most checks have no passes
 
         passes = parse_pipeline(passes)
+    if isinstance(source, str | Path) and Path(source).suffix.lower() in _COMPANIONS:
+        from twinform.compiler.companions.check_companion import check_if_companion  # noqa: PLC0415 - few files are
+
+        companion = check_if_companion(Path(source), load_options)
+        if companion is not None:
+            return companion
     loaded = read(source, load_options, name=name)
     if options.get("expand_includes"):
         from twinform.compiler.expand_includes import expand  # noqa: PLC0415 - most checks read one file

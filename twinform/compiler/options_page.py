@@ -3,7 +3,7 @@
 import sys
 
 from twinform.compiler.driver import ConversionOptions
-from twinform.compiler.input.load_options import CheckOptions, FileOptions, ReadingOptions
+from twinform.compiler.input.load_options import AnyCheckOptions, FileOptions, ReadingOptions
 from twinform.diagnostics.generated_files import main
 from twinform.option import Option, declared_options
 from twinform.request_options import RequestOptions
@@ -22,18 +22,20 @@ _OTHERS = {
     "arguments": Option(help="The arguments of xacro files, by their names.", flag="NAME:=VALUE"),
     "allow": Option(help="The rules whose findings are left out.", setting=True),
     "profiles": Option(help="The consumers of the model, or their names with commas between.", flag="--for"),
+    "robot": Option(help="The robot that SRDF, and parameters which name joints and links, are for."),
     "model": Option(help="The model that is meant, where a file has several."),
     "keep_physics": Option(help="Refuse passes for consumers that change masses, inertias, joints or limits."),
 }
 """Options that commands declare themselves, each in its own way."""
-_OF = {"files": FileOptions, "checks": CheckOptions, "conversions": RequestOptions}
+_OF = {"files": FileOptions, "checks": AnyCheckOptions, "conversions": RequestOptions}
 
 
 def options_page() -> str:
     """All options in Markdown."""
     declared = {**declared_options(ReadingOptions), **declared_options(RequestOptions)}
     known = {name: option for name, (_, option) in declared.items()} | _OTHERS
-    return _INTRODUCTION + "".join(_row(name, known[name]) for name in ConversionOptions.__annotations__)
+    names = {**AnyCheckOptions.__annotations__, **ConversionOptions.__annotations__}
+    return _INTRODUCTION + "".join(_row(name, known[name]) for name in names)
 
 
 def _row(name: str, option: Option) -> str:

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+import twinform
+
 from .conftest import Run
 
 pytest.importorskip("xacro")
@@ -91,6 +93,8 @@ MISTAKES = [
     (f"{_MOVEIT}/ros2_controllers.yaml", "joint: left_jaw_slide", "joint: right_jaw_slide", "missing-interface"),
     (f"{_MOVEIT}/ros2_controllers.yaml", "[position, velocity]", "[position, velocity", "broken-parameters"),
     (f"{_CART}/nav2.yaml", '"[[0.25, 0.2], [0.25, -0.2], [-0.25, -0.2], ', '"[[0.25, 0.2], ', "broken-footprint"),
+    (f"{_MOVEIT}/ros2_controllers.yaml", "/JointTrajectoryC", "/JointTrajectryC", "misspelled-interface"),
+    (f"{_MOVEIT}/ros2_controllers.yaml", "lift_controller:\n  ros", "lift_controler:\n  ros", "stale-name"),
     (f"{_CART}/nav2.yaml", '"[[0.25, 0.2], ', '"[[0.25 0.2], ', "broken-footprint"),
     (
         f"{_CART}/nav2.yaml",
@@ -267,3 +271,11 @@ def test_a_prefix_follows_and_what_another_robot_has_stays(run: Run, robots: Pat
     shutil.copy(urdf, lifter / "lifter_description/urdf/other.urdf")
     assert run("fix", urdf, "--passes", "rename{names=[turn:pan]}", "--no-config").exit_code == 0
     assert "turn" in limits.read_text(encoding="utf-8")
+
+
+def test_python_checks_companion_files_as_well(robots: Path) -> None:
+    limits = robots / "lifter" / _MOVEIT / "joint_limits.yaml"
+    assert twinform.check(limits).diagnostics == ()
+    other = robots / "probe/urdf/probe.urdf"
+    found = twinform.check(limits, robot=other, allow=["loosened-limit"]).diagnostics
+    assert [(each.rule.name, each.location.line) for each in found] == [("stale-name", 4), ("stale-name", 8)]

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from twinform.compiler.companions.check_controllers import report_interfaces
+from twinform.compiler.companions.check_controllers import report_controllers
 from twinform.compiler.companions.check_names import KnownParts, report_names
 from twinform.compiler.companions.check_semantics import report_semantics
 from twinform.compiler.companions.check_values import report_footprints, report_limits, report_repeated
@@ -15,7 +15,7 @@ from twinform.compiler.companions.find_robots import (
     is_semantic,
     semantics_around,
 )
-from twinform.compiler.companions.name_places import Leaf, Mention, Step, is_known, mentions
+from twinform.compiler.companions.name_places import Leaf, Mention, NameSet, Step, mentions
 from twinform.compiler.companions.robot_parts import RobotParts, read_parts
 from twinform.compiler.companions.srdf_tree import SrdfTree, leaves_of, read_srdf
 from twinform.compiler.companions.yaml_leaves import YamlError, YamlText, is_surely_meant, may_name_parts, read_yaml
@@ -44,6 +44,17 @@ def is_companion(path: Path, data: bytes) -> bool:
     except YamlError:
         return is_surely_meant(data)
     return not found.has_own_tags and next(mentions(found.leaves), None) is not None
+
+
+def check_if_companion(path: Path, load_options: LoadOptions) -> LoadResult | None:
+    """Check a file if it is a companion file; None for any other."""
+    if not may_be_companion(path):
+        return None
+    try:
+        data = bytes_of(path, DiagnosticSink(str(path)), load_options)
+    except UnreadableError:
+        return None
+    return check_companion(path, load_options, data) if is_companion(path, data) else None
 
 
 def check_companion(path: Path, load_options: LoadOptions, data: bytes | None = None) -> LoadResult:
@@ -110,7 +121,7 @@ def _check_yaml(path: Path, data: bytes, sink: DiagnosticSink, load_options: Loa
         report_names(found, KnownParts(robots, groups), sink)
         if len(robots) == 1:
             report_limits(leaves, robots[0], sink)
-            report_interfaces(leaves, robots[0], sink)
+    report_controllers(leaves, robots[0] if robots and len(robots) == 1 else None, sink)
     allowances.checked, allowances.tolerant = True, load_options.tolerant
     allowances.settle(sink)
     ordered = tuple(sorted(sink.diagnostics, key=lambda each: (each.location.line, each.location.column)))
@@ -152,7 +163,8 @@ def _robots_for(
     if not names:
         return []
     robots = [] if len(candidates.robots) > MOST_ROBOTS else _read_all(candidates.robots, load_options)
-    is_fitting = any(_has(each, name) for each in robots if each is not None for name in names | frames)
+    known = NameSet(name for each in robots if each is not None for name in (*each.links, *each.joints))
+    is_fitting = any(name in known for name in names | frames)
     problem = _problem(candidates, robots, len(names), is_fitting=is_fitting)
     if problem:
         help = 'say which with --robot FILE, or in twinform.toml: [[files]] match = ["{}"], robot = "..."'
@@ -189,10 +201,6 @@ def _problem(candidates: Candidates, robots: list[RobotParts | None], names: int
         which = candidates.robots[0].name if count == 1 else f"{count} robots"
         return f"no name in this file is one of {which}; it seems to be for another robot"
     return ""
-
-
-def _has(robot: RobotParts, name: str) -> bool:
-    return is_known(name, robot.links) or is_known(name, robot.joints)
 
 
 def _groups_beside(path: Path, load_options: LoadOptions) -> tuple[SrdfTree, ...]:

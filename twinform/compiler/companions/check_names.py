@@ -1,8 +1,8 @@
 """Reports names in companion files that no robot and no group has."""
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 
-from twinform.compiler.companions.name_places import Mention, is_known
+from twinform.compiler.companions.name_places import Mention, NameSet
 from twinform.compiler.companions.robot_parts import RobotParts
 from twinform.compiler.companions.srdf_tree import SrdfTree
 from twinform.dataclass import dataclass
@@ -27,25 +27,25 @@ class KnownParts:
         return f"none of {len(self.robots)} robots has"
 
     @property
-    def links(self) -> Collection[str]:
+    def links(self) -> NameSet:
         """All links."""
-        return {name for robot in self.robots for name in robot.links}
+        return NameSet(name for robot in self.robots for name in robot.links)
 
     @property
-    def joints(self) -> Collection[str]:
+    def joints(self) -> NameSet:
         """All joints, with those that SRDF adds."""
-        virtual = {name for each in self.semantics for name in each.names("virtual_joint")}
-        return virtual.union(*(robot.joints for robot in self.robots))
+        virtual = (name for each in self.semantics for name in each.names("virtual_joint"))
+        return NameSet((*virtual, *(name for robot in self.robots for name in robot.joints)))
 
     @property
-    def groups(self) -> Collection[str]:
+    def groups(self) -> NameSet:
         """All groups."""
-        return {name for each in self.semantics for name in each.names("group")}
+        return NameSet(name for each in self.semantics for name in each.names("group"))
 
     @property
-    def sensors(self) -> Collection[str]:
+    def sensors(self) -> NameSet:
         """All sensors of `<ros2_control>`."""
-        return {name for robot in self.robots for name in robot.sensors}
+        return NameSet(name for robot in self.robots for name in robot.sensors)
 
 
 def report_names(found: Iterable[Mention[Location]], known: KnownParts, sink: DiagnosticSink) -> None:
@@ -53,8 +53,7 @@ def report_names(found: Iterable[Mention[Location]], known: KnownParts, sink: Di
     links, joints, groups, sensors = known.links, known.joints, known.groups, known.sensors
     controlled = all(robot.is_controlled for robot in known.robots)
     found = list(found)
-    # A list for another program names controllers of which none is described beside it.
-    describes = any(is_known(each.text, each.leaf.beside) for each in found if each.kind == "controller")
+    _report_controllers([each for each in found if each.kind == "controller"], sink)
     for each in found:
         match each.kind:
             case "joint" | "driven joint" if known.robots:
@@ -64,26 +63,34 @@ def report_names(found: Iterable[Mention[Location]], known: KnownParts, sink: Di
                 _report_interface(each, known.robots, sink)
             case "group" if groups:
                 _report_group(each, groups, sink)
-            case "sensor" if known.robots and controlled and not is_known(each.text, sensors):
+            case "sensor" if known.robots and controlled and each.text not in sensors:
                 message = f"the sensor {each.text!r} is in no <ros2_control> of the robot"
                 _report(each, message, sensors, sink, Severity.ERROR)
             case "link" if known.robots and each.leaf.path[-1].text.startswith("@"):
                 _report_stale(each, "link", links, known, sink)
             case "link" | "frame" if known.robots:
                 _report_frame(each, links, known, sink)
-            case "controller" if not is_known(each.text, each.leaf.beside) and "/" not in each.text:
-                if not describes and not _is_misspelt(each.text, each.leaf.beside):
-                    continue
-                message = f"the controller {each.text!r} is listed here, and not described in this file"
-                _report(each, message, each.leaf.beside, sink)
             case _:
                 pass
 
 
+def _report_controllers(listed: Sequence[Mention[Location]], sink: DiagnosticSink) -> None:
+    """Report controllers of a list that are not described beside it."""
+    beside = {id(each.leaf.beside): each.leaf.beside for each in listed}
+    described = {key: NameSet(names) for key, names in beside.items()}
+    # A list for another program names controllers of which none is described beside it.
+    describes = any(each.text in described[id(each.leaf.beside)] for each in listed)
+    for each in listed:
+        names = described[id(each.leaf.beside)]
+        if "/" not in each.text and each.text not in names and (describes or _is_misspelt(each.text, names)):
+            message = f"the controller {each.text!r} is listed here, and not described in this file"
+            _report(each, message, names, sink)
+
+
 def _report_stale(
-    mention: Mention[Location], what: str, names: Collection[str], known: KnownParts, sink: DiagnosticSink
+    mention: Mention[Location], what: str, names: NameSet, known: KnownParts, sink: DiagnosticSink
 ) -> None:
-    if is_known(mention.name, names):
+    if mention.name in names:
         return
     # the controller manager ends, or refuses to activate the controller
     severity = Severity.ERROR if mention.kind == "driven joint" else None
@@ -100,19 +107,19 @@ def _report_interface(mention: Mention[Location], robots: Sequence[RobotParts], 
         sink.report(rules.MISSING_INTERFACE, message, mention.place, found=mention.text, help=hint)
 
 
-def _report_group(mention: Mention[Location], groups: Collection[str], sink: DiagnosticSink) -> None:
-    if not is_known(mention.text, groups):
+def _report_group(mention: Mention[Location], groups: NameSet, sink: DiagnosticSink) -> None:
+    if mention.text not in groups:
         _report(mention, f"there is no group {mention.text!r} in SRDF", groups, sink)
 
 
-def _is_misspelt(name: str, known: Collection[str]) -> bool:
+def _is_misspelt(name: str, known: NameSet) -> bool:
     return any(is_typo(name, each) for each in near_names(name, known))
 
 
-def _report_frame(mention: Mention[Location], links: Collection[str], known: KnownParts, sink: DiagnosticSink) -> None:
+def _report_frame(mention: Mention[Location], links: NameSet, known: KnownParts, sink: DiagnosticSink) -> None:
     """Report a frame that is no link; one that may be of something else only where a link is meant."""
     name = mention.text.rpartition("/")[2]
-    if not name or is_known(name, links) or name in _ELSEWHERE:
+    if not name or name in links or name in _ELSEWHERE or not sink.takes(Severity.WARNING):
         return
     # a driver may publish `tool0_controller` beside the link `tool0`
     if mention.kind == "frame" and not _is_misspelt(name, links):
@@ -125,9 +132,11 @@ def _report_frame(mention: Mention[Location], links: Collection[str], known: Kno
 def _report(
     mention: Mention[Location],
     message: str,
-    names: Collection[str],
+    names: NameSet,
     sink: DiagnosticSink,
     severity: Severity | None = None,
 ) -> None:
+    if not sink.takes(severity or Severity.WARNING):
+        return  # a hostile file has a hundred thousand, and looking for what is meant takes a while
     hint = did_you_mean(mention.name, names)
     sink.report(rules.STALE_NAME, message, mention.place, found=mention.text, help=hint, severity=severity)

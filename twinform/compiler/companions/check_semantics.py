@@ -1,90 +1,110 @@
 """Checks of SRDF beyond names: groups and their states, end effectors, virtual joints and pairs of links."""
 
 from collections.abc import Iterable
+from graphlib import CycleError, TopologicalSorter
+from typing import cast
 
 from twinform.compiler.companions.robot_parts import RobotParts, range_of, variables_of
-from twinform.compiler.companions.srdf_tree import SrdfTree, elements, place_of
-from twinform.diagnostics import DiagnosticSink, rules
+from twinform.compiler.companions.srdf_tree import SrdfTree, elements
+from twinform.dataclass import dataclass
+from twinform.diagnostics import DiagnosticSink, Location, Rule, rules
 from twinform.schemas import XmlElement
 
 _SLACK = 1e-3
 """How far a position may be off a limit by rounding, in rad or m."""
 _PARTS = ("link", "joint", "passive_joint", "chain", "group")
 _VIRTUAL = frozenset({"fixed", "planar", "floating"})
+_MOST_GROUPS = 200
+"""With more groups or chains, their contents are not collected, since each may have all joints."""
 
 
 def report_semantics(srdf: SrdfTree, robot: RobotParts | None, sink: DiagnosticSink) -> None:
     """Report what MoveIt ignores or takes otherwise; what needs a robot only where it is known which."""
+    report = _Report(srdf, sink)
+    _report_repeated("group", ("name",), report)
+    _report_repeated("group_state", ("name", "group"), report)
+    _report_repeated("end_effector", ("name",), report)
+    _report_pairs(report)
     groups = {each.get("name") or "": each for each in elements(srdf.root, "group")}
-    _report_repeated(elements(srdf.root, "group"), ("name",), "group", sink)
-    _report_repeated(elements(srdf.root, "group_state"), ("name", "group"), "group state", sink)
-    _report_repeated(elements(srdf.root, "end_effector"), ("name",), "end effector", sink)
-    _report_pairs(elements(srdf.root, "disable_collisions"), sink)
-    for group in groups.values():
-        if next(elements(group, *_PARTS), None) is None:
-            _report(group, f"the group {group.get('name')!r} is empty", sink)
-    for name in _in_circles(groups):
-        _report(groups[name], f"the group {name!r} has itself as a subgroup", sink)
+    _report_groups(groups, report)
     if robot is None:
         return
-    contents = GroupContents(groups, robot)
+    roots = robot.roots
     for each in elements(srdf.root, "virtual_joint"):
-        _report_virtual(each, robot, sink)
+        _report_virtual(each, robot, roots, report)
+    chains = sum(1 for group in groups.values() for _ in elements(group, "chain"))
+    if max(len(groups), chains) > _MOST_GROUPS:
+        return
+    contents = GroupContents(groups, robot)
     virtual = {each.get("name") or "": each.get("type") or "" for each in elements(srdf.root, "virtual_joint")}
     for state in elements(srdf.root, "group_state"):
         if state.get("group") in groups:
-            _report_state(state, contents, virtual, sink)
+            _report_state(state, contents, virtual, report)
     for each in elements(srdf.root, "end_effector"):
-        _report_effector(each, contents, sink)
+        _report_effector(each, contents, report)
 
 
-def _report(element: XmlElement, message: str, sink: DiagnosticSink, help: str | None = None) -> None:
-    sink.report(rules.BROKEN_SEMANTICS, message, place_of(element), found=element.get("name"), help=help)
+@dataclass(frozen=True, slots=True)
+class _Report:
+    """Reports findings about the elements of a file."""
+
+    srdf: SrdfTree
+    sink: DiagnosticSink
+
+    def __call__(
+        self,
+        rule: Rule,
+        message: str,
+        element: XmlElement,
+        attribute: str = "",
+        *,
+        found: str | None = None,
+        help: str | None = None,
+        expected: str | None = None,
+        related: tuple[Location, ...] = (),
+    ) -> None:
+        where = self.srdf.place_of(element, attribute)
+        found = element.get("name") if found is None else found
+        self.sink.report(rule, message, where, found=found, expected=expected, help=help, related=related)
 
 
-def _report_repeated(found: Iterable[XmlElement], keys: tuple[str, ...], what: str, sink: DiagnosticSink) -> None:
+def _report_repeated(tag: str, keys: tuple[str, ...], report: _Report) -> None:
     first: dict[tuple[str | None, ...], XmlElement] = {}
-    for each in found:
+    for each in elements(report.srdf.root, tag):
         key = tuple(each.get(name) for name in keys)
         if first.setdefault(key, each) is not each:
+            what = tag.replace("_", " ")
             message = f"the {what} {each.get('name')!r} stands here twice; MoveIt takes one of them"
-            other = (place_of(first[key]),)
-            sink.report(rules.REPEATED_SEMANTICS, message, place_of(each), found=each.get("name"), related=other)
+            report(rules.REPEATED_SEMANTICS, message, each, related=(report.srdf.place_of(first[key]),))
 
 
-def _report_pairs(found: Iterable[XmlElement], sink: DiagnosticSink) -> None:
+def _report_pairs(report: _Report) -> None:
     first: dict[frozenset[str], XmlElement] = {}
-    for each in found:
+    for each in elements(report.srdf.root, "disable_collisions"):
         one, other = each.get("link1") or "", each.get("link2") or ""
         pair = frozenset({one, other})
         if len(pair) == 1:
             message = f"the link {one!r} is paired with itself, which disables nothing"
-            sink.report(rules.REPEATED_SEMANTICS, message, place_of(each), found=one)
+            report(rules.REPEATED_SEMANTICS, message, each, found=one)
         elif first.setdefault(pair, each) is not each:
             message = f"collisions of {one!r} and {other!r} are disabled twice"
-            before = (place_of(first[pair]),)
-            sink.report(rules.REPEATED_SEMANTICS, message, place_of(each), found=one, related=before)
+            before = (report.srdf.place_of(first[pair]),)
+            report(rules.REPEATED_SEMANTICS, message, each, found=one, related=before)
 
 
-def _in_circles(groups: dict[str, XmlElement]) -> list[str]:
-    """Return the groups that have themselves as subgroups, directly or through others."""
+def _report_groups(groups: dict[str, XmlElement], report: _Report) -> None:
+    """Report groups without content, and the first that have each other as subgroups."""
     below = {name: [each.get("name") or "" for each in elements(group, "group")] for name, group in groups.items()}
-    found: list[str] = []
-    for name in groups:
-        reached: set[str] = set()
-        waiting = list(below[name])
-        while waiting and len(reached) <= _MOST_SUBGROUPS:
-            here = waiting.pop()
-            if here not in reached:
-                reached.add(here)
-                waiting.extend(below.get(here, ()))
-        if name in reached:
-            found.append(name)
-    return found
-
-
-_MOST_SUBGROUPS = 100
-"""So many are followed from each group."""
+    for group in groups.values():
+        if next(elements(group, *_PARTS), None) is None:
+            report(rules.BROKEN_SEMANTICS, f"the group {group.get('name')!r} is empty", group)
+    try:
+        TopologicalSorter(below).prepare()
+    except CycleError as error:
+        circle = list(dict.fromkeys(cast("list[str]", error.args[1])))
+        name = next(each for each in groups if each in circle)
+        others = f", by way of {', '.join(each for each in circle if each != name)}" if len(circle) > 1 else ""
+        report(rules.BROKEN_SEMANTICS, f"the group {name!r} has itself as a subgroup{others}", groups[name])
 
 
 class GroupContents:
@@ -127,18 +147,18 @@ class GroupContents:
         return found
 
 
-def _report_virtual(joint: XmlElement, robot: RobotParts, sink: DiagnosticSink) -> None:
+def _report_virtual(joint: XmlElement, robot: RobotParts, roots: list[str], report: _Report) -> None:
     kind, child = joint.get("type") or "", joint.get("child_link") or ""
     if kind not in _VIRTUAL:
         message = f"a virtual joint is fixed, planar or floating; {kind!r} is taken for fixed"
-        sink.report(rules.BROKEN_SEMANTICS, message, place_of(joint, "type"), found=kind)
-    if child in robot.links and child not in robot.roots and len(robot.roots) == 1:
+        report(rules.BROKEN_SEMANTICS, message, joint, "type", found=kind)
+    if child in robot.above and len(roots) == 1:
         message = f"the virtual joint {joint.get('name')!r} holds {child!r}, which is not the root of the robot"
-        hint = f"write {robot.roots[0]!r}: MoveIt leaves the joint out otherwise"
-        sink.report(rules.BROKEN_SEMANTICS, message, place_of(joint, "child_link"), found=child, help=hint)
+        hint = f"write {roots[0]!r}: MoveIt leaves the joint out otherwise"
+        report(rules.BROKEN_SEMANTICS, message, joint, "child_link", found=child, help=hint)
 
 
-def _report_state(state: XmlElement, contents: GroupContents, virtual: dict[str, str], sink: DiagnosticSink) -> None:
+def _report_state(state: XmlElement, contents: GroupContents, virtual: dict[str, str], report: _Report) -> None:
     group = state.get("group") or ""
     own = contents.joints(group)
     for each in elements(state, "joint"):
@@ -149,31 +169,31 @@ def _report_state(state: XmlElement, contents: GroupContents, virtual: dict[str,
             continue  # which is reported as a name
         if name not in own:
             message = f"the joint {name!r} is not in the group {group!r}, so the state does not move it"
-            sink.report(rules.IMPOSSIBLE_STATE, message, place_of(each, "name"), found=name)
+            report(rules.IMPOSSIBLE_STATE, message, each, "name")
             continue
-        _report_position(each, kind, range_of(joint) if joint is not None else None, sink)
+        _report_position(each, kind, range_of(joint) if joint is not None else None, report)
 
 
-def _report_position(element: XmlElement, kind: str, allowed: tuple[float, float] | None, sink: DiagnosticSink) -> None:
+def _report_position(element: XmlElement, kind: str, allowed: tuple[float, float] | None, report: _Report) -> None:
     name, text = element.get("name"), element.get("value") or ""
-    where = place_of(element, "value")
     try:
         values = [float(each) for each in text.split()]
     except ValueError:
-        sink.report(rules.IMPOSSIBLE_STATE, f"the position of {name!r} is {text!r}, and no number", where, found=text)
+        message = f"the position of {name!r} is {text!r}, and no number"
+        report(rules.IMPOSSIBLE_STATE, message, element, "value", found=text)
         return
     wanted = variables_of(kind)
     if len(values) != wanted:
         message = f"the position of {name!r} has {len(values)} numbers; a {kind} joint takes {wanted}"
-        sink.report(rules.IMPOSSIBLE_STATE, message, where, found=text, expected=str(wanted))
+        report(rules.IMPOSSIBLE_STATE, message, element, "value", found=text, expected=str(wanted))
     elif allowed is not None and wanted == 1 and not allowed[0] - _SLACK <= values[0] <= allowed[1] + _SLACK:
         message = f"the joint {name!r} cannot be at {values[0]:g}: its limits are {allowed[0]:g} and {allowed[1]:g}"
         expected = f"{allowed[0]:g} to {allowed[1]:g}"
-        sink.report(rules.IMPOSSIBLE_STATE, message, where, found=text, expected=expected)
+        report(rules.IMPOSSIBLE_STATE, message, element, "value", found=text, expected=expected)
 
 
-def _report_effector(effector: XmlElement, contents: GroupContents, sink: DiagnosticSink) -> None:
+def _report_effector(effector: XmlElement, contents: GroupContents, report: _Report) -> None:
     parent, link = effector.get("parent_group"), effector.get("parent_link") or ""
     if parent in contents.groups and link in contents.robot.links and link not in contents.links(parent):
         message = f"the parent link {link!r} of end effector {effector.get('name')!r} is not in the group {parent!r}"
-        sink.report(rules.BROKEN_SEMANTICS, message, place_of(effector, "parent_link"), found=link)
+        report(rules.BROKEN_SEMANTICS, message, effector, "parent_link", found=link)

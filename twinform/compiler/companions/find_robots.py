@@ -5,7 +5,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator
 from itertools import islice, takewhile
 from pathlib import Path
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, cast
 
 from twinform.compiler.companions.yaml_leaves import read_yaml
 from twinform.compiler.input.include_graph import IncludeGraph
@@ -22,6 +22,7 @@ _SKIPPED = frozenset({"build", "install", "log", "node_modules", "venv", "__pyca
 _HEAD = 2**14
 _LARGEST = 2**22
 _ROOT_NAME = re.compile(rb"<robot\b[^>]*?\sname\s*=\s*[\"']([^\"'$]*)[\"']")
+_FILE_NAME = re.compile(r"[\w.-]+\.(?:urdf|xacro|srdf|ya?ml)\b")
 _ASSISTANT = ".setup_assistant"
 """What MoveIt's Setup Assistant writes into its package, YAML that names the robot."""
 SRDF = (".srdf", ".srdf.xacro")
@@ -47,7 +48,7 @@ def find_robots(path: Path, data: bytes, load_options: LoadOptions) -> Candidate
     package = package_around(path)
     known = robots_around(path, search)
     name = _root_name(data) if is_semantic(path) else ""
-    alike = [each for each in known if name and _root_name(_head(each, path, search)) == name]
+    alike = [each for each in known if name and _name_of(each, search) == name]
     if alike:
         return Candidates(_nearest(alike, package).robots, "name")
     own = [each for each in known if package is not None and package_around(each) == package]
@@ -161,14 +162,24 @@ def _of_setup_assistant(package: Path, search: SearchPath, path: Path) -> Path |
     return found if found is not None and found.is_file() else None
 
 
+def _name_of(robot: Path, search: SearchPath) -> object:
+    return search.index.parts.get(("name", robot), lambda: _root_name(_head(robot, robot, search)))
+
+
 def _launched(path: Path, known: Iterable[Path], search: SearchPath) -> tuple[Path, ...]:
     """Return the robots whose file names stand in a launch file together with that of the file."""
-    texts = [text for _, text in launch_files_of(path, search.readable(path))]
-    return tuple(each for each in known if any(_is_named(each.name, text) for text in texts))
+    named = [names for names in _named_in_launch_files(path, search) if path.name in names]
+    return tuple(each for each in known if any(each.name in names for names in named))
 
 
-def _is_named(name: str, text: str) -> bool:
-    return re.search(rf"(?<![\w.-]){re.escape(name)}", text) is not None
+def _named_in_launch_files(path: Path, search: SearchPath) -> tuple[frozenset[str], ...]:
+    """Return the names of files in each launch file beside a file; they are kept for others in its folder."""
+
+    def read() -> object:
+        texts = launch_files_of(path, search.readable(path))
+        return tuple(frozenset(_FILE_NAME.findall(text)) for _, text in texts)
+
+    return cast("tuple[frozenset[str], ...]", search.index.parts.get(("launch", path.parent), read))
 
 
 def _nearest(robots: Iterable[Path], package: Path | None) -> Candidates:

@@ -6,6 +6,7 @@ Lists are no steps: each item has the path of the list. After `beside` stands a 
 """
 
 import re
+from bisect import bisect_left
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator
 from functools import cache
@@ -75,7 +76,8 @@ sensor_name                                             sensor
 max_effort_interface                                    interface
 max_velocity_interface                                  interface
 ros__parameters/frame_id                                frame
-ros__parameters/**/child_frame_id                       link
+odometry/child_frame_id                                 link
+ros__parameters/**/child_frame_id                       frame
 ros__parameters/kinematics/base                         link
 ros__parameters/kinematics/tip                          link
 ros__parameters/ft_sensor/frame/id                      link
@@ -111,7 +113,7 @@ joint_limits/<joint>/max_position                       joint
 <group>/default_planner_config                          group
 move_group_name                                         group
 animate_endeffector_segment                             link
-planning_frame                                          frame
+planning_frame                                          link
 ee_frame_name                                           link
 robot_link_command_frame                                link
 
@@ -257,9 +259,24 @@ def without_expressions(name: str) -> str:
     return _EXPRESSION.sub("", name).removeprefix("/")
 
 
-def is_known(name: str, names: Collection[str]) -> bool:
-    """Whether a name is one of some, or may become one: the values of its expressions are not known."""
-    if not is_made(name):
-        return name in names
-    end = without_expressions(name)
-    return any(each.endswith(end) for each in names)
+class NameSet:
+    """Names of parts; one that is made by expressions, whose values are not known, is in it if it may become one."""
+
+    def __init__(self, names: Iterable[str]) -> None:
+        self._names = frozenset(names)
+        self._reversed: list[str] | None = None
+
+    def __contains__(self, name: str) -> bool:
+        return self._has_end(without_expressions(name)) if is_made(name) else name in self._names
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def _has_end(self, end: str) -> bool:
+        if self._reversed is None:
+            self._reversed = sorted(each[::-1] for each in self._names)
+        at = bisect_left(self._reversed, end[::-1])
+        return at < len(self._reversed) and self._reversed[at].startswith(end[::-1])

@@ -100,7 +100,7 @@ def _parts_of(path: Path, document: Document, loaded: LoadResult) -> RobotParts 
     return RobotParts(
         path,
         model.name,
-        tuple(dict.fromkeys(without_expressions(each.name) for each in model.links)),
+        dict.fromkeys(without_expressions(each.name) for each in model.links),
         {without_expressions(each.name): each for each in model.joints},
         {without_expressions(each.child): each for each in model.joints if each.child},
         _driven(blocks),

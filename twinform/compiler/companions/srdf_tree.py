@@ -1,6 +1,7 @@
 """SRDF as a tree: of a file, or of the text that a xacro file expands to."""
 
 from collections.abc import Iterator
+from dataclasses import field
 from pathlib import Path
 
 from twinform.compiler.companions.name_places import Leaf, Step
@@ -9,7 +10,10 @@ from twinform.compiler.input.parsing import UnreadableError, parse
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.schemas import XmlElement, path_of
-from twinform.schemas.xml import children
+from twinform.schemas.xml import Places, children
+
+_DEEPEST = 8
+"""So many steps to an element are kept; no name stands deeper, whatever macros or expressions are around it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,10 +22,16 @@ class SrdfTree:
 
     name: str
     root: XmlElement
+    _places: Places = field(default_factory=dict[XmlElement, int], repr=False, compare=False)
 
     def names(self, tag: str) -> list[str]:
         """Return the names of all elements of a tag directly in the root."""
         return [each.get("name") or "" for each in self.root.iterchildren(tag)]
+
+    def place_of(self, element: XmlElement, attribute: str = "") -> Location:
+        """Return the place of an element, or of an attribute of it."""
+        path = path_of(element, self._places)
+        return Location(line=element.sourceline or 0, path=f"{path}/@{attribute}" if attribute else path)
 
 
 def read_srdf(path: Path, data: bytes, sink: DiagnosticSink, load_options: LoadOptions) -> SrdfTree:
@@ -51,20 +61,16 @@ def read_srdf(path: Path, data: bytes, sink: DiagnosticSink, load_options: LoadO
 
 def leaves_of(srdf: SrdfTree) -> Iterator[Leaf[Location]]:
     """Yield the attributes of a file with the elements that lead to them."""
-    paths: dict[XmlElement, tuple[Step[Location], ...]] = {srdf.root: ()}
-    for element in srdf.root.iterdescendants("*"):
-        around = element.getparent()
-        above = paths.get(around, ()) if around is not None else ()
-        paths[element] = here = (*above, Step(str(element.tag), place_of(element)))
+    pending = [(each, ()) for each in reversed(list(children(srdf.root)))]
+    steps: tuple[Step[Location], ...]
+    while pending:
+        element, steps = pending.pop()
+        where = srdf.place_of(element)
+        here = (*steps[-_DEEPEST:], Step(str(element.tag), where))
         for name, value in element.items():
-            where = place_of(element, str(name))
-            yield Leaf((*here, Step(f"@{name}", where)), Step(str(value).strip(), where))
-
-
-def place_of(element: XmlElement, attribute: str = "") -> Location:
-    """Return the place of an element, or of an attribute of it."""
-    path = path_of(element)
-    return Location(line=element.sourceline or 0, path=f"{path}/@{attribute}" if attribute else path)
+            place = where._replace(path=f"{where.path}/@{name}")
+            yield Leaf((*here, Step(f"@{name}", place)), Step(str(value).strip(), place))
+        pending += [(each, here) for each in reversed(list(children(element)))]
 
 
 def elements(element: XmlElement, *tags: str) -> Iterator[XmlElement]:

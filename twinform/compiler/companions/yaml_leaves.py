@@ -14,7 +14,7 @@ import yaml
 from twinform.compiler.companions.name_places import Leaf, Step, telling_keys
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
-from twinform.diagnostics.suppressions import Suppressions, parse_suppressions
+from twinform.diagnostics.suppressions import Suppressions, is_meant, parse_suppressions
 from twinform.text import Lines, SourceText, UndecodableError
 
 LARGEST = 2**19
@@ -60,7 +60,7 @@ class YamlText:
     scalars: tuple[Span, ...] = field(default=(), repr=False)
 
     def comments(self) -> Iterator[tuple[str, int, int, int]]:
-        """Yield each comment, its line, and the lines that it is about.
+        """Yield each comment that is for us, its line, and the lines that it is about.
 
         Behind something it is about its line, and otherwise about the next line with all that is indented below it.
         """
@@ -71,7 +71,7 @@ class YamlText:
         for found in re.finditer(r"(?:^|(?<=[ \t]))#(?P<text>[^\r\n]*)", self.text, re.MULTILINE):
             while scalar is not None and scalar.end <= found.start():
                 scalar = next(inside, None)
-            if scalar is not None and scalar.start <= found.start():
+            if (scalar is not None and scalar.start <= found.start()) or not is_meant(found["text"]):
                 continue
             line = counted.place(found.start()).line
             first, last = _about(lines, line)

@@ -88,6 +88,12 @@ class CheckOptions(ReadingOptions, total=False):
     profiles: "str | Iterable[Profile]"
 
 
+class AnyCheckOptions(CheckOptions, total=False):
+    """How a model is checked, or a file that names the parts of a `robot`."""
+
+    robot: str | Path
+
+
 @dataclass(frozen=True, slots=True)
 class LoadOptions:
     """How files are read.

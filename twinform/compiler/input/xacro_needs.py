@@ -42,6 +42,8 @@ def values_in_launch_files(path: Path, names: Iterable[str], readable: Readable)
     found: dict[str, Passed] = {}
     wanted = list(names)
     for file, text in launch_files_of(path, readable):
+        if path.name not in text:
+            continue
         for name in wanted:
             value = None if name in found else _value(name, text)
             if value:
@@ -58,7 +60,7 @@ def _value(name: str, text: str) -> str | None:
 
 
 def launch_files_of(path: Path, readable: Readable) -> Iterator[tuple[Path, str]]:
-    """Yield the launch files beside a file, in its folder and those called `launch`, that have its name in them."""
+    """Yield the launch files beside a file, in its folder and those called `launch`, with their texts."""
     package = package_around(path)
     above = [path.parent, path.parent / "launch", path.parent.parent / "launch"]
     folders = dict.fromkeys((*above, package / "launch") if package else above)
@@ -67,8 +69,7 @@ def launch_files_of(path: Path, readable: Readable) -> Iterator[tuple[Path, str]
             text = readable.read(file, _LARGEST)[:_LARGEST].decode(errors="replace")
         except (OSError, ValueError):
             continue
-        if path.name in text:
-            yield file, text
+        yield file, text
 
 
 def _launch_files(folder: Path) -> list[Path]:
