@@ -34,7 +34,9 @@ def propose_files(place: ValuePlace, endings: tuple[str, ...]) -> Iterator[Propo
         yield from _models(place, endings)
     elif head:
         search = search_of(place.session, place.document)
-        folder = resolve_uri(head.rstrip("/") or "/", place.document, search)
+        # xacro makes an absolute path of `$(find ...)`
+        where = head.removeprefix("file://") if head.startswith("file://$(") else head
+        folder = resolve_uri(where.rstrip("/") or "/", place.document, search)
         yield from _in_folder(head, folder, endings, place.document) if folder is not None else ()
     else:
         yield from _from_the_beginning(place, endings)
@@ -53,6 +55,7 @@ def _from_the_beginning(place: ValuePlace, endings: tuple[str, ...]) -> Iterator
         if path != document.path and (not is_xacro or path.is_relative_to(own)):
             yield from values([Path(os.path.relpath(path, own)).as_posix()], ITEM.File)
     beginnings = ("$(find ",) if is_xacro else ("package://", "file://")
+    beginnings += ("file://$(find ",) if document.is_xacro and not is_xacro else ()
     if document.schema.format == "sdf":
         yield from _models(place, endings)
         beginnings = ("model://", *beginnings)

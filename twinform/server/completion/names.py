@@ -2,7 +2,9 @@
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from itertools import islice
+from pathlib import Path
 
 from twinform.ir.frames import MODEL, WORLD
 from twinform.ir.references import ReferenceKind
@@ -21,6 +23,8 @@ _MOST_INCLUDES = 20
 """The includes of a document whose models are read for one answer."""
 
 
+_PLACEMENT = "include/placement_frame"
+_IN_NAMESPACES = frozenset({"macro", "property"})
 _DEEPEST = 8
 """The most steps of a name such as `model::model::link`."""
 _DEEPEST_TREE = 256
@@ -29,13 +33,15 @@ _DEEPEST_TREE = 256
 
 def propose_names(place: ValuePlace) -> Iterator[Proposal]:
     """Propose what may be named in a value, if it is a reference."""
-    kind = _kind_of_value(place)
+    row = place.document.schema.row(place.node, place.attribute)
+    path = row.path if row else ""
+    # a name in another file, which no reference of this one is about
+    kind = "any" if path == _PLACEMENT else _kind_of_value(place)
     if kind is None:
         return
-    row = place.document.schema.row(place.node, place.attribute)
-    refused = _refused(place, row.path if row else "")
+    refused = _refused(place, path)
     inside = f"{place.node.parent.get('name')}::" if place.node.tag == "pose" and place.node.parent else "::"
-    for text, found in _names_for(place, kind, row.path if row else ""):
+    for text, found in _names_for(place, kind, path):
         if text not in refused and not text.startswith(inside):
             yield Proposal(text, literal(text), ITEM.Reference, found)
 
@@ -58,6 +64,10 @@ def _names_for(place: ValuePlace, kind: ReferenceKind, path: str) -> Iterator[tu
             if "$" not in name.text or next(macros_around(name.node), None) in around:
                 yield name.text, name.kind
         return
+    if path == _PLACEMENT and node.parent is not None:
+        other, model = _included_model(session, document, node.parent)
+        yield from _names_in_model(other, model, LOOKUP_ORDER["any"]) if other is not None and model is not None else ()
+        return
     kinds = ("joint",) if kind == "joint" else LOOKUP_ORDER[kind][:2] if kind == "link" else LOOKUP_ORDER[kind]
     scope = scope_of_reference(document, node)
     yield from _names_in_scope(session, document, scope, kinds)
@@ -74,11 +84,25 @@ def _kinds_in_urdf(kind: ReferenceKind) -> tuple[str, ...]:
 def definitions_of(session: Session, document: TextDocument, *kinds: str) -> Iterator[Name]:
     """Yield the definitions of some kinds, each name once."""
     seen: set[str] = set()
+    spaces = _namespaces(session, document)
     for other in documents_with_names(session, document):
         for name in definitions_in(other):
-            if name.kind in kinds and name.text not in seen:
-                seen.add(name.text)
-                yield name
+            space = spaces.get(other.path, "") if name.kind in _IN_NAMESPACES else ""
+            text = f"{space}.{name.text}" if space else name.text
+            if name.kind in kinds and text not in seen:
+                seen.add(text)
+                yield replace(name, text=text)
+
+
+def _namespaces(session: Session, document: TextDocument) -> dict[Path, str]:
+    """Return the namespaces of the xacro files that a document includes with `ns`."""
+    found: dict[Path, str] = {}
+    for include in includes_of(document):
+        space = include.node.get("ns") if include.node.tag == "xacro:include" else None
+        path = target(include, document, search_of(session, document)) if space else None
+        if path is not None and space:
+            found[path] = space
+    return found
 
 
 def macros_around(node: TolerantNode | None) -> Iterator[TolerantNode]:
@@ -131,23 +155,35 @@ def _seen_from(document: TextDocument, name: Name, wanted: str | None) -> str | 
 def _names_in_include(
     session: Session, document: TextDocument, include: TolerantNode, kinds: tuple[str, ...]
 ) -> Iterator[tuple[str, str]]:
+    """Yield the names in an included model as the scope around the include knows them."""
+    other, model = _included_model(session, document, include)
+    called = included_as(include, document) or (model.get("name") if model is not None else None)
+    if other is not None and model is not None and called:
+        yield from ((f"{called}::{text}", kind) for text, kind in _names_in_model(other, model, kinds))
+
+
+def _included_model(
+    session: Session, document: TextDocument, include: TolerantNode
+) -> tuple[TextDocument | None, TolerantNode | None]:
     found = next((each for each in includes_of(document) if each.node is include), None)
     path = target(found, document, search_of(session, document)) if found is not None else None
     other = session.files.document(path) if path is not None else None
-    model = first_model(other.tree.root) if other is not None else None
-    called = included_as(include, document) or (model.get("name") if model is not None else None)
-    if other is None or model is None or not called:
-        return
-    for name in definitions_in(other):
-        text = _seen_from(other, name, model.get("name")) if name.kind in kinds else None
+    return other, first_model(other.tree.root) if other is not None else None
+
+
+def _names_in_model(document: TextDocument, model: TolerantNode, kinds: tuple[str, ...]) -> Iterator[tuple[str, str]]:
+    for name in definitions_in(document):
+        text = _seen_from(document, name, model.get("name")) if name.kind in kinds else None
         if text is not None:
-            yield f"{called}::{text}", name.kind
+            yield text, name.kind
 
 
 def _refused(place: ValuePlace, path: str) -> set[str]:
     """Return the names that would be refused: the element's own, and ends of joints that are taken."""
     node, joint = place.node, place.node.parent
     own = joint if node.tag == "pose" else _joint_around(node) or node
+    if path == "material/@name" and node.parent is not None and node.parent.tag == "robot":
+        return {name.text for name in definitions_in(place.document) if name.kind == "material"}
     refused = {own.get("name") or ""} if own is not None and place.attribute != "name" else set[str]()
     if path in {"joint/parent/@link", "joint/child/@link", "joint/parent", "joint/child"} and joint is not None:
         refused |= set(_ends(place.document, [joint], "child" if node.tag == "parent" else "parent"))

@@ -64,6 +64,15 @@ def _parameters_of_control(place: ValuePlace) -> Iterator[Proposal]:
         yield from values(each for each in names if each not in there)
 
 
+def _collisions(place: ValuePlace) -> Iterator[Proposal]:
+    """Propose the collisions of the link around, of which a contact sensor may hear."""
+    link = place.node.parent
+    while link is not None and link.tag != "link":
+        link = link.parent
+    names = (each.get("name") for each in link.children if each.tag == "collision") if link is not None else ()
+    yield from values(filter(None, names), ITEM.Reference)
+
+
 def _versions(place: ValuePlace) -> Iterator[Proposal]:
     table = place.document.schema.table
     yield from values(reversed(table.versions) if table is not None else ())
@@ -95,6 +104,8 @@ _BY_ROW: Mapping[str, Provider] = {
     "transmission/type": _fixed(*TRANSMISSIONS),
     "transmission_joint/hardwareInterface": _fixed(*HARDWARE_INTERFACES),
     "transmission_actuator/hardwareInterface": _fixed(*HARDWARE_INTERFACES),
+    "contact/collision": _collisions,
+    "spherical_coordinates/surface_model": _fixed("EARTH_WGS84"),
     "material/script/name": _materials,
     "material/script/uri": _fixed(SCRIPT_URI),
     "physics/@type": _fixed("ode", "dart", "bullet", "simbody"),
