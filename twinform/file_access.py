@@ -130,6 +130,19 @@ class Readable:
         return f"leads to {real!r}, outside of the folders of models and packages"
 
 
+def itself(file: Path) -> Readable | None:
+    """Return what may be read for a file by a name without links: the file alone; None where links lead to it.
+
+    A file without links may be read wherever it lies, and to find its surroundings takes longer than to read it.
+    """
+    place = os.path.join(own_folder(file), file.name)
+    try:
+        real = os.path.realpath(file)
+    except ValueError:  # no file has such a name
+        return None
+    return Readable(single=frozenset({place})) if real == place else None
+
+
 def _is_below(path: str, folder: str) -> bool:
     return path == folder or path.startswith(folder.rstrip(os.sep) + os.sep)
 

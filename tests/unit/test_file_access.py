@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from twinform.file_access import OutsideError, Readable, find_root, folders_around, neighborhood
+from twinform.file_access import OutsideError, Readable, find_root, folders_around, itself, neighborhood
 
 TEXT = b"text"
 
@@ -137,3 +137,13 @@ def test_packages_lie_beside_a_package_that_is_in_no_repository(tree: Path) -> N
     assert neighborhood(find_root(tree / FILE)) is None
     _put(tree / "home/b/package.xml")
     assert neighborhood(find_root(tree / "home/b/r.urdf")) is None  # the home folder is no workspace
+
+
+def test_a_file_by_a_name_without_links_needs_no_surroundings(folder: Path) -> None:
+    for name in ("a", ".hidden", ".git_/b"):
+        alone = itself(folder / "p" / name)
+        assert alone is not None
+        assert alone.read(folder / "p" / name) == TEXT
+        assert not alone.allows(folder / "p/sub/c")
+    (folder / "linked").symlink_to("p")
+    assert [itself(folder / each) for each in ("p/in", "p/out", "p/hid", "linked/a", "p/up/f", "nul\0")] == [None] * 6

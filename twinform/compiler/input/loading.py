@@ -48,6 +48,7 @@ from twinform.compiler.input.take_comments import may_have_comments, take_commen
 from twinform.compiler.input.unexpanded_xacro import may_be_unexpanded, report_unexpanded, without_what_follows
 from twinform.compiler.output.source_comments import Comments
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, rules
+from twinform.file_access import itself
 from twinform.ir import Document, Format
 from twinform.ir.record import amend
 from twinform.ir.verify import verify
@@ -113,7 +114,9 @@ def bytes_of(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> byt
     """
     search = load_options.search
     unsaved = search.unsaved_of(path)
-    return read_bytes(path, sink, load_options.limits, search.readable(path)) if unsaved is None else unsaved
+    if unsaved is not None:
+        return unsaved
+    return read_bytes(path, sink, load_options.limits, itself(path) or search.readable(path))
 
 
 def _read_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, allowances: Allowances) -> LoadResult:
