@@ -1,5 +1,6 @@
 """A run of `twinform check`: what is done with the files that were found."""
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import field
 from pathlib import Path
@@ -76,6 +77,7 @@ class CheckRun:
     arguments: dict[str, str] = field(default_factory=dict[str, str])
     by_file: OptionsByFile = field(init=False)
     plan: CheckPlan = field(init=False)
+    _unsaved: dict[str, bytes] = field(init=False, default_factory=dict[str, bytes])
     _wrong: set[Path] = field(init=False, default_factory=set[Path])
     """Configurations that were reported."""
 
@@ -107,9 +109,17 @@ class CheckRun:
         self.sources, self.arguments = model_inputs(
             self.words, self.exclusion(), is_checked, remember, stdin_name=self.options.stdin_filename
         )
-        self.by_file = OptionsByFile(self.ctx, self.arguments, "check_passes", folders_asked(self.words))
+        if self.options.stdin_filename and not self.options.fixes:
+            self._take_for_unsaved()
+        self.by_file = OptionsByFile(self.ctx, self.arguments, "check_passes", folders_asked(self.words), self._unsaved)
         self.plan = CheckPlan.of(self.sources, self.words, self.by_file.usual.load_options, remember)
         self._wrong.clear()
+
+    def _take_for_unsaved(self) -> None:
+        """Take the text of standard input for that of its file, as an editor has it, so that xacro is expanded."""
+        read = [each for each in self.sources if isinstance(each.content, bytes)]
+        self._unsaved = {os.path.realpath(each.name): each.content for each in read if isinstance(each.content, bytes)}
+        self.sources = [each._replace(content=each.name) if each in read else each for each in self.sources]
 
     def _work(self, file_run: FileRun) -> int:
         report = self._new_report()

@@ -12,10 +12,13 @@ def files(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> 
 
 
 def rule_names(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete rules, with what they find."""
+    """Complete rules, with what they find, and their groups."""
+    from twinform.diagnostics.diagnostic import GROUPS  # noqa: PLC0415 - as below
     from twinform.diagnostics.rule_registry import rules  # noqa: PLC0415 - it reads entry points
 
-    known = {name: each.rule.finds for name, each in rules().items() if name.startswith(incomplete)}
+    every = {**{group: f"All rules of the group {group}" for group in GROUPS},
+             **{name: each.rule.finds for name, each in rules().items()}}  # fmt: skip
+    known = {name: finds for name, finds in every.items() if name.startswith(incomplete)}
     return [CompletionItem(name, help=finds.partition(". ")[0]) for name, finds in known.items()]
 
 

@@ -45,7 +45,8 @@ class ResolvedOptions(NamedTuple):
 class OptionsByFile:
     """Resolves the options for each file by its configuration; files share what is known of folders.
 
-    `option` is the name of the option for the passes, and `asked` are the folders whose models are asked for. `usual`
+    `option` is the name of the option for the passes, and `asked` are the folders whose models are asked for, and
+    `unsaved` has the texts of files that an editor has. `usual`
     are the options of a file without settings of its own.
     """
 
@@ -53,6 +54,7 @@ class OptionsByFile:
     arguments: Mapping[str, str]
     option: str = "passes"
     asked: "tuple[Path, ...]" = ()
+    unsaved: Mapping[str, bytes] = field(default_factory=dict[str, bytes])
     usual: ResolvedOptions = field(init=False)
     _contexts: ContextByFile = field(init=False)
     _known: dict[click.Context, ResolvedOptions] = field(init=False)
@@ -115,7 +117,9 @@ class OptionsByFile:
                 ctx.params.get("profiles") or (),
                 project=settings_of(ctx),
             )
-            search = replace(load_options.search, asked=self.asked) if self.asked else load_options.search
+            search = load_options.search
+            if self.asked or self.unsaved:
+                search = replace(search, asked=self.asked, unsaved=self.unsaved)
             robot = str(ctx.params.get("robot") or "")
             load_options = replace(load_options, robot=robot, search=self._searches.setdefault(search, search))
             request = cast("RequestOptions", params_of(ctx, RequestOptions))

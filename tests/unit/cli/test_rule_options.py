@@ -167,3 +167,20 @@ def test_files_that_were_not_asked_for_are_left_alone(run: Run, robot: Path, tmp
     run("check", ".", "--add-allow")
     assert "allow unknown-element" in Path("part.xacro").read_text()
     assert "unknown-element" not in run("check", ".").stdout
+
+
+@pytest.mark.parametrize("saved", [True, False])
+def test_xacro_of_an_editor_is_expanded_with_what_it_includes(
+    run: Run, tmp_path: Path, robot: Path, saved: bool
+) -> None:
+    ns = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    Path("part.xacro").write_text(f'<robot {ns}><link name="a"><color/></link></robot>')
+    text = f'<robot name="w" {ns}>\n<xacro:include filename="part.xacro"/>\n<xacro:property name="n" value="b"/>\n'
+    joint = '<joint name="j" type="fixed"><parent link="a"/><child link="${n}"/></joint>'
+    if saved:
+        Path("w.urdf.xacro").write_text("<robot/>")
+    done = run("check", "-", "--stdin-filename", "w.urdf.xacro", text=f'{text}<link name="${{n}}"/>{joint}</robot>')
+    assert done.exit_code == 0, done.stdout
+    assert "part.xacro:1:" in done.stdout
+    wrong = run("check", "-", "--stdin-filename", "w.urdf.xacro", text=f"{text}{joint}</robot>")
+    assert (wrong.exit_code, "w.urdf.xacro:4" in wrong.stdout) == (1, True)
