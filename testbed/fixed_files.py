@@ -117,8 +117,8 @@ def _against_text(data: bytes, fixed: FixResult) -> Iterator[str]:
 
 
 def _words(comment: str) -> str:
-    """A comment without its blanks, hyphens and control characters, which may have been too many."""
-    return "".join(each for each in comment if each.isprintable() and each not in "- ")
+    """A comment without what fixes exchange in it: blanks, hyphens, control characters, and characters of YAML."""
+    return "".join(each for each in comment if each.isprintable() and each not in "- :#*")
 
 
 def _spans(fixed: FixResult) -> Iterator[Span]:

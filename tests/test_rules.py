@@ -23,6 +23,7 @@ WITHOUT_CASE = {
     "changed-physics": "unit/cli/test_project_options.py",
     "collada-mesh": "unit/profiles/test_detectors.py",
     "kept-physics": "unit/cli/test_project_options.py",
+    "root-inertia": "unit/profiles/test_detectors.py",
     "unread-format": "unit/cli/test_project_options.py",
     "foreign-hardware": "unit/compiler/packaging/test_gazebo_control.py",
     "flat-collision": "portability/gazebo.toml",

@@ -15,6 +15,8 @@ from twinform.compiler.input.load_options import AnyCheckOptions, Input, LoadRes
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.mistakes import report_mistakes
 from twinform.compiler.mistakes.joined_findings import join_findings
+from twinform.compiler.mistakes.launch_comments import report_comments
+from twinform.compiler.mistakes.statics_checks import report_statics
 from twinform.compiler.named_files import report_named_files
 from twinform.diagnostics import (
     Diagnostic,
@@ -61,6 +63,7 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
     if rules.TOO_MANY_INCLUDES not in errors:  # what is there of it is a part, and a large one
         if not any(each.unsound for each in errors):
             report_massless(document, sink)
+            report_statics(document, sink)
         report_mistakes(document, loaded.tree, files, sink)
     if loaded.recovered:
         sink.diagnostics = without_consequences(sink.diagnostics, loaded.diagnostics, loaded.recovered.stand_ins)
@@ -69,6 +72,7 @@ def inspect(loaded: LoadResult, load_options: LoadOptions, passes: "Pipeline | N
     worse = {(each.rule, each.location.path) for each in sink.diagnostics}
     whole.diagnostics = [each for each in whole.diagnostics if not _is_note_of(each, worse)]
     whole.extend_new(_with_lines(sink, loaded))
+    report_comments(loaded, load_options.search, whole)
     if passes and loaded.accepted:
         from twinform.compiler.read_only_passes import run_read_only  # noqa: PLC0415 - few runs have passes
 

@@ -21,6 +21,7 @@ from twinform.diagnostics.rules import (
     PLUGIN_NOT_IN_RELEASE,
     RARE_JOINT_TYPE,
     RENAMED_COLLISION,
+    ROOT_INERTIA,
     THREADLESS_SCREW,
     TINY_NUMBER,
     UNCERTAIN_INERTIA,
@@ -266,6 +267,16 @@ def find_loosened_joints(subject: ProfiledFile, sink: DiagnosticSink) -> None:
         report_loosened_joints(subject.document, sink)
 
 
+def find_root_inertia(subject: ProfiledFile, sink: DiagnosticSink) -> None:
+    """Report a root link of URDF with an inertia."""
+    for model in subject.document.models if subject.document and subject.format is Format.URDF else ():
+        held = {joint.child for joint in model.joints}
+        roots = [link for link in model.links if link.name not in held]
+        if len(roots) == 1 and roots[0].inertial is not None:
+            message = f"link {roots[0].name!r} is the root and has an inertia"
+            sink.report(ROOT_INERTIA, message, roots[0].inertial.location, found=roots[0].name)
+
+
 class Detector(NamedTuple):
     """A function that looks for something, and the rules that it reports."""
 
@@ -279,6 +290,7 @@ DETECTORS = (
     Detector(find_mesh_formats, (COLLADA_MESH,)),
     Detector(find_empty_attributes, (EMPTY_ATTRIBUTE,)),
     Detector(find_tiny_numbers, (TINY_NUMBER,)),
+    Detector(find_root_inertia, (ROOT_INERTIA,)),
     Detector(find_lost_tags, (EARLY_STATIC, RENAMED_COLLISION, UNTAGGED_SHAPE)),
     Detector(
         find_engine_faults,

@@ -40,6 +40,7 @@ REMEDIES = (
     Remedy("split-massless", physics=True),
     Remedy("balance-inertia", physics=True),
     Remedy("convert-meshes", physics=False),
+    Remedy("add-root", physics=False),
 )
 """Every pass that a row of a profile may name. Later ones see what earlier ones have made."""
 _ORDER = {remedy.name: number for number, remedy in enumerate(REMEDIES)}

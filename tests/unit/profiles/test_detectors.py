@@ -70,3 +70,13 @@ def test_what_gazebo_takes_is_not_told() -> None:
     text = _CLASSIC % (b"false", b"gpu_lidar", b"libmy_laser.so")
     found = twinform.check(text, profiles="gazebo@harmonic").diagnostics
     assert {each.rule.name for each in found} & _OF_CLASSIC == set()
+
+
+def test_a_root_with_an_inertia_is_found_for_kdl_and_gets_another_root() -> None:
+    text = _URDF.format(uri="a.stl", tag="collision").encode()
+    (found,) = [each for each in twinform.check(text, profiles="kdl").diagnostics if each.rule.name == "root-inertia"]
+    assert (found.found, found.help) == ("a", "--passes 'add-root'")
+    made = twinform.convert(text, to="urdf", profiles="kdl")
+    assert [link.name for link in made.document.models[0].links] == ["base_footprint", "a"]
+    left = twinform.check(made.text.encode(), profiles="kdl").diagnostics
+    assert "root-inertia" not in {each.rule.name for each in left}

@@ -1,10 +1,13 @@
 """Fixes of what readers take and nobody means: values, ranges upside down, commands, grounds, plugins of Gazebo."""
 
+import re
+
 from lxml import etree
 
 from twinform.compiler.fixing.fix_numbers import numbers_of
-from twinform.compiler.fixing.site import FindingSite, Fixers, unsafe
-from twinform.diagnostics import Fix, TextEdit, meant_name, rules
+from twinform.compiler.fixing.site import FindingSite, FixableFile, Fixers, TextFixers, safe, unsafe
+from twinform.compiler.mistakes.launch_comments import breaking_comments, breaks_in
+from twinform.diagnostics import Diagnostic, Fix, Span, TextEdit, meant_name, rules
 from twinform.lazy import lazy_pattern
 from twinform.passes.plugins.catalog import systems_of_file
 
@@ -112,6 +115,32 @@ def _missing_system(site: FindingSite) -> Fix | None:
     return unsafe(f"Add {', '.join(each['file'] for each in found)} to the world", *edits)
 
 
+_OWN_COLON = lazy_pattern(r"<!--\s*twinform\s*$", re.IGNORECASE)
+
+
+def _yaml_in_comment(_: Diagnostic, file: FixableFile) -> Fix | None:
+    """Write other characters for those of YAML, in all comments of the file."""
+    if "yaml in comments" not in file.memo:
+        edits = [
+            TextEdit(Span(*found.span()), _plain(found, file.text[comment.start : found.start()]))
+            for comment in breaking_comments(file.text)
+            for found in breaks_in(file.text, comment)
+        ]
+        title = "Write no colons and number signs beside blanks in comments"
+        file.memo["yaml in comments"] = safe(title, *edits) if edits else None
+    return file.memo["yaml in comments"]
+
+
+def _plain(found: re.Match[str], before: str) -> str:
+    """Return what is written for a character of YAML; comments that allow findings need no colon."""
+    if found[0] != ":":
+        return "*" * len(found[0])
+    if _OWN_COLON.match(before):
+        return ""
+    return "-" if before.endswith((" ", "\t", "\n")) else " -"
+
+
+TEXT_FIXERS: TextFixers = {rules.YAML_IN_COMMENT.name: _yaml_in_comment}
 FIXERS: Fixers = {
     rules.CONTROL_VALUE.name: _decimal_comma,
     rules.DEFAULT_SYSTEMS_OFF.name: _missing_system,

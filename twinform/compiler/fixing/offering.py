@@ -173,9 +173,10 @@ def fixers() -> Fixers:
 @cache
 def text_fixers() -> TextFixers:
     """Return our own fixers that work on the text of a file, by the names of their rules."""
-    from twinform.compiler.fixing import fix_names, fix_xacro, fix_xml_syntax  # noqa: PLC0415 - as above
+    from twinform.compiler.fixing import fix_mistakes, fix_names, fix_xacro, fix_xml_syntax  # noqa: PLC0415 - as above
 
-    return {**fix_names.TEXT_FIXERS, **fix_xacro.TEXT_FIXERS, **fix_xml_syntax.TEXT_FIXERS}
+    modules = (fix_mistakes, fix_names, fix_xacro, fix_xml_syntax)
+    return {rule: fixer for module in modules for rule, fixer in module.TEXT_FIXERS.items()}
 
 
 def fixer_of(rule: str) -> Fixer | None:
