@@ -118,7 +118,7 @@ def test_a_file_that_changed_meanwhile_is_refused(run: Run, robot: Path, monkeyp
         robot.write_text(ROBOT + "<!-- somebody else -->")
         return read(content, *args, **extra)  # pyright: ignore[reportArgumentType] - as it was called
 
-    monkeypatch.setattr("twinform.cli.inputs.read", changing)
+    monkeypatch.setattr("twinform.compiler.read", changing)
     done = run("check", "--fix", robot)
     assert done.exit_code == 2
     assert "has changed since it was read; nothing is written" in done.stderr
