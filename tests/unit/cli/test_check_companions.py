@@ -79,6 +79,7 @@ MISTAKES = [
     (_SRDF, 'name="turn" value="-1.2"', 'name="turn" value="3.1"', "impossible-state"),
     (_SRDF, 'name="turn" value="-1.2"', 'name="turn" value="left"', "impossible-state"),
     (_SRDF, '<joint name="turn" value', '<joint name="left_jaw_slide" value', "impossible-state"),
+    (_SRDF, '<group_state name="parked" group="arm">', '<group_state name="p" group="all">', "impossible-state"),
     (_SRDF, 'child_link="pedestal"', 'child_link="turret"', "broken-semantics"),
     (_SRDF, 'type="planar"', 'type="flat"', "broken-semantics"),
     (_SRDF, '<group name="all">\n', '<group name="all">\n<group name="all"/>\n', "broken-semantics"),
@@ -279,3 +280,27 @@ def test_python_checks_companion_files_as_well(robots: Path) -> None:
     other = robots / "probe/urdf/probe.urdf"
     found = twinform.check(limits, robot=other, allow=["loosened-limit"]).diagnostics
     assert [(each.rule.name, each.location.line) for each in found] == [("stale-name", 4), ("stale-name", 8)]
+
+
+def test_parts_that_a_robot_has_with_other_arguments_are_not_stale(run: Run, here_with_choice: Path) -> None:
+    assert _findings(run, here_with_choice) == []
+    path = here_with_choice / "arm.srdf"
+    line = _replace(path, "left_claw", "left_clow")
+    assert [each for each in _findings(run, here_with_choice) if each[1] == "stale-name"] == [
+        ("arm.srdf", "stale-name", line, "warning")
+    ]
+
+
+@pytest.fixture
+def here_with_choice(tmp_path: Path) -> Path:
+    (tmp_path / "arm.urdf.xacro").write_text(
+        '<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">\n<xacro:arg name="claw" default="false"/>\n'
+        '<xacro:macro name="claw" params="side"><link name="${side}_claw"/><joint name="${side}_hold" type="fixed">'
+        '<parent link="base"/><child link="${side}_claw"/></joint></xacro:macro>\n<link name="base"/>\n'
+        '<xacro:if value="$(arg claw)"><xacro:claw side="left"/></xacro:if>\n</robot>'
+    )
+    (tmp_path / "arm.srdf").write_text(
+        '<robot name="arm">\n<group name="all">\n<chain base_link="base" tip_link="left_claw"/></group>\n'
+        '<group_state name="s" group="all"><joint name="left_hold" value="0"/></group_state>\n</robot>'
+    )
+    return tmp_path

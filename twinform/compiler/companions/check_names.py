@@ -26,6 +26,10 @@ class KnownParts:
             return f"the robot {self.robots[0].name!r} does not have"
         return f"none of {len(self.robots)} robots has"
 
+    def may_have(self, name: str) -> bool:
+        """Whether a robot or SRDF would have a part of this name with other arguments."""
+        return any(name in each.possible for each in (*self.robots, *self.semantics))
+
     @property
     def links(self) -> NameSet:
         """All links."""
@@ -62,8 +66,8 @@ def report_names(found: Iterable[Mention[Location]], known: KnownParts, sink: Di
                 _report_stale(each, "joint", joints, known, sink)
                 _report_interface(each, known.robots, sink)
             case "group" if groups:
-                _report_group(each, groups, sink)
-            case "sensor" if known.robots and controlled and each.text not in sensors:
+                _report_group(each, groups, known, sink)
+            case "sensor" if known.robots and controlled and each.text not in sensors and not known.may_have(each.text):
                 message = f"the sensor {each.text!r} is in no <ros2_control> of the robot"
                 _report(each, message, sensors, sink, Severity.ERROR)
             case "link" if known.robots and each.leaf.path[-1].text.startswith("@"):
@@ -82,7 +86,8 @@ def _report_controllers(listed: Sequence[Mention[Location]], sink: DiagnosticSin
     describes = any(each.text in described[id(each.leaf.beside)] for each in listed)
     for each in listed:
         names = described[id(each.leaf.beside)]
-        if "/" not in each.text and each.text not in names and (describes or _is_misspelt(each.text, names)):
+        is_meant = describes or each.leaf.ends_in("moveit_simple_controller_manager", "controller_names")
+        if "/" not in each.text and each.text not in names and (is_meant or _is_misspelt(each.text, names)):
             message = f"the controller {each.text!r} is listed here, and not described in this file"
             _report(each, message, names, sink)
 
@@ -90,7 +95,7 @@ def _report_controllers(listed: Sequence[Mention[Location]], sink: DiagnosticSin
 def _report_stale(
     mention: Mention[Location], what: str, names: NameSet, known: KnownParts, sink: DiagnosticSink
 ) -> None:
-    if mention.name in names:
+    if mention.name in names or known.may_have(mention.name):
         return
     # the controller manager ends, or refuses to activate the controller
     severity = Severity.ERROR if mention.kind == "driven joint" else None
@@ -107,8 +112,8 @@ def _report_interface(mention: Mention[Location], robots: Sequence[RobotParts], 
         sink.report(rules.MISSING_INTERFACE, message, mention.place, found=mention.text, help=hint)
 
 
-def _report_group(mention: Mention[Location], groups: NameSet, sink: DiagnosticSink) -> None:
-    if mention.text not in groups:
+def _report_group(mention: Mention[Location], groups: NameSet, known: KnownParts, sink: DiagnosticSink) -> None:
+    if mention.text not in groups and not known.may_have(mention.text):
         _report(mention, f"there is no group {mention.text!r} in SRDF", groups, sink)
 
 
@@ -122,7 +127,7 @@ def _report_frame(mention: Mention[Location], links: NameSet, known: KnownParts,
     if not name or name in links or name in _ELSEWHERE or not sink.takes(Severity.WARNING):
         return
     # a driver may publish `tool0_controller` beside the link `tool0`
-    if mention.kind == "frame" and not _is_misspelt(name, links):
+    if known.may_have(name) or (mention.kind == "frame" and not _is_misspelt(name, links)):
         return
     message = f"there is no link {name!r} for this frame, which {known.whose}"
     hint = did_you_mean(name, links)

@@ -13,6 +13,7 @@ from twinform.schemas import XmlElement
 _SLACK = 1e-3
 """How far a position may be off a limit by rounding, in rad or m."""
 _PARTS = ("link", "joint", "passive_joint", "chain", "group")
+_MOST_SHOWN = 5
 _VIRTUAL = frozenset({"fixed", "planar", "floating"})
 _MOST_GROUPS = 200
 """With more groups or chains, their contents are not collected, since each may have all joints."""
@@ -35,7 +36,9 @@ def report_semantics(srdf: SrdfTree, robot: RobotParts | None, sink: DiagnosticS
     chains = sum(1 for group in groups.values() for _ in elements(group, "chain"))
     if max(len(groups), chains) > _MOST_GROUPS:
         return
-    contents = GroupContents(groups, robot)
+    contents = GroupContents(
+        groups, robot, frozenset(each.get("name") or "" for each in srdf.root.iter("passive_joint"))
+    )
     virtual = {each.get("name") or "": each.get("type") or "" for each in elements(srdf.root, "virtual_joint")}
     for state in elements(srdf.root, "group_state"):
         if state.get("group") in groups:
@@ -79,17 +82,24 @@ def _report_repeated(tag: str, keys: tuple[str, ...], report: _Report) -> None:
 
 
 def _report_pairs(report: _Report) -> None:
-    first: dict[frozenset[str], XmlElement] = {}
+    """Report the first pair of links that stands there twice, and how many others do: programs write such lists."""
+    known: set[frozenset[str]] = set()
+    twice: list[XmlElement] = []
     for each in elements(report.srdf.root, "disable_collisions"):
         one, other = each.get("link1") or "", each.get("link2") or ""
         pair = frozenset({one, other})
         if len(pair) == 1:
             message = f"the link {one!r} is paired with itself, which disables nothing"
             report(rules.REPEATED_SEMANTICS, message, each, found=one)
-        elif first.setdefault(pair, each) is not each:
-            message = f"collisions of {one!r} and {other!r} are disabled twice"
-            before = (report.srdf.place_of(first[pair]),)
-            report(rules.REPEATED_SEMANTICS, message, each, found=one, related=before)
+        elif pair in known:
+            twice.append(each)
+        known.add(pair)
+    if twice:
+        first = twice[0]
+        more = f", as are {len(twice) - 1} other pairs" if len(twice) > 1 else ""
+        message = f"collisions of {first.get('link1')!r} and {first.get('link2')!r} are disabled twice{more}"
+        related = tuple(report.srdf.place_of(each) for each in twice[1:_MOST_SHOWN])
+        report(rules.REPEATED_SEMANTICS, message, first, found=first.get("link1") or "", related=related)
 
 
 def _report_groups(groups: dict[str, XmlElement], report: _Report) -> None:
@@ -110,8 +120,10 @@ def _report_groups(groups: dict[str, XmlElement], report: _Report) -> None:
 class GroupContents:
     """The joints and links of groups, as MoveIt collects them."""
 
-    def __init__(self, groups: dict[str, XmlElement], robot: RobotParts) -> None:
-        self.groups, self.robot = groups, robot
+    def __init__(self, groups: dict[str, XmlElement], robot: RobotParts, passive: frozenset[str]) -> None:
+        self.groups, self.robot, self.passive = groups, robot, passive
+        self.unknown: set[str] = set()
+        """Groups with chains of which an end is no link, so that what is in them is not known."""
         self._joints: dict[str, frozenset[str]] = {}
 
     def joints(self, name: str) -> frozenset[str]:
@@ -131,11 +143,11 @@ class GroupContents:
                 yield self.robot.above[called].name
             elif each.tag == "group":
                 yield from self.joints(called)
+                self.unknown.update({name} if called in self.unknown or called not in self.groups else ())
             elif each.tag == "chain":
-                base = each.get("base_link") or ""
-                yield from (one.name for one in self.robot.chain(base, each.get("tip_link") or ""))
-                if base in self.robot.above:
-                    yield self.robot.above[base].name
+                ends = each.get("base_link") or "", each.get("tip_link") or ""
+                yield from (one.name for one in self.robot.chain(*ends))
+                self.unknown.update({name} if any(end not in self.robot.links for end in ends) else ())
 
     def links(self, name: str) -> set[str]:
         """Return the links of a group: its own, those that its joints move, and the bases of its chains."""
@@ -161,8 +173,12 @@ def _report_virtual(joint: XmlElement, robot: RobotParts, roots: list[str], repo
 def _report_state(state: XmlElement, contents: GroupContents, virtual: dict[str, str], report: _Report) -> None:
     group = state.get("group") or ""
     own = contents.joints(group)
+    if group in contents.unknown:
+        return
+    left = {name for name in own if _is_active(name, contents, virtual)}
     for each in elements(state, "joint"):
         name = each.get("name") or ""
+        left.discard(name)
         joint = contents.robot.joints.get(name)
         kind = joint.type if joint is not None else virtual.get(name)
         if kind is None:
@@ -172,6 +188,20 @@ def _report_state(state: XmlElement, contents: GroupContents, virtual: dict[str,
             report(rules.IMPOSSIBLE_STATE, message, each, "name")
             continue
         _report_position(each, kind, range_of(joint) if joint is not None else None, report)
+
+    if left:
+        shown = ", ".join(map(repr, sorted(left)[:_MOST_SHOWN]))
+        message = f"the state {state.get('name')!r} of the group {group!r} has no position of {shown}"
+        report(rules.IMPOSSIBLE_STATE, message, state)
+
+
+def _is_active(name: str, contents: GroupContents, virtual: dict[str, str]) -> bool:
+    """Whether a joint of a group has a position of its own: passive ones and those that follow others have none."""
+    joint = contents.robot.joints.get(name)
+    if joint is None:
+        return variables_of(virtual.get(name, "fixed")) > 0
+    follows = joint.axis is not None and joint.axis.mimic is not None
+    return name not in contents.passive and not follows and variables_of(joint.type) > 0
 
 
 def _report_position(element: XmlElement, kind: str, allowed: tuple[float, float] | None, report: _Report) -> None:
@@ -194,6 +224,8 @@ def _report_position(element: XmlElement, kind: str, allowed: tuple[float, float
 
 def _report_effector(effector: XmlElement, contents: GroupContents, report: _Report) -> None:
     parent, link = effector.get("parent_group"), effector.get("parent_link") or ""
-    if parent in contents.groups and link in contents.robot.links and link not in contents.links(parent):
+    if parent not in contents.groups or link not in contents.robot.links:
+        return
+    if link not in contents.links(parent) and parent not in contents.unknown:
         message = f"the parent link {link!r} of end effector {effector.get('name')!r} is not in the group {parent!r}"
         report(rules.BROKEN_SEMANTICS, message, effector, "parent_link", found=link)

@@ -6,6 +6,7 @@ from dataclasses import field
 from pathlib import Path
 
 from twinform.compiler.companions.name_places import without_expressions
+from twinform.compiler.companions.possible_names import PossibleNames, possible_names
 from twinform.compiler.input.load_options import LoadOptions, LoadResult
 from twinform.compiler.input.loading import read
 from twinform.dataclass import dataclass
@@ -30,7 +31,8 @@ class DrivenJoint:
 class RobotParts:
     """The parts of one robot that others name; `above` leads from each link to the joint that moves it.
 
-    `driven` and `sensors` are those of `<ros2_control>`; where `is_controlled` is false, it has none.
+    `driven` and `sensors` are those of `<ros2_control>`; where `is_controlled` is false, it has none. Others are
+    `possible` with other arguments.
     """
 
     path: Path
@@ -41,6 +43,7 @@ class RobotParts:
     driven: Mapping[str, DrivenJoint] = field(default_factory=dict[str, DrivenJoint])
     sensors: Collection[str] = ()
     is_controlled: bool = False
+    possible: PossibleNames = field(default_factory=PossibleNames)
 
     @property
     def roots(self) -> list[str]:
@@ -89,10 +92,10 @@ def read_parts(path: Path, load_options: LoadOptions) -> RobotParts | None:
     document = loaded.document or (loaded.recovered and loaded.recovered.document)
     if document is None or any(each.rule in _OUTSIDE for each in loaded.diagnostics):
         return None
-    return _parts_of(path, document, loaded)
+    return _parts_of(path, document, loaded, possible_names(path, load_options.search))
 
 
-def _parts_of(path: Path, document: Document, loaded: LoadResult) -> RobotParts | None:
+def _parts_of(path: Path, document: Document, loaded: LoadResult, possible: PossibleNames) -> RobotParts | None:
     model = document.models[0] if document.models else None
     if model is None:
         return None
@@ -106,6 +109,7 @@ def _parts_of(path: Path, document: Document, loaded: LoadResult) -> RobotParts 
         _driven(blocks),
         {each.get("name") or "" for block in blocks for each in block.iterchildren("sensor", "gpio")},
         bool(blocks),
+        possible,
     )
 
 

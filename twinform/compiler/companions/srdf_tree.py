@@ -5,6 +5,7 @@ from dataclasses import field
 from pathlib import Path
 
 from twinform.compiler.companions.name_places import Leaf, Step
+from twinform.compiler.companions.possible_names import PossibleNames, possible_names
 from twinform.compiler.input.load_options import LoadOptions, expanded_name
 from twinform.compiler.input.parsing import UnreadableError, parse
 from twinform.dataclass import dataclass
@@ -18,10 +19,11 @@ _DEEPEST = 8
 
 @dataclass(frozen=True, slots=True)
 class SrdfTree:
-    """The root of an SRDF file, and the name of its text in locations."""
+    """The root of an SRDF file, the name of its text in locations, and names `possible` with other arguments."""
 
     name: str
     root: XmlElement
+    possible: PossibleNames = field(default_factory=PossibleNames)
     _places: Places = field(default_factory=dict[XmlElement, int], repr=False, compare=False)
 
     def names(self, tag: str) -> list[str]:
@@ -56,7 +58,7 @@ def read_srdf(path: Path, data: bytes, sink: DiagnosticSink, load_options: LoadO
         message = f"the root element is <{root.tag}>; SRDF has <robot>"
         sink.report(rules.UNKNOWN_ROOT, message, where, found=str(root.tag), expected="robot")
         raise UnreadableError
-    return SrdfTree(name, root)
+    return SrdfTree(name, root, possible_names(path, load_options.search))
 
 
 def leaves_of(srdf: SrdfTree) -> Iterator[Leaf[Location]]:
