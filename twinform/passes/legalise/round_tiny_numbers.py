@@ -24,13 +24,15 @@ from twinform.ir import (
     rewrite,
 )
 from twinform.ir.record import fields_of
+from twinform.ir.rewrite import node_fields
 from twinform.lazy import lazy_pattern
 from twinform.passes.carriers.absorb import definition_of
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.shared.gazebo_tags import NUMBER_TAGS
 from twinform.schemas import Fact, format_value, table
 
-_MAY_BE_TINY = lazy_pattern(r"[eE]-0*\d\d|\.0{36}")
+# With fewer zeros and an exponent of one digit a number is 1e-37 at least.
+_MAY_BE_TINY = lazy_pattern(r"[eE]-0*[1-9]\d|\.0{28}")
 _NUMBERS = frozenset({"double", "vector2d", "vector3", "quaternion", "pose", "time"})
 _BELOW_JOINT: Mapping[type[Node], str] = {
     Axis: "axis", Limit: "axis/limit", Dynamics: "axis/dynamics", Mimic: "axis/mimic"
@@ -178,7 +180,37 @@ class RoundTinyNumbers(ModelPass):
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with numbers that libsdformat reads."""
-        return rewrite(model, Node, partial(_rounded, self.to, sink))
+        # Nearly no model has any, and to look for them takes half as long.
+        return rewrite(model, Node, partial(_rounded, self.to, sink)) if _may_have_tiny(model, self.to) else model
+
+
+def _may_have_tiny(model: Model, to: Format) -> bool:
+    """Whether a number in a node may be tiny, or one in a part without a field."""
+    nodes: list[Node] = [model]
+    for node in nodes:  # grows while it is walked
+        numbers, fields = _places(node.__class__, to)
+        for name, least in numbers:
+            value = getattr(node, name)
+            if value.__class__ is float:
+                value = (value,)
+            for each in value or ():
+                if -least < each < least and each:
+                    return True
+        content = node.content if isinstance(node, GazeboExtension) else ()
+        untyped = [*content, *(part.element for part in node.opaque if part.element)] if node.opaque or content else ()
+        if any(map(_may_be_tiny, untyped)):
+            return True
+        for name in fields:
+            inside = getattr(node, name)
+            if inside:
+                nodes += inside if inside.__class__ is tuple else (inside,)
+    return False
+
+
+@cache
+def _places(kind: type[Node], to: Format) -> tuple[tuple[tuple[str, float], ...], tuple[str, ...]]:
+    """The fields of a class that hold numbers, each with the smallest that is read there, and those with nodes."""
+    return _numbers(kind, to), node_fields(kind)
 
 
 def rounded_extension(extension: GazeboExtension, sink: DiagnosticSink) -> GazeboExtension:
