@@ -229,6 +229,19 @@ def test_controllers_that_are_described_elsewhere_are_not_stale(run: Run, robots
     assert _findings(run, robots / "lifter") == []
 
 
+def test_the_footprint_of_what_walks_is_no_link(run: Run, tmp_path: Path) -> None:
+    limit = '<limit upper="1" effort="1" velocity="1"/>'
+    joint = f'<joint name="j" type="{{}}"><parent link="base"/><child link="leg"/>{limit}</joint>'
+    mass = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+    robot = f'<robot name="r"><link name="base"/><link name="leg">{mass}</link>{joint}</robot>'
+    file, options = tmp_path / "r.urdf", ("--robot", str(tmp_path / "r.urdf"))
+    (tmp_path / "costmap.yaml").write_text("local_costmap:\n  robot_base_frame: base_footprint\n", encoding="utf-8")
+    file.write_text(robot.format("revolute"))
+    assert _findings(run, tmp_path, *options) == []
+    file.write_text(robot.format("continuous"))
+    assert _findings(run, tmp_path, *options) == [("costmap.yaml", "stale-frame", 2, "warning")]
+
+
 _RENAME = "rename{names=[turn:pan,pedestal:base,tool_plate:wrist]}"
 _FOLLOWING = {
     _SRDF: 6,

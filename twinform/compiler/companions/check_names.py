@@ -10,6 +10,8 @@ from twinform.diagnostics import DiagnosticSink, Location, Severity, did_you_mea
 
 _ELSEWHERE = frozenset({"map", "odom", "world", "earth", "utm"})
 """Frames that ROS has for what is no part of a robot (REP 105)."""
+_FOOTPRINT = "base_footprint"
+"""A link of robots on wheels; for what walks, a node publishes it (REP 120)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +42,11 @@ class KnownParts:
         """All joints, with those that SRDF adds."""
         virtual = (name for each in self.semantics for name in each.names("virtual_joint"))
         return NameSet((*virtual, *(name for robot in self.robots for name in robot.joints)))
+
+    @property
+    def rolls(self) -> bool:
+        """Whether any of the robots has wheels."""
+        return any(joint.type == "continuous" for robot in self.robots for joint in robot.joints.values())
 
     @property
     def groups(self) -> NameSet:
@@ -128,6 +135,8 @@ def _report_frame(mention: Mention[Location], links: NameSet, known: KnownParts,
         return
     # a driver may publish `tool0_controller` beside the link `tool0`
     if known.may_have(name) or (mention.kind == "frame" and not _is_misspelt(name, links)):
+        return
+    if name == _FOOTPRINT and not known.rolls and not _is_misspelt(name, links):
         return
     message = f"there is no link {name!r} for this frame, which {known.whose}"
     hint = did_you_mean(name, links)

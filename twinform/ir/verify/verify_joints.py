@@ -40,7 +40,7 @@ def verify_joint(joint: Joint, sink: DiagnosticSink, *, every_axis: bool = False
     axis, axis2 = joint.axis, joint.axis2
     for number, (name, each) in enumerate((("axis", axis), ("axis2", axis2))):
         if each is not None and freedoms > number:
-            _verify_axis(joint, name, each, sink)
+            _verify_axis(joint, name, each, sink, is_urdf=not every_axis)
         elif each is not None:
             _verify_unused(joint, name, each, sink, is_read=every_axis)
     if freedoms and (axis is None or axis.xyz is None):
@@ -61,13 +61,13 @@ def _verify_unused(joint: Joint, name: str, axis: Axis, sink: DiagnosticSink, *,
         _verify_length(joint, axis.xyz, _place(joint, name, axis), sink)
 
 
-def _verify_axis(joint: Joint, name: str, axis: Axis, sink: DiagnosticSink) -> None:
+def _verify_axis(joint: Joint, name: str, axis: Axis, sink: DiagnosticSink, *, is_urdf: bool) -> None:
     if axis.xyz is not None:
         x, y, z = axis.xyz
         if x * x + y * y + z * z != 1.0:
             _verify_length(joint, axis.xyz, _place(joint, name, axis), sink)
     if axis.limit is not None:
-        _verify_limit(joint, axis.limit, sink)
+        _verify_limit(joint, axis.limit, sink, is_urdf=is_urdf)
 
 
 def _place(joint: Joint, name: str, axis: Axis) -> Location:
@@ -86,7 +86,7 @@ def _verify_length(joint: Joint, xyz: Vector3, where: Location, sink: Diagnostic
         sink.report(rules.UNNORMALISED_AXIS, message, where, found=f"{length:.4g}", expected="1")
 
 
-def _verify_limit(joint: Joint, limit: Limit, sink: DiagnosticSink) -> None:
+def _verify_limit(joint: Joint, limit: Limit, sink: DiagnosticSink, *, is_urdf: bool) -> None:
     if joint.type == "continuous":
         if limit.lower or limit.upper:
             message = f"continuous joint {joint.name!r} has limits, which every reader ignores"
@@ -103,10 +103,10 @@ def _verify_limit(joint: Joint, limit: Limit, sink: DiagnosticSink) -> None:
     if limit.effort == 0 or limit.velocity == 0:
         which = " and ".join(word for word in ("effort", "velocity") if getattr(limit, word) == 0)
         message = f"joint {joint.name!r} has the limit 0 for {which}; a controller that obeys it cannot move it"
-        # Effort and velocity of 0 are an idiom for "unknown"; where nothing else is written, the joint is locked
-        # besides. Limits that are written and equal are `empty-range`.
+        # Effort and velocity of 0 are an idiom for "unknown", and to Drake for a joint without a motor. In URDF, where
+        # limits that are not written are 0, it is locked besides; those that are written and equal are `empty-range`.
         is_locked = joint.type in _LIMITED and not any((limit.lower, limit.upper, limit.effort, limit.velocity))
-        is_locked = is_locked and (limit.lower is None or limit.upper is None)
+        is_locked = is_locked and is_urdf and (limit.lower is None or limit.upper is None)
         severity = Severity.WARNING if is_locked else None
         sink.report(rules.ZERO_LIMIT, message, limit.location, found="0", severity=severity)
 
