@@ -87,7 +87,7 @@ class CheckedFile:
         new = reporting.new(loaded, seen)
         return cls(
             _locate(loaded, _with_fixes(loaded, new, reporting.fixed), reporting.shown),
-            loaded.unreadable and not waits and any(each.is_error for each in found),
+            loaded.unreadable and not waits and any(each.is_error for each in (*found, *loaded.allowed)),
             is_unusable(loaded, named=named),
             waits,
             allowed=len(loaded.allowed) + len(found) - len(seen),
