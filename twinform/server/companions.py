@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 from lsprotocol import types
 
-from twinform.compiler.companions.check_companion import is_companion, may_be_companion
-from twinform.compiler.companions.find_robots import files_around, find_robots, is_semantic
-from twinform.compiler.companions.follow_renames import Renames, edit_of, leaves_in
+from twinform.compiler.companions.check_companion import is_companion, is_yaml, may_be_companion
+from twinform.compiler.companions.find_robots import files_around, find_robots
+from twinform.compiler.companions.follow_renames import Renames, edit_of, leaves_in, with_included
 from twinform.compiler.companions.name_places import Mention, mentions
 from twinform.compiler.companions.yaml_leaves import YamlError
 from twinform.compiler.input.include_graph import IncludeGraph
@@ -70,14 +70,15 @@ def followed_edits(session: Session, what: Collection[Definition], new: str) -> 
     renames = Renames({old: new}, {}) if kind == "link" else Renames({}, {old: new})
     options = _options_of(session, first.document.path)
     own = {os.path.realpath(each.document.path) for each in what}
+    files: dict[Path, None] = {}
     for path in files_around(first.document.path.absolute(), options.search, may_be_companion):
         document = session.files.document(path)
-        if document is None or old not in document.text or not is_companion(path, document.data):
-            continue
-        if not _is_for(document, own, options):
-            continue
-        for mention in _mentions_in(document):
-            edit = edit_of(mention, new, document.text, is_xml=is_semantic(path)) if renames.new(mention) else None
+        if document is not None and is_companion(path, document.data) and _is_for(document, own, options):
+            files.update(dict.fromkeys(with_included(path, options)))
+    for document in filter(None, map(session.files.document, files)):
+        for mention in _mentions_in(document) if old in document.text else ():
+            is_xml = not is_yaml(document.path)
+            edit = edit_of(mention, new, document.text, is_xml=is_xml) if renames.new(mention) else None
             if edit is not None:
                 yield CompanionEdit(document, types.TextEdit(document.positions.range(edit.span), edit.new))
 

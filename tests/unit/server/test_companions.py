@@ -62,6 +62,25 @@ def test_a_stale_name_and_one_of_another_robot_are_left(lifter: Path) -> None:
     assert renamed(session, document, '<link name="|pedestal"', "foot").keys() == {"lifter.urdf", "lifter.srdf"}
 
 
+def test_files_that_srdf_includes_follow(tmp_path: Path) -> None:
+    shutil.copytree(_ROBOTS / "probe", tmp_path / "probe")
+    config = tmp_path / "probe/config"
+    head = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro">'
+    text = (config / "probe.srdf.xacro").read_text(encoding="utf-8")
+    macro = text[text.index("<xacro:macro") : text.index("</xacro:macro>") + len("</xacro:macro>")]
+    (config / "looking.xacro").write_text(f"{head}{macro}</robot>", encoding="utf-8")
+    include = '<xacro:include filename="looking.xacro"/>'
+    (config / "probe.srdf.xacro").write_text(text.replace(macro, include), encoding="utf-8")
+    session, document = opened(tmp_path / "probe/urdf/probe.urdf")
+    texts = renamed(session, document, '<joint name="|neck"', "throat")
+    assert _count(texts, "throat") == {
+        "probe.urdf": 1,
+        "probe.srdf.xacro": 1,
+        "looking.xacro": 1,
+        "controllers.yaml": 3,
+    }
+
+
 def test_findings_are_shown_for_the_text_in_the_editor(lifter: Path) -> None:
     path = lifter / _MOVEIT / "kinematics.yaml"
     text = b"arms:\n  kinematics_solver: some/Solver\n"

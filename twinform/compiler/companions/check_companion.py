@@ -30,14 +30,19 @@ _ENDINGS = (".yaml", ".yml")
 
 def may_be_companion(path: Path) -> bool:
     """Whether a file may be a companion file, by its name."""
-    return is_semantic(path) or path.name.lower().endswith(_ENDINGS)
+    return is_semantic(path) or is_yaml(path)
+
+
+def is_yaml(path: Path) -> bool:
+    """Whether a file is YAML, by its name."""
+    return path.name.lower().endswith(_ENDINGS)
 
 
 def is_companion(path: Path, data: bytes) -> bool:
     """Whether a file names parts of a robot: SRDF by its name, and YAML by its keys."""
     if is_semantic(path):
         return True
-    if not path.name.lower().endswith(_ENDINGS) or not may_name_parts(data):
+    if not is_yaml(path) or not may_name_parts(data):
         return False
     try:
         found = read_yaml(data)

@@ -9,11 +9,11 @@ from xml.sax.saxutils import escape
 
 import yaml
 
-from twinform.compiler.companions.check_companion import is_companion, may_be_companion
+from twinform.compiler.companions.check_companion import is_companion, is_yaml, may_be_companion
 from twinform.compiler.companions.find_robots import files_around, find_robots, is_semantic
 from twinform.compiler.companions.name_places import Leaf, Mention, Step, mentions
 from twinform.compiler.companions.robot_parts import read_parts
-from twinform.compiler.companions.yaml_leaves import LARGEST, YamlError, read_yaml
+from twinform.compiler.companions.yaml_leaves import YamlError, read_yaml
 from twinform.compiler.input.include_graph import IncludeGraph
 from twinform.compiler.input.load_options import LoadOptions
 from twinform.diagnostics import Span, TextEdit
@@ -73,15 +73,33 @@ def follow_renames(robots: Collection[Path], renames: Renames, load_options: Loa
         return
     known = {each.resolve() for each in robots}
     around = (each for robot in robots for each in files_around(robot, load_options.search, may_be_companion))
+    wanted: dict[Path, None] = {}
     for path in dict.fromkeys(around):
-        try:
-            data = load_options.search.readable(path).read(path, LARGEST)
-        except (OSError, ValueError):
-            continue
+        data = _content(path, load_options)
         if is_companion(path, data) and _is_for(path, data, known, renames, load_options):
-            followed = follow_in(path, data, renames)
-            if followed.changed or followed.left:
-                yield followed
+            wanted.update(dict.fromkeys(with_included(path, load_options)))
+    for path in wanted:
+        followed = follow_in(path, _content(path, load_options), renames)
+        if followed.changed or followed.left:
+            yield followed
+
+
+def with_included(path: Path, load_options: LoadOptions) -> Iterator[Path]:
+    """Yield a companion file, and the files that SRDF includes."""
+    yield path
+    if is_semantic(path):
+        included = {Path(file) for file, _ in IncludeGraph(load_options.search).closure(os.path.realpath(path))}
+        yield from sorted(included - {Path(os.path.realpath(path))})
+
+
+def _content(path: Path, load_options: LoadOptions) -> bytes:
+    """Return the content of a file; nothing of one that cannot be read, or not as a whole."""
+    size = load_options.limits.size
+    try:
+        data = load_options.search.readable(path).read(path, size)
+    except (OSError, ValueError):
+        return b""
+    return data if len(data) <= size else b""
 
 
 def _is_for(path: Path, data: bytes, known: set[Path], renames: Renames, load_options: LoadOptions) -> bool:
@@ -116,7 +134,7 @@ def follow_in(path: Path, data: bytes, renames: Renames) -> FollowedFile:
     left: list[str] = []
     for each in found:
         new = renames.new(each)
-        edit = edit_of(each, new, source.text, is_xml=is_semantic(path)) if new is not None else None
+        edit = edit_of(each, new, source.text, is_xml=not is_yaml(path)) if new is not None else None
         if edit is not None:
             edits.append(edit)
         elif new is not None:
@@ -130,7 +148,7 @@ def leaves_in(path: Path, data: bytes) -> Iterable[Leaf[Span]]:
     Raises:
         UndecodableError, UnplacedError, YamlError: it cannot be read.
     """
-    if not is_semantic(path):
+    if is_yaml(path):
         return read_yaml(data).leaves
     text = SourceText.of(data).text
     return _leaves_of_xml(spans(text), text)
