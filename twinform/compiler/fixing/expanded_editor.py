@@ -32,9 +32,7 @@ class ExpandedEditor(Editor):
         default_factory=lambda: defaultdict[TextEdit, set[XmlElement]](set), repr=False
     )
     """The elements for which each edit was made."""
-    wanted: dict[TextEdit, frozenset[XmlElement]] = field(
-        default_factory=dict[TextEdit, frozenset[XmlElement]], repr=False
-    )
+    wanted: dict[TextEdit, set[XmlElement]] = field(default_factory=dict[TextEdit, set[XmlElement]], repr=False)
     """The elements that each edit changes."""
 
     @classmethod
@@ -56,11 +54,26 @@ class ExpandedEditor(Editor):
 
     def is_agreed(self, fix: Fix) -> bool:
         """Tell whether all parts that a fix changes want the same edits; what is of xacro itself is no part."""
-        return all(self.wanted.get(edit, frozenset()) <= self.made[edit] for edit in fix.edits)
+        return all(self._is_wanted_everywhere(edit) for edit in fix.edits)
+
+    def _is_wanted_everywhere(self, edit: TextEdit) -> bool:
+        if edit not in self._agreed:
+            self._agreed[edit] = self.wanted.get(edit, set()) <= self.made[edit]
+        return self._agreed[edit]
+
+    @cached_property
+    def _agreed(self) -> dict[TextEdit, bool]:
+        """What is wanted everywhere, as far as somebody has asked: thousands of parts may come from one place."""
+        return {}
 
     def source_of(self, edit: TextEdit) -> str:
         """Return the text that an edit changes."""
         return self.values.sources[edit.file or self.main].source.text
+
+    def line_of(self, edit: TextEdit) -> tuple[str, int]:
+        """Return the file and line of an edit."""
+        name = edit.file or self.main
+        return name, self.values.sources[name].lines.place(edit.span.start).line
 
     def place_of(self, element: XmlElement) -> tuple[str, int] | None:
         """Return the file and line where an element was written."""
@@ -154,12 +167,12 @@ class ExpandedEditor(Editor):
     def _everywhere(self, element: XmlElement, edit: TextEdit) -> TextEdit:
         """Note an edit of an element in its file, which changes all parts that this element becomes."""
         origin = self.origins[element]
-        return self._note(element, edit, origin.file, frozenset(self._copies[origin.file, origin.number]))
+        return self._note(element, edit, origin.file, self._copies[origin.file, origin.number])
 
-    def _note(self, element: XmlElement, edit: TextEdit, file: str, changed: frozenset[XmlElement]) -> TextEdit:
+    def _note(self, element: XmlElement, edit: TextEdit, file: str, changed: set[XmlElement]) -> TextEdit:
         edit = edit._replace(file="" if file == self.main else file)
         self.made[edit].add(element)
-        self.wanted[edit] = self.wanted.get(edit, frozenset()) | changed
+        self.wanted.setdefault(edit, changed)
         return edit
 
     def _written(self, element: XmlElement, attribute: str, value: str) -> Written:
@@ -186,7 +199,7 @@ class ExpandedEditor(Editor):
         span = source.places[slot.number].attributes[slot.attribute].value
         edit = TextEdit(span, value_of(value, source.source.text[span.end]))
         users = self._users[slot] if written.names else self._copies[slot.file, slot.number]
-        return self._note(element, edit, slot.file, frozenset(users))
+        return self._note(element, edit, slot.file, users)
 
     @cached_property
     def _copies(self) -> dict[tuple[str, int], set[XmlElement]]:

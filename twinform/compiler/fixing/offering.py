@@ -7,7 +7,7 @@ theirs through the entry-point group `twinform.fixes`, where the name of an entr
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache, cached_property
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import cast
 
 from twinform.compiler.fixing.expanded_editor import ExpandedEditor
@@ -23,7 +23,7 @@ from twinform.compiler.fixing.site import (
 from twinform.compiler.fixing.xacro_values import ComputedError
 from twinform.compiler.input.loading import LoadResult
 from twinform.compiler.input.xacro_mistakes import MOST_TAGS
-from twinform.diagnostics import Diagnostic, Fix, catalog, rules
+from twinform.diagnostics import Diagnostic, Fix, Location, catalog, rules
 from twinform.file_access import Readable
 from twinform.lazy import lazy_pattern
 
@@ -95,9 +95,19 @@ def _offer(finding: Diagnostic, files: _Files) -> Diagnostic:
     except ComputedError as error:
         return _without_fix(finding, str(error))
     kept = _kept(fix, file) if fix and fix.edits else None
+    if kept and file.expanded:
+        kept = _with_place(kept, finding.location, file.expanded)
     if kept and file is not files.whole and file.loaded.path != files.loaded.path:
         kept = replace(kept, edits=tuple(edit._replace(file=file.loaded.path) for edit in kept.edits))
     return replace(finding, fix=kept if kept and all(files.is_own(edit.file) for edit in kept.edits) else None)
+
+
+def _with_place(fix: Fix, where: Location, editor: ExpandedEditor) -> Fix:
+    """Return a fix that says where its edits are, unless they are at the place of the finding."""
+    file, line = editor.line_of(fix.edits[0])
+    if (file, line) == (where.file, where.line):
+        return fix
+    return replace(fix, title=f"{fix.title}, in {PurePath(file).name}:{line}")
 
 
 def _without_fix(finding: Diagnostic, why: str) -> Diagnostic:

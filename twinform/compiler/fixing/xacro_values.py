@@ -6,7 +6,7 @@ in those from which it was called, and then among all.
 """
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import field
 from functools import cached_property
 from pathlib import PurePath
@@ -20,7 +20,7 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
 from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement
-from twinform.text import ElementSpan, SourceText, TextSurroundings, spans
+from twinform.text import ElementSpan, Lines, SourceText, TextSurroundings, spans
 
 _NAME = lazy_pattern(r"\s*\$\{\s*(?P<name>[A-Za-z_]\w*)\s*\}\s*|\s*\$\(arg\s+(?P<argument>[\w.-]+)\s*\)\s*")
 _MOST_STEPS = 100
@@ -82,9 +82,9 @@ class XacroSource:
         return TextSurroundings.of(self.source, self.places[0])
 
     @cached_property
-    def numbers(self) -> Mapping[XmlElement, int]:
-        """The numbers of the elements."""
-        return {each: number for number, each in enumerate(self.elements)}
+    def lines(self) -> Lines:
+        """The lines of the text."""
+        return Lines(self.source.text)
 
 
 class _Macro(NamedTuple):
