@@ -84,7 +84,7 @@ def _patterns() -> Iterator[bytes]:
 
 
 def _configurations() -> Iterator[bytes]:
-    yield (_ROOT / "examples" / "twinform.toml").read_bytes()
+    yield (_ROOT / "examples" / "project" / "twinform.toml").read_bytes()
     yield (
         b'sdf-version = "1.9"\nmax-size = "1MB"\nmax-tags = 9\nallow = ["missing-limit"]\nexclude = ["*a"]\n'
         b'for = ["gazebo"]\npasses = "fill-limits{effort=1}"\n[format]\nindent = 2\n[[files]]\nmatch = ["*.urdf"]\n'

@@ -72,7 +72,7 @@ def expand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Expand]:
 
 
 def _places(outcome: dict[str, Any]) -> list[tuple[str, int]]:
-    return [(Path(file).name, line) for file, line in outcome["places"]]
+    return [(Path(file).name, line) for file, line, *_ in outcome["places"]]
 
 
 def test_every_element_knows_where_it_was_written(expand: Expand, tmp_path: Path) -> None:
