@@ -161,15 +161,15 @@ class CheckRun:
             report.reporting(name, own.policy),
             self.plan.roles.get(name, "robot"),
             name in self.plan.named,
-            self._first_finding(error) if error else None,
+            self._first_finding(error, name) if error else None,
         )
 
-    def _first_finding(self, error: ConfigError) -> Diagnostic | None:
+    def _first_finding(self, error: ConfigError, name: str) -> Diagnostic | None:
         """Return the finding about a configuration for the first of the files that it is for."""
         if error.file in self._wrong:
             return None
         self._wrong.add(error.file)
-        return finding_of(error)
+        return finding_of(error, name)
 
     def _add_allow(self, file_run: FileRun, report: CheckReport) -> bool:
         """Write comments that allow what is reported, or print them; return whether there are any."""

@@ -1,6 +1,7 @@
 """Finds a configuration and reads its file; the error of a wrong one."""
 
 import os
+import re
 import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -153,6 +154,22 @@ def _bytes(path: Path) -> bytes:
     return data
 
 
+def line_of(path: Path, key: str) -> int:
+    """Return the line on which a key stands in a configuration; the first one where it is not found."""
+    try:
+        text = _bytes(path).decode("utf-8-sig", "replace")
+    except ConfigError:
+        return 1
+    place = _IN_TABLE.match(key)
+    headers = [found.end() for found in _FILES.finditer(text)] if place else []
+    start = headers[int(place["number"])] if place and int(place["number"]) < len(headers) else 0
+    name = re.escape(key.rpartition(".")[2].partition("[")[0].strip('"'))
+    found = re.compile(rf"""^[ \t]*(?:\[++[^\]\n]*?)?["']?{name}["']?[ \t]*[=\]]""", re.MULTILINE).search(text, start)
+    return text.count("\n", 0, found.start() if found else start) + 1
+
+
+_IN_TABLE = lazy_pattern(r"(?:tool\.twinform\.)?files\[(?P<number>\d{1,4})\]")
+_FILES = lazy_pattern(r"^[ \t]*\[\[[ \t]*(?:tool\.twinform\.)?files[ \t]*\]\]", re.MULTILINE)
 _SECTION = "tool.twinform"
 
 

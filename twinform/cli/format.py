@@ -194,7 +194,7 @@ def _task(source: InputSource, contexts: ContextByFile) -> FormatTask:
     try:
         given_options = contexts.of(source.name).params
     except ConfigError as error:
-        return FormatTask(source, FormatOptions(), USUAL_LIMITS, finding_of(error))
+        return FormatTask(source, FormatOptions(), USUAL_LIMITS, finding_of(error, source.name))
     options = FormatOptions(given_options["indent"], given_options["numbers"], given_options["sort_attributes"])
     return FormatTask(source, options, Limits(given(given_options["max_size"], LARGEST)))
 

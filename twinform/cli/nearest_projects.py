@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from twinform.cli.config_defaults import Project, context_for, counts_for_all, settings_of
-from twinform.cli.config_file import ConfigError, Searched
+from twinform.cli.config_file import ConfigError, Searched, line_of
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Location, Severity, rules
 
@@ -98,9 +98,11 @@ class ContextByFile:
             return error
 
 
-def finding_of(error: ConfigError) -> Diagnostic:
-    """Return a finding about a configuration that is wrong."""
+def finding_of(error: ConfigError, name: str) -> Diagnostic:
+    """Return a finding about the configuration of a file, which is named as that is: relative or absolute."""
+    from twinform.compiler.input.xacro_needs import shown_name  # noqa: PLC0415 - few configurations are wrong
+
     message = ": ".join(part for part in (error.key, error.problem) if part)
-    where = Location(str(error.file), error.line or 1)
+    where = Location(shown_name(str(error.file), name), error.line or line_of(error.file, error.key))
     help = "until then the files below its folder are checked as if it were not there"
     return Diagnostic(rules.WRONG_CONFIGURATION, message, where, Severity.ERROR, help=help)

@@ -83,6 +83,10 @@ def test_the_command_line_and_the_editor_agree(run: Run, repository: Path) -> No
         ("strict = true\n[files\n", 2, "Expected ']'"),
         ("strct = true\n", 1, "strct: there is no such key; did you mean strict?"),
         ("allow = ['unknown-elemnt']\n", 1, "allow: no rule is called unknown-elemnt; did you mean unknown-element?"),
+        ("strict = true\n\nallow = ['x']\n", 3, "allow: no rule is called x"),
+        ("[format]\nindnt = 4\n", 2, "format.indnt: there is no such key"),
+        ("[[files]]\nmatch = ['a']\nallow = []\n[[files]]\nmatch = ['*']\nalow = []", 6, "files[1].alow: "),
+        ("[pipelines]\n'a b' = ''\n", 2, "the name of a pipeline"),
         ("paths = ['../..']\n", 1, "paths: "),
         ("exclude = ['!']\n", 1, "exclude: "),
         ("check-passes = 'no-such'\n", 1, "check-passes: no pass is called no-such"),
@@ -98,8 +102,9 @@ def test_a_wrong_one_is_a_finding_of_its_files(run: Run, repository: Path, text:
     ((path, one),) = found
     assert (path.startswith("arm/"), one["rule"], one["line"]) == (True, "wrong-configuration", line)
     assert message in one["message"]
-    assert one["file"].endswith("arm/twinform.toml")
-    assert "arm/twinform.toml:" in run("check", ".").stdout
+    assert one["file"] == "arm/twinform.toml"
+    assert f"\narm/twinform.toml:{line}" in "\n" + run("check", ".").stdout
+    assert f"{repository}/arm/twinform.toml:{line}" in run("check", repository).stdout
     assert run("check", "leg", "warned.urdf").exit_code == 0
 
 
