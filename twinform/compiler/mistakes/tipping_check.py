@@ -23,7 +23,8 @@ Point = tuple[float, float]
 
 def report_tipping(model: Model, tree: PlacedTree, sink: DiagnosticSink) -> None:
     """Report a robot with wheels that falls over at once, with all joints at zero; its collisions have to be known."""
-    wheels = [joint for joint in model.joints if joint.type == "continuous" and abs(tree.axis(joint)[2]) < _LEVEL]
+    placed = (each for each in model.joints if each.type == "continuous" and each.child in tree.frames)
+    wheels = [each for each in placed if abs(tree.axis(each)[2]) < _LEVEL]
     wheels = [each for each in wheels if each.child and _is_round(tree.links[each.child].collisions)]
     if len(wheels) < _FEWEST_WHEELS or "world" in tree.links:
         return
