@@ -15,6 +15,8 @@ _GRAVITY = 9.8
 _MOST_LINKS = 200
 _MARGIN = 1.5
 """How much more than the effort a joint has to need: figures of masses and efforts are rounded."""
+_STEP = 0.05
+"""A height that counts as one, m."""
 _UPRIGHT = 0.99
 """The vertical part of a unit vector from which on gravity does not turn about it."""
 _QUARTER = math.pi / 2
@@ -49,10 +51,19 @@ def _report_weak_joints(model: Model, tree: PlacedTree, sink: DiagnosticSink) ->
         effort, moment = _effort(joint), most.get(joint.child or "", 0.0)
         if effort is None or _GRAVITY * moment <= effort * _MARGIN or abs(tree.axis(joint)[2]) > _UPRIGHT:
             continue
+        if _stands(tree, joint):
+            continue
         branch = _Branch(tree, joint)
         needed = branch.needed()
         if needed > effort * _MARGIN:
             _report(joint, effort, needed, sum(branch.masses), sink)
+
+
+def _stands(tree: PlacedTree, joint: Joint) -> bool:
+    """Whether what hangs from a joint is as low as anything: a leg, which stands on the ground and carries the rest."""
+    heights = {name: frame.translation[2] for name, frame in tree.frames.items()}  # of the root, 0
+    lowest = min(heights[name] for name in tree.order_below(joint.child or ""))
+    return lowest < -_STEP and lowest <= min(heights.values()) + _STEP
 
 
 def _report(joint: Joint, effort: float, needed: float, mass: float, sink: DiagnosticSink) -> None:
