@@ -71,8 +71,8 @@ def expand(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Expand]:
         del sys.modules[name]
 
 
-def _places(outcome: dict[str, Any]) -> list[tuple[str, int]]:
-    return [(Path(file).name, line) for file, line, *_ in outcome["places"]]
+def _places(outcome: dict[str, Any]) -> list[tuple[str, int, int, int]]:
+    return [(Path(file).name, *rest) for file, *rest in outcome["places"]]
 
 
 def test_every_element_knows_where_it_was_written(expand: Expand, tmp_path: Path) -> None:
@@ -80,9 +80,22 @@ def test_every_element_knows_where_it_was_written(expand: Expand, tmp_path: Path
     part.write_text(f'{_HEAD}\n\n<xacro:macro name="m" params="n"><link\nname="${{n}}"/></xacro:macro></robot>')
     body = '<xacro:include filename="$(find parts)/part.xacro"/>\n<xacro:m n="a"/>\n<link name="b"/>'
     outcome = expand(body, {"package://parts": tmp_path})
-    assert _places(outcome) == [("r.xacro", 1), ("part.xacro", 3), ("r.xacro", 4)]
+    assert _places(outcome) == [("r.xacro", 1, 0, 0), ("part.xacro", 3, 2, 1), ("r.xacro", 4, 3, 0)]
+    assert [(Path(file).name, *rest) for file, *rest in outcome["calls"]] == [("r.xacro", 2, 0)]
     assert '<link name="a"/>' in outcome["text"]
     assert (outcome["remarks"], outcome["unused"]) == ([], [])
+
+
+def test_what_stands_in_a_call_is_made_outside_of_the_macro(expand: Expand) -> None:
+    body = (
+        '<xacro:macro name="inner" params="*block"><xacro:insert_block name="block"/></xacro:macro>\n'
+        '<xacro:macro name="outer" params="n"><xacro:inner><link name="${n}"/></xacro:inner></xacro:macro>\n'
+        '<xacro:outer n="a"/><xacro:outer n="b"/>'
+    )
+    outcome = expand(body)
+    # calls are numbered as they begin: outer, inner, outer, inner; a block belongs to the call that it stands in
+    assert [rest for _, *rest in outcome["calls"]] == [[6, 0], [4, 1], [7, 0], [4, 3]]
+    assert [(number, call) for _, _, number, call in _places(outcome)] == [(0, 0), (5, 2), (5, 4)]
 
 
 def test_a_package_by_its_uri_is_asked_for_beside_the_file_that_names_it(expand: Expand, tmp_path: Path) -> None:
