@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 BUILT_IN: Mapping[str, str] = {
     "add-plugin": "plugins.add_plugin:AddPlugin",
+    "add-root": "structure.add_root:AddRoot",
     "add-sensor": "plugins.add_sensor:AddSensor",
     "attach": "structure.attach:Attach",
     "balance-inertia": "inertia.balance_inertia:BalanceInertia",
