@@ -9,15 +9,26 @@ from collections.abc import Iterable
 from dataclasses import field
 from functools import cached_property
 
-from twinform.compiler.fixing.xacro_values import MADE, ComputedError, Slot, Written, XacroSource, XacroValues
+from twinform.compiler.fixing.xacro_values import (
+    MADE,
+    ComputedError,
+    Slot,
+    Written,
+    XacroSource,
+    XacroValues,
+    default_of,
+)
 from twinform.compiler.input.expansion import Expansion, PartOrigin
 from twinform.compiler.input.xacro_mistakes import EXPRESSION
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Fix, Span, TextEdit
+from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement
 from twinform.text import Editor, ElementSpan
 from twinform.text.serializing import value_of
 
+_BARE = lazy_pattern(r"[\w.+/:-]+")
+"""What needs no quotes as the default of a parameter."""
 _TRUTHS = frozenset({"false", "true"})
 
 
@@ -198,6 +209,8 @@ class ExpandedEditor(Editor):
             raise ComputedError(f"the value comes from {written.names[0].name!r}, and xacro writes it with a capital")
         span = source.places[slot.number].attributes[slot.attribute].value
         edit = TextEdit(span, value_of(value, source.source.text[span.end]))
+        if slot.parameter:
+            edit = _set_default(edit, slot.parameter, span.of(source.source.text), value)
         users = self._users[slot] if written.names else self._copies[slot.file, slot.number]
         return self._note(element, edit, slot.file, users)
 
@@ -229,6 +242,15 @@ class ExpandedEditor(Editor):
         origin = self.origins[element]
         source = self.values.sources[origin.file].elements[origin.number]
         return (*((str(key), str(value)) for key, value in source.items()), ("", source.text or ""))
+
+
+def _set_default(edit: TextEdit, parameter: str, written: str, value: str) -> TextEdit:
+    """Return an edit of the default of one parameter, of one that would replace them all."""
+    default = default_of(parameter, written)
+    if default is None or not _BARE.fullmatch(value):
+        raise ComputedError(f"the value is the default of the parameter {parameter!r}")
+    start = edit.span.start
+    return TextEdit(Span(start + default.start, start + default.end), value)
 
 
 def _local(element: XmlElement) -> str:

@@ -17,12 +17,14 @@ from twinform.compiler.input.parsing import parse
 from twinform.compiler.input.size_limits import LIFTED_LIMITS
 from twinform.compiler.input.xacro_mistakes import EXPRESSION, MACRO_PARAMETER, WORD, xacro_kind
 from twinform.dataclass import dataclass
-from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics import DiagnosticSink, Span
 from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement
 from twinform.text import ElementSpan, Lines, SourceText, TextSurroundings, spans
 
 _NAME = lazy_pattern(r"\s*\$\{\s*(?P<name>[A-Za-z_]\w*)\s*\}\s*|\s*\$\(arg\s+(?P<argument>[\w.-]+)\s*\)\s*")
+_DEFAULT = lazy_pattern(r"""\s*:?=\s*(?P<quote>["']?)(?P<value>[^"'^|]*)(?P=quote)$""")
+"""The default of a parameter of a macro, behind its name."""
 _MOST_STEPS = 100
 """So many names are followed, which may lead back to the first."""
 _PLAIN = frozenset({"name", "value"})
@@ -40,11 +42,15 @@ class ComputedError(Exception):
 
 
 class Slot(NamedTuple):
-    """A place of a value: an attribute of an element, numbered in its file, or its text where `attribute` is empty."""
+    """A place of a value: an attribute of an element, numbered in its file, or its text where `attribute` is empty.
+
+    It may be the default of one `parameter` in the attribute of a macro that has them all.
+    """
 
     file: str
     number: int
     attribute: str = ""
+    parameter: str = ""
 
 
 class Name(NamedTuple):
@@ -88,10 +94,11 @@ class XacroSource:
 
 
 class _Macro(NamedTuple):
-    """A definition of a macro, and its parameters."""
+    """A definition of a macro, its parameters, and where these are written."""
 
     name: str
     parameters: frozenset[str]
+    slot: Slot
 
 
 class XacroValues:
@@ -117,6 +124,9 @@ class XacroValues:
         """
         element = self.sources[slot.file].elements[slot.number]
         found = element.get(slot.attribute) if slot.attribute else None if len(element) else element.text or ""
+        if found is not None and slot.parameter:
+            default = default_of(slot.parameter, found)
+            found = default and default.of(found)
         if found is None:
             raise ComputedError(MADE)
         return found
@@ -158,7 +168,7 @@ class XacroValues:
             around = self.calls[call - 1]
             key = Name(macro, name)
             if name in self._macro(macro).parameters:
-                return self._passed(around, name), around.around, key
+                return self._passed(around, macro, name), around.around, key
             if key in self._definitions:
                 return self._only(key), call, key
             call = around.around
@@ -173,11 +183,11 @@ class XacroValues:
             raise ComputedError(f"the value comes from {key.name!r}, which {count}")
         return found[0]
 
-    def _passed(self, call: MacroCall, name: str) -> Slot:
-        """Return the slot of a parameter in a call."""
-        if name not in self.sources[call.file].elements[call.number].attrib:
-            raise ComputedError(f"the value is the default of the parameter {name!r}")
-        return Slot(call.file, call.number, name)
+    def _passed(self, call: MacroCall, macro: str, name: str) -> Slot:
+        """Return the slot of a parameter in a call, or that of its default."""
+        if name in self.sources[call.file].elements[call.number].attrib:
+            return Slot(call.file, call.number, name)
+        return self._macro(macro).slot._replace(parameter=name)
 
     def _macro(self, name: str) -> _Macro:
         found = self._macros.get(name, ())
@@ -207,7 +217,7 @@ class XacroValues:
                 kind, name = xacro_kind(element), element.get("name", "").removeprefix("xacro:")
                 if kind == "macro":
                     parameters = {one["name"] for one in MACRO_PARAMETER.finditer(element.get("params", ""))}
-                    self._macros[name].append(_Macro(name, frozenset(parameters)))
+                    self._macros[name].append(_Macro(name, frozenset(parameters), Slot(file, number, "params")))
                     yield from (Name(name, each) for each in parameters)
                 if kind == "arg":
                     self._definitions[Name(_ARGUMENTS, name)].append(Slot(file, number, "default"))
@@ -257,6 +267,13 @@ class XacroValues:
         if kind == "property" and attribute == "value":
             return Name(_macro_around(element), element.get("name", ""))
         return Name(kind.rpartition(".")[2], attribute) if kind not in _OF_XACRO and attribute else None
+
+
+def default_of(parameter: str, written: str) -> Span | None:
+    """Return where the default of a parameter stands among all of a macro, without quotes; None where it has none."""
+    found = next((each for each in MACRO_PARAMETER.finditer(written) if each["name"] == parameter), None)
+    default = _DEFAULT.match(written, found.end("name"), found.end()) if found else None
+    return Span(*default.span("value")) if default else None
 
 
 def _macro_around(element: XmlElement) -> str:
