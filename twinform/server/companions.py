@@ -17,7 +17,7 @@ from twinform.compiler.input.include_graph import IncludeGraph
 from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.ros_packages import PackageIndex
 from twinform.diagnostics import Span
-from twinform.server.document_names import defined_anywhere
+from twinform.server.document_names import defined_anywhere, definitions_in
 from twinform.server.documents import TextDocument
 from twinform.server.names import Name
 from twinform.server.session import Session
@@ -59,6 +59,16 @@ def definition_of(session: Session, document: TextDocument, mention: Mention[Spa
                 if other is not None:
                     found[file, name.span] = Definition(other, name)
     return next(iter(found.values())) if len(found) == 1 else None
+
+
+def parts_of_robots(session: Session, document: TextDocument, kind: str) -> list[str]:
+    """List the names of the links or joints of the robots that a companion file may be for."""
+    options = _options_of(session, document.path)
+    robots = find_robots(document.path, document.data, options).robots
+    others = (session.files.document(Path(file)) for robot in robots for file in sorted(_files_of(robot, options)))
+    names = (name for other in others if other is not None for name in definitions_in(other))
+    # what an expression makes is not known here
+    return list(dict.fromkeys(name.text for name in names if name.kind == kind and "$" not in name.text))
 
 
 def followed_edits(session: Session, what: Collection[Definition], new: str) -> Iterator[CompanionEdit]:

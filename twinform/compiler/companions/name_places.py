@@ -224,6 +224,13 @@ def _rows() -> dict[str, list[_Row]]:
 
 
 @cache
+def paths_of_srdf() -> dict[tuple[str, ...], NameKind]:
+    """Return the paths of SRDF at which names stand, from below the root on, each with what the name there means."""
+    rows = (row for found in _rows().values() for row in found)
+    return {tuple(reversed(row.steps)): row.kind for row in rows if row.steps[0].startswith("@")}
+
+
+@cache
 def telling_keys() -> tuple[str, ...]:
     """Return the keys of which each file with a name has one at least."""
     ends = {row.steps[0]: row for rows in _rows().values() for row in rows if row.steps[0][0] not in "*<@"}

@@ -1,12 +1,19 @@
 """Completion: elements, attributes and values by the facts tables, names of the document, files, and what xacro has."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple
 
 from lsprotocol import types
 
+from twinform.compiler.companions.find_robots import is_semantic
 from twinform.diagnostics import Span
 from twinform.server.completion.elements import propose_attributes, propose_elements, propose_roots
 from twinform.server.completion.proposals import ITEM, ElementPlace, Proposal, ValuePlace, completion_list
+from twinform.server.completion.srdf import (
+    propose_attributes_of_srdf,
+    propose_elements_of_srdf,
+    propose_values_of_srdf,
+)
 from twinform.server.completion.values import propose_values
 from twinform.server.completion.xacro import propose_in_expression
 from twinform.server.documents import Cursor, CursorKind, TextDocument, cursor_at
@@ -14,6 +21,22 @@ from twinform.server.session import Session
 from twinform.server.tolerant_tree import TolerantNode
 
 __all__ = ["complete"]
+
+
+class _Providers(NamedTuple):
+    """What proposes the parts of documents of one kind."""
+
+    elements: Callable[[ElementPlace], Iterable[Proposal]]
+    attributes: Callable[..., Iterable[Proposal]]
+    values: Callable[[ValuePlace], Iterable[Proposal]]
+
+
+_MODELS = _Providers(propose_elements, propose_attributes, propose_values)
+_SRDF = _Providers(propose_elements_of_srdf, propose_attributes_of_srdf, propose_values_of_srdf)
+
+
+def _providers(document: TextDocument) -> _Providers:
+    return _SRDF if is_semantic(document.path) else _MODELS
 
 
 def complete(session: Session, document: TextDocument, offset: int) -> types.CompletionList:
@@ -31,9 +54,11 @@ def _propose(session: Session, document: TextDocument, cursor: Cursor, offset: i
         case CursorKind.TAG if node is not None:
             return cursor.piece, _elements(session, document, node.parent, node, offset)
         case CursorKind.ATTRIBUTE if node is not None:
-            return cursor.piece, propose_attributes(session, document, node, named=cursor.attribute is not None)
+            propose = _providers(document).attributes
+            return cursor.piece, propose(session, document, node, named=cursor.attribute is not None)
         case CursorKind.VALUE if node is not None and cursor.attribute is not None:
-            return cursor.piece, propose_values(_value_place(session, document, node, cursor, offset))
+            place = _value_place(session, document, node, cursor, offset)
+            return cursor.piece, _providers(document).values(place)
         case CursorKind.END_TAG if node is not None:
             return cursor.piece, [Proposal(node.tag, node.tag, ITEM.Property)]
         case _:
@@ -55,7 +80,7 @@ def _in_text(session: Session, document: TextDocument, cursor: Cursor, offset: i
         tag = [Proposal(f"/{node.tag}", f"{node.tag}>", ITEM.Property)] if node is not None else []
         return Span(start + 2, offset), tag
     if node is not None and not node.children:
-        values = list(propose_values(_value_place(session, document, node, cursor, offset)))
+        values = list(_providers(document).values(_value_place(session, document, node, cursor, offset)))
         if values:
             return cursor.piece, values
     empty = Span(offset, offset)
@@ -74,4 +99,4 @@ def _elements(
     if parent is None:
         return propose_roots(document) if document.tree.root in (None, own) else ()
     bare = own is not None and own.whole_tag
-    return propose_elements(ElementPlace(session, document, parent, own, offset, bare))
+    return _providers(document).elements(ElementPlace(session, document, parent, own, offset, bare))
