@@ -188,7 +188,7 @@ def is_elsewhere(uri: str, search: SearchPath, beside: Path) -> bool:
     if not separator:
         return False
     if scheme not in _NAMED:
-        return scheme != "file" or rest.startswith("media/")  # Gazebo Classic has its own media
+        return scheme != "file" or rest.lower().startswith("media/")  # of Gazebo Classic, or a package for it
     name = normpath(unquote(rest)).partition("/")[0]
     return _package_folder(name, search, beside) is None
 

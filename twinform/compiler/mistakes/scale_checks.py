@@ -176,11 +176,11 @@ def _report_locked(joint: Joint, limit: Limit, model: Model, sink: DiagnosticSin
     if limit.lower is not None and limit.lower == limit.upper:
         message = f"joint {joint.name!r} cannot move: both of its limits are {limit.lower:g}"
         hint = "write the limits, or the type fixed if it is not to move"
-        severity = Severity.INFO if limit.lower == 0 and _is_mount(joint, model) else None
+        severity = Severity.INFO if limit.lower == 0 and _is_mount(joint, limit, model) else None
         sink.report(rules.EMPTY_RANGE, message, limit.location, found=f"{limit.lower:g}", help=hint, severity=severity)
 
 
-def _is_mount(joint: Joint, model: Model) -> bool:
+def _is_mount(joint: Joint, limit: Limit, model: Model) -> bool:
     """Whether a joint that cannot move holds another model, all of this one, or a sensor: some write fixed joints so.
 
     Gazebo Classic would lump a link on a fixed joint of URDF, and had no fixed joint in SDF before 1.5.
@@ -190,8 +190,16 @@ def _is_mount(joint: Joint, model: Model) -> bool:
     held = next((link for link in model.links if link.name == joint.child), None)
     if held is None:
         return True  # it is in a model that is included
-    is_leaf = all(other.parent != held.name for other in model.joints)
-    return is_leaf and (bool(held.sensors) or (held.inertial is not None and not held.visuals and not held.collisions))
+    if any(other.parent == held.name for other in model.joints):
+        return False
+    if limit.effort == limit.velocity == 0 and any(map(_has_range, model.joints)):
+        return True  # an exporter that knows no limits writes four zeros for all joints
+    return bool(held.sensors) or (held.inertial is not None and not held.visuals and not held.collisions)
+
+
+def _has_range(joint: Joint) -> bool:
+    limit = joint.axis.limit if joint.axis else None
+    return joint.type == "continuous" or (limit is not None and limit.lower != limit.upper)
 
 
 def _odd_limits(joint: Joint, limit: Limit) -> Iterator[tuple[str, str]]:
