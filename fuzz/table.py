@@ -13,6 +13,7 @@ from lsprotocol.types import METHOD_TO_TYPES
 from fuzz import targets
 from twinform.cli.config_settings import FileSettings, FormatSettings, ProjectSettings
 from twinform.compiler import check
+from twinform.compiler.companions.name_places import telling_keys
 from twinform.compiler.output.json import json_text
 from twinform.diagnostics import catalog
 from twinform.passes import registered_passes
@@ -64,6 +65,16 @@ def _elements() -> set[str]:
         names.update(row.enum)
         pending += row.rows
     return names
+
+
+def _parameters() -> Iterator[bytes]:
+    folder = _CASES / "companions"
+    yield from (each.read_bytes() for each in sorted(folder.rglob("*.yaml")))
+    yield from (each.read_bytes() for each in sorted(folder.rglob("*.srdf*")))
+    yield (
+        b"n:\n  ros__parameters:\n    joints: &a [hip, 'hip', \"hip\"]\n    gains.hip.p: 1\n"
+        b"    x: *a\n    base_frame_id: base\n"
+    )
 
 
 def _pipelines() -> Iterator[bytes]:
@@ -191,6 +202,7 @@ def _nothing() -> Iterator[str]:
 
 TARGETS = {
     "load": Target(targets.load, _models, _elements),
+    "parameters": Target(targets.parameters, _parameters, telling_keys),
     "pipeline": Target(targets.pipeline, _pipelines, _passes),
     "fixers": Target(targets.fixers, _models, _elements, 1536),
     "patterns": Target(targets.patterns, _patterns, _nothing, 512),

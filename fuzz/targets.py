@@ -23,6 +23,9 @@ from twinform.cli.path_patterns import PathPatterns
 from twinform.compiler import check
 from twinform.compiler.batch.archives import LEAST_BYTES, MOST_TIMES, unpacked
 from twinform.compiler.batch.entries import FolderError
+from twinform.compiler.companions.follow_renames import Renames, follow_in, leaves_in
+from twinform.compiler.companions.name_places import mentions
+from twinform.compiler.companions.yaml_leaves import YamlError, read_yaml
 from twinform.compiler.input.load_options import LoadResult
 from twinform.compiler.output.emitting import emit
 from twinform.compiler.output.json import json_text
@@ -52,6 +55,21 @@ def load(data: bytes) -> None:
     # what comments allow is an error again in a text without them
     if not sink.has_errors and not checked.allowed:
         assert emit(twinform.loads(text), sink) == text, "another text once read again"
+
+
+def parameters(data: bytes) -> None:
+    """YAML of any bytes has values at their places, or is refused; a rename in it, or in SRDF, keeps what it names."""
+    with suppress(YamlError):
+        found = read_yaml(data)
+        spans = [step.place for leaf in found.leaves for step in (*leaf.path, leaf.value)]
+        assert all(0 <= span.start <= span.end <= len(found.text) for span in spans), "a place outside of the text"
+        parse_suppressions(found.comments())
+    for name in ("a.yaml", "a.srdf"):
+        path = Path(name)
+        followed = follow_in(path, data, Renames({"base": "b: 2"}, {"hip": "h'2"}))
+        if followed.changed:
+            before, after = (list(mentions(leaves_in(path, each))) for each in (data, followed.after))
+            assert [each.kind for each in before] == [each.kind for each in after], "another meaning after a rename"
 
 
 def pipeline(data: bytes) -> None:
