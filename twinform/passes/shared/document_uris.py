@@ -55,6 +55,7 @@ _INNER_ELEMENTS = frozenset(
     {("skin", "filename"), ("animation", "filename"), ("projector", "texture"), ("texture", "diffuse"),
      ("texture", "normal")}
 )  # fmt: skip
+_MAY_HOLD = _ELEMENTS | {name for _, name in _INNER_ELEMENTS}
 _HOLDERS: dict[str, Kind] = {"mesh": "mesh", "skin": "mesh", "animation": "mesh", "include": "include"}
 """The use of a file by the element that holds its URI."""
 
@@ -85,7 +86,12 @@ def _map_node_uris(change: Change, node: Node) -> Node:
 
 def _map_untyped_uris(node: Node, change: Change) -> dict[str, object]:
     """The updated untyped parts of a node, as fields to copy."""
-    in_element = partial(_map_element_uris, change=change, holder=node)
+
+    def in_element(element: Element) -> Element:
+        # few elements have any, and to map all of them takes longer than to look
+        has_none = _MAY_HOLD.isdisjoint([each.name for each in element.walk()])
+        return element if has_none else _map_element_uris(element, change, node)
+
     update: dict[str, object] = {}
     if isinstance(node, GazeboExtension):
         content = tuple(map(in_element, node.content))
