@@ -52,7 +52,7 @@ def _propose(session: Session, document: TextDocument, cursor: Cursor, offset: i
     node = cursor.node
     match cursor.kind:
         case CursorKind.TAG if node is not None:
-            return cursor.piece, _elements(session, document, node.parent, node, offset)
+            return cursor.piece, _elements(session, document, node.parent, node)
         case CursorKind.ATTRIBUTE if node is not None:
             propose = _providers(document).attributes
             return cursor.piece, propose(session, document, node, named=cursor.attribute is not None)
@@ -69,7 +69,7 @@ def _value_place(
     session: Session, document: TextDocument, node: TolerantNode, cursor: Cursor, offset: int
 ) -> ValuePlace:
     typed = document.text[cursor.piece.start : offset]
-    return ValuePlace(session, document, node, cursor.attribute, offset, typed)
+    return ValuePlace(session, document, node, cursor.attribute, typed)
 
 
 def _in_text(session: Session, document: TextDocument, cursor: Cursor, offset: int) -> tuple[Span, Iterable[Proposal]]:
@@ -85,7 +85,7 @@ def _in_text(session: Session, document: TextDocument, cursor: Cursor, offset: i
             return cursor.piece, values
     empty = Span(offset, offset)
     piece = cursor.piece if "<" not in cursor.piece.of(document.text) and cursor.piece.end == offset else empty
-    return piece, _with_bracket(_elements(session, document, node, None, offset))
+    return piece, _with_bracket(_elements(session, document, node, None))
 
 
 def _with_bracket(found: Iterable[Proposal]) -> Iterator[Proposal]:
@@ -94,9 +94,9 @@ def _with_bracket(found: Iterable[Proposal]) -> Iterator[Proposal]:
 
 
 def _elements(
-    session: Session, document: TextDocument, parent: TolerantNode | None, own: TolerantNode | None, offset: int
+    session: Session, document: TextDocument, parent: TolerantNode | None, own: TolerantNode | None
 ) -> Iterable[Proposal]:
     if parent is None:
         return propose_roots(document) if document.tree.root in (None, own) else ()
     bare = own is not None and own.whole_tag
-    return _providers(document).elements(ElementPlace(session, document, parent, own, offset, bare))
+    return _providers(document).elements(ElementPlace(session, document, parent, own, bare))

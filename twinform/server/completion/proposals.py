@@ -1,5 +1,6 @@
 """Proposals of completion, the places that they are for, and their form in the protocol."""
 
+import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -13,7 +14,7 @@ from twinform.server.session import Session
 from twinform.server.tolerant_tree import TolerantNode
 
 ITEM = types.CompletionItemKind
-_HOLE = lazy_pattern(r"(?P<escaped>\\\$)|\$\{[^}$]*\}|\$.?", 16)  # re.DOTALL
+_HOLE = lazy_pattern(r"(?P<escaped>\\\$)|\$\{[^}$]*\}|\$.?", re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +42,6 @@ class ValuePlace(NamedTuple):
     document: TextDocument
     node: TolerantNode
     attribute: str | None
-    offset: int
     typed: str
 
 
@@ -52,7 +52,6 @@ class ElementPlace(NamedTuple):
     document: TextDocument
     parent: TolerantNode
     own: TolerantNode | None
-    offset: int
     bare: bool
 
     @property
