@@ -41,7 +41,7 @@ def fixed_file(name: str, data: bytes) -> FixedFile:
         return inspect(read(text, load_options, name=name), load_options)
 
     safe, unsafe = (apply_fixes_by(lambda texts: look(texts[""]), data, unsafe=each) for each in (False, True))
-    keeps = all(each.fix and each.fix.keeps for each in safe.applied)
+    keeps = all(each.fix and each.fix.keeps_robot for each in safe.applied)
     same = _same(data, safe.data, name) if safe.data != data and keeps and look(data).accepted else None
     faults = [*_faults(look, data, safe, unsafe=False), *(f"unsafe: {each}" for each in _faults(look, data, unsafe))]
     if same is False:

@@ -29,9 +29,13 @@ def test_fixes_keep_their_promises(corpus: Path, portion: str) -> None:
 @pytest.mark.parametrize("kind", [Kind.URDF, Kind.SDF])
 def test_fixes_of_mutated_files_keep_their_promises(corpus: Path, kind: Kind) -> None:
     assert corpus.is_dir()
+    verdicts = set[bool | None]()
     for seed in range(500 if DEEP else 20):
         made = mutated(kind, seed)
-        assert fixed_file(made.file, made.text).faults == (), str(made)
+        fixed = fixed_file(made.file, made.text)
+        assert fixed.faults == (), str(made)
+        verdicts.add(fixed.same)
+    assert True in verdicts, "no robot was compared with what became of it"
 
 
 @pytest.mark.parametrize("portion", PORTIONS)
