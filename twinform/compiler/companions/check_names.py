@@ -93,7 +93,9 @@ def _report_controllers(listed: Sequence[Mention[Location]], sink: DiagnosticSin
     describes = any(each.text in described[id(each.leaf.beside)] for each in listed)
     for each in listed:
         names = described[id(each.leaf.beside)]
-        is_meant = describes or each.leaf.ends_in("moveit_simple_controller_manager", "controller_names")
+        # the manager's own list, or that of a file which holds nothing else
+        around = [step.text for step in each.leaf.path[:-1]]
+        is_meant = describes or around[-1:] == ["moveit_simple_controller_manager"] or (not around and len(names) > 1)
         if "/" not in each.text and each.text not in names and (is_meant or _is_misspelt(each.text, names)):
             message = f"the controller {each.text!r} is listed here, and not described in this file"
             _report(each, message, names, sink)
