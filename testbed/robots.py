@@ -51,7 +51,7 @@ def _joint(number: int, branching: int) -> str:
     <child link="link_{number}"/>
     <origin xyz="{_vector(number, 7)}" rpy="{_vector(number, 8)}"/>
     <axis xyz="0 0 1"/>
-    <limit lower="-1.57" upper="1.57" effort="{10 + _digits(number, 9)}" velocity="2"/>
+    <limit lower="-1.57" upper="1.57" effort="{10_000 + _digits(number, 9)}" velocity="2"/>
     <dynamics damping="0.1" friction="{_digits(number, 10)}"/>
   </joint>
 """

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import twinform
 from testbed.corpus.examine import fault, rules_of, without_line
+from twinform.compiler.companions.check_companion import may_be_companion
 from twinform.ir import Document, Format
 
 
@@ -32,7 +33,9 @@ def examine_xacro(path: Path, name: str) -> Expanded:
         found = replace(
             found, expanded=bool(checked.origins), accepted=checked.document is not None and checked.accepted
         )
-        if checked.document is None or not checked.accepted:
+        if may_be_companion(path) and not any(each.is_error for each in checked.diagnostics):
+            pass  # it is about a robot, and none itself
+        elif checked.document is None or not checked.accepted:
             found = replace(found, refused_by=rules_of(checked.diagnostics), faults=without_line(checked.diagnostics))
         else:
             found = _converted(path, checked.document, found)

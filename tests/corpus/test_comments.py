@@ -8,6 +8,7 @@ from testbed.comments import OTHER, assert_comments_kept, comments
 from testbed.corpus.files import CorpusFile, Kind
 from tests.corpus.portions import chunks
 from twinform import CompileError, convert
+from twinform.compiler.input.load_options import XACRO
 
 CHUNKS = chunks()
 
@@ -16,7 +17,8 @@ CHUNKS = chunks()
 def test_comments_of_real_files_travel(corpus: Path, chunk: str) -> None:
     assert corpus.is_dir()
     for file in CHUNKS[chunk]:
-        if b"<!--" in file.path.read_bytes():
+        # what is expanded has the comments of macros, and one of xacro's own
+        if b"<!--" in file.path.read_bytes() and not file.path.name.endswith(XACRO):
             _assert_travel(file)
 
 

@@ -12,14 +12,19 @@ def files(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> 
 
 
 def rule_names(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete rules, with what they find, and their groups."""
-    from twinform.diagnostics.diagnostic import GROUPS  # noqa: PLC0415 - as below
+    """Complete rules, with what they find."""
     from twinform.diagnostics.rule_registry import rules  # noqa: PLC0415 - it reads entry points
 
-    every = {**{group: f"All rules of the group {group}" for group in GROUPS},
-             **{name: each.rule.finds for name, each in rules().items()}}  # fmt: skip
-    known = {name: finds for name, finds in every.items() if name.startswith(incomplete)}
+    known = {name: each.rule.finds for name, each in rules().items() if name.startswith(incomplete)}
     return [CompletionItem(name, help=finds.partition(". ")[0]) for name, finds in known.items()]
+
+
+def rules_and_groups(ctx: click.Context, parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Complete rules and their groups."""
+    from twinform.diagnostics.diagnostic import GROUPS  # noqa: PLC0415 - as in `rule_names`
+
+    found = [CompletionItem(each, help=f"All rules of the group {each}") for each in GROUPS]
+    return [*(each for each in found if each.value.startswith(incomplete)), *rule_names(ctx, parameter, incomplete)]
 
 
 def pass_names(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:

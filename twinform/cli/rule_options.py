@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 import click
 
 from twinform.cli.command import Unusable
-from twinform.cli.completion import rule_names
+from twinform.cli.completion import rules_and_groups
 from twinform.cli.config_defaults import Project, settings_of
 from twinform.cli.config_file import ConfigError
 from twinform.cli.flags import group
@@ -120,7 +120,7 @@ _rule_flags = tuple(
         multiple=True,
         help=f"{text}; repeatable.",
         callback=_check_rules,
-        shell_complete=rule_names,
+        shell_complete=rules_and_groups,
     )
     for name, (others, text) in _OPTIONS.items()
 )

@@ -40,6 +40,7 @@ CASES: dict[tuple[str, ...], set[str]] = {
     ("ch",): {"check"},
     ("explain", "dangling-l"): {"dangling-link"},
     ("check", "--allow", "dangling-l"): {"dangling-link"},
+    ("check", "--allow", "phys"): {"physics"},
     ("check", "--engine", "x"): {"xmlschema"},
     ("passes", "fill-l"): {"fill-limits"},
     ("convert", "--passes", "check-inertia,fill-l"): {"check-inertia,fill-limits"},

@@ -85,7 +85,9 @@ def rounding_loss(matrix: Symmetric) -> float:
 
 
 def is_clearly_possible(matrix: Symmetric) -> bool:
-    """Whether a body can have this inertia, and every engine agrees."""
+    """Whether a body can have this inertia, and every engine agrees; none has one that is not finite."""
+    if not all(map(math.isfinite, matrix)):
+        return False
     smallest, gap = clearances(matrix)
     lost = rounding_loss(matrix)
     return smallest > lost and gap >= lost

@@ -51,6 +51,7 @@ SIZES = st.tuples(*[MAGNITUDES] * 3).map(row)
 ROBOTS = st.tuples(VECTORS, MAGNITUDES, *[NUMBERS] * 6, VECTORS, SIZES, MAGNITUDES, VECTORS)
 HEAVY = ("0 0 0", 1.7e308, *[0.0] * 6, "0 0 0", "0.5 1e-10 4.0", 5e-324, "0 0 0")
 FAR = ("0 0 0", 0.5, *[0.0] * 5, 0.5, "0 0 0", "0.5 0.5 0.5", 0.5, "0 0 2.7e154")
+OUT_OF_REACH = ("0 0 1.3e95", 1e150, *[0.0] * 5, 0.5, "0 0 0", "0.5 0.5 5e-324", 5e-324, "0 0 0")
 HUGE = ("0 0 0", 1.0, 1e150, 1e150, 1e150, 0.0, 0.0, 0.0, "0 0 0", "1e200 1 1", 1e308, "1e308 1e308 0")
 
 
@@ -60,6 +61,7 @@ HUGE = ("0 0 0", 1.0, 1e150, 1e150, 1e150, 0.0, 0.0, 0.0, "0 0 0", "1e200 1 1", 
 @example(numbers=FAR)
 @example(numbers=HUGE)
 @example(numbers=HEAVY)
+@example(numbers=OUT_OF_REACH)
 @given(numbers=ROBOTS)
 def test_every_pass_over_inertias_ends_with_numbers_or_findings(source: str, passes: str, numbers: tuple[object, ...]):
     text = source.format(*numbers)
