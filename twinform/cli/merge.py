@@ -18,7 +18,7 @@ from twinform.compiler.input.load_options import XACRO
 from twinform.compiler.input.loading import read
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.compiler.merging import FileVersions, Problem, merge_files
-from twinform.diagnostics import DiagnosticSink, rules
+from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.diagnostics.reporters import FileFindings
 from twinform.file_access import Readable
 from twinform.server.document_names import undefined_names
@@ -112,7 +112,8 @@ def find_problems(text: SourceText, name: str) -> Iterator[Problem]:
         return
     lines = Lines(text.text)
     for found in read(text.data, LoadOptions(), name=name).diagnostics:
-        if found.rule.name in _STRUCTURE:
+        # a note is no fault: in SDF a second parent closes a loop
+        if found.rule.name in _STRUCTURE and found.severity is not Severity.INFO:
             line = min(max(1, found.location.line), len(lines))
             yield Problem((found.rule.name, found.message), found.message, lines.start(line))
 

@@ -9,6 +9,7 @@ from collections.abc import Hashable, Iterator, Sequence
 from copy import deepcopy
 from dataclasses import field
 from functools import cache
+from itertools import takewhile
 from typing import NamedTuple
 
 from lxml import etree
@@ -136,11 +137,11 @@ class _Merging:
                 own.set(name, new)
 
     def _text(self, before: XmlElement, after: XmlElement, own: XmlElement) -> None:
-        old, new, here = stripped(before.text), stripped(after.text), stripped(own.text)
+        old, new, here = (texts(each)[0] for each in (before, after, own))
         if old == new or same_value(new, here):
             return
         if self._is(old, here):
-            own.text = new
+            _set_text(own, new)
         else:
             self._conflict(own, f"the text of {_shown(own)} {_changes(old or None, new or None, here or None)}")
 
@@ -259,6 +260,19 @@ class _Merging:
             parent.insert(parent.index(behind) + 1, made)
             made.tail, behind.tail = behind.tail, None
         return made
+
+
+def _set_text(element: XmlElement, text: str) -> None:
+    """Write the text before the first child element, behind the comment that it stands behind."""
+    asides = takewhile(lambda each: not isinstance(each.tag, str), element)
+    behind = [each for each in asides if stripped(each.tail)]
+    first = behind[0] if behind and not stripped(element.text) else None
+    for each in behind:
+        each.tail = None
+    if first is None:
+        element.text = text
+    else:
+        first.tail = text
 
 
 def _keep_tail(parent: XmlElement, child: XmlElement) -> None:
