@@ -162,7 +162,7 @@ _LONGEST = 4096
 """Characters of a pattern, as long as a path may be: an expression of a million takes seconds to compile."""
 _MOST_PATTERNS = 200
 _MOST_INCLUDED = 1000
-"""The most files that the includes of one file lead to."""
+"""The most files that the includes of one file lead to, and that one file is asked for."""
 
 
 class _Address(NamedTuple):
@@ -204,7 +204,8 @@ class IncludeGraph:
     def included(self, path: str, beside: str = "") -> tuple[str, ...]:
         """Return the files that a file includes by addresses without expressions, and that are there."""
         if path not in self._targets:
-            addresses = (self._address(each.text, path) for each in self.outline(path, beside).includes)
+            asked = self.outline(path, beside).includes[:_MOST_INCLUDED]
+            addresses = (self._address(each.text, path) for each in asked if len(each.text) <= _LONGEST)
             files = (each.folder / each.rest for each in addresses if each.folder is not None and each.is_literal)
             there = filter(None, map(self._existing, files))
             self._targets[path] = tuple(dict.fromkeys(map(os.path.realpath, there)))
