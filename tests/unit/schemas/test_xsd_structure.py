@@ -96,7 +96,6 @@ TAKEN_BY_THE_PROJECTION = {
     "equal names around a nested model": _sdf(
         "<model name='m'><link name='l'/><model name='m'><link name='l'/></model><link name='l'/></model>"
     ),
-    "an SDF 1.4 model without links": _sdf("<model name='m'/>", (1, 4)),
 }
 
 ASSERTED = {
