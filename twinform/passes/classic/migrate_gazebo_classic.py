@@ -26,7 +26,7 @@ from twinform.passes.plugins.catalog import release
 from twinform.passes.plugins.catalog_types import Release
 from twinform.passes.plugins.release_names import ReleaseName
 from twinform.passes.plugins.sites import map_plugins, map_sensors
-from twinform.passes.sdf_versions import change_version, known_version
+from twinform.passes.sdf_versions import change_version, sdf_version_read
 from twinform.schemas import parse_version
 
 _HARDWARE = "gz_ros2_control/GazeboSimSystem"
@@ -119,7 +119,7 @@ def _raise_version(document: Document, target: Release, sink: DiagnosticSink) ->
     """An SDF document, raised to the version that the release reads if it is older."""
     if document.format is Format.URDF:
         return document
-    if parse_version(known_version(document.version)) >= parse_version(target.sdf):
+    if parse_version(sdf_version_read(document.version)) >= parse_version(target.sdf):
         return document
     for step in change_version(document.version, target.sdf):
         document = step.run(document, sink)

@@ -90,7 +90,7 @@ def _fit_pose(version: Version, sink: DiagnosticSink, pose: Pose) -> Pose:
 def _without_quaternion(pose: Pose, sink: DiagnosticSink) -> Pose:
     if pose.quat_xyzw is None:
         return pose
-    message = "the quaternion of an origin is written as roll, pitch and yaw; readers before URDF 1.1 ignore it"
+    message = "an origin gets roll, pitch and yaw, since readers before URDF 1.1 ignore its quaternion"
     sink.account(Fate.CARRIED, rules.OTHER_WORDS, message, pose.location)
     kept = Opaque.unchecked(attribute=(_QUATERNION, format_value(pose.quat_xyzw)))
     plain = in_radians(Transform.from_pose(pose))
@@ -143,7 +143,7 @@ def _raise_limit(joint: Joint, limit: Limit, sink: DiagnosticSink) -> Limit:
         if value is not None and 0 <= value < math.inf:
             update[part.name.removeprefix("@")] = value
             continue
-        message = f"{part.name} of joint {joint.name!r} had no meaning before URDF 1.2, and is no limit"
+        message = f"{part.name} of joint {joint.name!r} had no meaning before URDF 1.2, and its value is no limit"
         sink.account(Fate.DROPPED, rules.OUTSIDE_VERSION, message, part.location_in(limit))
     if joint.type in {"revolute", "prismatic"}:
         update |= {name: 0.0 for name in _ENDS if getattr(limit, name) is None}
@@ -171,8 +171,10 @@ def _refuse_flat_shapes(document: Document, sink: DiagnosticSink) -> None:
     for link in (link for model in document.models for link in model.links):
         for part in (*link.visuals, *link.collisions):
             shape = part.geometry.shape if part.geometry else None
-            if isinstance(shape, (Box, Capsule, Cylinder, Sphere)) and min(sizes(shape)) <= 0:
-                message = f"a {shape.kind} of link {link.name!r} has a size of zero, which URDF 1.2 does not have"
+            if isinstance(shape, (Box, Capsule, Cylinder, Sphere)) and (least := min(sizes(shape))) <= 0:
+                message = (
+                    f"a {shape.kind} of link {link.name!r} has a size of {least:g}, and URDF 1.2 wants more than 0"
+                )
                 hint = "write version 1.1, or leave it out with --passes tidy-shapes"
                 severity = Severity.ERROR
                 sink.report(rules.OUT_OF_RANGE, message, shape.location, help=hint, severity=severity)

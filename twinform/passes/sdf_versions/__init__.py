@@ -7,19 +7,19 @@ from twinform.passes.sdf_versions import kinds
 from twinform.passes.sdf_versions.put_back import PutBack
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.sdf_versions.steps import backward, forward, meaning_back, unversioned
-from twinform.passes.sdf_versions.version_pass import has_early_frames, known_version
+from twinform.passes.sdf_versions.version_pass import has_early_frames, sdf_version_read
 from twinform.schemas import Version, parse_version, print_version, versions_of
 
 __all__ = [
     "change_version",
     "has_early_frames",
-    "known_version",
     "lower_meaning",
     "lower_version",
     "raise_for_merging",
     "raise_unversioned",
     "raise_version",
     "raise_words",
+    "sdf_version_read",
 ]
 
 _ANY_POSE: Version = (1, 9)
@@ -30,7 +30,7 @@ _NAMED_STATES: Version = (1, 12)
 
 def change_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
     """The passes from the version that a file declares to the one asked for."""
-    old = known_version(declared)
+    old = sdf_version_read(declared)
     if parse_version(old) < parse_version(asked):
         steps = raise_version(old, asked, carriers=carriers)
     else:
@@ -42,7 +42,7 @@ def change_version(declared: str | None, asked: str, *, carriers: bool = True) -
 
 def raise_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
     """The passes that upgrade an older file and put back what it carries."""
-    old, new = parse_version(known_version(declared)), parse_version(asked)
+    old, new = parse_version(sdf_version_read(declared)), parse_version(asked)
     back = PutBack.unchecked(version=asked, source=print_version(old), carriers=carriers)
     after: list[Pass] = []  # what came back may be in newer or older syntax
     if new < _ANY_POSE:
@@ -59,7 +59,7 @@ def raise_words(declared: str | None, *, carriers: bool = True, mixed: bool = Fa
 
     `mixed` means that the file has syntax of newer versions too.
     """
-    old, newest = known_version(declared), versions_of("sdf")[-1]
+    old, newest = sdf_version_read(declared), versions_of("sdf")[-1]
     back = PutBack.unchecked(version=newest, source=old, carriers=carriers)
     return (*forward(parse_version(old), parse_version(newest), names=False, mixed=mixed), back)
 
@@ -77,7 +77,7 @@ def raise_unversioned(*, carriers: bool = True) -> tuple[Pass, ...]:
 
 def lower_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
     """The passes that downgrade a newer file."""
-    return tuple(backward(parse_version(known_version(declared)), parse_version(asked), carriers=carriers))
+    return tuple(backward(parse_version(sdf_version_read(declared)), parse_version(asked), carriers=carriers))
 
 
 def lower_meaning(asked: str) -> tuple[Pass, ...]:

@@ -11,7 +11,7 @@ from twinform.ir.frames import FrameError
 from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.shared.nodes import map_elements
-from twinform.schemas import Version, parse_version, versions_of
+from twinform.schemas import Version, parse_version, print_version, version_read
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -62,11 +62,9 @@ def _has_includes(node: Node) -> bool:
     return bool(getattr(node, "includes", ())) or any(map(_has_includes, inner))
 
 
-def known_version(declared: str | None) -> str:
-    """The version that a file is read as: the declared one, or the newest where that does not exist."""
-    versions = versions_of("sdf")
-    # The reader has reported a version that does not exist; most likely the syntax is today's.
-    return declared if declared in versions else versions[-1]
+def sdf_version_read(declared: str | None) -> str:
+    """The version that an SDF file is read as, which the passes go by as the reader does."""
+    return print_version(version_read("sdf", declared))
 
 
 NAMED_FRAMES: Version = (1, 7)
@@ -76,7 +74,7 @@ NAMED_FRAMES: Version = (1, 7)
 def has_early_frames(document: Document) -> bool:
     """Whether a document before SDF 1.7 has frames, which mean nothing there."""
     # Some files of 1.5 and 1.6 have <frame> elements in models; their meaning came with 1.7.
-    early = document.format is Format.SDF and parse_version(known_version(document.version)) < NAMED_FRAMES
+    early = document.format is Format.SDF and parse_version(sdf_version_read(document.version)) < NAMED_FRAMES
     if not early or not census_of(document) & bits_of(Frame):
         return False
     return any(isinstance(node, Frame) for node in walk(document))
