@@ -17,7 +17,9 @@ _CASES = sorted(path for path in _FOLDER.iterdir() if path.suffix in {".sdf", ".
 @pytest.mark.parametrize("case", _CASES, ids=lambda path: path.stem)
 def test_split_writes_what_the_case_shows(case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(shutil.copytree(_FOLDER, tmp_path / "source"))
-    done = CliRunner().invoke(main, ["convert", case.name, "--split", "-o", "../out"], catch_exceptions=False)
+    done = CliRunner().invoke(
+        main, ["convert", case.name, "--to", "urdf", "--split", "-o", "../out"], catch_exceptions=False
+    )
     assert done.exit_code == 0, done.output
     files = "".join(f"==> {path.name}\n{path.read_text()}" for path in sorted((tmp_path / "out").iterdir()))
     assert_expected(done.stderr + files, case.with_name(f"{case.stem}.expected.txt"))

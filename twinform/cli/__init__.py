@@ -65,6 +65,20 @@ class _Commands(click.Group):
         """Import a command."""
         return getattr(import_module(f"{__name__}.{cmd_name}"), "command", None) if cmd_name in COMMANDS else None
 
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command that is called; the error for one that does not exist suggests another."""
+        try:
+            return super().resolve_command(ctx, args)
+        except click.UsageError as error:
+            from twinform.diagnostics.did_you_mean import did_you_mean  # noqa: PLC0415 - it seldom happens
+
+            hint = did_you_mean(args[0], COMMANDS)
+            raise click.UsageError(
+                f"{error.message} {hint.capitalize()}" if hint else error.message, error.ctx
+            ) from None
+
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Print the summaries, without importing any command."""
         with formatter.section("Commands"):

@@ -90,8 +90,8 @@ EXAMPLES = {
 @click.option(
     "--split",
     is_flag=True,
-    help="Write each model of a world into the directory OUT, and an SDF that includes them: URDF where Gazebo reads "
-    "it as the same robot, or SDF with --to sdf.",
+    help="Write each model of a world into the directory OUT, and an SDF that includes them: SDF, or with --to urdf "
+    "URDF where Gazebo reads that as the same robot.",
 )
 @click.option(
     "--check", is_flag=True, help="Write nothing: print how the files that are there differ from what would be written."
@@ -162,7 +162,7 @@ def command(
     _require_consumers(profiles, alone=not (split or into), keep_physics=keep_physics)
     if split:
         folder = _split_folder(out, target, model, in_place=in_place)
-        ctx.exit(run.split_world(target or "urdf", folder, check=check))
+        ctx.exit(run.split_world(target or "sdf", folder, check=check))
     if into or base:
         if out or in_place or target or request.get("passes"):
             raise click.UsageError("--into says what is written: leave -o, --in-place, --to and --passes out")

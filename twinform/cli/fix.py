@@ -299,7 +299,7 @@ def command(
     if any(isinstance(each, int) for each in runs):
         if len(runs) > 1:
             wrong = sum(isinstance(each, int) for each in runs)
-            print_line(f"nothing is written: {wrong} of {len(runs)} files could not be changed", err=True)
+            print_line(f"nothing is written: {wrong} of {plural(len(runs), 'file')} could not be changed", err=True)
         ctx.exit(max(each for each in runs if isinstance(each, int)))
     robots = {Path(each.source.name): each.before for each in rewrites if not each.is_stream}
     followed = followed_files(robots, passes, by_file.usual.load_options) if passes else []

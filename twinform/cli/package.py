@@ -12,7 +12,7 @@ from twinform.cli.gazebo_files import release_option, version_for
 from twinform.cli.inputs import InputSource, inputs, reading_options
 from twinform.cli.instrumentation import show_fault
 from twinform.cli.outputs import Output, Outputs
-from twinform.cli.printing import all_option, notes_option, print_line, print_text
+from twinform.cli.printing import all_option, notes_option, plural, print_line, print_text
 from twinform.cli.project_options import (
     OptionsByFile,
     request_options_of_versions,
@@ -226,4 +226,4 @@ def _write(built: Built, packaging: Packaging) -> None:
 def _size(package: Package) -> str:
     """Say how many files are in a package, and how large they are."""
     sizes = [len(each) if isinstance(each, bytes) else each.stat().st_size for each in package.files.values()]
-    return f"{len(sizes)} files, {sum(sizes) / 1e6:.1f} MB"
+    return f"{plural(len(sizes), 'file')}, {sum(sizes) / 1e6:.1f} MB"

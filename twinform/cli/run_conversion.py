@@ -382,7 +382,9 @@ def run_split(source: InputSource, to: Target, options: Options, folder: Path, o
     if not options.show(source, result.diagnostics):
         return FINDINGS
     _add_files(result, folder, options.ledger, outputs)
-    outputs.news.append(f"{len(result.files)} files: {summary(result.ledger)}")
+    if len(result.files) == 1:
+        outputs.news.append("no model stands in the file itself; --expand-includes makes files of what it includes")
+    outputs.news.append(f"{plural(len(result.files), 'file')}: {summary(result.ledger)}")
     return 0
 
 

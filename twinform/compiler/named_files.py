@@ -34,6 +34,10 @@ class _Use(NamedTuple):
     where: Location
 
 
+_NO_FILE = "__default__"
+"""What the description of SDF has as the default of URIs of materials (sdf/material.sdf)."""
+
+
 class _Missing(NamedTuple):
     """A URI that leads nowhere, similar names, and where was looked."""
 
@@ -118,7 +122,7 @@ def _uris_of(document: Document) -> list[_Use]:
     found: dict[str, _Use] = {}
 
     def note(uri: str, kind: Kind, where: Location) -> str:
-        if len(found) < _MOST:
+        if len(found) < _MOST and uri.strip() != _NO_FILE:
             found.setdefault(uri.strip(), _Use(uri.strip(), kind, where))
         return uri
 

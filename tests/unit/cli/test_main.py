@@ -31,6 +31,14 @@ def test_version(run: Run) -> None:
     assert run("--version").stdout == f"twinform, version {twinform.__version__}\n"
 
 
+@pytest.mark.parametrize(("word", "hint"), [("chek", " Did you mean 'check'?"), ("\x1b[31m", ""), ("c" * 2000, "")])
+def test_a_misspelt_command_is_suggested(run: Run, word: str, hint: str) -> None:
+    done = run(word)
+    assert done.exit_code == 2
+    assert done.stderr.endswith(f"'.{hint}\n")
+    assert "\x1b" not in done.stderr
+
+
 def test_help_lists_every_command_with_the_summary_that_it_has(run: Run) -> None:
     listed = run("--help").stdout
     for name, summary in COMMANDS.items():

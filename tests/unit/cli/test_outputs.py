@@ -53,7 +53,7 @@ OVER_ANOTHER = {
     "by a linked folder": "good.urdf -o sub/out.sdf --ledger linked/out.sdf",
     "where case does not count": "good.urdf -o out.sdf --ledger OUT.SDF",
     "one pipe for two texts": "good.urdf -o pipe --ledger pipe",
-    "a ledger and a file of a split": "w.sdf --split -o out --ledger out/one.urdf",
+    "a ledger and a file of a split": "w.sdf --split -o out --ledger out/one.sdf",
     "a file of a pass": "good.urdf -o bridge.yaml --to sdf --passes bridge-config{file=bridge.yaml}",
     "a file of two passes": "good.urdf -o out.sdf --passes bridge-config{file=b.yaml},bridge-config{file=b.yaml}",
     "an input in its place": "good.urdf --in-place --ledger good.urdf",

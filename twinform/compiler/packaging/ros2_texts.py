@@ -9,9 +9,10 @@ from twinform.compiler.packaging.controllers import Controller, controllers_yaml
 from twinform.compiler.packaging.gazebo_control import CONTROLLERS, control_package
 from twinform.compiler.packaging.order import PackageDetails
 from twinform.dataclass import dataclass
-from twinform.ir import Document, Model
+from twinform.ir import Document, Model, Plugin
 from twinform.lazy import lazy_pattern
-from twinform.passes.plugins.bridge_config import Bridge, bridge_yaml
+from twinform.passes.plugins.bridge_config import TRANSFORMS, Bridge, bridge_yaml
+from twinform.passes.plugins.topics import topics_of
 from twinform.passes.plugins.wheels import base_link, lowest_point
 from twinform.passes.plugins.yaml_text import Value, yaml_text
 
@@ -43,6 +44,19 @@ class PackageContents:
         return self.document.models[0]
 
     @property
+    def odometry_frame(self) -> str | None:
+        """The frame of `/tf` in which a drive or a controller says where the robot is; None if none names it."""
+        led = (str(each.parameters.get("odom_frame_id", "")) for each in self.started)
+        driven = (
+            element.text
+            for topic in topics_of(self.document, self.release)
+            if topic.message == TRANSFORMS and isinstance(topic.source, Plugin)
+            for element in topic.source.content
+            if element.name in _ODOMETRY_FRAMES
+        )
+        return next(filter(None, (*led, *driven)), None)
+
+    @property
     def controlled(self) -> bool:
         """Whether Gazebo runs controllers."""
         return bool(self.started)
@@ -63,6 +77,7 @@ _LAUNCH = (
     "ros_gz_sim",
 )
 _SLIDERS = ("joint_state_publisher", "joint_state_publisher_gui")
+_ODOMETRY_FRAMES = frozenset({"frame_id", "odom_frame"})
 _HOOKS = ("gazebo_resource_path.dsv.in", "gazebo_resource_path.sh.in")
 _WORLD = "world"
 
@@ -107,10 +122,12 @@ def _launch_file(contents: PackageContents, template: str) -> str:
         "package": contents.package,
         "robot": python_text(contents.model.name),
         "height": f"{_spawn_height(contents):g}",
+        "odometry": python_text(contents.odometry_frame or ""),
         "controllers": "\n".join(f"    {python_text(each.name)}," for each in contents.started),
     }
     moves, controlled = contents.moves, contents.controlled
     facts = {"moves": moves, "rigid": not moves, "controlled": controlled, "uncontrolled": not controlled}
+    facts |= {"odometry": bool(contents.odometry_frame)}
     return render(template, values, facts)
 
 

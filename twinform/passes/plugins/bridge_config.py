@@ -53,7 +53,8 @@ class BridgeConfig(SideFilePass):
 
 _USUAL_NAMES = {"odometry": "odom", "joint_state": "joint_states"}
 """The usual names in ROS for the last part of a topic."""
-_TRANSFORMS = "gz.msgs.Pose_V"
+TRANSFORMS = "gz.msgs.Pose_V"
+"""The message of transforms, which become those of ROS."""
 _TRANSFORM_TOPIC = "/tf"
 # Transforms on topics with these last parts are for the tree of ROS (`/tf`). Others keep their
 # name, so that the tree stays whole.
@@ -135,7 +136,7 @@ def _ros_names(topics: list[Topic]) -> Iterator[str]:
 
 
 def _short_name(topic: Topic, *, several: bool) -> str:
-    if topic.message == _TRANSFORMS and topic.name.rpartition("/")[2] in _TREE_TOPICS:
+    if topic.message == TRANSFORMS and topic.name.rpartition("/")[2] in _TREE_TOPICS:
         return _TRANSFORM_TOPIC
     if topic.short.startswith("/"):
         return topic.short

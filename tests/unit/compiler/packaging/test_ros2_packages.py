@@ -159,3 +159,20 @@ def test_gazebo_starts_no_controllers_of_other_hardware() -> None:
     assert b"wrist_broadcaster" in controllers
     assert b"joint_trajectory_controller" in launch
     assert b"wrist_broadcaster" not in launch
+
+
+_DRIVE = "add-plugin{system=diff-drive left-joint=left_joint right-joint=right_joint}"
+
+
+@pytest.mark.parametrize(("passes", "frame"), [(_DRIVE, b"*('-f', 'odom')"), ("", b"")])
+def test_rviz_beside_gazebo_stands_where_the_drive_reports_odometry(passes: str, frame: bytes) -> None:
+    wheels = (link("left"), link("right"))
+    joints = (joint("left_joint", "left", "continuous", y=0.3), joint("right_joint", "right", "continuous", y=-0.3))
+    files = packaged(text=f'<robot name="r">{"".join((link("base"), *wheels, *joints))}</robot>', passes=passes)
+    launch = files.package.files["launch/gazebo.launch.py"]
+    assert isinstance(launch, bytes)
+    assert frame in launch
+    assert (b"'-f'" in launch) == bool(frame)
+    rviz = files.package.files["rviz/robot.rviz"]
+    assert isinstance(rviz, bytes)
+    assert b"Fixed Frame: base" in rviz
