@@ -17,10 +17,10 @@ from twinform.ir.versions import versions_of
 DOCUMENTS = 2000
 _DECLARED = re.compile(r"<robot [^>]*?version=[\"']([^\"']*)")
 _ABOUT = """\
-Robots of two links, whose number decides about the version, the shapes and their sizes, the rotations, the type of the
-joint and its limits (`testbed/mutated/versioned.py`), are read by `twinform check` and by urdfdom 6, the first release
-that reads URDF 1.2. One in fifteen declares a version that there is not, or spells one in another way. Where only one
-of the two refuses, there is a reason (`reports/mistakes_found/verdicts.toml`)."""
+Robots of two or three links, whose number decides about all that they consist of (`testbed/mutated/versioned.py`), are
+read by `twinform check` and by urdfdom 6, the first release that reads URDF 1.2. A few values in a hundred are odd, a
+few parts stand twice, and one document in twelve declares a version that there is not, or spells one in another way.
+Where only one of the two refuses, there is a reason (`reports/mistakes_found/verdicts.toml`)."""
 
 
 def judged(seeds: Iterable[int]) -> list[Verdict]:

@@ -4,6 +4,7 @@ import re
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fnmatch import fnmatch
 from pathlib import Path
 
 from testbed.mutated.verdicts import Verdict
@@ -15,11 +16,11 @@ _CONSEQUENCES = re.compile("|".join(f"(?:{pattern})" for pattern in _TABLES["con
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reason:
-    """A reason before one judge and in one language, or before all and in both.
+    """A reason before one judge, or those that fit a pattern, and in one language, or before all and in both.
 
     Of ours, `rule` is the one that refuses, `text` is searched in the path and the message of the finding, `remark` in
-    the judge's other remarks. Of theirs, `text` is searched in the objection, and one of the `rules` has a finding
-    about the file, if there are any.
+    the judge's other remarks. Of theirs, `text` is searched in the objection. If there are any `rules`, one of them has
+    a finding about the file.
     """
 
     why: str
@@ -33,13 +34,13 @@ class Reason:
     @property
     def scope(self) -> str:
         """Where it holds, as text."""
-        judge = self.judge or "both"
+        judge = self.judge.rstrip("*") or "both"
         return f"{judge}, {self.kind.upper()}" if self.kind and judge != "urdfdom" else judge
 
     def explains(self, verdict: Verdict, message: str, rule: str = "") -> bool:
         """Whether it is about a message of a rule of ours or of the judge."""
         return (
-            self.judge in {"", verdict.question.judge}
+            fnmatch(verdict.question.judge, self.judge or "*")
             and self.kind in {"", verdict.question.kind}
             and self.rule == rule
             and bool(re.search(self.text, message))
@@ -48,9 +49,13 @@ class Reason:
         )
 
 
-OURS = [Reason(**row) for row in _TABLES["ours"]]
+def _reasons(table: str) -> list[Reason]:
+    return [Reason(rules=tuple(row.pop("rules", ())), **row) for row in _TABLES[table]]
+
+
+OURS = _reasons("ours")
 """Why a judge reads what a rule of ours refuses."""
-THEIRS = [Reason(rules=tuple(row.pop("rules", ())), **row) for row in _TABLES["theirs"]]
+THEIRS = _reasons("theirs")
 """Why we take what a judge refuses."""
 
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from lxml import etree
 
 from twinform.compiler.fixing.site import FixableFile, TextFixers, safe, unsafe
+from twinform.compiler.input.parsing import has_unread_numbers
 from twinform.compiler.input.xml_recovery import REPAIRS
 from twinform.diagnostics import Diagnostic, Fix, Span, TextEdit, nearest_name, rules
 from twinform.lazy import lazy_pattern
@@ -22,8 +23,6 @@ _DECLARATION = lazy_pattern(r"<\?xml\s[^<>]*+(?<=\?)>", re.IGNORECASE)
 _VERSION = lazy_pattern(r"""(?<=\s)version\s*=\s*(?:"[^"]*"|'[^']*')""")
 _VERSION_TYPO = lazy_pattern(r"(?<=\s)ver[a-z]*(?=\s*=)")
 _ENCODING = lazy_pattern(r"""encoding\s*=\s*["']([^"']*)["']""")
-_BREAK = lazy_pattern(r"[\t\r\n]")
-_NUMBERS = lazy_pattern(r"[-+.\deE\s]+")
 _HYPHENS = lazy_pattern(r"-{2,}")
 _LOST = lazy_pattern(r"\s*(?=\?xml\s)")
 _PREFIX = lazy_pattern(r"the prefix '(?P<prefix>[\w.-]+)' of ")
@@ -300,18 +299,18 @@ def _doctype(_: Diagnostic, file: FixableFile) -> Fix | None:
 
 
 def _tabbed_numbers(finding: Diagnostic, file: FixableFile) -> Fix | None:
-    """Write blanks for the tabs and new lines in the numbers that begin on the line."""
+    """Write single blanks between the numbers that begin on the line, and none around them."""
     if "tabbed" not in file.memo:
         file.memo["tabbed"] = _tabbed_fixes(file)
     return file.memo["tabbed"].get(finding.location.line)
 
 
 def _tabbed_fixes(file: FixableFile) -> dict[int, Fix]:
-    """Return a fix for all numbers with tabs and new lines that begin on a line, by line."""
+    """Return a fix for all numbers that urdfdom does not read and that begin on a line, by line."""
     found: defaultdict[int, list[TextEdit]] = defaultdict(list)
-    for attribute in (each for place in file.edit.places.values() for each in place.attributes.values()):
+    for name, attribute in (each for place in file.edit.places.values() for each in place.attributes.items()):
         value = attribute.value.of(file.text)
-        if _BREAK.search(value) and _NUMBERS.fullmatch(value):
+        if has_unread_numbers(name, value):
             line = file.lines.place(attribute.name.start).line
             found[line].append(TextEdit(attribute.value, " ".join(value.split())))
     return {line: safe("Put blanks between the numbers", *edits) for line, edits in found.items()}

@@ -232,35 +232,54 @@ ASIDE = lazy_pattern(f"{COMMENT}|{INSTRUCTION}|{SECTION}".encode())
 _ATTRIBUTE = lazy_pattern(rb"""(?<![\w:.-])([\w:.-]++)\s*+=\s*+(?:"([^"<]*+)"|'([^'<]*+)')""")
 _TABBED = lazy_pattern(rb"""["'][-+.\deE ]*+(?:[\t\r\n]|&#)[-+.\deE \t\r\n&#xaAdD;]*+["']""")
 """Numbers in quotes with a break or a character reference between them: a quick test that few files pass."""
+_BLANK_BEHIND = lazy_pattern(rb"""["'] *+[-+.\deE]++ ++["']""")
+"""A single number in quotes with a blank behind it."""
 _REFERENCE = lazy_pattern(rb"&#(?:0*(?:9|10|13)|x0*[9aAdD]);")
-_NUMBERS = lazy_pattern(rb"[-+.\deE \t\r\n]+")
-_DIGIT = lazy_pattern(rb"\d")
-_BREAK = lazy_pattern(rb"[\t\r\n]")
+_NUMBERS = lazy_pattern(r"[-+.\deE \t\r\n]+")
+_DIGIT = lazy_pattern(r"\d")
+_BREAK = lazy_pattern(r"[\t\r\n]")
+_NAMES = frozenset({"name", "link", "joint", "reference", "version"})
+"""Attributes that are no numbers, whatever they look like."""
 _COMMENT = b"<!--"
 _BEFORE_COMMENT = 200
 """So many bytes before a comment are searched for text."""
 
 
 def report_tabbed_numbers(text: bytes, sink: DiagnosticSink) -> None:
-    """Report numbers of a URDF file with tabs or new lines between them, which an XML parser turns into blanks."""
-    if not _has_break_after_digit(text):
+    """Report numbers of a URDF file with white space that urdfdom does not read, though it is a blank to XML."""
+    if not (_has_break_after_digit(text) or _has_blank_before_quote(text)):
         return
     bare = ASIDE.sub(_line_breaks, text)
-    if not _TABBED.search(bare):
+    if not (_TABBED.search(bare) or _BLANK_BEHIND.search(bare)):
         return
     line, counted = 1, 0
     for found in _ATTRIBUTE.finditer(bare):
-        value = _REFERENCE.sub(b"\t", found[2] or found[3] or b"")
-        if _BREAK.search(value) and _DIGIT.search(value) and _NUMBERS.fullmatch(value):
-            name = found[1].decode()
-            message = f"the numbers of {name!r} have a tab or a new line between them; expected blanks"
+        value = _REFERENCE.sub(b"\t", found[2] or found[3] or b"").decode(errors="replace")
+        name = found[1].decode()
+        if has_unread_numbers(name, value):
             line, counted = line + bare.count(b"\n", counted, found.start()), found.start()
+            tabbed = f"the numbers of {name!r} have a tab or a new line between them; expected blanks"
+            message = tabbed if _BREAK.search(value) else f"the number of {name!r} has a blank behind it"
             sink.report(rules.TABBED_NUMBERS, message, Location(sink.file, line), expected="blanks")
+
+
+def has_unread_numbers(name: str, value: str) -> bool:
+    """Whether an attribute has numbers with a tab or a new line, or one number with a blank behind it."""
+    is_cut_off = value.endswith(" ") and " " not in value.strip(" ")
+    if name in _NAMES or not (is_cut_off or _BREAK.search(value)):
+        return False
+    return bool(_DIGIT.search(value) and _NUMBERS.fullmatch(value))
 
 
 def _has_break_after_digit(text: bytes) -> bool:
     """Whether a tab or a new line follows a digit: a quick test that few files pass."""
     return b"&#" in text or b"0\n" in text.translate(_KINDS, b" ")
+
+
+def _has_blank_before_quote(text: bytes) -> bool:
+    """Whether a blank stands between a digit and a quote: a quick test that few files pass."""
+    alike = text.translate(_KINDS)
+    return b'0 "' in alike or b"0 '" in alike
 
 
 def _line_breaks(found: re.Match[bytes]) -> bytes:
