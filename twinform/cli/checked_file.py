@@ -168,11 +168,6 @@ class CheckTask:
         """How long the check takes, as measured over the corpus: each expansion of xacro has a process of its own."""
         return 0.08 if self.load_options.xacro or self.name.lower().endswith(XACRO) else 0.005
 
-    def sharing(self, common: dict[Any, Any]) -> "CheckTask":
-        """Return the task with the search path of other tasks, which knows what is in folders."""
-        search = common.setdefault(self.load_options.search, self.load_options.search)
-        return replace(self, load_options=replace(self.load_options, search=search))
-
     def with_unsaved(self, texts: Mapping[str, bytes]) -> "CheckTask":
         """Return the task for files that have other texts than on the disk."""
         return replace(self, load_options=self.load_options.with_unsaved(texts))

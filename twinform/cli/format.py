@@ -83,10 +83,6 @@ class FormatTask:
         """How long it takes, as measured over the corpus."""
         return 0.003
 
-    def sharing(self, _: dict[Any, Any]) -> "FormatTask":
-        """Return the task: it has nothing in common with others."""
-        return self
-
     def do(self) -> FormattedFile:
         """Format the file, unless there is a problem with the settings for it."""
         if self.problem:

@@ -224,14 +224,20 @@ class _WorkerContext(SpawnContext):
 class ProcessExecutor(Executor):
     """An executor of pebble's processes, which start with the first job; each job may take `seconds` at most.
 
-    With `patience` the first job is submitted when a process is ready, which may take that many seconds.
+    With `patience` the first job is submitted when a process is ready, which may take that many seconds. Jobs find
+    what they have in `common` by `common_of_jobs`: each process gets it once.
     """
 
     def __init__(
-        self, processes: int, seconds: float, most_jobs: int = _MOST_JOBS, patience: float | None = None
+        self,
+        processes: int,
+        seconds: float,
+        most_jobs: int = _MOST_JOBS,
+        patience: float | None = None,
+        common: object = None,
     ) -> None:
         self._processes, self._seconds, self._most_jobs = processes, seconds, most_jobs
-        self._patience = patience
+        self._patience, self._common = patience, common
         self._pool: ProcessPool | None = None
 
     def submit(
@@ -251,7 +257,7 @@ class ProcessExecutor(Executor):
             # of which hangs, two have a result. pebble is typed, maintained and 37 kB without dependencies. LGPL 3
             # allows a program under any license to import it unchanged. The task is passed along so that a process
             # imports what it needs before its first job, whose time is running.
-            self._pool = ProcessPool(self._processes, self._most_jobs, _prepare_process, (fn,), context)
+            self._pool = ProcessPool(self._processes, self._most_jobs, _prepare_process, (fn, self._common), context)
             if self._patience is not None:
                 _require_ready(self._pool, self._patience)
         try:
@@ -267,16 +273,19 @@ class ProcessExecutor(Executor):
             self._pool.join()
 
 
-def process_runner(processes: int | None = None, seconds: float = 60) -> Runner:
-    """Return a runner of this many processes; without a number, as many as there are processors."""
+def process_runner(processes: int | None = None, seconds: float = 60, common: object = None) -> Runner:
+    """Return a runner of this many processes; without a number, as many as there are processors.
+
+    Jobs find what they have in `common` by `common_of_jobs`.
+    """
     count = processes or os.cpu_count() or 1
     return Runner(
-        open=partial(ProcessExecutor, count, seconds, patience=_PATIENCE),
+        open=partial(ProcessExecutor, count, seconds, patience=_PATIENCE, common=common),
         window=2 * count,
         timed=True,
         failure=_failure_of_process,
         patience=seconds + _PATIENCE,
-        resized=lambda jobs: process_runner(min(count, jobs), seconds),
+        resized=lambda jobs: process_runner(min(count, jobs), seconds, common),
     )
 
 
@@ -316,7 +325,16 @@ def _failure_of_process(error: BaseException) -> Failure | None:
     return None
 
 
-def _prepare_process(_task: object) -> None:
+_common: list[Any] = [None]
+
+
+def common_of_jobs() -> Any:
+    """Return what the jobs of this process have in common."""
+    return _common[0]
+
+
+def _prepare_process(_task: object, common: object) -> None:
+    _common[0] = common
     # the engines that are judges, and some passes, write straight to the terminal
     silence = os.open(os.devnull, os.O_WRONLY)
     for stream in (sys.stdout, sys.stderr):

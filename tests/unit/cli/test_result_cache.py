@@ -2,14 +2,16 @@
 
 import json
 import os
+import pickle
 import shutil
 import stat
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 import pytest
 
 from tests.unit.cli.conftest import GOOD, WARNED, Run
+from twinform.compiler import workers
 
 _FILES: Mapping[str, str] = {
     "ws/.git/HEAD": "ref: refs/heads/main\n",
@@ -273,3 +275,31 @@ def test_two_runs_keep_the_results_of_both(workspace: Path, run: Run, monkeypatc
         each.save()
     both = ResultCache(workspace / "results.json")
     assert both.get("0", str) == both.get("1", str) == (workspace / "ws/world.sdf").read_text()
+
+
+@pytest.mark.parametrize("options", [(), ("--no-cache",)])
+def test_what_processes_are_sent_is_linear_in_the_files(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, options: tuple[str, ...]
+) -> None:
+    def sent(count: int) -> int:
+        folder = tmp_path / str(count)
+        for number in range(count):
+            _write(folder / f"package_{number}/package.xml", f"<package><name>package_{number}</name></package>")
+            _write(folder / f"package_{number}/robot.urdf", GOOD)
+        monkeypatch.chdir(folder)
+        sizes: list[int] = []
+
+        def process_runner(*_: object, common: object) -> None:
+            sizes.append(len(pickle.dumps(common)))
+
+        def run_on(_runner: object, work: object, jobs: Iterable[object]) -> None:
+            sizes.extend(len(pickle.dumps((work, each))) for each in jobs)
+            raise SystemExit(0)
+
+        monkeypatch.setattr(workers, "process_runner", process_runner)
+        monkeypatch.setattr(workers, "run_on", run_on)
+        run("check", ".", "--jobs", "2", "--cache-dir", tmp_path / "kept", *options)
+        assert len(sizes) == count + 1
+        return sum(sizes)
+
+    assert sent(80) < 2.2 * sent(40)
