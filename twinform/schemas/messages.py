@@ -204,11 +204,12 @@ _DIALECTS = {
     "drake": "Drake reads it",
     "gazebo": "Gazebo reads it",
     "exporter": "exporters write it, and no known program reads it",
-    "isaac": "Isaac Gym reads it",
+    "isaac": "Isaac reads it",
     "mujoco": "MuJoCo reads it",
     "nasa": "NASA's tools read it",
     "old": "it was proposed in the early days of ROS, and few programs read it",
     "idyntree": "iDynTree reads it",
+    "proposed": "it is proposed for urdfdom, and no release reads it",
     "pal": "PAL Robotics' controllers read it",
 }
 
@@ -244,8 +245,9 @@ def prefixed_element(context: Context, element: XmlElement) -> None:
     if word in words_of(prefix):
         message = f"<{prefix}:{word}> is not {context.format.upper()}; {_DIALECTS[prefix]}"
         _report_prefixed(context, rules.DIALECT, element, message, found=prefix)
-    for below in element.iter():
-        _check_word(context, below, str(below.tag))
+    if word != "visual":  # in which Drake reads all that SDF has in a <visual>, with the prefix
+        for below in element.iter():
+            _check_word(context, below, str(below.tag))
 
 
 def prefixed_attribute(context: Context, element: XmlElement, name: str) -> None:

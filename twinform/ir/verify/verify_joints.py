@@ -33,9 +33,7 @@ _ROUNDING = 1e-3
 
 def verify_joint(joint: Joint, sink: DiagnosticSink, *, every_axis: bool = False) -> None:
     """Report what is wrong with a joint by itself; `every_axis` is whether readers look at unused axes, too."""
-    if joint.parent is not None and joint.parent == joint.child:
-        message = f"joint {joint.name!r} connects {joint.parent!r} to itself"
-        sink.report(rules.SELF_JOINT, message, joint.location, found=joint.parent)
+    report_self_joint(joint, sink)
     freedoms = _FREEDOMS.get(joint.type, 0)
     axis, axis2 = joint.axis, joint.axis2
     for number, (name, each) in enumerate((("axis", axis), ("axis2", axis2))):
@@ -47,6 +45,13 @@ def verify_joint(joint: Joint, sink: DiagnosticSink, *, every_axis: bool = False
         _missing(joint, "axis", sink)
     if freedoms > 1 and (axis2 is None or axis2.xyz is None):
         _missing(joint, "axis2", sink)
+
+
+def report_self_joint(joint: Joint, sink: DiagnosticSink) -> None:
+    """Report a joint between a link and that link itself."""
+    if joint.parent is not None and joint.parent == joint.child:
+        message = f"joint {joint.name!r} connects {joint.parent!r} to itself"
+        sink.report(rules.SELF_JOINT, message, joint.location, found=joint.parent)
 
 
 def _missing(joint: Joint, name: str, sink: DiagnosticSink) -> None:

@@ -4,11 +4,19 @@ from collections.abc import Iterable, Iterator
 from functools import partial
 
 from twinform.diagnostics import DiagnosticSink, Location, Severity, did_you_mean, rules
+from twinform.ir.foreign_joints import ForeignJoint, foreign_joints
+from twinform.ir.frames import WORLD
 from twinform.ir.joint import Joint
 from twinform.ir.model import Model
 from twinform.ir.node import Node
 from twinform.ir.verify.verify_bodies import verify_inertial, verify_rotation, verify_shapes
-from twinform.ir.verify.verify_joints import report_loops, verify_joint, verify_limits_there, verify_mimics
+from twinform.ir.verify.verify_joints import (
+    report_loops,
+    report_self_joint,
+    verify_joint,
+    verify_limits_there,
+    verify_mimics,
+)
 from twinform.ir.verify.verify_names import report_names, report_unprintable
 from twinform.ir.versions import Version
 from twinform.ir.visual import Material
@@ -20,11 +28,16 @@ def verify_robot(model: Model, sink: DiagnosticSink, version: Version) -> None:
         message = "the robot has an empty name"
         sink.report(rules.EMPTY_NAME, message, model.location, severity=Severity.WARNING)
     report_unprintable("robot", model, sink)
-    for kind, nodes in (("link", model.links), ("joint", model.joints)):
+    foreign = tuple(foreign_joints(model))
+    named = tuple(each.joint for each in foreign if each.joint.name)
+    for kind, nodes in (("link", model.links), ("joint", (*model.joints, *named))):
         report_names(kind, nodes, sink)
     _report_materials(model, sink)
     links = {link.name for link in model.links}
-    moved = {joint.child for joint in model.joints}
+    held = (*model.joints, *(each.joint for each in foreign if each.form is None))
+    moved = {joint.child for joint in held}
+    for each in foreign:
+        _verify_foreign(each, links, moved, sink)
     for joint in model.joints:
         _verify_joint(joint, links, moved, sink)
         verify_rotation(joint.pose, sink)
@@ -37,7 +50,7 @@ def verify_robot(model: Model, sink: DiagnosticSink, version: Version) -> None:
             for shape in shapes:
                 report_unprintable(kind, shape, sink)
                 verify_rotation(shape.pose, sink)
-    _verify_tree(model, links, sink)
+    _verify_tree(model, held, links, sink)
     known = links | {joint.name for joint in model.joints}
     for extension in model.extensions:
         if extension.reference and extension.reference not in known:
@@ -48,12 +61,8 @@ def verify_robot(model: Model, sink: DiagnosticSink, version: Version) -> None:
 
 
 def _verify_joint(joint: Joint, links: set[str], moved: set[str | None], sink: DiagnosticSink) -> None:
-    for end, name in (("parent", joint.parent), ("child", joint.child)):
-        if name is not None and name not in links:
-            message = f"joint {joint.name!r} has the {end} {name!r}, but there is no such link"
-            taken = moved if end == "child" else set[str | None]()  # a link has one parent only
-            hint = partial(_suggest_link, name, joint, links, taken)
-            sink.report(rules.DANGLING_LINK, message, joint.location.at(end), found=name, help=hint)
+    _report_unknown_link(joint, "parent", joint.parent, links, set(), sink)
+    _report_unknown_link(joint, "child", joint.child, links, moved, sink)
     verify_joint(joint, sink)
     for part in joint.opaque:
         if part.element and part.element.name == "dynamics" and not part.element.attributes:
@@ -61,15 +70,36 @@ def _verify_joint(joint: Joint, links: set[str], moved: set[str | None], sink: D
             sink.report(rules.EMPTY_DYNAMICS, message, part.location, expected="damping or friction", refused=True)
 
 
+def _verify_foreign(foreign: ForeignJoint, links: set[str], moved: set[str | None], sink: DiagnosticSink) -> None:
+    joint, form = foreign.joint, foreign.form
+    known = links | {WORLD} if foreign.word.startswith("drake:") else links  # Drake has a body of this name
+    parent, child = (form.parent.link, form.child.link) if form else ("parent", "child")
+    _report_unknown_link(joint, parent, joint.parent, known, set(), sink)
+    _report_unknown_link(joint, child, joint.child, known, set() if form else moved, sink)
+    report_self_joint(joint, sink)
+
+
+def _report_unknown_link(
+    joint: Joint, end: str, name: str | None, links: set[str], taken: set[str | None], sink: DiagnosticSink
+) -> None:
+    """Report an end of a joint that is no link; one of the links `taken` is not meant: a link has one parent only."""
+    if name is None or name in links:
+        return
+    whose = f"joint {joint.name!r} has the {end}" if joint.name else f"<{end}> names"
+    message = f"{whose} {name!r}, but there is no such link"
+    hint = partial(_suggest_link, name, joint, links, taken)
+    sink.report(rules.DANGLING_LINK, message, joint.location.at(end), found=name, help=hint)
+
+
 def _suggest_link(name: str, joint: Joint, links: set[str], taken: set[str | None]) -> str | None:
     return did_you_mean(name, links - taken, but=(joint.parent, joint.child))
 
 
-def _verify_tree(model: Model, links: set[str], sink: DiagnosticSink) -> None:
+def _verify_tree(model: Model, held: Iterable[Joint], links: set[str], sink: DiagnosticSink) -> None:
     if not links:
         sink.report(rules.NO_LINKS, f"robot {model.name!r} has no link", model.location, expected="<link>")
         return
-    parents = report_loops([joint for joint in model.joints if joint.child in links], sink)
+    parents = report_loops([joint for joint in held if joint.child in links], sink)
     roots = list({link.name: link for link in model.links if link.name not in parents}.values())
     if len(roots) > 1:
         names = ", ".join(repr(link.name) for link in roots[:5])

@@ -28,6 +28,8 @@ axis xyz
 box size
 calibration falling reference_position rising
 capsule length radius
+child_axis xyz
+child_origin quat_xyzw rpy xyz
 color rgba
 compensator k_belt kd_motor lambda_combined lambda_joint lambda_motor mass_motor
 contact_cfm value
@@ -53,6 +55,8 @@ mass value
 mesh scale
 mimic multiplier offset
 origin quat_xyzw rpy xyz
+parent_axis xyz
+parent_origin quat_xyzw rpy xyz
 plane normal
 restitution value
 rightActuator mechanicalReduction
@@ -77,10 +81,13 @@ ros2_control name type rw_rate is_async thread_priority
 sensor name type update_rate id mimic
 frame name link xyz rpy attached_to
 loop_joint name type
+constraint name type
+parent link joint
+parent_origin xyz rpy quat_xyzw
+child_origin xyz rpy quat_xyzw
 link1 link xyz rpy
 link2 link xyz rpy
 torsional_spring stiffness rest_angle
-parent link joint
 origin xyz rpy quat_xyzw
 horizontal samples resolution min_angle max_angle
 vertical samples resolution min_angle max_angle
