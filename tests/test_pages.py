@@ -36,6 +36,13 @@ def test_links_lead_somewhere(page: Path) -> None:
         assert not anchor or anchor in _anchors(target), f"{path}#{anchor}"
 
 
+def test_agents_are_led_to_pages_that_there_are() -> None:
+    list_ = _ROOT / "docs/llms.txt"
+    paths = re.findall(r"^- \[[^\]]+\]\(([^)]+)\): \S", list_.read_text(encoding="utf-8"), re.MULTILINE)
+    assert len(paths) > 10
+    assert [path for path in paths if not (list_.parent / path).with_suffix(".md").is_file()] == []
+
+
 def test_the_map_is_short_and_names_what_there_is() -> None:
     text = _MAP.read_text(encoding="utf-8")
     assert len(text.splitlines()) <= 100

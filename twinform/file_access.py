@@ -224,6 +224,8 @@ REPOSITORY = (".git", ".hg")
 """What is at the top of a repository: a folder or, in a worktree or submodule, a file."""
 PACKAGE = ("package.xml", "model.config")
 """What makes a folder a package of ROS or a model of Gazebo."""
+CEILING = "TWINFORM_ROOT"
+"""The environment variable with a folder above which no file below it has its root."""
 # A search that climbed six folders where there was no repository let a xacro file in a downloads
 # folder read keys out of the home folder.
 PROJECT = ("twinform.toml", *PACKAGE)
@@ -237,13 +239,14 @@ def find_root(file: Path) -> Path:
     """Return the folder that a file belongs to: the top of its repository, else of its package, model or project.
 
     Of packages, models and projects the nearest of each kind counts, and of these the highest: a model in a package
-    may use all of the package. Where there is none of them, it is the file's own folder.
+    may use all of the package. Where there is none of them, it is the file's own folder. The folder that TWINFORM_ROOT
+    names counts as the top of a repository.
     """
     own = own_folder(file)
     around: list[Path] = []
     # no folder above the top is looked at: whatever is there must not make a batch convert the file again
     for folder in chain((own,), folders_above(own)):
-        if has_any(folder, REPOSITORY):
+        if has_any(folder, REPOSITORY) or _is_ceiling(_status(folder)):
             return folder
         around.append(folder)
     marked = [folder for folder in around if has_any(folder, PROJECT)]
@@ -286,7 +289,7 @@ def folders_above(folder: Path) -> Iterator[Path]:
     """Return the folders above one that can belong to the same project.
 
     A mark in the home folder, such as the repository of somebody's settings, or in a temporary folder that all users
-    share says nothing about what else is there.
+    share says nothing about what else is there. For what lies in the folder that TWINFORM_ROOT names, none is above it.
     """
     home = _identity(_status(os.path.expanduser("~")))
     for each in (folder, *folder.parents):
@@ -299,6 +302,8 @@ def folders_above(folder: Path) -> Iterator[Path]:
             return
         elif each != folder:
             yield each
+        if _is_ceiling(status):
+            return
 
 
 def may_be_root(folder: Path) -> bool:
@@ -317,6 +322,12 @@ def _status(folder: str | Path) -> os.stat_result | None:
         return os.stat(folder)
     except (OSError, ValueError):
         return None
+
+
+def _is_ceiling(status: os.stat_result | None) -> bool:
+    """Tell whether a folder is the one that the environment names as the highest root."""
+    named = os.environ.get(CEILING)
+    return bool(named) and status is not None and _identity(_status(named)) == _identity(status)
 
 
 def _identity(status: os.stat_result | None) -> tuple[int, int] | None:

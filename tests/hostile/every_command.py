@@ -80,6 +80,7 @@ INVOCATIONS: Mapping[str, Sequence[str]] = {
     "fuel list": ["fuel list --cache cache"],
     "graph": ["graph cube.urdf"],
     "lsp": ["lsp"],
+    "mcp": ["mcp"],
     "merge": ["merge cube.urdf cube.urdf cube.urdf -o merged.urdf"],
     "package": ["package cube.urdf -o packaged --kind both"],
     "passes": ["passes", "passes fill-inertia"],

@@ -12,7 +12,7 @@ from tests.profile import DEEP
 
 from .every_command import INVOCATIONS, Printed, commands, run, write_files
 
-_WITH_CHILDREN = {"batch stats", "lsp", "view"}
+_WITH_CHILDREN = {"batch stats", "lsp", "mcp", "view"}
 """Commands that start every kind of child process between them; the quick tests try only these."""
 _BESIDES = ("sitecustomize", "twinform", "usercustomize")
 _ENTRY_POINTS = "[twinform.passes]\nevil = evil:Evil\n[pydantic]\nevil = evil:Evil\n"

@@ -114,6 +114,18 @@ def test_a_folder_that_everybody_writes_to_is_no_root(tree: Path) -> None:
     assert find_root(tree / FILE) == tree / "home/ws/src/a/urdf/parts"
 
 
+def test_the_folder_that_the_environment_names_is_the_highest_root(tree: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    _put(tree / "home/ws/.git/HEAD")
+    monkeypatch.setenv("TWINFORM_ROOT", str(tree / "home/ws/src/a"))
+    assert find_root(tree / FILE) == tree / "home/ws/src/a"
+    assert find_root(tree / "home/ws/other.urdf") == tree / "home/ws"  # it says nothing about what lies outside of it
+    assert neighborhood(tree / "home/ws/src/a") is None
+    _put(tree / "home/ws/src/a/urdf/.git/HEAD")
+    assert find_root(tree / FILE) == tree / "home/ws/src/a/urdf"
+    monkeypatch.setenv("TWINFORM_ROOT", str(tree / "home"))
+    assert find_root(tree / "home/alone/r.urdf") == tree / "home/alone"  # a home folder is no root
+
+
 @pytest.mark.parametrize("target", ["home", "tmp"])
 def test_a_link_to_a_folder_that_is_no_root_ends_nothing(target: str, tree: Path) -> None:
     (tree / "tmp").mkdir()

@@ -34,6 +34,7 @@ COMMANDS: Mapping[str, str] = {
     "schema": "Print the schema of URDF, SDF, JSON or the configuration.",
     "clean": "Delete the results of earlier runs of check and format.",
     "lsp": "Be the language server of an editor.",
+    "mcp": "Serve agents and scripts by the Model Context Protocol.",
 }
 """Every command and its summary, which the help shows without importing the command.
 

@@ -252,10 +252,15 @@ def show_differences(rewrites: Iterable[Rewrite]) -> bool:
     """Print what would change as a unified diff; return whether anything would."""
     changed = [each for each in rewrites if each.is_change]
     for each in changed:
-        print_text("".join(line_diff(each.source.name, _decode(each.before), _decode(each.after))), nl=False)
+        print_text(text_difference(each), nl=False)
         for file in each.side_files:
             print_line(f"{Path(each.source.name).parent / file.path} would be written")
     return bool(changed)
+
+
+def text_difference(rewrite: Rewrite) -> str:
+    """Return what would change in a file as a unified diff."""
+    return "".join(line_diff(rewrite.source.name, _decode(rewrite.before), _decode(rewrite.after)))
 
 
 def _decode(data: bytes) -> str:

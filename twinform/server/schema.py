@@ -123,7 +123,7 @@ class Schema:
         """Return the place of the root."""
         if self.table is None or self.format is None:
             return None
-        return _root_place(self.format, self.version)
+        return root_place(self.format, self.version)
 
     def _find_place(self, node: TolerantNode) -> SchemaPlace | None:
         if node.parent is None:
@@ -133,7 +133,7 @@ class Schema:
 
 
 @cache
-def _root_place(format: FormatName, version: Version) -> SchemaPlace:
+def root_place(format: FormatName, version: Version) -> SchemaPlace:
     facts = table(format)
     return SchemaPlace(format, version, None, facts.definitions[facts.root], facts.root, "")
 

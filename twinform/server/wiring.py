@@ -33,7 +33,8 @@ from twinform.server.navigation import (
     search_of,
 )
 from twinform.server.protocol import Protocol
-from twinform.server.session import Session, TaskError, Worker
+from twinform.server.session import Session
+from twinform.server.worker import TaskError, Worker
 
 Answer = TypeVar("Answer")
 # Shared by all servers of a process: a converter takes longer to make than a session takes to begin, and the code

@@ -26,6 +26,7 @@ _XACRO = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
 _CONFIG = '<model><name>crate</name><sdf version="1.11">model.sdf</sdf></model>'
 _NOT_RUN = {
     "lsp": "it waits for an editor",
+    "mcp": "it waits for an agent",
     "reproduce": "it takes the file that a fault has left",
     "view": "it shows a robot until Ctrl-C",
 }
