@@ -39,6 +39,11 @@ $(SYNCED): pyproject.toml
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable . --group dev
 	touch $@
 
+# what users install, without the tools of developers
+$(BIN)/twinform:
+	test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+
 $(ORACLES): $(SYNCED)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[oracles]'
 	touch $@
@@ -121,7 +126,7 @@ test: $(SYNCED) ## the quick tests, for while you work
 verify: $(ORACLES) ## all other tests: engines, browsers, hostile files, the corpus
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal -m slow
 
-demo: $(SYNCED) ## the rover to SDF and back: what is found, what became of its parts, whether it is the same robot
+demo: $(BIN)/twinform ## the rover to SDF and back: what is found, what became of its parts, whether it is the same robot
 	mkdir -p $(DEMO)
 	$(BIN)/twinform check examples/rover.urdf
 	$(BIN)/twinform convert examples/rover.urdf --to sdf -o $(DEMO)/rover.sdf --ledger $(DEMO)/rover.sdf.ledger.json

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from PIL import Image
 
 import twinform
+from generators.before_after import before_after_pages
 from testbed.browser import chromium, missing
 from testbed.corpus.files import ROOT
 from twinform import report
@@ -77,6 +78,11 @@ def main() -> int:
                 page.close()
                 viewer.stop()
             print(f"docs/images/{picture.name}.png")
+        for name, text in before_after_pages():
+            page = browser.new_page(viewport={"width": _WIDTH, "height": _HEIGHT})
+            page.set_content(text)
+            _write(FOLDER / f"before_after_{name}.png", page.screenshot(full_page=True))
+            print(f"docs/images/before_after_{name}.png")
         page = browser.new_page(viewport={"width": _REPORT_WIDTH, "height": _REPORT_HEIGHT})
         _write(FOLDER / "report.png", _report(page))
         print("docs/images/report.png")

@@ -31,21 +31,18 @@ class Mistake:
     passes: str = ""
     missed: str = ""
 
+    @property
+    def is_plain(self) -> bool:
+        """Whether the file is URDF or SDF, and not xacro."""
+        return self.file in {"urdf", "sdf"} or self.file.startswith("corpus:")
+
     def make(self, folder: Path) -> tuple[Path, tuple[str, int, int, int]]:
         """The file to check, in a copy of all files, and the name, line and columns of what is wrong.
 
         Raises:
             FileNotFoundError: the mistake is one in a file of the corpus, which is not here.
         """
-        if self.file.startswith("corpus:"):
-            source = CORPUS / self.file.removeprefix("corpus:")
-            if not source.is_file():
-                raise FileNotFoundError(MISSING)
-            edited = checked = folder / source.name
-            shutil.copy(source, edited)
-        else:
-            shutil.copytree(FOLDER, folder, dirs_exist_ok=True)
-            edited, checked = (folder / name for name in _FILES[self.file])
+        edited, checked = self.copied(folder)
         text = edited.read_text("utf-8")
         start = text.index(self.find)
         text = text[:start] + self.write + text[start + len(self.find) :]
@@ -56,6 +53,22 @@ class Mistake:
         edited.write_text(text.replace("«", "").replace("»", ""), "utf-8")
         line_start = text.rfind("\n", 0, begin)
         return checked, (edited.name, text.count("\n", 0, begin) + 1, begin - line_start, end - line_start)
+
+    def copied(self, folder: Path) -> tuple[Path, Path]:
+        """The file that the edit is in and the one to check, in a copy of all files, without the mistake.
+
+        Raises:
+            FileNotFoundError: they are files of the corpus, which is not here.
+        """
+        if not self.file.startswith("corpus:"):
+            shutil.copytree(FOLDER, folder, dirs_exist_ok=True)
+            edited, checked = (folder / name for name in _FILES[self.file])
+            return edited, checked
+        source = CORPUS / self.file.removeprefix("corpus:")
+        if not source.is_file():
+            raise FileNotFoundError(MISSING)
+        copy = Path(shutil.copy(source, folder / source.name))
+        return copy, copy
 
 
 def is_at(found: Diagnostic, place: tuple[str, int, int, int]) -> bool:

@@ -24,7 +24,11 @@ _PLACEHOLDER = re.compile(r"[A-Z_]{4,}|[{}*]")
 @cache
 def _anchors(page: Path) -> set[str]:
     headings = re.findall(r"^#+ (.*)$", _CODE.sub("", page.read_text(encoding="utf-8")), re.MULTILINE)
-    return {re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-") for heading in headings}
+    return {_anchor(heading) for heading in headings}
+
+
+def _anchor(heading: str) -> str:
+    return re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-")
 
 
 @pytest.mark.parametrize("page", _PAGES, ids=lambda page: page.relative_to(_ROOT).as_posix())
@@ -41,6 +45,24 @@ def test_agents_are_led_to_pages_that_there_are() -> None:
     paths = re.findall(r"^- \[[^\]]+\]\(([^)]+)\): \S", list_.read_text(encoding="utf-8"), re.MULTILINE)
     assert len(paths) > 10
     assert [path for path in paths if not (list_.parent / path).with_suffix(".md").is_file()] == []
+
+
+def test_numbers_of_the_readme_are_those_that_were_measured() -> None:
+    links = re.findall(
+        r"\[([^\]]*\d[^\]]*)\]\((docs/evidence/[^)#]*)#([^)]*)\)", (_ROOT / "README.md").read_text("utf-8")
+    )
+    assert links
+    for text, page, anchor in links:
+        section = _section((_ROOT / page).read_text("utf-8"), anchor)
+        cells = {cell.strip().replace(",", "") for line in section.splitlines() for cell in line.split("|")}
+        assert [number for number in re.findall(r"\d[\d.,]*\d|\d", text) if number.replace(",", "") not in cells] == []
+
+
+def _section(text: str, anchor: str) -> str:
+    """The part of a page from a heading to the next one."""
+    return next(
+        part for part in re.split(r"^#+ ", text, flags=re.MULTILINE) if _anchor(part.partition("\n")[0]) == anchor
+    )
 
 
 def test_the_map_is_short_and_names_what_there_is() -> None:

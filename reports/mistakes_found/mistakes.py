@@ -1,21 +1,24 @@
 """Are planted mistakes found at the piece that is wrong, and what is reported about models that others accept?"""
 
 import random
+import re
 import tempfile
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from pathlib import Path
 
+from reports.harness import needs
 from reports.harness.known import Known
-from reports.harness.needs import corpus
 from reports.harness.sample import Sample
 from reports.harness.section import Findings, Section
 from testbed.corpus.files import CorpusFile, Kind, models
 from testbed.markdown import listing, rule_links, subsection, table
 from testbed.mistakes import MISTAKES, Mistake, is_at
+from testbed.oracles import urdfdom
 from twinform.compiler import check
 from twinform.compiler.input.finding_spans import located
 from twinform.diagnostics import Diagnostic, Severity
+from twinform.testing.oracles import libsdformat
 
 KNOWN = Known.beside(__file__)
 CLEAN = 200
@@ -26,6 +29,10 @@ some of the corpus: a slip in a name, a unit, a comma, swapped parents, a tag th
 where `check` reports a warning or an error whose line and columns, beginning and end, are those of the piece that is
 wrong. The pieces were marked before anything was run; 67 of these 77 were found the first time, and the others showed
 what was to be fixed.
+
+libsdformat 12, as Gazebo reads URDF and SDF, and urdfdom are asked about the same files, other than those of xacro.
+They say something where they have a message that they do not have for the file without the mistake; libsdformat's
+warnings and what urdfdom prints are messages too. libsdformat names the line where one of these has it.
 
 The other half is 200 models of the corpus, drawn from those that libsdformat 12 and, for URDF, urdfdom accept. What
 `check` reports about them was judged by hand."""
@@ -44,9 +51,15 @@ def measure(sample: Sample) -> Findings:
     faults += [
         f"{file}: {one.rule.name}: {one.message}" for file, found in alarms.items() for one in found if not _why(one)
     ]
+    said = table(["reader", "mistakes", "says something", "names the line"], _said_by_readers(planted))
     missed = listing(["mistake", "why it is not found"], ((each.what, each.missed) for each in lost))
     judged = table(["rule", "findings", "models", "judgment"], _rows(alarms))
-    sections = [counts, subsection("Mistakes that are not found", missed), subsection("Findings about models", judged)]
+    sections = [
+        counts,
+        subsection("Mistakes that are not found", missed),
+        subsection("What readers say of the same mistakes", said),
+        subsection("Findings about models", judged),
+    ]
     return Findings(sections, counts, faults)
 
 
@@ -66,6 +79,43 @@ class _Planted:
         with tempfile.TemporaryDirectory() as folder:
             path, place = self.mistake.make(Path(folder))
             return any(is_at(each, place) for each in located(check(path, passes=self.mistake.passes)))
+
+
+def _said_by_readers(planted: Sequence[_Planted]) -> Iterator[tuple[object, ...]]:
+    """Yield how many mistakes in URDF and SDF each reader says something of, and of how many it names the line."""
+    plain = [each for each in planted if each.mistake.is_plain]
+    found = sum(each.found() for each in plain)
+    yield "twinform", len(plain), found, found
+    for reader, suffixes, messages in (
+        ("libsdformat 12", {".urdf", ".sdf"}, _messages_of_libsdformat),
+        ("urdfdom", {".urdf"}, urdfdom.complaints),
+    ):
+        said = [_new_messages(each.mistake, suffixes, messages) for each in plain]
+        asked = [each for each in said if each is not None]
+        named = sum(any(_names_line(text, line) for text in new) for new, line in asked)
+        yield reader, len(asked), sum(bool(new) for new, _ in asked), named
+
+
+def _messages_of_libsdformat(path: Path) -> tuple[str, ...]:
+    ((_, reading),) = libsdformat.judge([path]).items()
+    return (*reading.errors, *reading.console.splitlines())
+
+
+def _new_messages(
+    mistake: Mistake, suffixes: Collection[str], messages: Callable[[Path], tuple[str, ...]]
+) -> tuple[frozenset[str], int] | None:
+    """Return what a reader says of a mistake alone, and its line; None where it does not read the file."""
+    with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as clean:
+        path, (_, line, *_) = mistake.make(Path(folder))
+        if path.suffix not in suffixes:
+            return None
+        _, before = mistake.copied(Path(clean))
+        known = {text.replace(clean, "") for text in messages(before)}
+        return frozenset(text.replace(folder, "") for text in messages(path)) - known, line
+
+
+def _names_line(message: str, line: int) -> bool:
+    return re.search(rf"(:L|Line number=){line}\b", message) is not None
 
 
 def _alarms(sample: Sample) -> dict[str, list[Diagnostic]]:
@@ -94,4 +144,4 @@ def _rows(alarms: dict[str, list[Diagnostic]]) -> Iterator[tuple[object, ...]]:
         yield rule_links([rule]), len(files), len(set(files)), KNOWN.why("alarm", rule=rule)
 
 
-SECTION = Section("mistakes", _ABOUT, measure, (corpus,), KNOWN)
+SECTION = Section("mistakes", _ABOUT, measure, (needs.corpus, needs.libsdformat, needs.urdfdom), KNOWN)
