@@ -1,6 +1,8 @@
 """As much of `launch` and `launch_ros` as launch files of packages use, without ROS: their names, and nothing else."""
 
 import runpy
+import shlex
+import subprocess
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -14,7 +16,15 @@ class LaunchConfiguration:
     variable_name: str
 
 
-Text = str | LaunchConfiguration | Sequence[str | LaunchConfiguration]
+@dataclass
+class Command:
+    """What a command prints; a launch ends where it fails or, unless told otherwise, says anything on stderr."""
+
+    command: Sequence[str | LaunchConfiguration]
+    on_stderr: str = field(default="fail", kw_only=True)
+
+
+Text = str | LaunchConfiguration | Command | Sequence[str | LaunchConfiguration]
 
 
 @dataclass
@@ -102,6 +112,11 @@ class LaunchDescription:
         """The text that a substitution stands for; an argument that is not declared is an error."""
         if isinstance(text, LaunchConfiguration):
             return self.arguments[text.variable_name]
+        if isinstance(text, Command):
+            done = subprocess.run(shlex.split(self.perform(text.command)), capture_output=True, text=True, check=True)
+            if done.stderr and text.on_stderr == "fail":
+                raise RuntimeError(done.stderr)
+            return done.stdout
         return text if isinstance(text, str) else "".join(map(self.perform, text))
 
 
@@ -111,7 +126,7 @@ _MODULES: Mapping[str, Sequence[type]] = {
     "launch.conditions": [IfCondition, UnlessCondition],
     "launch.event_handlers": [OnProcessExit],
     "launch.launch_description_sources": [PythonLaunchDescriptionSource],
-    "launch.substitutions": [LaunchConfiguration],
+    "launch.substitutions": [Command, LaunchConfiguration],
     "launch_ros": [],
     "launch_ros.actions": [Node],
     "launch_ros.parameter_descriptions": [ParameterValue],

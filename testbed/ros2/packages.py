@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from twinform.cli import main
 
 ROOT = Path(__file__).parents[2]
-_AMENT = Path(__file__).with_name("ament")
+AMENT = Path(__file__).with_name("ament")
 
 _DRIVE = (
     "add-sensor{type=imu link=imu_link frame-id=imu_link},"
@@ -87,7 +87,7 @@ def install(made: Made) -> None:
     cmake = shutil.which("cmake")
     assert cmake
     build = made.prefix.parent / "build" / made.name
-    settings = [f"-DCMAKE_PREFIX_PATH={_AMENT}", f"-DCMAKE_INSTALL_PREFIX={made.prefix}", "--warn-uninitialized"]
+    settings = [f"-DCMAKE_PREFIX_PATH={AMENT}", f"-DCMAKE_INSTALL_PREFIX={made.prefix}", "--warn-uninitialized"]
     for words in (["-S", made.folder, "-B", build, *settings], ["--install", build]):
         done = subprocess.run([cmake, *words], capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stderr

@@ -119,7 +119,24 @@ class _Commands(click.Group):
             raise
 
 
+def _print_cmake_folder(ctx: click.Context, _parameter: click.Parameter, value: object) -> None:
+    if value:
+        from twinform.cli.printing import print_document  # noqa: PLC0415 - build systems alone ask for it
+        from twinform.package_files import package_files  # noqa: PLC0415 - as above
+
+        print_document(f"{package_files('twinform').joinpath('cmake')}\n")
+        ctx.exit()
+
+
 @click.command(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(__version__, prog_name="twinform")
+@click.option(
+    "--cmake-dir",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_print_cmake_folder,
+    help="Print the folder of the CMake package, for twinform_DIR, and exit.",
+)
 def main() -> None:
     """Compile robot models between URDF and SDF: strict, lossless, both ways."""

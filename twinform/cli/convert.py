@@ -82,6 +82,12 @@ EXAMPLES = {
 @click.option(
     "--ledger", type=click.Path(path_type=Path), metavar="FILE", help="Where to write what was not expressed."
 )
+@click.option(
+    "--depfile",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Where to list the files that OUT is made of, for make, Ninja and CMake; success prints nothing then.",
+)
 @companion_options
 @click.option("--model", metavar="NAME", help="The model of the file to convert, whatever it becomes.")
 @notes_option
@@ -111,6 +117,7 @@ def command(
     keep_physics: bool,
     request: RequestOptions,
     ledger: Path | None,
+    depfile: Path | None,
     gazebo_files: GazeboFiles,
     model: str | None,
     split: bool,
@@ -148,6 +155,7 @@ def command(
         complete=complete,
         load_options=load_options,
         ledger=ledger,
+        depfile=depfile,
         notes=notes,
         every=every,
         policy=policy,
@@ -164,8 +172,10 @@ def command(
         folder = _split_folder(out, target, model, in_place=in_place)
         ctx.exit(run.split_world(target or "sdf", folder, check=check))
     if into or base:
-        if out or in_place or target or request.get("passes"):
-            raise click.UsageError("--into says what is written: leave -o, --in-place, --to and --passes out")
+        if out or in_place or target or request.get("passes") or depfile:
+            raise click.UsageError(
+                "--into says what is written: leave -o, --in-place, --to, --passes and --depfile out"
+            )
         ctx.exit(run.update(into, base, check=check))
     todo = jobs_in_place(sources, out, target) if in_place else jobs(sources, out, target)
     _require_sdf(ctx, todo)
@@ -186,6 +196,8 @@ class _ConvertRun:
         several = len(self.sources) > 1
         if self.options.ledger is not None and several:
             raise click.UsageError("--ledger takes one input")
+        if self.options.depfile is not None and (split or several):
+            raise click.UsageError("--depfile takes one input, and no --split")
         if self.options.gazebo_files and (split or several):
             raise click.UsageError("--bridge and --world take one input, and no --split")
         if self.options.beside and several:
@@ -210,10 +222,26 @@ class _ConvertRun:
         planned = [(job, self._options_for(job)) for job in todo]
         outputs = self._outputs([job.path for job in todo if in_place and job.path], check=check)
         outputs.require_apart([place for job, own in planned for place in own.places(job, outputs)])
-        codes = [run_job(job, own, _label(job, todo), outputs) for job, own in planned]
+        depfile = self.options.depfile
+        if depfile:
+            codes = [self._run_with_depfile(*planned[0], depfile, outputs)]
+        else:
+            codes = [run_job(job, own, _label(job, todo), outputs) for job, own in planned]
         if in_place and not max(codes):
             self._follow(planned, outputs)
         return self._end(outputs, codes)
+
+    def _run_with_depfile(self, job: ConversionJob, own: Options, depfile: Path, outputs: Outputs) -> int:
+        """Run one conversion, and list the files that it reads and those with its settings."""
+        from twinform.cli.depfile import depfile_text, read_by  # noqa: PLC0415 - build systems alone want it
+
+        if job.path is None or job.in_place:
+            raise click.UsageError("--depfile is about a file that is made: name it with -o")
+        code, read = read_by(lambda: run_job(job, own, "", outputs))
+        contexts = (self.ctx, self.by_file.context_of(job.source.name))
+        settings = [path for each in contexts if (path := settings_of(each).path)]
+        outputs.add("--depfile", depfile, depfile_text(job.path, [*read, *settings]))
+        return code
 
     def _follow(self, planned: "Sequence[tuple[ConversionJob, Options]]", outputs: Outputs) -> None:
         """Add the files that name parts which passes have renamed."""

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 EXAMPLES = {
     "What an agent starts, for the files below its current folder": "twinform mcp",
-    "For the files below another one": "twinform mcp src/robot_description",
+    "For the files below another one": "twinform mcp models",
 }
 _INSTRUCTIONS = """\
 Tools for robot models in URDF, SDF and xacro. `check` says what is wrong with a file, at which line and column. `fix` \

@@ -142,6 +142,7 @@ class Options:
     complete: Callable[[RequestOptions], ConversionRequest]
     load_options: LoadOptions
     ledger: Path | None
+    depfile: Path | None
     notes: bool
     every: bool
     policy: Policy
@@ -175,6 +176,8 @@ class Options:
             yield Output(outputs.by, job.path)
         if self.ledger:
             yield Output("--ledger", self.ledger)
+        if self.depfile:
+            yield Output("--depfile", self.depfile)
         yield from self.gazebo_files.places()
         beside(job.path, [step.place for step in self.request.passes if isinstance(step, FilesPass)])  # raises early
         yield from beside(job.path, self.beside)
@@ -213,7 +216,8 @@ def run_job(job: ConversionJob, options: Options, label: str, outputs: Outputs) 
     _add(conversion, updated, job.path, options.ledger, outputs)
     if not options.gazebo_files.make(conversion, job.source.name, outputs, notes=options.notes):
         return FINDINGS
-    outputs.news.append(f"{label}{': ' if label else ''}{summary(conversion.ledger)}")
+    if not options.depfile:  # build systems take what is printed for a warning
+        outputs.news.append(f"{label}{': ' if label else ''}{summary(conversion.ledger)}")
     return _audit(conversion, job.source.name, outputs) if options.audit else 0
 
 
