@@ -147,6 +147,7 @@ $(ROBOTS): $(ORACLES)
 
 $(READERS): $(ORACLES)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[readers]'
+	$(BIN)/python -m testbed.engines.readers.install
 	npm install --silent --no-audit --no-fund --prefix out/readers urdf-loader three jsdom || echo "without npm"
 	touch $@
 

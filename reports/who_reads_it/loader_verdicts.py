@@ -14,7 +14,7 @@ from testbed.engines.readers.recalled import Recalled
 from testbed.output_files import OUT
 from twinform.compiler.advising import assess_file
 from twinform.compiler.input.load_options import LoadOptions
-from twinform.profiles import Assessment, Effect, Judgment, names, parse
+from twinform.profiles import Assessment, Effect, Judgment, parse
 from twinform.schemas import XmlElement
 
 _MOVING = frozenset({"revolute", "continuous", "prismatic"})
@@ -61,17 +61,18 @@ def recalled() -> Recalled:
     return Recalled(OUT / "loaders" / "readings.sqlite")
 
 
+@cache
 def asked() -> tuple[Loader, ...]:
-    """The loaders that are here and have a profile."""
-    return tuple(loader for loader in LOADERS if loader.reader.present() and loader.profile in names())
+    """The loaders that are here."""
+    return tuple(loader for loader in LOADERS if loader.reader.present())
 
 
 def pairs(job: Job) -> list[Pair]:
     """The file before every loader that reads its format."""
     loaders = [loader for loader in asked() if job.path.suffix in loader.reader.formats]
-    profiles = parse(",".join(loader.profile for loader in loaders))
-    assessed = {each.profile.name: each for each in assess_file(job.path, profiles, LoadOptions())}
-    return [_pair(job, loader, assessed[loader.profile]) for loader in loaders]
+    profiles = parse(",".join(loader.consumer for loader in loaders))
+    assessed = assess_file(job.path, profiles, LoadOptions())
+    return [_pair(job, *each) for each in zip(loaders, assessed, strict=True)]
 
 
 def _pair(job: Job, loader: Loader, assessment: Assessment) -> Pair:
@@ -81,7 +82,7 @@ def _pair(job: Job, loader: Loader, assessment: Assessment) -> Pair:
     ours = " / ".join(
         f"{each.row.effect}: {each.finding.rule.name}: {each.finding.message}" for each in _worst(assessment)
     )
-    return Pair(job.name, loader.profile, verdict, theirs, ours, _difference(job, loader, reading, assessment))
+    return Pair(job.name, loader.consumer, verdict, theirs, ours, _difference(job, loader, reading, assessment))
 
 
 def _worst(assessment: Assessment) -> Iterator[Judgment]:

@@ -71,7 +71,7 @@ def _cause(pair: Pair) -> str:
 
 def _counts(found: Sequence[Pair]) -> str:
     rows = [
-        _row(loader.profile, loader.reader.version(), [one for one in found if one.loader == loader.profile])
+        _row(loader.consumer, loader.reader.version(), [one for one in found if one.loader == loader.consumer])
         for loader in asked()
     ]
     head = ["loader", "version", "files", *Verdict, "agree", "of them"]
@@ -96,7 +96,9 @@ def _causes(causes: dict[Pair, str]) -> Iterator[str]:
 def absent() -> str:
     """The loaders that are not here, and what they need; empty where all are."""
     missing = [
-        f"`{loader.profile}` is not here: it needs {loader.reader.needs}" for loader in LOADERS if loader not in asked()
+        f"`{loader.consumer}` is not here: it needs {loader.reader.needs}"
+        for loader in LOADERS
+        if loader not in asked()
     ]
     return subsection("Not asked", *missing) if missing else ""
 

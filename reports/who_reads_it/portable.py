@@ -13,7 +13,7 @@ from reports.harness.section import UNEXPLAINED, Findings, Section
 from reports.who_reads_it.loader_verdicts import recalled
 from reports.who_reads_it.loaders import absent
 from testbed.corpus.files import CorpusFile, Kind
-from testbed.engines.readers import LOADERS
+from testbed.engines.readers import USUAL
 from testbed.engines.readers.meshless import without_meshes
 from testbed.markdown import listing, subsection, table
 from testbed.output_files import OUT, kept
@@ -63,7 +63,7 @@ class Carried:
 
 def measure(sample: Sample) -> Findings:
     """Convert, and ask all loaders."""
-    asked = [loader.profile for loader in LOADERS if loader.reader.present()]
+    asked = [loader.profile for loader in USUAL if loader.reader.present()]
     found = sample.outcomes(carried, sample.models(Kind.URDF), _never, seconds=_SECONDS)
     causes = [
         (one.name, each, KNOWN.why("refusal", loader=each.loader, message=each.message))
@@ -94,7 +94,7 @@ def carried(file: CorpusFile) -> Carried | None:
     if any(each.is_error for each in twinform.check(before).diagnostics):
         return None
     taken = frozenset(
-        loader.profile for loader in LOADERS if loader.reader.present() and recalled().ask(loader.reader, before).ok
+        loader.profile for loader in USUAL if loader.reader.present() and recalled().ask(loader.reader, before).ok
     )
     options = LoadOptions(tolerant=True, profiles=parse("portable"))
     request = ConversionRequest(to="urdf")
@@ -107,7 +107,7 @@ def carried(file: CorpusFile) -> Carried | None:
     after = kept(folder / f"{file.path.stem}.portable.urdf", made.text)
     told = any(each.is_error for each in findings(assessed(made, options, file.name)))
     pipeline = str(request.remedies)
-    readings = [(loader.profile, recalled().ask(loader.reader, after)) for loader in LOADERS if loader.reader.present()]
+    readings = [(loader.profile, recalled().ask(loader.reader, after)) for loader in USUAL if loader.reader.present()]
     refusals = (Refusal(name, reading.error[:_LONGEST]) for name, reading in readings if not reading.ok)
     accepted = frozenset(name for name, reading in readings if reading.ok)
     return Carried(file.name, taken, accepted, tuple(refusals), pipeline, told=told)

@@ -14,14 +14,16 @@ from testbed.engines.readers.recalled import Recalled
 INERTIAL = '<inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 ROBOT = f"""<robot name="r"><link name="a">{INERTIAL}</link><link name="b">{INERTIAL}</link>
 <joint name="j" type="continuous"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint></robot>"""
+SILENT = {"check_urdf"}
+"""Readers that do not tell what they keep."""
 BROKEN = ROBOT.replace('<child link="b"/>', "")
 
 
-@pytest.fixture(params=LOADERS, ids=lambda loader: loader.profile)
+@pytest.fixture(params=LOADERS, ids=lambda loader: loader.consumer)
 def loader(request: pytest.FixtureRequest) -> Iterator[Loader]:
     chosen: Loader = request.param
     if not chosen.reader.present():
-        pytest.skip(f"{chosen.profile} is not here: it needs {chosen.reader.needs}")
+        pytest.skip(f"{chosen.consumer} is not here: it needs {chosen.reader.needs}")
     yield chosen
     chosen.reader.close()
 
@@ -35,10 +37,11 @@ def _written(folder: Path, text: str) -> Path:
 def test_a_loader_accepts_refuses_and_says_what_it_keeps(loader: Loader, tmp_path: Path) -> None:
     reading = loader.ask(_written(tmp_path, ROBOT))
     assert loader.verdict(reading) is Verdict.ACCEPTS, reading
-    assert reading.kept is not None
-    assert "b" in reading.kept.links
-    assert reading.kept.joints == ("j",)
-    assert 2 in reading.kept.masses.values()
+    if loader.reader.name not in SILENT:
+        assert reading.kept is not None
+        assert "b" in reading.kept.links
+        assert reading.kept.joints == ("j",)
+        assert 2 in reading.kept.masses.values()
     refused = loader.ask(_written(tmp_path, BROKEN))
     assert loader.verdict(refused) is Verdict.REFUSES, refused
     assert refused.kept is None

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from testbed.engines.readers import LOADERS, Loader
+from testbed.engines.readers import USUAL, Loader
 from tests.profile import DEEP
 from twinform.compiler.advising import assess_file
 from twinform.compiler.input.load_options import LoadOptions
@@ -37,7 +37,7 @@ def test_profiles_say_what_loaders_did(probe: dict[str, Any]) -> None:
     assert wrong == probe.get("differs", []), [judgment for each in assessments for judgment in each.judgments]
 
 
-@pytest.mark.parametrize("loader", [each for each in LOADERS if each.profile in _PROFILES], ids=lambda one: one.profile)
+@pytest.mark.parametrize("loader", [each for each in USUAL if each.profile in _PROFILES], ids=lambda one: one.profile)
 def test_loaders_still_do_it(loader: Loader, tmp_path: Path) -> None:
     if not loader.reader.present():
         pytest.skip(loader.reader.needs)

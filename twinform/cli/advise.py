@@ -3,7 +3,7 @@
 import click
 
 from twinform.cli.command import FINDINGS, UNUSABLE, Command
-from twinform.cli.completion import files
+from twinform.cli.completion import consumers, files
 from twinform.cli.inputs import file_options, inputs, load_options_of
 from twinform.cli.printing import print_report, show
 from twinform.compiler import CompileError
@@ -33,7 +33,14 @@ def _parse_consumers(_ctx: click.Context, _option: click.Parameter, value: str |
 
 @click.command("advise", cls=Command, examples=EXAMPLES)
 @click.argument("words", metavar="IN [NAME:=VALUE...]", nargs=-1, required=True, shell_complete=files)
-@click.option("--for", "profiles", metavar="NAME,...", callback=_parse_consumers, help="Ask these consumers; else all.")
+@click.option(
+    "--for",
+    "profiles",
+    metavar="NAME,...",
+    callback=_parse_consumers,
+    shell_complete=consumers,
+    help="Ask these consumers; else all.",
+)
 @click.option("--model", metavar="NAME", help="The model to convert, where a file has several.")
 @click.option("--format", "style", type=click.Choice(list(REPORTERS)), default="text", help="How to print the advice.")
 @file_options

@@ -1,6 +1,7 @@
-"""What the shell is offered to complete: files, rules, passes, pipelines and versions."""
+"""What the shell is offered to complete: files, rules, passes, pipelines, versions, and who reads a file."""
 
 import os
+from collections.abc import Callable, Iterable, Iterator
 
 import click
 from click.shell_completion import CompletionItem
@@ -38,12 +39,33 @@ def pipelines(ctx: click.Context, parameter: click.Parameter, incomplete: str) -
     """Complete the last pass of a pipeline, or a pipeline that the configuration names."""
     from twinform.cli.config_defaults import settings_of  # noqa: PLC0415 - few calls complete a pipeline
 
+    def last_steps(last: str) -> Iterator[str]:
+        yield from (str(each.value) for each in pass_names(ctx, parameter, last))
+        yield from (f"@{name}" for name in settings_of(ctx).pipelines)
+
+    return _last_of_list(incomplete, last_steps)
+
+
+def consumers(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:
+    """Complete the last name in a list of consumers, and after `@` its release."""
+    from twinform.profiles import names  # noqa: PLC0415 - only a shell that completes needs them
+    from twinform.profiles.profile import PORTABLE, releases_of  # noqa: PLC0415 - see above
+
+    def last_names(last: str) -> Iterator[str]:
+        consumer, at, _ = last.partition("@")
+        if not at or consumer == PORTABLE or consumer not in names():
+            return iter(names())
+        return (f"{consumer}@{name}" for each in releases_of(consumer) for name in each.names)
+
+    return _last_of_list(incomplete, last_names)
+
+
+def _last_of_list(incomplete: str, proposals: Callable[[str], Iterable[str]]) -> list[CompletionItem]:
+    """Complete the last of words with commas between, given all that may begin as it does."""
     before, comma, last = incomplete.rpartition(",")
     if comma and os.environ.get("_TWINFORM_COMPLETE") == "fish_complete":
         return []  # click's script for fish ends a word at a comma
-    named = [f"@{name}" for name in settings_of(ctx).pipelines if f"@{name}".startswith(last)]
-    names = [*(str(each.value) for each in pass_names(ctx, parameter, last)), *named]
-    return [CompletionItem(before + comma + name) for name in names]
+    return [CompletionItem(before + comma + each) for each in proposals(last) if each.startswith(last)]
 
 
 def sdf_versions(_ctx: click.Context, _parameter: click.Parameter, incomplete: str) -> list[CompletionItem]:

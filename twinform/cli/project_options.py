@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Unpack, cast
 
 import click
 from click.core import ParameterSource
-from click.shell_completion import CompletionItem
 
 from twinform.cli.command import Unusable, combine_options
-from twinform.cli.completion import pipelines, sdf_versions
+from twinform.cli.completion import consumers, pipelines, sdf_versions
 from twinform.cli.config_defaults import TYPED, Project, settings_of
 from twinform.cli.config_file import ConfigError
 from twinform.cli.flags import flags_of, group
@@ -202,21 +201,13 @@ def _parse_consumers(ctx: click.Context, option: click.Parameter, value: str | N
         raise click.BadParameter(str(error)) from error
 
 
-def _complete_consumers(_ctx: click.Context, _option: click.Parameter, incomplete: str) -> list[CompletionItem]:
-    """Complete the last name in a list of consumers."""
-    from twinform.profiles import names  # noqa: PLC0415 - only a shell that completes needs them
-
-    before, comma, begun = incomplete.rpartition(",")
-    return [CompletionItem(f"{before}{comma}{name}") for name in names() if name.startswith(begun)]
-
-
 consumers_option = click.option(
     "--for",
     "profiles",
     metavar="NAME,...",
     callback=_parse_consumers,
-    shell_complete=_complete_consumers,
-    help="Who reads the files, such as drake,mujoco, gazebo@harmonic, or portable for all.",
+    shell_complete=consumers,
+    help="Who reads the files, such as drake,mujoco, urdfdom@jazzy, or portable for all.",
 )
 keep_physics_option = click.option(
     "--keep-physics", is_flag=True, help="With --for: refuse passes that change masses, inertias, joints or limits."

@@ -119,7 +119,7 @@ def _consumer_fields(reading: ConsumerReading) -> dict[str, object]:
     return {
         "name": profile.name,
         "title": profile.title,
-        "version": profile.release or profile.seen,
+        "version": profile.version,
         "tested": profile.tested,
         "forms": {str(format_): _form_fields(each) for format_, each in reading.forms.items()},
         "passes": [str(Pipeline((step,))) for step in remedies(reading.forms.values())],

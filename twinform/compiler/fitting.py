@@ -19,9 +19,11 @@ from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import Diagnostic, LedgerEntry, Location, PhysicsChange, Severity
 from twinform.diagnostics.rules import KEPT_PHYSICS
 from twinform.ir import Document, Format
+from twinform.ir.versions import parse_version
 from twinform.passes import Pass, PassInstrumentation, Pipeline
 from twinform.profiles import Assessment, Judgment, Profile, ProfiledFile, assess, findings
 from twinform.profiles.remedies import describe_change, in_order, remedies
+from twinform.request_options import URDF_VERSIONS, UrdfVersion
 
 # How often a conversion starts over; each time, a pass has brought something else to light.
 _ROUNDS = 5
@@ -60,7 +62,8 @@ def fitted(
         CompileError: a consumer does not read the target, or needs what `keep_physics` forbids.
     """
     _require_readers(load_options.profiles, request, name)
-    request = replace(request, sdf_version=request.sdf_version or newest_sdf(load_options.profiles))
+    sdf = request.sdf_version or newest_sdf(load_options.profiles)
+    request = replace(request, sdf_version=sdf, newest_urdf=newest_urdf(load_options.profiles))
     steps: tuple[Pass, ...] = ()
     remedied = frozenset(row.rule for each in load_options.profiles for row in each.rows if row.pipeline)
     # The result is judged, and not the source: legalisation changes much, and encodings, odd
@@ -81,8 +84,14 @@ def fitted(
 
 def newest_sdf(profiles: Iterable[Profile]) -> str | None:
     """Return the newest version of SDF that all consumers read; None where none of them has a limit."""
-    versions = [each.sdf for each in profiles if each.sdf]
-    return min(versions, key=lambda text: [int(part) for part in text.split(".")]) if versions else None
+    versions = (each.release.sdf for each in profiles if each.release.sdf)
+    return min(versions, key=parse_version, default=None)
+
+
+def newest_urdf(profiles: Iterable[Profile]) -> UrdfVersion | None:
+    """Return the newest version of URDF that all consumers read; None where none of them has a limit."""
+    limits = {each.release.urdf for each in profiles}
+    return next((each for each in URDF_VERSIONS if each in limits), None)
 
 
 def assessed(made: Conversion, load_options: LoadOptions, name: str) -> tuple[Assessment, ...]:

@@ -21,7 +21,8 @@ class ConversionRequest(Requested):
 
     `mixed` means that the source has elements that its version does not have, and `comments` that the comments of the
     source are kept. `remedies` are the passes that consumers need, and `remedied` the rules of errors that they fix;
-    with `keep_physics` none of them may change the physics.
+    with `keep_physics` none of them may change the physics. `newest_urdf` is the newest version of URDF that all
+    consumers read, and None where none of them minds.
     """
 
     to: Language
@@ -29,6 +30,7 @@ class ConversionRequest(Requested):
     mixed: bool = False
     remedies: Pipeline = field(default_factory=Pipeline)
     remedied: frozenset[str] = frozenset()
+    newest_urdf: UrdfVersion | None = None
     assets: Assets = field(default=NO_ASSETS, compare=False, repr=False)
 
     @classmethod
@@ -78,13 +80,17 @@ class ConversionRequest(Requested):
             before = print_version(version_read("urdf", source.version))
         before = before if before in versions_of(format_) else None
         version = self.sdf_version or own or before or DEFAULT_SDF_VERSION
-        known: dict[str, UrdfVersion] = {each: each for each in URDF_VERSIONS}
-        urdf = self.urdf_version or known.get(before or "", "1.0")
+        urdf = self.urdf_version or self._readable_urdf(before)
         if source.format is format_:  # words of a newer URDF stay in an older one, whose readers ignore them
             mixed = format_ is Format.URDF and urdf != before
         else:
             mixed = (version if format_ is Format.SDF else urdf) == before and has_mixed_words(source)
         return Target(format_, version, urdf, self.requested, mixed, self.mixed)
+
+    def _readable_urdf(self, before: str | None) -> UrdfVersion:
+        """Return the version of URDF of a source, where consumers read it, and otherwise the newest that they read."""
+        usual = before if before in URDF_VERSIONS else "1.0"
+        return next(each for each in URDF_VERSIONS if each in {usual, self.newest_urdf})
 
 
 def _pipeline(passes: str | Iterable[Pass] | None) -> Pipeline:

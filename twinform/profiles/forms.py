@@ -181,6 +181,7 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "zero": ("0", lambda text: not any(_leading_numbers(text))),
     "directed": ("a direction", _is_directed),
     "urdf-1.0": ("1.0", _version_in((1, 0))),
+    "urdf-1.1": ("1.0 or 1.1", _version_in((1, 0), (1, 1))),
     "urdf-1.2": ("1.0, 1.1 or 1.2", _version_in((1, 0), (1, 1), (1, 2))),
     "exactly-1.0": ("1.0", lambda text: text == "1.0"),
 }

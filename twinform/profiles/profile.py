@@ -2,6 +2,7 @@
 
 import re
 import tomllib
+from dataclasses import replace
 from enum import StrEnum
 from functools import cache
 from typing import Any
@@ -13,6 +14,7 @@ from twinform.diagnostics import Diagnostic, Severity
 from twinform.diagnostics.did_you_mean import did_you_mean
 from twinform.ir import Format
 from twinform.package_files import package_files
+from twinform.profiles.releases import Release, UnknownReleaseError, find_release, is_between
 
 PORTABLE = "portable"
 """The profile of all consumers that are tested."""
@@ -39,8 +41,9 @@ class ProfileRow(BaseModel):
     """One thing that a consumer objects to: the rule that finds it, and what the consumer does.
 
     `format`, `message`, `place`, `severity`, `since` and `until` narrow the findings: the format of the file, patterns
-    that occur in the message and in the XML path, the least severity, and the first and the last release. `pipeline`
-    are the passes that help; where the rule has fixes, `check --fix` helps as well.
+    that occur in the message and in the XML path, the least severity, and the first and the last release, by any of
+    their names. `pipeline` are the passes that help; where the rule has fixes, `check --fix` helps as well. `source` is
+    where the row was read, empty where a release that it holds for was asked.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True)
@@ -56,6 +59,7 @@ class ProfileRow(BaseModel):
     until: str = ""
     pipeline: str = Field(default="", alias="pass")
     to: Format | None = None
+    source: str = ""
 
     @field_validator("severity", mode="before")
     @classmethod
@@ -87,45 +91,48 @@ class _Table(BaseModel):
     title: str
     about: str
     formats: tuple[Format, ...]
-    seen: str = ""
     tested: bool = True
     reads: str = ""
-    sdf: str = ""
-    releases: dict[str, str] = {}
-    """The releases, oldest first, with the newest version of SDF that each of them reads."""
+    """The profile whose table in `data/reads/` this one has."""
+
+    releases: tuple[Release, ...] = ()
+    """From the oldest on; where it lists none, those that distributions ship of the profile whose table it has."""
 
     release: str = ""
-    """The release that is meant by default."""
+    """The release that is meant by default; empty for the newest."""
 
     row: tuple[ProfileRow, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """A consumer, perhaps in one of its releases, and the rows that hold for it.
+    """A consumer in one of its releases, and the rows that hold for it.
 
-    `seen` is the version that was tested, empty where it was not `tested` but read in sources and documentation.
-    `reads` is the name of a table in `data/reads/`, if there is one, and `sdf` the newest version of SDF that the
-    consumer reads, empty where that does not matter. `named` is whether the user asked for this profile and not for
-    all.
+    `tested` is whether the consumer was asked, in this release or in one that rows of this release hold for as well.
+    `reads` is the name of a table in `data/reads/` with a release, if there is one. `named` is whether the user asked
+    for this profile and not for all, and `called` the name that the user has for the release.
     """
 
     name: str
     title: str
     about: str
     formats: tuple[Format, ...]
-    seen: str
     tested: bool
-    release: str
+    release: Release
     rows: tuple[ProfileRow, ...]
     reads: str = ""
-    sdf: str = ""
+    called: str = ""
     named: bool = True
+
+    @property
+    def version(self) -> str:
+        """The release as the user calls it, or else the version of it that was tested."""
+        return self.called or self.release.seen or self.release.name
 
     @property
     def label(self) -> str:
         """The name for messages, such as `MuJoCo 4.0.0`."""
-        return f"{self.title} {self.release or self.seen}".strip()
+        return f"{self.title} {self.version}"
 
 
 @cache
@@ -144,16 +151,16 @@ def load(text: str) -> tuple[Profile, ...]:
         UnknownProfileError: there is no profile of this name, or no such release.
         ProfileError: the file of the profile is wrong.
     """
-    name, _, release = text.strip().partition("@")
+    name, _, called = text.strip().partition("@")
     if name not in names():
         near = did_you_mean(name, names()) or f"there are {', '.join(names())}"
         raise UnknownProfileError(f"there is no profile {name!r}; {near}")
     if name == PORTABLE:
-        if release:
+        if called:
             raise UnknownProfileError(f"{PORTABLE!r} has no releases")
-        every = [_read_table(each) for each in names() if each != PORTABLE]
-        return tuple(_select_release(each_name, table, "", named=False) for each_name, table in every if table.tested)
-    return (_select_release(*_read_table(name), release),)
+        every = (each for one in names() if one != PORTABLE for each in load(one))
+        return tuple(replace(each, named=False) for each in every if each.tested)
+    return (_in_release(name, called),)
 
 
 def parse(text: str) -> tuple[Profile, ...]:
@@ -165,40 +172,67 @@ def parse(text: str) -> tuple[Profile, ...]:
     found = [profile for name in text.split(",") if name.strip() for profile in load(name)]
     if not found:
         raise UnknownProfileError(f"name a profile: {', '.join(names())}")
-    return tuple({each.label: each for each in found}.values())
+    return tuple({(each.name, each.release): each for each in found}.values())
+
+
+def releases_of(name: str) -> tuple[Release, ...]:
+    """The releases of a consumer, from the oldest on.
+
+    Raises:
+        ProfileError: the file of the profile is wrong.
+    """
+    return _read_table(name).releases
+
+
+def all_rows(name: str) -> tuple[ProfileRow, ...]:
+    """The rows of a consumer for all of its releases.
+
+    Raises:
+        ProfileError: the file of the profile is wrong.
+    """
+    return _read_table(name).row
+
+
+def release_of(name: str, called: str = "") -> Release:
+    """A release of a consumer by any of its names; the default one where none is given.
+
+    Raises:
+        UnknownProfileError: there is no such release.
+        ProfileError: the file of the profile is wrong.
+    """
+    table = _read_table(name)
+    try:
+        return find_release(table.releases, called or table.release or table.releases[-1].name)
+    except UnknownReleaseError as error:
+        raise UnknownProfileError(f"{name!r} has no release {called!r}; {error}") from None
 
 
 @cache
-def _read_table(name: str) -> tuple[str, _Table]:
+def _read_table(name: str) -> _Table:
     file = package_files("twinform.profiles").joinpath("data", f"{name}.toml")
     try:
-        return name, _Table.model_validate(tomllib.loads(file.read_text(encoding="utf-8")))
+        table = _Table.model_validate(tomllib.loads(file.read_text(encoding="utf-8")))
     except (ValidationError, tomllib.TOMLDecodeError, re.error) as error:
         raise ProfileError(f"{name}.toml: {error}") from error
+    if table.releases:
+        return table
+    base = _read_table(table.reads)
+    shipped = tuple(each.as_shipped() for each in base.releases if each.also)
+    return table.model_copy(update={"releases": shipped, "release": table.release or base.release})
 
 
-def _select_release(name: str, table: _Table, release: str, *, named: bool = True) -> Profile:
-    known = list(table.releases)
-    if release and release not in known:
-        advice = did_you_mean(release, known) or f"there are {', '.join(known)}" if known else "it has no releases"
-        raise UnknownProfileError(f"{name!r} has no release {release!r}; {advice}")
-    chosen = release or table.release
-    rows = tuple(row for row in table.row if _is_in_release(row, chosen, known))
-    sdf = table.releases.get(chosen, table.sdf)
-    about = (table.title, table.about, table.formats, table.seen, table.tested)
-    return Profile(name, *about, chosen, rows, table.reads, sdf, named)
-
-
-def _is_in_release(row: ProfileRow, release: str, known: list[str]) -> bool:
-    def place(word: str) -> int:
-        if word not in known:
-            raise ProfileError(f"row {row.rule!r}: there is no release {word!r}")
-        return known.index(word)
-
-    after = not row.since or place(row.since) <= place(release)
-    return after and (not row.until or place(release) <= place(row.until))
+def _in_release(name: str, called: str) -> Profile:
+    table, release = _read_table(name), release_of(name, called)
+    known = table.releases
+    try:
+        rows = tuple(row for row in table.row if is_between(known, release.name, row.since, row.until))
+    except UnknownReleaseError as error:
+        raise ProfileError(f"{name}.toml: a row is about a release that there is not; {error}") from error
+    reads = f"{table.reads}@{release.name}" if table.reads else ""
+    about = (table.title, table.about, table.formats, table.tested)
+    return Profile(name, *about, release, rows, reads, called)
 
 
 def explanations() -> dict[str, Any]:
     """Each profile by name, with what it is about, for help texts."""
-    return {name: _read_table(name)[1].about for name in names() if name != PORTABLE}
+    return {name: _read_table(name).about for name in names() if name != PORTABLE}

@@ -4,9 +4,10 @@ import sys
 from collections.abc import Iterator
 
 from twinform.diagnostics.generated_files import main_of_folder
-from twinform.profiles.profile import PORTABLE, Profile, ProfileRow, load, names
+from twinform.profiles.profile import PORTABLE, Profile, ProfileRow, all_rows, load, names, releases_of
+from twinform.profiles.reads_tables import Demand, PlaceStep, demands_by_release
+from twinform.profiles.releases import Release
 from twinform.profiles.remedies import REMEDIES
-from twinform.profiles.walking import Demand, PlaceStep, reads
 
 _INTRODUCTION = """\
 # Profiles
@@ -49,21 +50,31 @@ def _formats(profile: Profile) -> str:
 
 
 def _profile_page(profile: Profile) -> str:
-    seen = f"Seen in {profile.seen}." if profile.tested else "Not tested: read in its sources and documentation."
-    lines = [f"# {profile.name}\n", f"{_sentence(profile.about)} It reads {_formats(profile)}. {seen}\n"]
-    if profile.rows:
+    known = releases_of(profile.name)
+    lines = [f"# {profile.name}\n", f"{_sentence(profile.about)} It reads {_formats(profile)}.\n"]
+    lines += ["| release | also called | tested in | SDF | URDF |", "| --- | --- | --- | --- | --- |"]
+    lines += [*map(_release_row, known), ""]
+    if len(known) > 1:
+        lines.append(f"Without a release, {profile.release.name} is meant.\n")
+    if rows := all_rows(profile.name):
         lines += [
-            "| what is found | format | effect | what it does | passes that help |",
-            "| --- | --- | --- | --- | --- |",
+            "| what is found | format | releases | effect | what it does | passes that help |",
+            "| --- | --- | --- | --- | --- | --- |",
         ]
-        lines += [_format_row(each) for each in profile.rows] + [""]
+        lines += [_format_row(each) for each in rows] + [""]
     if profile.reads:
         lines += [
-            "| what it reads of URDF | effect otherwise | what it does | passes that help |",
-            "| --- | --- | --- | --- |",
+            "| what it reads of URDF | releases | effect otherwise | what it does | passes that help |",
+            "| --- | --- | --- | --- | --- |",
         ]
-        lines += [*_demand_rows(profile.reads), ""]
+        lines += [*_demand_rows(profile.name, known), ""]
     return "\n".join(lines).rstrip("\n") + "\n"
+
+
+def _release_row(release: Release) -> str:
+    """A release, and the version that was tested or the source that was read."""
+    seen = release.seen or (f"read in {release.source}" if release.source else "")
+    return f"| {release.name} | {', '.join(release.also)} | {seen} | {release.sdf} | {release.urdf or ''} |"
 
 
 def _format_row(row: ProfileRow) -> str:
@@ -71,21 +82,38 @@ def _format_row(row: ProfileRow) -> str:
     format_ = row.format.upper() if row.format else ""
     passes = f"`{row.pipeline}`" if row.pipeline else ""
     rule = f"[{row.rule}](../../../twinform/diagnostics/rules/{row.rule}.md){_escape(narrowed)}"
-    cells = (rule, format_, row.effect, row.about, passes)
+    cells = (rule, format_, _format_span(row.since, row.until), row.effect, _cited(row.about, row.source), passes)
     return f"| {' | '.join(cells)} |"
 
 
-def _demand_rows(name: str) -> Iterator[str]:
-    for each in reads(name).demands:
+def _demand_rows(name: str, known: tuple[Release, ...]) -> Iterator[str]:
+    for each, releases in demands_by_release(name).items():
         passes = f"`{each.pipeline}`" if each.pipeline else ""
-        yield f"| {_escape(_format_place(each))} | {each.effect} | {_escape(each.about)} | {passes} |"
+        first, last = releases[0], releases[-1]
+        since, until = ("" if first is known[0] else first.name), ("" if last is known[-1] else last.name)
+        about = _escape(_cited(each.about, each.source))
+        yield f"| {_escape(_format_place(each))} | {_format_span(since, until)} | {each.effect} | {about} | {passes} |"
+
+
+def _format_span(since: str, until: str) -> str:
+    """The first and the last release; nothing where that is all of them."""
+    if since == until:
+        return since
+    return f"{since} to {until}" if since and until else f"since {since}" if since else f"until {until}"
+
+
+def _cited(about: str, source: str) -> str:
+    return f"{about} (read in {source})" if source else about
 
 
 def _format_place(demand: Demand) -> str:
     """A demand such as `link/inertial/mass` `@value`: a number, needed."""
     path = "/".join(["robot", *map(_format_step, demand.place)])
     needed = ", needed" if demand.needed else ""
-    return f"`{path}` `{demand.item}`: {demand.form}{needed}" if demand.form else f"`{path}` `{demand.item}`{needed}"
+    since, until = demand.versions
+    version = f" in URDF {_format_span(since, until)}" if since or until else ""
+    form = f": {demand.form}" if demand.form else ""
+    return f"`{path}` `{demand.item}`{form}{needed}{version}"
 
 
 def _format_step(step: PlaceStep) -> str:

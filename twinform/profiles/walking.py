@@ -1,26 +1,20 @@
 """Reads a robot as a consumer does, and compares it with its table: what the consumer cannot read, or needs and misses.
 
 A loader reads the text and not our tree, and has its own idea of a number or of a missing element. So a text is parsed
-here as the consumer parses it (`xml_parsers.py`), and compared with the table of the consumer in `data/reads/`.
-
-A line of a table has five columns with two blanks or more between them: a place, an item, a form, an effect, and what
-the consumer does then. A place is a path below the root; `*` stands for all elements of a name, without it the first
-one counts; `[revolute,prismatic]` are values of `type`, `[!fixed]` are values that it does not have; `^` is an element
-only if it is the first. Items are `@attribute`, `<element>`, `#text`, or the name of a fact in `tree_facts.py`. `!`
-after a form means that the item has to be there, and ` => ` is followed by the passes that help.
+here as the consumer parses it (`xml_parsers.py`), and compared with the table of the consumer (`reads_tables.py`).
 """
 
 import re
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import field, replace
-from functools import cache
-from importlib.resources import files
 
 from twinform.dataclass import dataclass
+from twinform.ir.versions import version_read
 from twinform.lazy import lazy_pattern
 from twinform.profiles import tree_facts
 from twinform.profiles.forms import FORMS
 from twinform.profiles.nodes import Paths, RawNode, UnparsedError
+from twinform.profiles.reads_tables import Demand, PlaceStep, Reads, reads
 from twinform.profiles.xml_parsers import (
     TINYXML,
     TINYXML_2,
@@ -29,89 +23,6 @@ from twinform.profiles.xml_parsers import (
     parse_with_tinyxml,
     split_as_bullet,
 )
-
-_COLUMNS = lazy_pattern(r"\s{2,}")
-_STEP = lazy_pattern(r"(?P<first>\^?)(?P<tag>[\w:.-]+)(?P<every>\*?)(?:\[(?P<other>!?)(?P<types>[^\]]*)\])?")
-
-
-@dataclass(frozen=True, slots=True)
-class PlaceStep:
-    """One element on the path to a place."""
-
-    tag: str
-    every: bool
-    first: bool
-    types: frozenset[str]
-    other: bool
-
-
-@dataclass(frozen=True, slots=True)
-class Demand:
-    """What a consumer reads at a place; `needed` says whether it must be there."""
-
-    place: tuple[PlaceStep, ...]
-    item: str
-    form: str
-    needed: bool
-    effect: str
-    about: str
-    pipeline: str
-
-
-@dataclass(frozen=True, slots=True)
-class Reads:
-    """What a consumer reads: its XML parser, and its demands."""
-
-    parser: str
-    demands: tuple[Demand, ...]
-    skips: str = ""
-    """The attribute that, where it is `true`, makes the consumer skip a link or a joint."""
-
-
-@cache
-def reads(name: str) -> Reads:
-    """The table of a consumer, with the tables that it is based on."""
-    parser, skips, demands = "", "", list[Demand]()
-    for line in _table_lines(name):
-        columns = _COLUMNS.split(line, maxsplit=4)
-        if columns[0] == "parser":
-            parser = columns[1]
-        elif columns[0] == "skips":
-            skips = columns[1]
-        elif columns[0] == "like":
-            base = reads(columns[1])
-            parser, demands = parser or base.parser, [*base.demands, *demands]
-        elif columns[0] == "without":
-            demands = [each for each in demands if each.item != columns[1]]
-        else:
-            demands.append(_parse_demand(columns))
-    return Reads(parser, tuple(demands), skips)
-
-
-def _table_lines(name: str) -> Iterator[str]:
-    text = files("twinform.profiles").joinpath("data", "reads", f"{name}.reads").read_text(encoding="utf-8")
-    return (line for line in map(str.strip, text.splitlines()) if line and not line.startswith("#"))
-
-
-def _parse_demand(columns: list[str]) -> Demand:
-    place, item, form, effect, words = columns
-    about, _, pipeline = words.partition(" => ")
-    return Demand(_parse_place(place), item, form.removesuffix("!"), form.endswith("!"), effect, about, pipeline)
-
-
-def _parse_place(place: str) -> tuple[PlaceStep, ...]:
-    if place == "robot":
-        return ()
-    found = [_STEP.fullmatch(part) for part in place.split("/")]
-    if None in found:
-        raise ValueError(f"{place!r} is no place")
-    return tuple(_parse_step(each) for each in found if each)
-
-
-def _parse_step(found: re.Match[str]) -> PlaceStep:
-    types = frozenset(found["types"].split(",")) if found["types"] is not None else frozenset[str]()
-    return PlaceStep(found["tag"], bool(found["every"]), bool(found["first"]), types, bool(found["other"]))
-
 
 IsThere = Callable[[str], bool]
 """Says whether a URI leads to a file."""
@@ -148,7 +59,8 @@ def shortfalls(root: RawNode, table: Reads, is_there: IsThere) -> Iterator[Short
 
 
 def _unmet_demands(root: RawNode, table: Reads, is_there: IsThere) -> Iterator[Shortfall]:
-    for demand in table.demands:
+    version = version_read("urdf", root.attributes.get("version"))
+    for demand in (each for each in table.demands if each.is_about(version)):
         if demand.item in tree_facts.FACTS:
             for node, message in tree_facts.FACTS[demand.item](root):
                 yield _shortfall(demand, "tree", message, node, fact=demand.item)
@@ -329,7 +241,7 @@ _RECOVERED = "it reads as much of the file as it can"
 
 
 def read_as(consumer: str, content: bytes, is_there: IsThere = lambda _: True) -> Iterator[Shortfall]:
-    """What a consumer cannot read in a text, or needs and does not find there."""
+    """What a consumer, perhaps with a release after `@`, cannot read in a text, or needs and does not find there."""
     table = reads(consumer)
     try:
         top, message = _parse_as(table.parser, content)

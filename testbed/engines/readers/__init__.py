@@ -5,6 +5,6 @@ They are asked whether something changes for them, such as carriers, and whether
 
 from testbed.engines.readers.answers import Kept
 from testbed.engines.readers.library import READERS, Reader, Reading
-from testbed.engines.readers.loaders import LOADERS, Loader, Verdict
+from testbed.engines.readers.loaders import LOADERS, USUAL, Loader, Verdict
 
-__all__ = ["LOADERS", "READERS", "Kept", "Loader", "Reader", "Reading", "Verdict"]
+__all__ = ["LOADERS", "READERS", "USUAL", "Kept", "Loader", "Reader", "Reading", "Verdict"]

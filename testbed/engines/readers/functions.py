@@ -10,6 +10,7 @@ from testbed.engines.readers.answers import Answer
 FUNCTIONS: Mapping[str, Callable[[Path], Answer]] = {
     "libsdformat": parsers.libsdformat12,
     "urdfdom": parsers.urdfdom,
+    "check_urdf": parsers.check_urdf,
     "dart": engines.dart,
     "drake": engines.drake,
     "drake with a scene": engines.drake_with_scene,

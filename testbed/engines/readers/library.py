@@ -17,6 +17,7 @@ from typing import Any
 
 from testbed.engines.readers import parsers
 from testbed.engines.readers.answers import Kept
+from testbed.engines.readers.installed import folder_of, import_path, python_for, version_in
 from twinform.testing.oracles import libsdformat
 
 _ROOT = Path(__file__).parents[3]
@@ -48,13 +49,18 @@ class Reading:
 
 @dataclass(slots=True, eq=False)
 class Reader:
-    """A reader: its formats by suffix, what it needs to be here, and its release."""
+    """A reader: its formats by suffix, what it needs to be here, and its release.
+
+    `python` runs it with `path` as PYTHONPATH: those of the environment, or of a release that is installed elsewhere.
+    """
 
     name: str
     formats: frozenset[str]
     needs: str
     present: Callable[[], bool]
     version: Callable[[], str]
+    python: str = sys.executable
+    path: str = str(_ROOT)
     _process: subprocess.Popen[str] | None = field(default=None, init=False)
 
     def ask(self, path: Path) -> Reading:
@@ -91,8 +97,8 @@ class Reader:
         return json.loads(line)
 
     def _started(self) -> subprocess.Popen[str]:
-        command = [sys.executable, "-m", "testbed.engines.readers.child", self.name]
-        environment = os.environ | {"PYTHONPATH": str(_ROOT)}
+        command = [self.python, "-m", "testbed.engines.readers.child", self.name]
+        environment = os.environ | {"PYTHONPATH": self.path}
         quiet, folder = subprocess.DEVNULL, tempfile.gettempdir()  # some leave a log where they are
         return subprocess.Popen(
             command,
@@ -173,3 +179,16 @@ SCENES = (
     _python("yourdfpy with a scene", _URDF, "yourdfpy", "yourdfpy"),
 )
 """Those that look at shapes and materials, too, and so need the meshes of a file."""
+
+
+def elsewhere(reader: Reader, package: str, version: str, name: str = "") -> Reader:
+    """A reader in a release of a package that has a folder of its own; `name` where another function asks it."""
+    folder, python = folder_of(package, version), python_for(package, version)
+    present = partial(_is_in, folder, package, python)
+    needs = "python -m testbed.engines.readers.install"
+    path = import_path(folder)
+    return Reader(name or reader.name, reader.formats, needs, present, lambda: version, python or "", path)
+
+
+def _is_in(folder: Path, package: str, python: str | None) -> bool:
+    return python is not None and bool(version_in(folder, package))

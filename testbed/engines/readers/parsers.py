@@ -4,6 +4,7 @@ import importlib
 import json
 import os
 import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +32,17 @@ def urdfdom(path: Path) -> Answer:
     if not found:
         raise RefusedError(done.stderr)
     return Answer(done.stderr, kept(found["links"], found["joints"], found["masses"], found["shapes"]))
+
+
+def check_urdf(path: Path) -> Answer:
+    """The tool of urdfdom in the first folder of modules that has one: its messages, without what it keeps."""
+    prefix = next(each for each in (Path(entry, "cmeel.prefix") for entry in sys.path) if (each / "bin").is_dir())
+    environment = {**os.environ, "LD_LIBRARY_PATH": str(prefix / "lib")}
+    command = [str(prefix / "bin/check_urdf"), str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, errors="replace", env=environment)
+    if done.returncode:
+        raise RefusedError(f"ended with {done.returncode}: {done.stderr}")
+    return Answer(done.stderr)
 
 
 def libsdformat12(path: Path) -> Answer:

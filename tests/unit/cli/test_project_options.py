@@ -82,6 +82,48 @@ def test_the_passes_are_those_that_are_needed(run: Run, robot: Path) -> None:
     assert run("convert", robot, "--to", "urdf", "--for", "mujoco", "--print-pipeline").stdout == "\n"
 
 
+LATE = GOOD.replace('"r"', '"r" version="1.2"').replace(
+    '<joint name="j" type="continuous">',
+    '<joint name="j" type="revolute"><origin quat_xyzw="0 0 1 0"/><limit lower="0" upper="1" jerk="2"/>',
+)
+
+
+@pytest.mark.parametrize(
+    ("release", "root"),
+    [
+        ("humble", '<robot name="r">'),
+        ("jazzy", '<robot name="r">'),
+        ("5.1", '<robot name="r" version="1.1">'),
+        ("rolling", '<robot name="r" version="1.2">'),
+    ],
+)
+def test_a_version_that_a_release_reads(run: Run, robot: Path, tmp_path: Path, release: str, root: str) -> None:
+    out = tmp_path / "out.urdf"
+    robot.write_text(LATE, encoding="utf-8")
+    done = run("convert", robot, "-o", out, "--to", "urdf", "--for", f"urdfdom@{release}")
+    assert done.exit_code == 0, done.output
+    made = out.read_text(encoding="utf-8")
+    assert root in made
+    assert ("rpy=" in made) is ("version" not in root)
+    assert run("check", out, "--for", f"urdfdom@{release}").exit_code == 0
+    before = run("check", robot, "--for", f"urdfdom@{release}")
+    assert before.exit_code == (0 if release == "rolling" else 1)
+
+
+def test_an_older_version_stays_for_a_newer_release(run: Run, robot: Path, tmp_path: Path) -> None:
+    robot.write_text(GOOD, encoding="utf-8")
+    assert run("convert", robot, "-o", tmp_path / "out.urdf", "--to", "urdf", "--for", "urdfdom@rolling").exit_code == 0
+    assert '<robot name="r">' in (tmp_path / "out.urdf").read_text(encoding="utf-8")
+
+
+def test_a_version_that_was_asked_for_is_judged(run: Run, robot: Path, tmp_path: Path) -> None:
+    robot.write_text(LATE, encoding="utf-8")
+    arguments = ("--to", "urdf", "--for", "urdfdom@jazzy", "--urdf-version", "1.2")
+    done = run("convert", robot, "-o", tmp_path / "out.urdf", *arguments)
+    assert done.exit_code == 1
+    assert "urdfdom jazzy refuses: it knows version 1.0 alone" in done.stderr
+
+
 def test_every_part_is_still_accounted_for(run: Run, robot: Path, tmp_path: Path) -> None:
     done = run("convert", robot, "-o", tmp_path / "out.sdf", "--for", "drake", "--audit")
     assert "0 unaccounted" in done.output

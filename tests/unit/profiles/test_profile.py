@@ -11,10 +11,10 @@ from twinform.ir import Format
 from twinform.passes import parse_pipeline
 from twinform.profiles import Effect, Profile, ProfileRow, UnknownProfileError, load, names, parse
 from twinform.profiles.assessment import RULES_OF_FACTS
-from twinform.profiles.profile import PORTABLE
+from twinform.profiles.profile import PORTABLE, all_rows, releases_of
+from twinform.profiles.reads_tables import demands_by_release, reads
 from twinform.profiles.remedies import REMEDIES, in_order
 from twinform.profiles.tree_facts import FACTS
-from twinform.profiles.walking import reads
 
 _EVERY = [profile for name in names() if name != PORTABLE for profile in load(name)]
 _FINDING = Diagnostic(
@@ -36,9 +36,27 @@ def test_every_row_names_a_rule_and_passes_that_there_are(profile: Profile) -> N
 
 @pytest.mark.parametrize("profile", _EVERY, ids=lambda each: each.name)
 def test_what_was_tested_says_in_which_version(profile: Profile) -> None:
-    assert bool(profile.seen) or not profile.tested
+    assert profile.tested == any(each.seen for each in releases_of(profile.name))
     assert profile.formats
-    assert profile.label.startswith(profile.title)
+    assert profile.label.startswith(f"{profile.title} ")
+
+
+@pytest.mark.parametrize("profile", _EVERY, ids=lambda each: each.name)
+def test_every_release_was_tested_or_read_somewhere_and_has_names_of_its_own(profile: Profile) -> None:
+    releases = releases_of(profile.name)
+    assert all(bool(each.seen) != bool(each.source) for each in releases) or not profile.tested
+    named = [name for each in releases for name in each.names]
+    assert len(named) == len(set(named))
+    assert all(parse(f"{profile.name}@{name}")[0].release.names.count(name) for name in named)
+
+
+@pytest.mark.parametrize("profile", _EVERY, ids=lambda each: each.name)
+def test_what_holds_for_no_release_that_was_asked_says_where_it_was_read(profile: Profile) -> None:
+    for demand, releases in demands_by_release(profile.name).items():
+        assert demand.source or any(each.seen for each in releases) or not profile.tested, demand
+    asked = [each.name for each in releases_of(profile.name) if each.seen]
+    rows = [row for name in asked for row in load(f"{profile.name}@{name}")[0].rows]
+    assert all(row.source or row in rows or not profile.tested for row in all_rows(profile.name))
 
 
 def test_what_facts_share_with_check_are_facts_and_rules() -> None:
@@ -65,8 +83,21 @@ def test_portable_is_all_that_are_tested() -> None:
 
 def test_a_release_is_named_behind_an_at_sign() -> None:
     (fortress,), (harmonic,) = load("gazebo@fortress"), load("gazebo@harmonic")
-    assert (fortress.sdf, harmonic.sdf) == ("1.9", "1.11")
-    assert load("gazebo") == load("gazebo@harmonic")
+    assert (fortress.release.sdf, harmonic.release.sdf) == ("1.9", "1.11")
+    assert (fortress.label, harmonic.label) == ("Gazebo fortress", "Gazebo harmonic")
+    assert [each.release for each in load("gazebo")] == [harmonic.release]
+
+
+def test_a_distribution_is_a_name_of_a_release() -> None:
+    (jazzy,), (four,) = load("urdfdom@jazzy"), load("urdfdom@4.0")
+    assert jazzy.release == four.release
+    assert [each.label for each in parse("urdfdom@jazzy,urdfdom@4.0,urdfdom")] == ["urdfdom 4.0.1"]
+
+
+def test_what_is_built_on_urdfdom_has_the_releases_that_distributions_ship() -> None:
+    (moveit,) = load("moveit@rolling")
+    assert (moveit.label, moveit.reads, moveit.release.urdf) == ("MoveIt rolling", "urdfdom@lyrical", "1.2")
+    assert "5.1" not in {name for each in releases_of("moveit") for name in each.names}
 
 
 def test_names_with_commas_between_each_once() -> None:
@@ -78,7 +109,8 @@ def test_names_with_commas_between_each_once() -> None:
     [
         ("mujocco", "there is no profile 'mujocco'; did you mean 'mujoco'?"),
         ("gazebo@harmonics", "has no release 'harmonics'; did you mean 'harmonic'?"),
-        ("drake@1", "'drake' has no release '1'; it has no releases"),
+        ("drake@1", "'drake' has no release '1'; there are 1.51"),
+        ("moveit@jazy", "'moveit' has no release 'jazy'; did you mean 'jazzy'?"),
         ("portable@1", "'portable' has no releases"),
         (",", "name a profile"),
         ("", "name a profile"),

@@ -7,7 +7,8 @@ from twinform.diagnostics import rules
 from twinform.ir import Format
 from twinform.profiles import ConsumerVerdict, ProfiledFile, assess, load
 from twinform.profiles.nodes import UnparsedError
-from twinform.profiles.walking import read_as, reads
+from twinform.profiles.reads_tables import reads
+from twinform.profiles.walking import read_as
 
 INERTIAL = (
     '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'  # one line
@@ -80,9 +81,20 @@ def test_values_stay_as_they_are_written() -> None:
 
 
 def test_a_table_is_like_another_one_but_for_what_it_says() -> None:
-    demands, base = reads("pinocchio").demands, reads("urdfdom").demands
-    assert [each for each in base if each.item != "@version"] == list(demands[: len(base) - 1])
-    assert reads("pinocchio").parser != reads("urdfdom").parser
+    demands, base = reads("pinocchio@4").demands, reads("urdfdom@6.0").demands
+    assert base == demands[: len(base)]
+    assert len(base) < len(demands)
+    demands, base = reads("gazebo").demands, reads("urdfdom@4.0").demands
+    assert base == demands[: len(base)]
+
+
+def test_a_line_is_about_releases() -> None:
+    assert (reads("urdfdom@humble").parser, reads("urdfdom").parser) == ("tinyxml", "tinyxml2")
+    versions = {
+        name: [each.form for each in reads(f"urdfdom@{name}").demands if each.item == "@version"]
+        for name in ("humble", "kilted", "5.1", "rolling")
+    }
+    assert versions == {"humble": ["urdf-1.0"], "kilted": ["urdf-1.0"], "5.1": ["urdf-1.1"], "rolling": ["urdf-1.2"]}
 
 
 @pytest.mark.parametrize(

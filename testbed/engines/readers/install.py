@@ -1,0 +1,45 @@
+"""Installs readers in other releases than the environment has: `python -m testbed.engines.readers.install`."""
+
+import subprocess
+import sys
+from collections.abc import Mapping
+
+from testbed.engines.readers.installed import folder_of, python_version_of, version_in
+from testbed.engines.readers.loaders import LOADERS
+
+_BESIDE: Mapping[str, tuple[str, ...]] = {
+    "cmeel-urdfdom==4.0.1": ("cmeel-tinyxml2<11",),
+    "pin==3.9.0": ("cmeel-urdfdom<5", "cmeel-tinyxml2<11"),
+}
+"""The libraries that a package was built with, where it does not ask for these versions."""
+_PLATFORM = "manylinux_2_36_x86_64"
+
+
+def install(package: str, version: str) -> None:
+    """Install a package in its folder, unless it is there.
+
+    Raises:
+        CalledProcessError: pip finds no such release.
+    """
+    requirement, folder = f"{package}=={version}", folder_of(package, version)
+    if version_in(folder, package):
+        return
+    command = [sys.executable, "-m", "pip", "install", "-qqq", "--disable-pip-version-check"]
+    if wanted := python_version_of(requirement):
+        command += ["--python-version", wanted, "--platform", _PLATFORM, "--only-binary", ":all:"]
+    print(f"{folder.name}", flush=True)
+    subprocess.run([*command, "--target", str(folder), requirement, *_BESIDE.get(requirement, ())], check=True)
+
+
+def main() -> None:
+    """Install all releases that loaders are asked in and that are not there."""
+    for loader in LOADERS:
+        if loader.package is not None:
+            try:
+                install(*loader.package)
+            except subprocess.CalledProcessError:
+                print(f"{loader.consumer} cannot be installed")
+
+
+if __name__ == "__main__":
+    main()
