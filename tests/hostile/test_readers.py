@@ -43,6 +43,7 @@ OTHERS = {
     "passes/appearance/materials.py": DATA,
     "passes/classic/tables.py": DATA,
     "passes/mesh_jobs/child.py": NOWHERE,
+    "passes/mesh_jobs/usd_jobs.py": "packages of USD, as bytes, in a confined process",
     "passes/mesh_jobs/job.py": "what the kernel says of this process",
     "passes/meshes/convert_meshes.py": DATA,
     "passes/meshes/mesh_pass.py": "results of its own, in the cache of the user",

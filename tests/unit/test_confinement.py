@@ -106,8 +106,8 @@ def test_layers_hold_in_this_order_or_are_left_out(monkeypatch: pytest.MonkeyPat
 def test_a_python_without_ctypes_is_held_to_limits(monkeypatch: pytest.MonkeyPatch) -> None:
     package = "twinform.confinement"
 
-    def renounce(*, threads: bool) -> bool:
-        del threads
+    def renounce(*, threads: bool, opens: bool) -> bool:
+        del threads, opens
         return True
 
     monkeypatch.setattr(f"{package}.renounce_descriptors", renounce)
@@ -115,12 +115,12 @@ def test_a_python_without_ctypes_is_held_to_limits(monkeypatch: pytest.MonkeyPat
     assert confine() == ["resources"]
 
 
-@pytest.mark.parametrize("threads", [False, True])
+@pytest.mark.parametrize(("threads", "opens"), [(False, False), (True, False), (True, True)])
 @pytest.mark.parametrize("machine", ["x86_64", "aarch64"])
-def test_the_filter_lets_through_what_is_listed_and_no_other_call(machine: str, threads: bool) -> None:
-    program = list(kernel.program(machine, threads=threads))
+def test_the_filter_lets_through_what_is_listed_and_no_other_call(machine: str, threads: bool, opens: bool) -> None:
+    program = list(kernel.program(machine, threads=threads, opens=opens))
     column = list(kernel.ARCHITECTURES).index(machine)
-    calls = kernel.CALLS | (kernel.THREAD_CALLS if threads else {})
+    calls = kernel.CALLS | (kernel.THREAD_CALLS if threads else {}) | (kernel.OPENING_CALLS if opens else {})
     allowed = {numbers[column] for numbers in calls.values()}
     clone = (56, 220)[column] if threads else None
     mapping = {numbers[column] for numbers in kernel.MAPPING_CALLS.values()}

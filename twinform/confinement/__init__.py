@@ -19,22 +19,23 @@ from twinform.confinement.resources import renounce_descriptors
 __all__ = ["confine"]
 
 
-def confine(*, threads: bool = False) -> list[str]:
+def confine(*, threads: bool = False, opens: bool = False) -> list[str]:
     """Give up everything but computing and the open pipes; returns the names of the layers in force.
 
-    With `threads` more of them may begin, which libraries for numbers do.
+    With `threads` more of them may begin, which libraries for numbers do. With `opens` the process may ask for files,
+    and Landlock alone refuses those of the file system: what is in memory has a name below `/proc/self/fd`.
     """
     # All three layers work through `ctypes` and need no dependency. Where a kernel lacks one, the
     # others hold. Python's audit hooks are no substitute: their documentation says that they are no
     # sandbox, and an expression reached the hook's own list.
-    layers = {"resources": lambda: renounce_descriptors(threads=threads)}
+    layers = {"resources": lambda: renounce_descriptors(threads=threads, opens=opens)}
     try:
         kernel = import_module("twinform.confinement.kernel")
         # in this order: a ruleset needs a descriptor, and limits need a system call
         layers = {
             "landlock": kernel.renounce_files,
             **layers,
-            "seccomp": lambda: kernel.renounce_calls(threads=threads),
+            "seccomp": lambda: kernel.renounce_calls(threads=threads, opens=opens),
         }
     except ImportError:
         pass  # a Python without ctypes

@@ -36,6 +36,8 @@ THREAD_CALLS = {
     "clock_nanosleep": (230, 115), "set_tid_address": (218, 96), "prlimit64": (302, 261),
 }  # fmt: skip
 """What threads take besides: in their beginning, while they wait, and to know how large a stack is."""
+OPENING_CALLS = {"openat": (257, 56), "stat": (4, 79), "lstat": (6, 79), "newfstatat": (262, 79), "readlink": (89, 78)}
+"""What opening a file by its name takes; the second machine has one call for three of them."""
 _CLONE, _CLONE3 = (56, 220), (435, 435)
 
 
@@ -52,14 +54,14 @@ class _Program(ctypes.Structure):
     _fields_ = (("length", ctypes.c_uint16), ("instructions", ctypes.POINTER(_Instruction)))
 
 
-def renounce_calls(*, threads: bool = False) -> bool:
+def renounce_calls(*, threads: bool = False, opens: bool = False) -> bool:
     """Give up all system calls but the listed ones; returns whether the kernel enforces it."""
     if not sys.platform.startswith("linux") or sys.maxsize < 2**32:
         return False
     machine = os.uname().machine
     if machine not in ARCHITECTURES:
         return False
-    instructions = [_Instruction(*each) for each in program(machine, threads=threads)]
+    instructions = [_Instruction(*each) for each in program(machine, threads=threads, opens=opens)]
     array = (_Instruction * len(instructions))(*instructions)
     loaded = _Program(len(instructions), array)
     libc = ctypes.CDLL(None, use_errno=True)
@@ -68,10 +70,11 @@ def renounce_calls(*, threads: bool = False) -> bool:
     return libc.prctl(_SET_SECCOMP, _FILTER, ctypes.byref(loaded), 0, 0) == 0
 
 
-def program(machine: str, *, threads: bool = False) -> Iterator[tuple[int, int, int, int]]:
+def program(machine: str, *, threads: bool = False, opens: bool = False) -> Iterator[tuple[int, int, int, int]]:
     """Assemble the filter: code, instructions to skip if true and if false, value."""
     column = list(ARCHITECTURES).index(machine)
-    plain = [numbers[column] for numbers in (CALLS | (THREAD_CALLS if threads else {})).values()]
+    calls = CALLS | (THREAD_CALLS if threads else {}) | (OPENING_CALLS if opens else {})
+    plain = [numbers[column] for numbers in calls.values()]
     # The architecture comes first: numbers mean other calls in another ABI (seccomp(2)).
     yield _LOAD, 0, 0, _ARCHITECTURE
     yield _JUMP_IF_EQUAL, 1, 0, ARCHITECTURES[machine]

@@ -7,14 +7,18 @@ Kind = Literal["AS", "CORE", "CPU", "FSIZE", "NOFILE", "NPROC"]
 """A limit, by the end of its name in `resource`."""
 
 
+DESCRIPTORS = 64
+"""How many descriptors a process has that may open what is in memory."""
+
+
 # A limit of zero for file sizes also stops writing through descriptors that are already open, and
 # one of zero for descriptors makes every new `open`, `socket` and `pipe` fail.
-def renounce_descriptors(*, threads: bool = False) -> bool:
+def renounce_descriptors(*, threads: bool = False, opens: bool = False) -> bool:
     """Give up opening files and connections and starting processes; returns whether the system enforces it."""
     set_limit("FSIZE", 0)
     if not threads:  # which count as processes
         set_limit("NPROC", 0)
-    return set_limit("NOFILE", 0)
+    return set_limit("NOFILE", DESCRIPTORS if opens else 0)
 
 
 def set_limit(kind: Kind, most: int, grace: int = 0) -> bool:

@@ -1,6 +1,6 @@
-"""`python -m twinform.passes.mesh_jobs.child`: does jobs on mesh files until its input ends.
+"""`python -m twinform.passes.mesh_jobs.child`: does jobs on mesh files, or on USD, until its input ends.
 
-Mesh files are untrusted, and the libraries that read them are large. On Linux a fork of this process does each job: it
+These files are untrusted, and the libraries that read them are large. On Linux a fork of this process does each job: it
 has imported the libraries already, and has limited time and memory, no files, no connections and no child processes.
 Whatever goes wrong there ends only the fork. On other systems the job is do_job here, with a limit on memory.
 """
@@ -9,9 +9,13 @@ import os
 import select
 import signal
 import sys
+import tempfile
 import threading
-from contextlib import suppress
+from collections.abc import Generator
+from contextlib import contextmanager, suppress
+from dataclasses import replace
 from importlib import import_module
+from pathlib import Path
 from typing import BinaryIO
 
 from twinform.confinement import confine
@@ -23,7 +27,9 @@ _JOBS = {
     "measure": "measuring", "simplify": "mesh_making", "surface": "measuring",
 }  # fmt: skip
 """The module that has the function of a job, which has the name of the job."""
-_LIBRARIES = frozenset({"coacd", "collada", "fast_simplification", "numpy", "scipy", "trimesh"})
+_USD_JOBS = {"layer": "usd_jobs", "stage": "usd_jobs"}
+"""The jobs on USD, of a process of their own: its library takes a third of a second to import."""
+_LIBRARIES = frozenset({"coacd", "collada", "fast_simplification", "numpy", "pxr", "scipy", "trimesh"})
 """The import names of the libraries that the extra installs."""
 # Readers import these when they meet certain files, and could not do so once the process is
 # confined.
@@ -44,7 +50,7 @@ def main() -> None:
     memory, replies = int(sys.argv[1]), _open_replies()
     forks = sys.platform.startswith("linux")
     if forks:
-        _import_libraries()
+        _import_libraries(usd=sys.argv[2:] == ["usd"])
     while (job := MeshJob.read(sys.stdin.buffer)) is not None:
         if forks:
             _do_in_fork(job, memory, replies)
@@ -71,9 +77,13 @@ def _end_with_parent() -> None:
     os._exit(1)
 
 
-def _import_libraries() -> None:
+def _import_libraries(*, usd: bool = False) -> None:
     """Import all that a job may need, as far as it is installed."""
     # After `confine` nothing can be opened, so whatever a reader imports late has to be there.
+    if usd:
+        with suppress(ImportError):
+            import_module("twinform.passes.mesh_jobs.usd_jobs").warm_up()
+        return
     for name in (*_NEEDED_LATER, *(f"twinform.passes.mesh_jobs.{name}" for name in sorted({*_JOBS.values()}))):
         with suppress(ImportError):
             import_module(name)
@@ -87,23 +97,62 @@ def _do_in_fork(job: MeshJob, memory: int, replies: BinaryIO) -> None:
     # A COLLADA file of 2 kB whose nodes stand for each other twice took 2.6 GB in the compiler's
     # process. In a fork, the libraries are imported already (that takes a second), and nothing that
     # a mesh does to one of them outlives its job.
-    child = os.fork()
-    if not child:
-        answered = False
-        try:
-            _end_fork_with_parent()
-            limit_reading(job.size, memory)
-            # Threads for CoACD.
-            confine(threads=True)
-            replies.write(do_job(job).to_bytes())
-            replies.flush()
-            answered = True
-        finally:
-            os._exit(not answered)
-    _, status = os.waitpid(child, 0)
+    with _file_of(job) as file:
+        child = os.fork()
+        if not child:
+            answered = False
+            try:
+                _end_fork_with_parent()
+                limit_reading(job.size, memory)
+                # Threads for CoACD.
+                held = confine(threads=True, opens=bool(file))
+                is_held = not file or "landlock" in held
+                replies.write((do_job(_with_file(job, file)) if is_held else _NOT_HELD).to_bytes())
+                replies.flush()
+                answered = True
+            finally:
+                os._exit(not answered)
+        _, status = os.waitpid(child, 0)
     if status:
         replies.write(MeshResult({}, trouble="unreadable", message=_explain_death(status, job)).to_bytes())
         replies.flush()
+
+
+_LINKED = 63
+"""The descriptor that a name leads to: the highest that a confined process may open."""
+_NOT_HELD = MeshResult(
+    {},
+    trouble="unreadable",
+    message="a binary layer of USD is read only where Linux has Landlock; write it as text (usda)",
+)
+
+
+@contextmanager
+def _file_of(job: MeshJob) -> Generator[str]:
+    """A name under which a confined fork can open the content of a job; empty where its reader needs none.
+
+    USD reads binary layers from files alone, and their format goes by the name. The name is a link to a file in memory:
+    the confined process can open no file of the system, and this one is of none.
+    """
+    if job.kind != "usdc":
+        yield ""
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        made = os.memfd_create("layer")
+        try:
+            with os.fdopen(os.dup(made), "wb") as copy:
+                copy.write(job.content)
+            os.dup2(made, _LINKED)
+            name = Path(folder, "layer.usdc")
+            name.symlink_to(f"/proc/self/fd/{_LINKED}")
+            yield str(name)
+        finally:
+            os.close(made)
+            os.close(_LINKED)
+
+
+def _with_file(job: MeshJob, file: str) -> MeshJob:
+    return replace(job, options={**job.options, "file": file}) if file else job
 
 
 def _end_fork_with_parent() -> None:
@@ -124,7 +173,7 @@ def do_job(job: MeshJob) -> MeshResult:
     """The result of a job; errors of the mesh and of the libraries become a result with `trouble`."""
     try:
         # the libraries may not be installed, and only some jobs need all of them
-        module = import_module(f"twinform.passes.mesh_jobs.{_JOBS[job.name]}")
+        module = import_module(f"twinform.passes.mesh_jobs.{(_JOBS | _USD_JOBS)[job.name]}")
         return getattr(module, job.name)(job)
     except ImportError as error:
         library = (error.name or "").partition(".")[0]

@@ -1,4 +1,4 @@
-"""The child process that does jobs on mesh files: started once, for all passes, and ended with this process."""
+"""The child processes that do jobs on mesh files and on USD: each started once, and ended with this process."""
 
 import atexit
 import os
@@ -15,15 +15,21 @@ from twinform.passes.mesh_jobs.job import MEMORY, BadMessageError, MeshJob, Mesh
 # processor time is shorter.
 _PATIENCE = 900.0
 # A pool of threads reserves address space for each processor, which counts against the limit.
-_ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS"), "1")
+_ONE_THREAD = dict.fromkeys(
+    ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMEXPR_NUM_THREADS", "PXR_WORK_THREAD_LIMIT"), "1"
+)
 
 
 @dataclass(slots=True)
 class MeshProcess:
-    """A child process that does one job after the other; a crash loses only the job that caused it."""
+    """A child process that does one job after the other; a crash loses only the job that caused it.
+
+    `libraries` is empty, or `usd` for jobs on USD.
+    """
 
     memory: int = MEMORY
     seconds: float = _PATIENCE
+    libraries: str = ""
     _child: "subprocess.Popen[bytes] | None" = None
     _lock: threading.Lock = field(default_factory=threading.Lock)
 
@@ -64,7 +70,7 @@ class MeshProcess:
             # Not a pool of the standard library: worker processes of `batch` may not have children
             # of that kind.
             self._child = subprocess.Popen(  # noqa: S603 - our own module
-                python_command("-m", "twinform.passes.mesh_jobs.child", str(self.memory)),
+                python_command("-m", "twinform.passes.mesh_jobs.child", str(self.memory), *self.libraries.split()),
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.DEVNULL,
@@ -99,13 +105,19 @@ def _ask_child(child: "subprocess.Popen[bytes]", job: MeshJob) -> MeshResult:
     return MeshResult.read(cast("BinaryIO", child.stdout))
 
 
-_shared = MeshProcess()
+_shared, _usd = MeshProcess(), MeshProcess(libraries="usd")
 atexit.register(_shared.end)
+atexit.register(_usd.end)
 
 
 def shared() -> MeshProcess:
     """The child process that all passes share."""
     return _shared
+
+
+def usd() -> MeshProcess:
+    """The child process for jobs on USD."""
+    return _usd
 
 
 def do(job: MeshJob) -> MeshResult:
