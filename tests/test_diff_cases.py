@@ -17,6 +17,8 @@ _CODES = {"same": 0, "different": 1, "carried": 1}
 def test_diff_prints_what_the_case_shows(case: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(case)
     a, b = (next(Path().glob(f"{side}.*")).name for side in "ab")
+    if b.endswith(".usda"):
+        pytest.importorskip("pxr", reason="usd-core is not installed")
     done = CliRunner().invoke(main, ["diff", a, b], catch_exceptions=False)
     assert done.exit_code == _CODES[case.name.partition("_")[0]], done.output
     assert_expected(done.output, Path("expected.txt"))

@@ -49,6 +49,7 @@ _PAIR = 2
 EXAMPLES = {
     "Is it the same robot?": "twinform diff robot.urdf robot.sdf",
     "Count what only twinform reads as written": "twinform diff robot.urdf robot.sdf --carriers",
+    "Has a converter to USD lost anything?": "twinform diff robot.urdf robot.usda",
     "Allow for rounding": "twinform diff robot.urdf robot.sdf --tolerance 1e-6",
 }
 
@@ -73,8 +74,9 @@ def command(
 
     Prints what differs, where and by how much; what is carried, which means that only a carrier or <gazebo> says it,
     and other readers see two robots; and notes on what is only written in another way. A and B are URDF, SDF,
-    xacro or JSON files, mixed as it comes; - is standard input. Arguments of xacro are written NAME:=VALUE. Exit code:
-    0 the same robot, 1 another one, 2 where a file could not be read or has errors.
+    xacro or JSON files, mixed as it comes, or USD, which no other command reads; - is standard input. Arguments of
+    xacro are written NAME:=VALUE. Exit code: 0 the same robot, 1 another one, 2 where a file could not be read or has
+    errors.
     """
     sources, arguments = inputs(words)
     if len(sources) != _PAIR:

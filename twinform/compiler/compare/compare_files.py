@@ -23,6 +23,7 @@ from twinform.compiler.compare.matching import compare_leaves, compare_parts
 from twinform.compiler.compare.part_reader import PartReader
 from twinform.compiler.compare.readers import ComparingReader, Memo, as_read_by, reconcile
 from twinform.compiler.compare.robot_builder import build_robot
+from twinform.compiler.compare.usd_terms import SINGLE_PRECISION
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.input.load_options import FileOptions
 from twinform.compiler.input.loading import (
@@ -30,6 +31,7 @@ from twinform.compiler.input.loading import (
     LoadOptions,
     LoadResult,
     garbage_collection_paused,
+    is_usd,
     name_of_input,
     read,
 )
@@ -171,15 +173,24 @@ def read_robots(
     model: str | None,
     readers: Iterable[ComparingReader],
     alike: Memo,
+    known: frozenset[str] | None = None,
 ) -> dict[ComparingReader, Robots]:
     """Read the robots of a file as each reader sees them; `model` chooses one of several.
 
-    Readers that see the same share one object, and so do files through `alike`.
+    `known` are the names of the other file, which names of USD may stand for. Readers that see the same share one
+    object, and so do files through `alike`.
 
     Raises:
         CompileError: the file has an error, or no such model.
     """
-    loaded = read(source, load_options, name=name)
+    of_usd = is_usd(source)
+    if of_usd:
+        from twinform.compiler.usd import read_usd  # noqa: PLC0415 - few files are USD
+
+        there = source if isinstance(source, bytes) else Path(str(source))
+        loaded = read_usd(there, load_options, name=name, model=model, known=known)
+    else:
+        loaded = read(source, load_options, name=name)
     if loaded.accepted and loaded.document is not None and loaded.document.format is Format.SDF:
         from twinform.compiler.expand_includes import expand  # noqa: PLC0415 - a URDF includes nothing
 
@@ -191,14 +202,14 @@ def read_robots(
         raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
     sink = DiagnosticSink(loaded.path, load_options.strict, origins=dict(loaded.origins))
     assets = LocalAssets(load_options.search, Path(loaded.path))
-    known: dict[int, Robots] = {}
+    read_before: dict[int, Robots] = {}
     found: dict[ComparingReader, Robots] = {}
     memos = defaultdict[str | None, Memo](Memo)
     for reader, seen in as_read_by(document, readers).items():
-        if id(seen) not in known:
-            build = partial(_build_once, memos, alike, reader)
-            known[id(seen)] = _robots_seen(loaded, seen, model, build, sink, assets)
-        found[reader] = known[id(seen)]
+        if id(seen) not in read_before:
+            build = partial(_build_once, memos, alike, reader, of_usd)
+            read_before[id(seen)] = _robots_seen(loaded, seen, model, build, sink, assets)
+        found[reader] = read_before[id(seen)]
     return found
 
 
@@ -210,6 +221,7 @@ def _build_once(
     memos: Mapping[str | None, Memo],
     alike: Memo,
     reader: ComparingReader,
+    of_usd: bool,
     name: str | None,
     model: Model,
     source: Model,
@@ -217,7 +229,7 @@ def _build_once(
 ) -> ComparedRobot:
     """Build a robot, or take all but its place from the other file where that says the same to the reader."""
     given, make = (model, source, format), lambda: build_robot(model, source, format, memos[name])
-    return replace(alike.once((reader, name), given, make), where=model.source)
+    return replace(alike.once((reader, name), given, make), where=model.source, of_usd=of_usd)
 
 
 def _robots_seen(
@@ -327,19 +339,32 @@ def compare_files(
     names = (names[0] or _display_name(a, "a"), names[1] or _display_name(b, "b"))
     with garbage_collection_paused():
         readers = (ComparingReader.TWINFORM,) if options.carriers else tuple(ComparingReader)
-        robots, alike = list[dict[ComparingReader, Robots]](), Memo()
-        errors: list[CompileError] = []
-        for source, name in zip((a, b), names, strict=True):
+        robots, alike = dict[int, dict[ComparingReader, Robots]](), Memo()
+        errors: dict[int, CompileError] = {}
+        inputs, known = (a, b), None
+        for side in sorted(
+            range(2), key=lambda side: is_usd(inputs[side])
+        ):  # what names of USD may stand for comes first
             try:
-                robots.append(read_robots(source, load_options, name=name, model=model, readers=readers, alike=alike))
+                robots[side] = read_robots(
+                    inputs[side], load_options, name=names[side], model=model, readers=readers, alike=alike, known=known
+                )
+                known = _names_in(robots[side][readers[-1]])
             except CompileError as error:
-                errors.append(error)
+                errors[side] = error
         if errors:
-            found = tuple(diagnostic for error in errors for diagnostic in error.diagnostics)
-            raise CompileError(found, unreadable=any(error.unreadable for error in errors))
-        one, other = robots
+            found = tuple(diagnostic for side in sorted(errors) for diagnostic in errors[side].diagnostics)
+            raise CompileError(found, unreadable=any(error.unreadable for error in errors.values()))
+        one, other = robots[0], robots[1]
         names = (one[readers[0]].path, other[readers[0]].path)
-        return Comparison(*names, options.tolerance, tuple(_compare_for_readers(one, other, options.tolerance)))
+        tolerance = max(options.tolerance, SINGLE_PRECISION) if any(map(is_usd, inputs)) else options.tolerance
+        return Comparison(*names, tolerance, tuple(_compare_for_readers(one, other, tolerance)))
+
+
+def _names_in(robots: Robots) -> frozenset[str]:
+    """Return the names of all links, joints and frames."""
+    each = robots.by_name.values()
+    return frozenset(name for robot in each for part in (robot.bodies, robot.joints, robot.frames) for name in part)
 
 
 def _display_name(source: Input | LoadResult, default: str) -> str:

@@ -39,6 +39,7 @@ from twinform.compiler.compare.fixed_bodies import FixedBodies, lump
 from twinform.compiler.compare.matching import compare_leaves, compare_parts, unmatched
 from twinform.compiler.compare.readers import Memo
 from twinform.compiler.compare.robot_builder import joint_type
+from twinform.compiler.compare.usd_terms import in_common_terms
 from twinform.dataclass import dataclass
 from twinform.ir.frames import WORLD
 from twinform.ir.motion import spanning_tree
@@ -57,7 +58,7 @@ class RobotComparison:
     """The comparison of two robots as one reader sees them; `memo` has the results of the reader before."""
 
     def __init__(self, a: ComparedRobot, b: ComparedRobot, terms: Terms, memo: Memo, *, several: bool) -> None:
-        lumped = self.lumped = lump(a, b)
+        lumped = self.lumped = lump(*in_common_terms(a, b))
         self.a, self.b = lumped.a, lumped.b
         self.terms = terms
         self.several = several

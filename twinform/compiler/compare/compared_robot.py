@@ -96,7 +96,10 @@ class NamedFrame:
 
 @dataclass(frozen=True, slots=True)
 class ComparedRobot:
-    """A model; `world` is the frame of the world in the model's frame, and `models` are the names of nested models."""
+    """A model; `world` is the frame of the world in the model's frame, and `models` are the names of nested models.
+
+    One `of_usd` comes from a USD file, in the terms of SDF.
+    """
 
     name: str
     format: Format
@@ -108,3 +111,4 @@ class ComparedRobot:
     leaves: Leaves = field(default_factory=dict[str, Leaf])
     parts: tuple[LinkPart, ...] = ()
     where: Source | None = None
+    of_usd: bool = False

@@ -6,6 +6,7 @@ from itertools import groupby
 from types import MappingProxyType
 
 from twinform.compiler.compare.comparison import Comparison, Difference, DifferenceSeverity, Side
+from twinform.compiler.input.loading import is_usd
 from twinform.diagnostics import Location
 from twinform.diagnostics.reporters import printable
 
@@ -84,9 +85,11 @@ def places_of(item: Difference, comparison: Comparison) -> Iterator[str]:
     seen: set[Location] = set()
     for file, side in ((comparison.a, item.a), (comparison.b, item.b)):
         where = side.location
-        if where.line and where not in seen:
-            seen.add(where)
-            yield f"{printable(where.file or file)}:{where.line}"
+        if where in seen or not (where.line or is_usd(where.file)):
+            continue
+        seen.add(where)
+        # prims of a stage come from several layers, and have paths of their own
+        yield f"{printable(where.file or file)}{f':{where.line}' if where.line else f'<{printable(where.path)}>'}"
 
 
 def amounts_of(item: Difference) -> Iterator[str]:

@@ -64,6 +64,8 @@ from twinform.schemas import (
 
 _JSON = lazy_pattern(rb"(\xef\xbb\xbf)?\s*\{")
 """How a JSON document begins."""
+_USD = (".usd", ".usda", ".usdc", ".usdz")
+_USD_MARKS = (b"#usda", b"PXR-USDC", b"PK\3\4")
 _OLD_ROOT = "gazebo"
 _OLD_ROOT_VERSIONS = frozenset({"1.2"})
 """The old name of SDF's root, and the known versions of files that have it; 1.0 is another language."""
@@ -86,6 +88,10 @@ def read(source: Input | LoadResult, load_options: LoadOptions, *, name: str = "
 
 
 def _read_source(source: str | Path | bytes, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
+    if is_usd(source):
+        message = "this is USD, which `twinform diff` compares with other models; nothing else is made of it"
+        sink.report(rules.USD_ONLY_COMPARED, message)
+        return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
     if not isinstance(source, bytes):
         load_options.search.seen.add(Path(source))
     try:
@@ -104,6 +110,13 @@ def _read_source(source: str | Path | bytes, sink: DiagnosticSink, load_options:
     if not _JSON.match(text):
         allowances.read(text, sink)
     return _read_text(text, sink, load_options, allowances)
+
+
+def is_usd(source: object) -> bool:
+    """Whether an input is USD: a file that is called so, or bytes that begin as a layer or package does."""
+    if isinstance(source, bytes):
+        return source.startswith(_USD_MARKS)
+    return isinstance(source, str | Path) and str(source).lower().endswith(_USD)
 
 
 def bytes_of(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> bytes:
