@@ -65,6 +65,7 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.compiler.compare.not_compared_page docs/reference/not_compared.md
 	$(BIN)/python -m twinform.cli.commands_page docs/reference/commands.md
 	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md
+	$(BIN)/python -m twinform.compiler.option_docstrings
 	$(BIN)/python -m generators.mapping.elements urdf docs/reference/urdf
 	$(BIN)/python -m generators.mapping.elements sdf docs/reference/sdf
 	$(BIN)/python -m generators.libsdformat_codes docs/reference/libsdformat_codes.md
@@ -88,6 +89,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.compiler.compare.not_compared_page docs/reference/not_compared.md --check
 	$(BIN)/python -m twinform.cli.commands_page docs/reference/commands.md --check
 	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md --check
+	$(BIN)/python -m twinform.compiler.option_docstrings --check
 	$(BIN)/python -m generators.mapping.elements urdf docs/reference/urdf --check
 	$(BIN)/python -m generators.mapping.elements sdf docs/reference/sdf --check
 	$(BIN)/python -m generators.libsdformat_codes docs/reference/libsdformat_codes.md --check

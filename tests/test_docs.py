@@ -35,7 +35,7 @@ _INDENTED = re.compile(r"(?:\A|\n)\n(?: {4}|\t)\S")
 _ELSE = "..."
 """Stands for what a command prints and the page leaves out."""
 _DONE = {"console", "python"}
-_READ = {"cmake", "json", "py", "pycon", "sh", "toml", "xml", "yaml", "csv", "text"}
+_READ = {"cmake", "json", "pycon", "sh", "toml", "xml", "yaml", "csv", "text"}
 
 
 class Block(NamedTuple):

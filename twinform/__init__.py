@@ -16,6 +16,7 @@ TYPE_CHECKING = False  # `typing` takes longer than all that is here
 if TYPE_CHECKING:
     from twinform.compiler import CompileError, Conversion, check, convert, dump, dumps, load, loads, write_atomically
     from twinform.compiler.compare import Comparison, Difference, diff
+    from twinform.compiler.descriptions import load_description
     from twinform.compiler.normal_form import Discrepancy, NormalForm, normal_form
     from twinform.compiler.scene import forward_kinematics
     from twinform.diagnostics import Diagnostic, Ledger
@@ -26,6 +27,7 @@ else:
         {
             "twinform.compiler": "CompileError Conversion check convert dump dumps load loads write_atomically",
             "twinform.compiler.compare": "Comparison Difference diff",
+            "twinform.compiler.descriptions": "load_description",
             "twinform.compiler.scene": "forward_kinematics",
             "twinform.compiler.normal_form": "Discrepancy NormalForm normal_form",
             "twinform.diagnostics": "Diagnostic Ledger",
@@ -54,6 +56,7 @@ __all__ = [
     "dumps",
     "forward_kinematics",
     "load",
+    "load_description",
     "loads",
     "normal_form",
     "write_atomically",

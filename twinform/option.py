@@ -6,7 +6,7 @@ The default of an option is that of the field which it fills.
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Annotated, Any, TypeVar, get_args, get_origin
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 
 from twinform.dataclass import dataclass
 
@@ -39,18 +39,41 @@ def declared_options(options: type) -> Mapping[str, tuple[Any, Option]]:
 
 
 def require_options(given: Mapping[str, object], known: type) -> None:
-    """Refuse keywords that are not options of a typed dictionary.
+    """Refuse keywords that are not options of a typed dictionary, and values that an option does not have.
 
     Raises:
         TypeError: as Python does where a function does not take a keyword.
+        ValueError: there is no such value.
     """
     names = known.__annotations__
-    for name in given:
+    for name, value in given.items():
         if name not in names:
             from twinform.diagnostics.did_you_mean import did_you_mean  # noqa: PLC0415 - few keywords are misspelt
 
             hint = did_you_mean(name, names)
             raise TypeError(f"there is no option {name!r}{f'; {hint}' if hint else ''}")
+        values = values_of(names[name])
+        if values:
+            require_value(name, value, values)
+
+
+def values_of(kind: Any) -> tuple[object, ...]:
+    """Return the values that an option of a type has, if they can be listed."""
+    if get_origin(kind) is Annotated:
+        kind = get_args(kind)[0]
+    literals = [each for each in (kind, *get_args(kind)) if get_origin(each) is Literal]
+    return get_args(literals[0]) if literals else ()
+
+
+def require_value(name: str, value: object, values: Sequence[object]) -> None:
+    """Refuse a value that an option does not have; None stands for one that is not given.
+
+    Raises:
+        ValueError: there is no such value.
+    """
+    if value is not None and value not in values:
+        *others, last = map(repr, values)
+        raise ValueError(f"{name} is {value!r}; expected {', '.join(others)} or {last}")
 
 
 def given(value: Value | None, usual: Value) -> Value:

@@ -163,7 +163,7 @@ def test_the_page_shows_the_package_that_is_built_here() -> None:
     page, files = _PAGE.read_text(), "".join(path.read_text() for path in sorted(_EXAMPLE.rglob("*.*")))
     for block in page.split("```")[1::2]:
         language, _, text = block.partition("\n")
-        if language in {"cmake", "py"}:
+        if language in {"cmake", "text"}:
             assert text in files
 
 

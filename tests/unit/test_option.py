@@ -44,6 +44,24 @@ def test_a_misspelt_option_is_told_what_was_meant() -> None:
         twinform.convert(_ROBOT, to="sdf", **options)
 
 
+_VALUES: list[tuple[Callable[..., object], dict[str, Any], str]] = [
+    (partial(twinform.convert, _ROBOT), {"to": "usd"}, "to is 'usd'; expected 'sdf', 'urdf' or 'json'"),
+    (partial(plan, twinform.loads(_ROBOT)), {"to": "usd"}, "to is 'usd'; expected 'sdf', 'urdf' or 'json'"),
+    (partial(twinform.dumps, twinform.loads(_ROBOT)), {"to": "usd"}, "expected 'urdf', 'sdf' or 'json'"),
+    (partial(twinform.convert, _ROBOT, to="sdf"), {"urdf_version": "3"}, "urdf_version is '3'; expected '1.0'"),
+    (partial(twinform.convert, _ROBOT, to="sdf"), {"sdf_version": "3"}, "SDF has no version '3'; it has 1.2"),
+    (partial(twinform.check, _ROBOT), {"engine": "expat"}, "engine is 'expat'; expected 'libxml2' or 'xmlschema'"),
+]
+
+
+@pytest.mark.parametrize(("call", "options", "why"), _VALUES)
+def test_a_value_that_an_option_does_not_have_is_refused_with_those_it_has(
+    call: Callable[..., object], options: dict[str, Any], why: str
+) -> None:
+    with pytest.raises(ValueError, match=why):
+        call(**options)
+
+
 def test_an_option_that_is_none_is_not_given() -> None:
     usual = twinform.convert(_ROBOT, to="sdf").text
     names: Any = dict.fromkeys((*FileOptions.__annotations__, *RequestOptions.__annotations__))

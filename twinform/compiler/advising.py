@@ -274,7 +274,7 @@ def advise(
     loaded = read(source, load_options, name=name)
     document = loaded.document
     if document is None or not loaded.accepted:
-        raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
+        raise loaded.error()
     macros = loaded.path.lower().endswith(XACRO) or bool(loaded.origins)
     other = Format.SDF if document.format is Format.URDF else Format.URDF
     forms = {

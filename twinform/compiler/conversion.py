@@ -91,7 +91,7 @@ def convert_once(
             request = replace(request, model=name_once_expanded(before, loaded.document, request.model))
         request = replace(request, mixed=has_mixed_words(loaded))
         if loaded.document is None or not (loaded.accepted or _may_be_fixed(loaded, request)):
-            raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
+            raise loaded.error()
         try:
             return _convert_document(loaded, loaded.document, request, load_options, instrumentation=instrumentation)
         except (PassError, LookupError, ValueError, RecursionError) as error:

@@ -1,4 +1,7 @@
-"""The exception of the compiler's public API."""
+"""The exceptions of the compiler's public API."""
+
+import errno
+import os
 
 from twinform.diagnostics import Diagnostic
 
@@ -17,6 +20,15 @@ class CompileError(Exception):
         more = f" (and {len(errors) - 1} more)" if len(errors) > 1 else ""
         where = f"{first.location.file}:{first.location.line}: " if first else ""
         super().__init__(f"{where}{first.message if first else 'not compiled'}{more}")
+
+
+class MissingFileError(CompileError, FileNotFoundError):
+    """There is no such file."""
+
+    def __init__(self, diagnostics: tuple[Diagnostic, ...], *, unreadable: bool = True) -> None:
+        super().__init__(diagnostics, unreadable=unreadable)
+        names = (each.location.file for each in diagnostics if each.is_error)
+        self.errno, self.strerror, self.filename = errno.ENOENT, os.strerror(errno.ENOENT), next(names, None)
 
 
 class ReadOnlyPassError(Exception):

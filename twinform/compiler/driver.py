@@ -33,19 +33,50 @@ def convert(
     instrumentation: PassInstrumentation | None = None,
     **options: Unpack[ConversionOptions],
 ) -> Conversion:
-    """Compile a file, the bytes of one or a document into the target's format; `instrumentation` sees each pass.
+    """Compile a file, the bytes of one or a document into the target's format.
 
-    `options` on reading are those of `check`. URDF has no includes: for it, those in the model are always expanded.
-    `comments` are those of the source, which go along. `profiles` are those of the consumers of the result, or their
-    names with commas between: passes that help them run too, none that changes the physics where `keep_physics` is
-    true.
+    URDF has no includes: for it, those in the model are always expanded. For the consumers of the result, passes that
+    help them run too.
+
+    Example:
+        >>> result = twinform.convert("examples/rover.urdf", to="sdf", sdf_version="1.9", passes="check-inertia")
+        >>> result.document.version, result.ledger.expressed, [each.rule.name for each in result.diagnostics]
+        ('1.9', 478, ['gazebo-material'])
+        >>> twinform.write_atomically("out/rover.sdf", result.text)
+
+    Args:
+        source: The path of a file, the bytes of one, or a document.
+        to: The format of the result.
+        name: What stands for the source in diagnostics, where it has no path.
+        instrumentation: What is called before and after each pass.
+
+    Keyword Args:
+        strict: Refuse what readers ignore, such as unknown names.
+        engine: The XSD validator; xmlschema is the slow reference.
+        paths: A folder of models or packages, looked in before those that the environment names; repeatable.
+        env: An environment variable that xacro files may read besides those of ROS and Gazebo; * fits any letters.
+        xacro: Expand all files, or none; by default those called .xacro, .xacro.urdf or .xacro.sdf.
+        max_size: The largest file that is read, such as 200MB or 1GiB; by default 64MiB.
+        max_tags: The most tags of a file, or parts of a JSON document; by default 1,000,000.
+        arguments: The arguments of xacro files, by their names.
+        expand_includes: Read the files that includes name, and put them in their place.
+        allow: The rules whose findings are left out.
+        profiles: The consumers of the model, or their names with commas between.
+        sdf_version: The version of SDF to write.
+        urdf_version: The version of URDF to write.
+        passes: Passes to run, such as 'check-inertia', or @NAME for one that the configuration names.
+        carriers: Whether to keep what the target lacks in elements of tf:.
+        comments: Whether comments of the source go along.
+        model: The model that is meant, where a file has several.
+        keep_physics: Refuse passes for consumers that change masses, inertias, joints or limits.
 
     Raises:
         CompileError: the source, a pass or the result has an error.
+        FileNotFoundError: there is no such file; this is a CompileError too.
         PassError: a pass is at fault.
         PipelineError: `passes` is not a pipeline.
         TypeError: there is no such option.
-        ValueError: SDF has no such version.
+        ValueError: there is no such format, SDF has no such version, or an option has no such value.
     """
     require_options(options, ConversionOptions)
     request, load_options = ConversionRequest.of(to, options), checking_options(options)

@@ -1,13 +1,14 @@
 """Writing a document: `dump` into a file, `dumps` as text, in its own format or as JSON."""
 
 from pathlib import Path
-from typing import Literal
+from typing import Literal, get_args
 
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
+from twinform.option import require_value
 from twinform.storage.writing import write_atomically
 
 Written = Literal["urdf", "sdf", "json"]
@@ -20,8 +21,9 @@ def dumps(document: Document, *, to: Written | None = None) -> str:
 
     Raises:
         CompileError: its format cannot express it; what is wrong is in the diagnostics.
-        ValueError: `to` is the other format, for which there is `convert`.
+        ValueError: `to` is no format, or the other one, for which there is `convert`.
     """
+    require_value("to", to, get_args(Written))
     if to not in {None, "json", document.format.value}:
         raise ValueError(
             f"the document is {document.format.upper()}; twinform.convert makes {to.upper() if to else to}"

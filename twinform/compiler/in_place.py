@@ -81,7 +81,7 @@ def updated(
     """
     own, source = file.tree, file.content
     if own is None or source is None or before is None:
-        raise CompileError(file.diagnostics, unreadable=file.unreadable)
+        raise file.error()
     try:
         merged = _merged(document_tree(before), document_tree(conversion.document), own, same=same)
         if not merged.conflicts:

@@ -274,21 +274,39 @@ def check(
 ) -> LoadResult:
     """Read a file, the bytes of one or a document, and say everything that is wrong with it.
 
-    `paths` are folders in which URIs are looked up. A file whose name ends in `.xacro` is expanded with the
-    `arguments`, which evaluates expressions and reads files that it names; where `xacro` is true others are as well,
-    and where it is false all are refused. The files that includes name are read only where `expand_includes` asks for
-    it. `passes` are run on a model without errors, for what they find. Files of more than `max_size` bytes or
-    `max_tags` tags are refused. Findings of the rules in `allow` are left out, as are those that comments in the files
-    allow; they are `allowed` in the result. `profiles` are those of the consumers of the model, or their names
-    with commas between. Xacro files may read the environment variables that `env` names besides those of ROS and
-    Gazebo. SRDF, and YAML with parameters that name joints and links, are held against the `robot`, or one that is
-    found near them.
+    SRDF, and YAML with parameters that name joints and links, are held against a robot. Findings that are allowed are
+    not among the diagnostics of the result, but in `allowed`.
+
+    Example:
+        >>> [finding] = twinform.check(b'<robot name="a"><link nam="b"/></robot>').diagnostics
+        >>> finding.rule.name, finding.help
+        ('unknown-attribute', "did you mean 'name'?")
+
+    Args:
+        source: The path of a file, the bytes of one, or a document.
+        name: What stands for the source in diagnostics, where it has no path.
+        passes: Passes that change nothing, which are run on a model without errors for what they find.
+
+    Keyword Args:
+        strict: Refuse what readers ignore, such as unknown names.
+        engine: The XSD validator; xmlschema is the slow reference.
+        paths: A folder of models or packages, looked in before those that the environment names; repeatable.
+        env: An environment variable that xacro files may read besides those of ROS and Gazebo; * fits any letters.
+        xacro: Expand all files, or none; by default those called .xacro, .xacro.urdf or .xacro.sdf.
+        max_size: The largest file that is read, such as 200MB or 1GiB; by default 64MiB.
+        max_tags: The most tags of a file, or parts of a JSON document; by default 1,000,000.
+        arguments: The arguments of xacro files, by their names.
+        expand_includes: Read the files that includes name, and put them in their place.
+        allow: The rules whose findings are left out.
+        profiles: The consumers of the model, or their names with commas between.
+        robot: The robot that SRDF, and parameters which name joints and links, are for.
 
     Raises:
         ReadOnlyPassError: a pass would change the model.
         PassError: a pass is at fault.
         PipelineError: `passes` is not a pipeline.
         TypeError: there is no such option.
+        ValueError: an option has no such value.
     """
     require_options(options, AnyCheckOptions)
     load_options = replace(checking_options(options), robot=str(options.get("robot", "")))

@@ -67,7 +67,7 @@ def _document(loaded: LoadResult) -> Document:
         CompileError: it cannot be read.
     """
     if loaded.document is None:
-        raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
+        raise loaded.error()
     return loaded.document
 
 

@@ -1,6 +1,7 @@
 """The page of the options: `python -m twinform.compiler.options_page FILE [--check]` writes or checks it."""
 
 import sys
+from collections.abc import Iterable
 
 from twinform.compiler.driver import ConversionOptions
 from twinform.compiler.input.load_options import AnyCheckOptions, FileOptions, ReadingOptions
@@ -32,10 +33,15 @@ _OF = {"files": FileOptions, "checks": AnyCheckOptions, "conversions": RequestOp
 
 def options_page() -> str:
     """All options in Markdown."""
+    names = {**AnyCheckOptions.__annotations__, **ConversionOptions.__annotations__}
+    return _INTRODUCTION + "".join(_row(name, option) for name, option in options_of(names).items())
+
+
+def options_of(names: Iterable[str]) -> dict[str, Option]:
+    """Return options by their names, also those that are not declared for the command line."""
     declared = {**declared_options(ReadingOptions), **declared_options(RequestOptions)}
     known = {name: option for name, (_, option) in declared.items()} | _OTHERS
-    names = {**AnyCheckOptions.__annotations__, **ConversionOptions.__annotations__}
-    return _INTRODUCTION + "".join(_row(name, known[name]) for name in names)
+    return {name: known[name] for name in names}
 
 
 def _row(name: str, option: Option) -> str:

@@ -2,10 +2,11 @@
 
 from collections.abc import Iterable
 from dataclasses import field, fields
-from typing import Any
+from typing import Any, get_args
 
 from twinform.dataclass import dataclass
 from twinform.ir import Document, Format
+from twinform.option import require_value
 from twinform.passes import NO_ASSETS, Assets, Pass, Pipeline
 from twinform.passes.carriers.annotations import has_mixed_words, source_version
 from twinform.passes.legalise import Target, legalisation
@@ -39,8 +40,9 @@ class ConversionRequest(Requested):
 
         Raises:
             PipelineError: `passes` is not a pipeline.
-            ValueError: SDF has no such version.
+            ValueError: there is no such format, or SDF has no such version.
         """
+        require_value("to", to, get_args(Language))
         version = options.get("sdf_version")
         if version is not None:
             known_sdf_version(version)

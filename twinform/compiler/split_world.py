@@ -101,7 +101,7 @@ def split(
             whole = expand(checked, load_options, wanted=_inside_models(checked.document), carriers=request.carriers)
             checked = whole if whole.accepted else checked  # a model with includes in it stays SDF
         if checked.document is None or not checked.accepted:
-            raise CompileError(checked.diagnostics, unreadable=checked.unreadable)
+            raise checked.error()
         sink = checked.sink(strict=load_options.strict)
         assets = LocalAssets(load_options.search, Path(checked.path))
         request = replace(request, assets=assets, mixed=has_mixed_words(checked))

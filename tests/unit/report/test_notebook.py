@@ -1,7 +1,10 @@
 """What notebooks show, by themselves and in a notebook that is run."""
 
+import json
 import subprocess
 import sys
+from pathlib import Path
+from typing import Any
 
 import pytest
 from nbclient import NotebookClient
@@ -97,3 +100,23 @@ def test_a_notebook_shows_documents_and_conversions() -> None:
     NotebookClient(notebook, timeout=60, kernel_name="python3").execute()
     shown = ["".join(output["data"]["text/html"]) for cell in notebook.cells for output in cell.outputs]
     assert ["gripper" in shown[0], "expressed" in shown[1]] == [True, True]
+
+
+_TUTORIAL = EXAMPLES.parent / "docs/tutorial/notebook.ipynb"
+
+
+@pytest.mark.slow
+def test_the_tutorial_runs_and_shows_what_it_says(tmp_path: Path) -> None:
+    (tmp_path / "examples").symlink_to(EXAMPLES)
+    cells: list[dict[str, Any]] = json.loads(_TUTORIAL.read_text("utf-8"))["cells"]
+    assert not any(each.get("outputs") for each in cells)
+    code = [_cell(each["source"]) for each in cells if each["cell_type"] == "code"]
+    notebook = NotebookNode(cells=code, metadata={}, nbformat=4, nbformat_minor=4)
+    resources = {"metadata": {"path": str(tmp_path)}}
+    NotebookClient(notebook, timeout=60, kernel_name="python3", resources=resources).execute()
+    outputs = [output for cell in notebook.cells for output in cell.outputs]
+    assert {output["output_type"] for output in outputs} == {"execute_result"}
+    shown = "\n".join(text for output in outputs for text in output["data"].values())
+    for each in ("<b>rover</b>", "'continuous'", "did you mean 'value'", "478 expressed", "inertial/mass", "True"):
+        assert each in shown
+    assert (tmp_path / "out/heavier.urdf").is_file()

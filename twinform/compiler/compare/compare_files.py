@@ -199,7 +199,7 @@ def read_robots(
         model = name_once_expanded(before, loaded.document, model)
     document = loaded.document
     if document is None or not loaded.accepted:
-        raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
+        raise loaded.error()
     sink = DiagnosticSink(loaded.path, load_options.strict, origins=dict(loaded.origins))
     assets = LocalAssets(load_options.search, Path(loaded.path))
     read_before: dict[int, Robots] = {}
@@ -307,15 +307,36 @@ def diff(
     carriers: bool = False,
     **options: Unpack[FileOptions],
 ) -> Comparison:
-    """Compare the robots in two files or documents, of either format; `model` names one where a file has several.
+    """Compare the robots in two files or documents, of either format. Includes are always expanded.
 
-    Without it the models of two worlds are compared by their names. What only a carrier or `<gazebo>` says is
-    `carried`; with `carriers` it counts as if it were written where every reader looks. The other
-    options are those of `check`; includes are always expanded.
+    Example:
+        >>> found = twinform.diff("examples/rover.urdf", "examples/four_wheels.urdf")
+        >>> found.same, len(found.differences) > 10
+        (False, True)
+
+    Args:
+        a: The path of a file, the bytes of one, or a document.
+        b: Another one.
+        model: The model to compare, where a file has several; without it those of two worlds are paired by their names.
+        tolerance: The relative difference that counts as rounding; absolute for positions (m) and angles (rad).
+        carriers: What only a carrier or `<gazebo>` says counts as if it were written where every reader looks, and not
+            as `carried`.
+
+    Keyword Args:
+        strict: Refuse what readers ignore, such as unknown names.
+        engine: The XSD validator; xmlschema is the slow reference.
+        paths: A folder of models or packages, looked in before those that the environment names; repeatable.
+        env: An environment variable that xacro files may read besides those of ROS and Gazebo; * fits any letters.
+        xacro: Expand all files, or none; by default those called .xacro, .xacro.urdf or .xacro.sdf.
+        max_size: The largest file that is read, such as 200MB or 1GiB; by default 64MiB.
+        max_tags: The most tags of a file, or parts of a JSON document; by default 1,000,000.
+        arguments: The arguments of xacro files, by their names.
 
     Raises:
         CompileError: a file has an error; what was found is in its diagnostics.
+        FileNotFoundError: there is no such file; this is a CompileError too.
         TypeError: there is no such option.
+        ValueError: an option has no such value.
     """
     require_options(options, FileOptions)
     load_options = LoadOptions.of(options)
@@ -354,7 +375,7 @@ def compare_files(
                 errors[side] = error
         if errors:
             found = tuple(diagnostic for side in sorted(errors) for diagnostic in errors[side].diagnostics)
-            raise CompileError(found, unreadable=any(error.unreadable for error in errors.values()))
+            raise type(errors[min(errors)])(found, unreadable=any(error.unreadable for error in errors.values()))
         one, other = robots[0], robots[1]
         names = (one[readers[0]].path, other[readers[0]].path)
         tolerance = max(options.tolerance, SINGLE_PRECISION) if any(map(is_usd, inputs)) else options.tolerance

@@ -1,10 +1,12 @@
 """`LoadOptions` and `LoadResult`: how a file is read, and what was found in it."""
 
+import os
 from collections.abc import Iterable, Mapping
 from dataclasses import field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NamedTuple, TypedDict
 
+from twinform.compiler.conversion_error import CompileError, MissingFileError
 from twinform.compiler.input.allowances import Allowances
 from twinform.compiler.input.expansion import Expansion
 from twinform.compiler.input.size_limits import LARGEST, MOST_TAGS, USUAL_LIMITS, Limits, parse_size
@@ -237,6 +239,12 @@ class LoadResult:
             allows=self.allowances and self.allowances.in_conversion,
             allowed=list(self.allowed),
         )
+
+    def error(self) -> CompileError:
+        """Return the error to raise where the file is not accepted: another one where there is none."""
+        is_missing = self.unreadable and self.content is None and not os.path.lexists(self.path)
+        kind = MissingFileError if is_missing else CompileError
+        return kind(self.diagnostics, unreadable=self.unreadable)
 
     @property
     def accepted(self) -> bool:

@@ -1,15 +1,12 @@
 """Loads a file into a verified document: parse, read by the schema, validate with the XSD, build the IR."""
 
-import errno
 import gc
-import os
 from collections.abc import Generator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Unpack
 
-from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.input.allowances import OF_OTHER_PARTS, Allowances, content_of, without_consequences
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.front_ends import (
@@ -241,26 +238,62 @@ def _at_its_text(finding: Diagnostic, texts: Mapping[str, Location]) -> Diagnost
 
 
 def load(source: str | Path, **options: Unpack[FileOptions]) -> Document:
-    """Read the document of a file; `options` are those of `check`.
+    """Read the document of a file: URDF, SDF, xacro, or JSON of the IR.
+
+    Example:
+        >>> robot = twinform.load("examples/rover.urdf").models[0]
+        >>> robot.name, len(robot.links)
+        ('rover', 9)
+
+    Args:
+        source: The path of the file.
+
+    Keyword Args:
+        strict: Refuse what readers ignore, such as unknown names.
+        engine: The XSD validator; xmlschema is the slow reference.
+        paths: A folder of models or packages, looked in before those that the environment names; repeatable.
+        env: An environment variable that xacro files may read besides those of ROS and Gazebo; * fits any letters.
+        xacro: Expand all files, or none; by default those called .xacro, .xacro.urdf or .xacro.sdf.
+        max_size: The largest file that is read, such as 200MB or 1GiB; by default 64MiB.
+        max_tags: The most tags of a file, or parts of a JSON document; by default 1,000,000.
+        arguments: The arguments of xacro files, by their names.
 
     Raises:
         CompileError: the file has an error; what was found is in its diagnostics.
-        FileNotFoundError: there is no such file.
+        FileNotFoundError: there is no such file; this is a CompileError too.
         TypeError: there is no such option.
+        ValueError: an option has no such value.
     """
     require_options(options, FileOptions)
     loaded = read(source, LoadOptions.of(options))
-    if loaded.unreadable and not Path(source).exists():
-        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(source))
     return _accepted_document(loaded)
 
 
 def loads(text: str | bytes, name: str = "<string>", **options: Unpack[FileOptions]) -> Document:
-    """Read the document of a text; `name` stands for the file in diagnostics.
+    """Read the document of a text.
+
+    Example:
+        >>> twinform.loads('<robot name="arm"><link name="base"/></robot>').models[0].links[0].name
+        'base'
+
+    Args:
+        text: The text of a file, or its bytes.
+        name: What stands for the file in diagnostics.
+
+    Keyword Args:
+        strict: Refuse what readers ignore, such as unknown names.
+        engine: The XSD validator; xmlschema is the slow reference.
+        paths: A folder of models or packages, looked in before those that the environment names; repeatable.
+        env: An environment variable that xacro files may read besides those of ROS and Gazebo; * fits any letters.
+        xacro: Expand all files, or none; by default those called .xacro, .xacro.urdf or .xacro.sdf.
+        max_size: The largest file that is read, such as 200MB or 1GiB; by default 64MiB.
+        max_tags: The most tags of a file, or parts of a JSON document; by default 1,000,000.
+        arguments: The arguments of xacro files, by their names.
 
     Raises:
         CompileError: the text has an error; what was found is in its diagnostics.
         TypeError: there is no such option.
+        ValueError: an option has no such value.
     """
     require_options(options, FileOptions)
     data = text.encode() if isinstance(text, str) else text
@@ -269,7 +302,7 @@ def loads(text: str | bytes, name: str = "<string>", **options: Unpack[FileOptio
 
 def _accepted_document(loaded: LoadResult) -> Document:
     if loaded.document is None or not loaded.accepted:
-        raise CompileError(loaded.diagnostics, unreadable=loaded.unreadable)
+        raise loaded.error()
     return loaded.document
 
 
