@@ -1,5 +1,6 @@
 """The options on what a file becomes: format, version, passes, and what goes along."""
 
+import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Annotated, Literal, TypedDict, get_args
 
@@ -27,8 +28,23 @@ def known_sdf_version(version: str) -> str:
     return version
 
 
+def distance(text: str | float) -> float:
+    """Return a distance in m that was typed.
+
+    Raises:
+        ValueError: it is no number above 0.
+    """
+    value = float(text)
+    if not 0 < value < math.inf:
+        raise ValueError(f"{text} is no distance above 0")
+    return value
+
+
 class RequestOptions(TypedDict, total=False):
-    """What a file becomes. `model` is the one that is meant of several; `keep_physics` is for the consumers' passes."""
+    """What a file becomes. `model` is the one that is meant of several; `keep_physics` is for the consumers' passes.
+
+    With `side_files` false, no files are made that would have to lie beside the result.
+    """
 
     sdf_version: Annotated[
         str | None,
@@ -50,6 +66,17 @@ class RequestOptions(TypedDict, total=False):
         ),
     ]
     carriers: Annotated[bool, Option(help="Whether to keep what the target lacks in elements of tf:.", setting=True)]
+    shape_error: Annotated[
+        float | None,
+        Option(
+            help="How far a mesh that stands for a shape which the target lacks may be from it, in m; else 1 % of its "
+            "largest radius.",
+            metavar="M",
+            parse=distance,
+            setting=True,
+        ),
+    ]
+    side_files: bool
     comments: Annotated[bool, Option(help="Whether comments of the source go along.")]
     expand_includes: bool
     model: str | None
@@ -66,6 +93,8 @@ class Requested:
     sdf_version: str | None = None
     urdf_version: UrdfVersion | None = None
     carriers: bool = True
+    shape_error: float | None = None
+    side_files: bool = True
     comments: bool = True
     expand_includes: bool = False
     model: str | None = None

@@ -24,7 +24,7 @@ _SETTINGS = examples()
 _OTHER: dict[Format, Literal["urdf", "sdf"]] = {Format.URDF: "sdf", Format.SDF: "urdf"}
 
 
-def _text(document: Document) -> str:
+def text_of(document: Document) -> str:
     sink = DiagnosticSink()
     text = emit(document, sink)
     assert sink.diagnostics == []
@@ -34,13 +34,13 @@ def _text(document: Document) -> str:
 @_SETTINGS
 @given(strategies.robots())
 def test_urdf_to_ir_to_urdf_is_identity(robot: Document) -> None:
-    assert twinform.loads(_text(robot)) == robot
+    assert twinform.loads(text_of(robot)) == robot
 
 
 @_SETTINGS
 @given(strategies.sdf_models())
 def test_sdf_to_ir_to_sdf_is_identity(model: Document) -> None:
-    assert twinform.loads(_text(model)) == model
+    assert twinform.loads(text_of(model)) == model
 
 
 @_SETTINGS
@@ -66,7 +66,7 @@ def test_a_robot_of_a_newer_version_comes_back_from_sdf(version: UrdfVersion) ->
     @examples(0.4)
     @given(strategies.robots(version=version))
     def comes_back(robot: Document) -> None:
-        assert twinform.loads(_text(robot)) == robot
+        assert twinform.loads(text_of(robot)) == robot
         assert_round_trip(robot, via="sdf")
 
     comes_back()
@@ -95,7 +95,7 @@ def test_every_version_with_the_same_frames_is_itself_once_read_again(version: s
 @examples(0.3)
 @given(strategies.robots(max_links=5) | strategies.sdf_models(max_links=5), st.booleans())
 def test_the_ledger_and_the_output_account_for_every_part(model: Document, carriers: bool) -> None:
-    made = twinform.convert(_text(model).encode(), to=_OTHER[model.format], carriers=carriers)
+    made = twinform.convert(text_of(model).encode(), to=_OTHER[model.format], carriers=carriers)
     assert made.source is not None
     assert [part.text for part in audit(made.source, made.text, made.ledger).unaccounted] == []
 
@@ -103,20 +103,20 @@ def test_the_ledger_and_the_output_account_for_every_part(model: Document, carri
 @_SETTINGS
 @given(strategies.robots())
 def test_json_is_the_same_document(robot: Document) -> None:
-    assert twinform.loads(twinform.convert(_text(robot).encode(), to="json").text) == robot
+    assert twinform.loads(twinform.convert(text_of(robot).encode(), to="json").text) == robot
 
 
 @_SETTINGS
 @given(strategies.robots())
 def test_every_robot_becomes_sdf_that_is_accepted_strictly(robot: Document) -> None:
-    made = twinform.convert(_text(robot).encode(), to="sdf")
+    made = twinform.convert(text_of(robot).encode(), to="sdf")
     assert [each.message for each in check(made.text.encode(), strict=True).diagnostics if each.is_error] == []
 
 
 @_SETTINGS
 @given(strategies.sdf_models())
 def test_every_model_becomes_urdf_that_is_accepted(model: Document) -> None:
-    made = twinform.convert(_text(model).encode(), to="urdf")
+    made = twinform.convert(text_of(model).encode(), to="urdf")
     assert [each.message for each in check(made.text.encode()).diagnostics if each.is_error] == []
 
 
@@ -139,7 +139,7 @@ def _places(document: Document, root: str) -> list[tuple[str, tuple[float, ...]]
 @_SETTINGS
 @given(strategies.robots())
 def test_shapes_stay_where_they_are_on_the_way_to_sdf(robot: Document) -> None:
-    made = twinform.convert(_text(robot).encode(), to="sdf").document
+    made = twinform.convert(text_of(robot).encode(), to="sdf").document
     before, after = _places(robot, "link_0"), _places(made, "__model__")
     assert [shape for shape, _ in before] == [shape for shape, _ in after]
     for (_, place), (_, moved) in zip(before, after, strict=True):
@@ -149,7 +149,7 @@ def test_shapes_stay_where_they_are_on_the_way_to_sdf(robot: Document) -> None:
 @_SETTINGS
 @given(strategies.robots())
 def test_links_and_joints_come_back_by_name(robot: Document) -> None:
-    sdf = twinform.convert(_text(robot).encode(), to="sdf").text
+    sdf = twinform.convert(text_of(robot).encode(), to="sdf").text
     again = twinform.convert(sdf.encode(), to="urdf").document.models[0]
 
     def names(parts: tuple[Link, ...] | tuple[Joint, ...]) -> set[str]:
@@ -161,7 +161,7 @@ def test_links_and_joints_come_back_by_name(robot: Document) -> None:
 @_SETTINGS
 @given(strategies.sdf_models())
 def test_joints_of_sdf_come_back_with_their_axes(model: Document) -> None:
-    urdf = twinform.convert(_text(model).encode(), to="urdf").text
+    urdf = twinform.convert(text_of(model).encode(), to="urdf").text
     again = twinform.convert(urdf.encode(), to="sdf").document.models[0]
     joints = {joint.name: joint for joint in again.joints}
     for joint in model.models[0].joints:

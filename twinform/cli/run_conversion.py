@@ -26,7 +26,7 @@ from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import FileFindings, printable
 from twinform.passes import FilesPass, PassError, PassInstrumentation, Pipeline
 from twinform.request_options import RequestOptions
-from twinform.storage.writing import folded
+from twinform.storage.writing import folded, is_stream
 
 if TYPE_CHECKING:
     from twinform.compiler import SplitWorld
@@ -153,7 +153,10 @@ class Options:
     def request_for(self, job: ConversionJob) -> ConversionRequest:
         """Return the request for one input."""
         return replace(
-            self.request, to=job.target, sdf_version=self.request.sdf_version if job.target == "sdf" else None
+            self.request,
+            to=job.target,
+            sdf_version=self.request.sdf_version if job.target == "sdf" else None,
+            side_files=job.path is not None and not is_stream(job.path),
         )
 
     def for_file(self, own: ResolvedOptions) -> "Options":
@@ -337,6 +340,7 @@ def run_into(source: InputSource, into: Path | None, base: Path | None, options:
         return FINDINGS
     outputs.add("--into", into, updated.data)
     outputs.as_read[into] = updated.source
+    outputs.add_beside(into, updated.conversion.side_files)
     outputs.news.extend(_describe_change(into, change) for change in updated.changes)
     changes = len(updated.changes)
     outputs.news.append(f"{into}: {plural(changes, 'change')}" if changes else f"{into} stays as it is")

@@ -25,6 +25,7 @@ from twinform.passes.legalise.changed_names import NAME, SCOPED_NAME
 from twinform.passes.legalise.to_sdf.root_masses import UNSAID
 from twinform.passes.shared.joint_ends import GEARED
 from twinform.passes.shared.link_shapes import COMPUTED_MASS
+from twinform.passes.shared.replaced_shapes import CAPSULE_END, SHAPE
 from twinform.schemas import XmlElement, path_of
 from twinform.schemas.value_types import format_number
 
@@ -245,6 +246,7 @@ def _is_number(word: str) -> bool:
 
 
 _CHAIN, _PART, _MADE, _GEARED, _URDF = (f"{_OURS}{word}" for word in (CHAIN, PART, SYNTHESIZED, GEARED, "urdf"))
+_END, _SHAPE = f"{_OURS}{CAPSULE_END}", f"{_OURS}{SHAPE}"
 _OLD_NAMES = tuple(f"{_OURS}{word}" for word in (NAME, SCOPED_NAME))
 _UNSAID = f"{_OURS}{UNSAID}"
 _MIMIC = f"{_OURS}{MIMIC}"
@@ -260,6 +262,7 @@ class Folded:
 
     `there` has the tag, name and type of each part of the result, and `named` its tag and name. `parts` are the names
     of parts that are gone from it, `followers` its joints with a mimic, and `ends` the joints that chains became.
+    `shapes` has the tag and name of each visual and collision with each element of its geometry.
     """
 
     there: frozenset[tuple[str, str, str]] = frozenset()
@@ -267,6 +270,7 @@ class Folded:
     parts: frozenset[str] = frozenset()
     followers: frozenset[str] = frozenset()
     ends: frozenset[str] = frozenset()
+    shapes: frozenset[tuple[str, str, str]] = frozenset()
 
     @classmethod
     def of(cls, source: XmlElement, result: XmlElement) -> Self:
@@ -280,9 +284,15 @@ class Folded:
             name for end, kind in chains if end is not None and ("joint", name := end.get("name", ""), kind) in there
         )
         folded = cls(there, named, frozenset(), followers, ends)
-        annotations = [annotation.getparent() for word in (_PART, _MADE) for annotation in source.iter(word)]
+        annotations = [annotation.getparent() for word in (_PART, _MADE, _END) for annotation in source.iter(word)]
         gone = {each.get("name", "") for each in annotations if each is not None and folded.is_gone(each)}
-        return cls(there, named, frozenset(gone | set(_synthesized_names(source, result, named))), followers, ends)
+        gone |= set(_synthesized_names(source, result, named))
+        shapes = frozenset(
+            (str(each.tag), each.get("name", ""), str(shape.tag))
+            for each in found
+            for shape in each.iterfind("geometry/*")
+        )
+        return cls(there, named, frozenset(gone), followers, ends, shapes)
 
     def expresses(self, element: XmlElement, attribute: str | None) -> bool:
         """Whether the result expresses a part of the source in another way, such as by one joint for several."""
@@ -291,6 +301,8 @@ class Folded:
         if _is_synthesized_number(element, attribute) or any(map(self.is_gone, (element, *element.iterancestors()))):
             return True
         holder = element.getparent()
+        if element.tag in {"mesh", "uri"} and self._is_folded_mesh(element):
+            return True
         return element.tag == "mimic" and holder is not None and self._is_geared(holder)
 
     def is_gone(self, element: XmlElement) -> bool:
@@ -298,7 +310,19 @@ class Folded:
         if (str(element.tag), element.get("name", "")) in self.named:
             return False
         part = element.find(_PART)
-        return element.find(_MADE) is not None if part is None else part.get("joint", "") in self.ends
+        return (
+            (element.find(_MADE) is not None or element.find(_END) is not None)
+            if part is None
+            else part.get("joint", "") in self.ends
+        )
+
+    def _is_folded_mesh(self, element: XmlElement) -> bool:
+        """Whether the result has the shape that a mesh stood for."""
+        part = next(element.iterancestors("visual", "collision"), None)
+        stood_for = part.iterfind(f"{_SHAPE}/geometry/*") if part is not None else ()
+        return part is not None and any(
+            (str(part.tag), part.get("name", ""), str(shape.tag)) in self.shapes for shape in stood_for
+        )
 
     def _is_end(self, joint: XmlElement) -> bool:
         """Whether a joint has the type in the result that its annotation names."""

@@ -25,6 +25,9 @@ _OTHERS = {
     "profiles": Option(help="The consumers of the model, or their names with commas between.", flag="--for"),
     "robot": Option(help="The robot that SRDF, and parameters which name joints and links, are for."),
     "model": Option(help="The model that is meant, where a file has several."),
+    "side_files": Option(
+        help="Whether meshes may be made that have to lie beside the result, such as that of an ellipsoid.", flag="-o"
+    ),
     "keep_physics": Option(help="Refuse passes for consumers that change masses, inertias, joints or limits."),
 }
 """Options that commands declare themselves, each in its own way."""

@@ -5,6 +5,7 @@ among the links before it. Names and parents follow from positions, so that a se
 Arguments are keyword-only and describe valid values; one that no value can satisfy raises `ValueError`.
 """
 
+import math
 from typing import Any
 
 from hypothesis import strategies as st
@@ -14,9 +15,11 @@ from twinform.ir import (
     Box,
     Capsule,
     Collision,
+    Cone,
     Cylinder,
     Document,
     Dynamics,
+    Element,
     Ellipsoid,
     Format,
     Frame,
@@ -30,6 +33,8 @@ from twinform.ir import (
     Material,
     Mesh,
     Model,
+    Opaque,
+    Polyline,
     Pose,
     Shape,
     Sphere,
@@ -167,12 +172,26 @@ def geometries(*, shapes: tuple[type[Any], ...] = URDF_SHAPES) -> st.SearchStrat
         Sphere: st.builds(Sphere, radius=size),
         Capsule: st.builds(Capsule, radius=size, length=size),
         Ellipsoid: st.builds(Ellipsoid, radii=sizes),
+        Cone: st.builds(Cone, radius=size, length=size),
+        Polyline: _polylines(size),
         Mesh: st.builds(Mesh, uri=st.sampled_from(["package://p/m.stl", "mesh.dae"]), scale=_maybe(sizes)),
     }
     unknown = set(shapes) - set(fields)
     if unknown:
         raise ValueError(f"no strategy for the shapes {sorted(shape.__name__ for shape in unknown)}")
     return st.builds(Geometry, shape=st.one_of([fields[shape] for shape in shapes]))
+
+
+def _polylines(size: st.SearchStrategy[float]) -> st.SearchStrategy[Polyline]:
+    """Draw outlines around the origin, in which every point is seen from there."""
+
+    def build(distances: list[float], height: float) -> Polyline:
+        turns = [2 * math.pi * each / len(distances) for each in range(len(distances))]
+        points = [(r * math.cos(turn), r * math.sin(turn)) for r, turn in zip(distances, turns, strict=True)]
+        elements = [Element(name="point", text=f"{x:.6g} {y:.6g}") for x, y in points]
+        return Polyline(height=height, opaque=tuple(Opaque(element=each) for each in elements))
+
+    return st.builds(build, st.lists(numbers(min_value=0.5, max_value=2), min_size=3, max_size=8), size)
 
 
 def _bodies(format: Format, shapes: tuple[type[Any], ...] | None = None) -> st.SearchStrategy[dict[str, Any]]:

@@ -51,6 +51,8 @@ from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_urdf.restore_links import without_loose_floating
 from twinform.passes.legalise.to_urdf.select_model import Selector
 from twinform.passes.sdf_versions import raise_words
+from twinform.passes.sdf_versions.fold_capsules import FoldCapsules
+from twinform.passes.sdf_versions.fold_shape_meshes import FoldShapeMeshes
 from twinform.passes.shared.candidates import name_once_expanded, wanted_includes
 from twinform.schemas import versions_of
 
@@ -295,7 +297,7 @@ def _to_newest_sdf(document: Document) -> tuple[Pass, ...]:
     newest = versions_of("sdf")[-1]
     if document.format is Format.URDF:
         return to_sdf(newest, scopes=False)
-    return raise_words(document.version)
+    return (FoldCapsules.unchecked(), FoldShapeMeshes.unchecked(), *raise_words(document.version))
 
 
 def diff(

@@ -10,8 +10,10 @@ from enum import StrEnum
 from typing import Any, TypeVar
 
 from twinform.compiler.compare.comparison import Difference, DifferenceSeverity
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes.carriers.carriers import without_bodies_for_gazebo, without_ours
+from twinform.passes.sdf_versions.fold_capsules import fold_capsules
 
 
 class ComparingReader(StrEnum):
@@ -29,9 +31,10 @@ def as_read_by(document: Document, readers: Iterable[ComparingReader]) -> dict[C
     """Return the document without the parts that each reader skips; readers that see the same share one object."""
     if (wanted := [*readers]) == [ComparingReader.TWINFORM]:
         return {ComparingReader.TWINFORM: document}
-    # A capsule that a URDF holds in a carrier is there for twinform alone: RViz, Drake and MuJoCo
-    # see no collision. What a reader skips is taken away here, before anything is compared.
-    bare = without_ours(document)
+    # A plane that a URDF holds in a carrier is there for twinform alone: RViz, Drake and MuJoCo
+    # see no collision. What a reader skips is taken away here, before anything is compared. The
+    # parts of a capsule are what the capsule is, for everybody.
+    bare = without_ours(fold_capsules(document, DiagnosticSink()))
     seen = {
         ComparingReader.ANY: without_bodies_for_gazebo(bare),
         ComparingReader.GAZEBO: bare,

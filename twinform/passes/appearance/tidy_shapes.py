@@ -2,19 +2,17 @@
 
 import math
 from collections.abc import Iterator
-from typing import ClassVar, TypeVar
+from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import REPLACED_SHAPE
-from twinform.ir import Document, Format, Link, Pose, replace_fields, rewrite
+from twinform.ir import Document, Format, Link, replace_fields, rewrite
 from twinform.ir.defaults import sizes
-from twinform.ir.geometry import Box, Capsule, Cylinder, Geometry, Mesh, Sphere
-from twinform.ir.transform import Transform
+from twinform.ir.geometry import Box, Capsule, Cylinder, Mesh, Sphere
 from twinform.ir.visual import Collision, Visual
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.replaced_shapes import AnyPart, middle_of_capsule, with_ends
 
-Part = TypeVar("Part", Visual, Collision)
 _KNOWN = (Box, Cylinder, Sphere, Mesh)
 
 
@@ -47,12 +45,12 @@ def _tidy_link(link: Link, sink: DiagnosticSink) -> Link:
     return replace_fields(link, visuals=visuals, collisions=collisions)
 
 
-def _tidy_shapes(link: Link, parts: tuple[Part, ...], sink: DiagnosticSink) -> tuple[Part, ...]:
+def _tidy_shapes(link: Link, parts: tuple[AnyPart, ...], sink: DiagnosticSink) -> tuple[AnyPart, ...]:
     names = {part.name for part in parts if part.name}
     return tuple(made for part in parts for made in _tidy_shape(link, part, names, sink))
 
 
-def _tidy_shape(link: Link, part: Part, names: set[str], sink: DiagnosticSink) -> Iterator[Part]:
+def _tidy_shape(link: Link, part: AnyPart, names: set[str], sink: DiagnosticSink) -> Iterator[AnyPart]:
     kind = type(part).__name__.lower()
     geometry = part.geometry
     shape = None if geometry is None else geometry.shape
@@ -63,7 +61,7 @@ def _tidy_shape(link: Link, part: Part, names: set[str], sink: DiagnosticSink) -
     elif isinstance(shape, Capsule):
         message = f"a capsule of link {link.name!r} becomes a cylinder and two spheres"
         sink.report(REPLACED_SHAPE, message, part.location)
-        yield from shapes_of_capsule(part, shape, names)
+        yield from with_ends(middle_of_capsule(part, shape), names, annotated=False)
     elif geometry.opaque:
         message = f"what is beside the shape of a {kind} of link {link.name!r} is left out"
         sink.report(REPLACED_SHAPE, message, part.location)
@@ -76,21 +74,3 @@ def _tidy_shape(link: Link, part: Part, names: set[str], sink: DiagnosticSink) -
 def _drop(part: Visual | Collision, message: str, sink: DiagnosticSink) -> None:
     sink.report(REPLACED_SHAPE, f"{message}: it is left out", part.location)
     sink.account(Fate.DROPPED, REPLACED_SHAPE, message, part.location)
-
-
-def shapes_of_capsule(part: Part, shape: Capsule, names: set[str]) -> Iterator[Part]:
-    """Yield a cylinder and two spheres that are a capsule together; `names` are taken, and get theirs."""
-    radius, length = sizes(shape)
-    yield replace_fields(part, geometry=Geometry(shape=Cylinder(radius=radius, length=length)))
-    for height in (length / 2, -length / 2):
-        name = None
-        if part.name:
-            name = unique_name(f"{part.name}_end", names)
-            names.add(name)
-        pose = _move_along_z(part.pose, height)
-        yield part.copy(name=name, pose=pose, geometry=Geometry(shape=Sphere(radius=radius)))
-
-
-def _move_along_z(pose: Pose | None, height: float) -> Pose:
-    """A pose moved along its own z axis."""
-    return Transform.from_pose(pose).compose(Transform((0.0, 0.0, height))).to_pose()

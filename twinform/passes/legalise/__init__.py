@@ -34,12 +34,12 @@ def legalisation(source: Format, version: str | None, target: Target) -> tuple[P
     # imported here: a conversion goes one way only, and each way has many passes
     if source is target.format:
         if source is Format.URDF:
-            return _between_urdf(version, target.urdf_version)
+            return _between_urdf(version, target.urdf_version, carriers=target.requested.carriers)
         if version == target.sdf_version:
             return ()
         from twinform.passes.sdf_versions import change_version  # noqa: PLC0415 - see above
 
-        return change_version(version, target.sdf_version, carriers=target.requested.carriers)
+        return change_version(version, target.sdf_version, target.requested)
     if target.format is Format.SDF:
         from twinform.passes.legalise.to_sdf.sequence import to_sdf  # noqa: PLC0415 - see above
 
@@ -49,12 +49,12 @@ def legalisation(source: Format, version: str | None, target: Target) -> tuple[P
     return to_urdf(target.urdf_version, target.requested, mixed=target.mixed, mixed_source=target.mixed_source)
 
 
-def _between_urdf(declared: str | None, version: UrdfVersion) -> tuple[Pass, ...]:
+def _between_urdf(declared: str | None, version: UrdfVersion, *, carriers: bool) -> tuple[Pass, ...]:
     if version_read("urdf", declared) == parse_version(version):
         return ()
     from twinform.passes.legalise.fit_urdf_version import FitUrdfVersion  # noqa: PLC0415 - few ask for it
 
-    return (FitUrdfVersion.unchecked(version=version),)
+    return (FitUrdfVersion.unchecked(version=version, carriers=carriers),)
 
 
 @cache

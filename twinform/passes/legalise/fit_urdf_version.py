@@ -13,9 +13,11 @@ from twinform.ir.joint import Limit
 from twinform.ir.transform import Transform
 from twinform.ir.versions import Version, parse_version
 from twinform.ir.visual import Collision, Visual
-from twinform.passes.appearance.tidy_shapes import shapes_of_capsule
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, Keeper, has_ours
 from twinform.passes.framework.pass_base import Pass
+from twinform.passes.sdf_versions.fold_capsules import fold_capsules
 from twinform.passes.shared.poses import in_radians
+from twinform.passes.shared.replaced_shapes import AnyPart, ShapeReplacer, with_ends
 from twinform.request_options import UrdfVersion
 from twinform.schemas import format_value, parse_value
 
@@ -29,7 +31,6 @@ _SAME = 1e-9
 """The difference of the elements of two rotation matrices that are the same, written by people or by this pass."""
 _HOLDERS = (Inertial, Visual, Collision, Joint)
 AnyNode = TypeVar("AnyNode", bound=Node)
-Part = TypeVar("Part", Visual, Collision)
 
 
 class FitUrdfVersion(Pass):
@@ -43,9 +44,10 @@ class FitUrdfVersion(Pass):
     `quat_xyzw`, and limits of acceleration, deceleration and jerk, stay where they are: readers of older versions
     ignore them. Where the version is newer, readers begin to look at them:
 
-    3. an attribute that the older version had no meaning for becomes what it says, if it is valid; a `quat_xyzw` that
+    3. the cylinder and the spheres of a capsule become that again;
+    4. an attribute that the older version had no meaning for becomes what it says, if it is valid; a `quat_xyzw` that
        turns its part otherwise than the `rpy` beside it goes;
-    4. revolute and prismatic joints get the limits that were 0 by default (from 1.2 on).
+    5. revolute and prismatic joints get the limits that were 0 by default (from 1.2 on).
 
     Diagnostics: `out-of-range` for a shape with a size of zero, which 1.2 does not have; in the ledger `other-words`,
     `outside-version`, `replaced-shape` and `unbounded-limit`.
@@ -54,18 +56,25 @@ class FitUrdfVersion(Pass):
     name: ClassVar[str] = "fit-urdf-version"
 
     version: UrdfVersion = "1.0"
+    carriers: bool = True
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document in the version."""
         version = parse_version(self.version)
+        if version >= _OF_1_1:
+            document = fold_capsules(document, sink)
         for holder in _HOLDERS:
             document = rewrite(document, holder, _with_own_attributes)
         document = rewrite(document, Pose, partial(_fit_pose, version, sink))
         document = rewrite(document, Joint, partial(_fit_joint, version, sink))
         if version < _OF_1_1:
-            document = rewrite(document, Link, partial(_without_capsules, sink), having=bits_of(Capsule))
+            document = rewrite(
+                document, Link, partial(_without_capsules, Keeper(sink, self.carriers)), having=bits_of(Capsule)
+            )
         if version >= _OF_1_2:
             _refuse_flat_shapes(document, sink)
+        if any(map(has_ours, document.models)) and (PREFIX, NAMESPACE) not in document.namespaces:
+            document = document.copy(namespaces=(*document.namespaces, (PREFIX, NAMESPACE)))
         # urdfdom reads a missing version as 1.0, so a plain robot needs no attribute
         return document.copy(version=None if self.version == "1.0" else self.version)
 
@@ -180,20 +189,13 @@ def _refuse_flat_shapes(document: Document, sink: DiagnosticSink) -> None:
                 sink.report(rules.OUT_OF_RANGE, message, shape.location, help=hint, severity=severity)
 
 
-def _without_capsules(sink: DiagnosticSink, link: Link) -> Link:
-    visuals, collisions = _split(link, link.visuals, sink), _split(link, link.collisions, sink)
+def _without_capsules(keeper: Keeper, link: Link) -> Link:
+    visuals, collisions = _split(link, link.visuals, keeper), _split(link, link.collisions, keeper)
     return replace_fields(link, visuals=visuals, collisions=collisions)
 
 
-def _split(link: Link, parts: tuple[Part, ...], sink: DiagnosticSink) -> tuple[Part, ...]:
-    names = {part.name for part in parts if part.name}
-    made: list[Part] = []
-    for part in parts:
-        shape = part.geometry.shape if part.geometry else None
-        if not isinstance(shape, Capsule):
-            made.append(part)
-            continue
-        message = f"a capsule of link {link.name!r} becomes a cylinder and two spheres"
-        sink.account(Fate.APPROXIMATED, rules.REPLACED_SHAPE, message, part.location, 0)
-        made += shapes_of_capsule(part, shape, names)
-    return tuple(made)
+def _split(link: Link, parts: tuple[AnyPart, ...], keeper: Keeper) -> tuple[AnyPart, ...]:
+    taken = {part.name for part in parts if part.name}
+    replacer = ShapeReplacer(keeper, "URDF 1.0", lambda kind: kind == "capsule", None, side_files=False)
+    replaced = (replacer.replace(part, link.name) for part in parts)
+    return tuple(made for part in replaced for made in with_ends(part, taken, annotated=keeper.carriers))

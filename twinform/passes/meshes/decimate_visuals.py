@@ -15,11 +15,11 @@ from twinform.passes.meshes.mesh_pass import (
     MeshPass,
     Workbench,
     as_number,
-    format_length,
     report_kept_mesh,
     without_submesh,
 )
 from twinform.passes.shared.mesh_solids import MeshError
+from twinform.passes.shared.shape_meshes import format_length
 
 _MADE = lazy_pattern(r"_lod\d+$")
 _MOST_LEVELS = 8

@@ -252,11 +252,6 @@ def report_kept_mesh(sink: DiagnosticSink, error: MeshError, what: str, location
     sink.report(error.rule, f"{what} stays as it is: {error.message}", location, help=error.help)
 
 
-def format_length(meters: float) -> str:
-    """A length for people; less than a nanometer is rounding, and differs from machine to machine."""
-    return f"{max(1000 * meters, 1e-6):.3g} mm" if meters < 1 else f"{meters:.3g} m"
-
-
 def as_number(value: object) -> float:
     """A fact of a result as a number; 0 where it is none."""
     return float(value) if isinstance(value, int | float) else 0.0

@@ -18,10 +18,10 @@ from twinform.passes.meshes.mesh_pass import (
     MeshPass,
     Workbench,
     as_number,
-    format_length,
     report_kept_mesh,
 )
 from twinform.passes.shared.mesh_solids import MeshError
+from twinform.passes.shared.shape_meshes import format_length
 
 Way = Literal["primitive", "hull", "parts"]
 Kind = Literal["box", "sphere", "cylinder", "capsule"]

@@ -8,6 +8,7 @@ from twinform.passes.sdf_versions.put_back import PutBack
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.sdf_versions.steps import backward, forward, meaning_back, unversioned
 from twinform.passes.sdf_versions.version_pass import has_early_frames, sdf_version_read
+from twinform.request_options import USUAL, Requested
 from twinform.schemas import Version, parse_version, print_version, versions_of
 
 __all__ = [
@@ -28,15 +29,16 @@ _NAMED_STATES: Version = (1, 12)
 """Since this version states have names of their own."""
 
 
-def change_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
+def change_version(declared: str | None, asked: str, requested: Requested = USUAL) -> tuple[Pass, ...]:
     """The passes from the version that a file declares to the one asked for."""
+    carriers = requested.carriers
     old = sdf_version_read(declared)
     if parse_version(old) < parse_version(asked):
         steps = raise_version(old, asked, carriers=carriers)
     else:
         # Carried parts of older versions come back first, so that they are lowered with the model.
         back = PutBack.unchecked(version=asked, source=old, carriers=carriers)
-        steps = (back, *lower_version(old, asked, carriers=carriers))
+        steps = (back, *lower_version(old, asked, requested))
     return (*steps, SetVersion.unchecked(version=asked))
 
 
@@ -50,7 +52,8 @@ def raise_version(declared: str | None, asked: str, *, carriers: bool = True) ->
     if new >= _NAMED_STATES:
         after.append(kinds.RenameStates.unchecked(version=asked, carriers=carriers))
     # Raising a version leaves parts out too: SDF dropped some elements along the way.
-    return (*forward(old, new), back, *after, kinds.LeaveOut.unchecked(version=asked, carriers=carriers))
+    shapes = (kinds.FoldCapsules.unchecked(), kinds.FoldShapeMeshes.unchecked(version=asked))
+    return (*shapes, *forward(old, new), back, *after, kinds.LeaveOut.unchecked(version=asked, carriers=carriers))
 
 
 @lru_cache(maxsize=64)
@@ -75,9 +78,9 @@ def raise_unversioned(*, carriers: bool = True) -> tuple[Pass, ...]:
     return tuple(unversioned(versions_of("sdf")[-1], carriers=carriers))
 
 
-def lower_version(declared: str | None, asked: str, *, carriers: bool = True) -> tuple[Pass, ...]:
+def lower_version(declared: str | None, asked: str, requested: Requested = USUAL) -> tuple[Pass, ...]:
     """The passes that downgrade a newer file."""
-    return tuple(backward(parse_version(sdf_version_read(declared)), parse_version(asked), carriers=carriers))
+    return tuple(backward(parse_version(sdf_version_read(declared)), parse_version(asked), requested))
 
 
 def lower_meaning(asked: str) -> tuple[Pass, ...]:

@@ -9,7 +9,7 @@ from twinform.dataclass import dataclass
 from twinform.ir.rewrite import PLAIN, bits_of, union_of
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.passes.sdf_versions.lacking import INCOMPLETE, LACKING
-from twinform.schemas import Fact, Version, print_version, table
+from twinform.schemas import Fact, Version, parse_version, print_version, table
 
 _FIRST: Version = (0, 0)
 _LAST: Version = (99, 99)
@@ -96,6 +96,12 @@ def _pairs_of_spans(
 def shape(definition: str) -> ElementContent:
     """The content of a definition of SDF."""
     return _shape(table("sdf").definitions[definition])
+
+
+def has_shape(version: str, kind: str) -> bool:
+    """Whether a version of SDF has a kind of shape."""
+    span = shape("geometry").kinds.get(kind)
+    return span is not None and span.row(parse_version(version)) is not None
 
 
 _inner: dict[int, ElementContent] = {}

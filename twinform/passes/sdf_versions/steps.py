@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.sdf_versions import kinds
+from twinform.request_options import Requested
 from twinform.schemas import Version, print_version
 
 Changes = Callable[[int], bool]
@@ -65,11 +66,22 @@ def unversioned(version: str, *, carriers: bool = True) -> Iterator[Pass]:
     yield kinds.NameAxisFrames.unchecked(version=version)
 
 
-def backward(new: Version, old: Version, *, carriers: bool = True) -> Iterator[Pass]:
-    """The passes from a newer version to an older one, for the changes that lie between the two."""
+def backward(new: Version, old: Version, requested: Requested | None = None) -> Iterator[Pass]:
+    """The passes from a newer version to an older one, for the changes that lie between the two.
+
+    Without what is requested, shapes that the older one lacks are carried, and no files are made for them.
+    """
+    carriers = requested is None or requested.carriers
     changes = _changes_between(old, new)
     yield from _models_back(changes, print_version(old), print_version(new), carriers=carriers)
     yield from _values_back(changes, print_version(old), carriers=carriers)
+    if requested is not None:  # after the inertias, which may have to be computed from the shapes
+        yield kinds.ReplaceShapes.unchecked(
+            version=print_version(old),
+            carriers=carriers,
+            shape_error=requested.shape_error,
+            side_files=requested.side_files,
+        )
     yield kinds.LeaveOut.unchecked(version=print_version(old), carriers=carriers)
 
 

@@ -218,8 +218,8 @@ OLDER: list[tuple[str, str, str, list[str]]] = [
     ("1.8", world("<frame name='f'/><actor name='a'><pose degrees='true' relative_to='f'>1 2 3 0 0 90</pose></actor>"),
      "//actor/pose/text() | //actor/pose/@*", [f"1 2 3 {QUARTER}", "f"]),
     # 1.7: shapes, ends of joints, placement
-    ("1.7", model("<link name='a'><visual name='v'><geometry><capsule/></geometry></visual></link>"), "//link/visual",
-     []),
+    ("1.7", model("<link name='a'><visual name='v'><geometry><capsule/></geometry></visual></link>"),
+     "//link/visual/@name", ["v", "v_end", "v_end_1"]),
     ("1.7", model(LINKS + "<frame name='f' attached_to='a'/>" + joint("fixed", parent="f")), "//joint/parent/text()",
      ["a"]),
     ("1.7", world(HELD), "//joint/parent/text() | //joint/child/text()", ["world", "m::a", "m::a", "n::c"]),

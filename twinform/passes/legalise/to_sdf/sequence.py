@@ -32,6 +32,8 @@ from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_sdf.unpack_sdf import UnpackSdf
 from twinform.passes.legalise.to_sdf.world_link import WorldLink
 from twinform.passes.sdf_versions import lower_meaning, lower_version, raise_unversioned
+from twinform.passes.sdf_versions.fold_capsules import FoldCapsules
+from twinform.passes.sdf_versions.fold_shape_meshes import FoldShapeMeshes
 from twinform.request_options import USUAL, Requested
 from twinform.schemas import parse_version
 
@@ -60,7 +62,9 @@ def to_sdf(
     before_named_frames = parse_version(version) < _ONE_SCOPE
     return (
         DropMisplaced.unchecked(),
+        FoldCapsules.unchecked(),
         CarryUrdf.unchecked(carriers=carriers),  # before anything of SDF comes in
+        FoldShapeMeshes.unchecked(),
         RestoreShapeNames.unchecked(),
         FollowLumpedNames.unchecked(carriers=carriers),
         ShareInertias.unchecked(carriers=carriers),
@@ -92,7 +96,7 @@ def to_sdf(
         RoundTinyNumbers.unchecked(to=Format.SDF),  # when no more is computed
         # A robot whose SDF had syntax of newer versions goes back to such a file: only what means
         # something else in its version is rewritten.
-        *(lower_meaning(version) if mixed else lower_version(None, version, carriers=carriers)),
+        *(lower_meaning(version) if mixed else lower_version(None, version, requested)),
         *([RestoreNames.unchecked(to=Format.SDF, apart=True)] if before_named_frames else []),
         *([HideScopedElements.unchecked(carriers=carriers)] if parse_version(version) >= _NAMES_MEAN_MODELS else []),
         RetargetSdf.unchecked(version=version, carriers=carriers, mixed=mixed_source),

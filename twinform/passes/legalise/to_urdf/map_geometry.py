@@ -5,6 +5,7 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import rules
 from twinform.ir import (
     Collision,
+    Empty,
     Geometry,
     Link,
     Mesh,
@@ -20,6 +21,7 @@ from twinform.passes.legalise.to_urdf.remainder import urdf_fields
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.document_uris import GAZEBO, MESH_SCHEME, package_uri, scheme_of
 from twinform.passes.shared.nodes import piece
+from twinform.passes.shared.replaced_shapes import NoMeshError, ShapeReplacer
 from twinform.request_options import UrdfVersion
 
 Sayable = frozenset[str]
@@ -36,35 +38,50 @@ _UNSAYABLE = {
 
 
 class MapGeometry(ToUrdfPass):
-    """Keep the shapes that URDF has, with all their sizes.
+    """Keep the shapes that URDF has, with all their sizes, and replace the others.
 
-    Changes: 1. a size that is not written is SDF's default; 2. `model://` becomes `package://`; 3. a visual or
-    collision with a shape that URDF lacks, which a capsule is before 1.1, leaves the link, whole, into a carrier.
-    Diagnostics: `unsayable-shape`; in the ledger `unsayable-shape` and `sdf-only`.
+    Changes: 1. a size that is not written is SDF's default; 2. `model://` becomes `package://`; 3. a capsule, which
+    URDF lacks before 1.1, becomes the cylinder between its ends, which `add-capsule-ends` adds; 4. an ellipsoid, cone
+    or polyline becomes a mesh beside the result, at most `shape_error` off; 5. a visual or collision with any other
+    shape, or where no file can be written, leaves the link, whole, into a carrier.
+    Never touches: masses and inertias.
+    Diagnostics: `replaced-shape` for each mesh, `unsayable-shape`; in the ledger these and `sdf-only`.
     """
 
     name: ClassVar[str] = "map-geometry"
     urdf_version: UrdfVersion = "1.0"
+    shape_error: float | None = None
+    side_files: bool = True
 
     def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with shapes of URDF alone."""
         sayable = frozenset(urdf_fields(self.urdf_version, "geometry")["shape"] or ())
-        return replace_fields(model, links=tuple(_map_link(link, sayable, keeper) for link in model.links))
+        target = f"URDF {self.urdf_version}"
+        replacer = ShapeReplacer(keeper, target, lambda kind: kind not in sayable, self.shape_error, self.side_files)
+        links = tuple(_map_link(link, sayable, keeper, replacer) for link in model.links)
+        return replace_fields(model, links=links)
 
 
-def _map_link(link: Link, sayable: Sayable, keeper: UrdfKeeper) -> Link:
+def _map_link(link: Link, sayable: Sayable, keeper: UrdfKeeper, replacer: ShapeReplacer) -> Link:
     # A shape in a carrier is carried after the link's frame has moved onto its joint, so that its
     # pose means the same place as in SDF.
-    link = _map_shapes(link, "collisions", "collision", link.collisions, sayable, keeper)
-    return _map_shapes(link, "visuals", "visual", link.visuals, sayable, keeper)
+    link = _map_shapes(link, "collisions", "collision", link.collisions, sayable, keeper, replacer)
+    return _map_shapes(link, "visuals", "visual", link.visuals, sayable, keeper, replacer)
 
 
 def _map_shapes(
-    link: Link, field: str, tag: str, shapes: tuple[AnyShaped, ...], sayable: Sayable, keeper: UrdfKeeper
+    link: Link,
+    field: str,
+    tag: str,
+    shapes: tuple[AnyShaped, ...],
+    sayable: Sayable,
+    keeper: UrdfKeeper,
+    replacer: ShapeReplacer,
 ) -> Link:
     kept: list[AnyShaped] = []
     taken = 0
-    for one in shapes:
+    for shape in shapes:
+        one, hint = _replaced(shape, link.name, replacer)
         if _is_expressible(one.geometry, sayable) or (
             keeper.back and (one.geometry is None or one.geometry.shape is None)
         ):
@@ -73,13 +90,24 @@ def _map_shapes(
         kind = one.geometry.shape.kind if one.geometry and one.geometry.shape else "no shape"
         what = _UNSAYABLE.get(kind, f"is a {kind}, which URDF does not have")
         message = f"{tag} {one.name!r} of link {link.name!r} {what}"
-        keeper.sink.report(rules.UNSAYABLE_SHAPE, message, one.location, found=kind)
+        keeper.sink.report(rules.UNSAYABLE_SHAPE, message, one.location, found=kind, help=hint)
         weight = count_parts(one)
         place = len(kept) + taken
         taken += 1
         about = (("index", str(place)),) if place < len(shapes) - 1 else ()
         link = keeper.keep(link, [piece(one, tag)], rules.UNSAYABLE_SHAPE, message, one.location, weight, about)
     return replace_fields(link, **{field: tuple(kept)})
+
+
+def _replaced(one: AnyShaped, link: str, replacer: ShapeReplacer) -> tuple[AnyShaped, str | None]:
+    """The part with a shape that URDF has, or the part itself and what to do."""
+    shape = one.geometry.shape if one.geometry else None
+    if isinstance(shape, Empty | Mesh):
+        return one, None
+    try:
+        return replacer.replace(one, link), None
+    except NoMeshError as error:
+        return one, str(error)
 
 
 def _is_expressible(geometry: Geometry | None, sayable: Sayable) -> bool:

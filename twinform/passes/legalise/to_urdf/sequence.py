@@ -7,6 +7,7 @@ from twinform.passes.legalise.changed_names import RestoreNames
 from twinform.passes.legalise.drop_stale import DropStale
 from twinform.passes.legalise.fit_urdf_version import FitUrdfVersion
 from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers
+from twinform.passes.legalise.to_urdf.add_capsule_ends import AddCapsuleEnds
 from twinform.passes.legalise.to_urdf.build_tree import BuildTree
 from twinform.passes.legalise.to_urdf.carry_the_rest import CarryTheRest
 from twinform.passes.legalise.to_urdf.compute_inertias import ComputeInertias
@@ -37,6 +38,8 @@ from twinform.passes.legalise.to_urdf.turn_frames_into_links import TurnFramesIn
 from twinform.passes.legalise.to_urdf.unfold_joints import UnfoldJoints
 from twinform.passes.legalise.to_urdf.unpack_urdf import UnpackUrdf
 from twinform.passes.legalise.to_urdf.upgrade_sdf import UpgradeSdf
+from twinform.passes.sdf_versions.fold_capsules import FoldCapsules
+from twinform.passes.sdf_versions.fold_shape_meshes import FoldShapeMeshes
 from twinform.passes.sdf_versions.spread_imu_noise import GatherImuNoise
 from twinform.request_options import USUAL, Requested, UrdfVersion
 from twinform.schemas import versions_of
@@ -61,6 +64,8 @@ def to_urdf(
         # URDF holds one robot.
         SelectModel.unchecked(model=requested.model),
         DropMisplaced.unchecked(),
+        FoldCapsules.unchecked(),
+        FoldShapeMeshes.unchecked(),
         ShowScopedElements.unchecked(),
         UpgradeSdf.unchecked(carriers=carriers, mixed=mixed_source),
         GatherImuNoise.unchecked(version=versions_of("sdf")[-1], annotated=True),
@@ -82,7 +87,12 @@ def to_urdf(
         UnfoldJoints.unchecked(carriers=carriers),
         MapJoints.unchecked(carriers=carriers, urdf_version=urdf_version),
         RebaseLinks.unchecked(carriers=carriers, urdf_version=urdf_version),
-        MapGeometry.unchecked(carriers=carriers, urdf_version=words),  # what it carries is where it will be
+        MapGeometry.unchecked(  # what it carries is where it will be
+            carriers=carriers,
+            urdf_version=words,
+            shape_error=requested.shape_error,
+            side_files=requested.side_files,
+        ),
         ShareVisuals.unchecked(carriers=carriers, urdf_version=words),
         MapMaterials.unchecked(carriers=carriers),
         MapSurfaces.unchecked(carriers=carriers),
@@ -90,6 +100,7 @@ def to_urdf(
         ExtendGazebo.unchecked(carriers=carriers),
         CarryTheRest.unchecked(carriers=carriers, urdf_version=urdf_version, words=words),
         NameShapesForGazebo.unchecked(carriers=carriers),
+        AddCapsuleEnds.unchecked(carriers=carriers),
         RestoreMaterials.unchecked(),
         RestoreShapes.unchecked(),
         RestoreNames.unchecked(to=Format.URDF),

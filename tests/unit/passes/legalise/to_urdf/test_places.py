@@ -92,6 +92,6 @@ def test_a_link_that_is_posed_by_the_joint_that_is_cut_stays_where_it_is() -> No
 
 
 def test_a_carried_shape_is_where_the_link_has_moved_to() -> None:
-    shape = visual("<geometry><ellipsoid/></geometry>")
+    shape = visual("<geometry><plane/></geometry>")
     text = LINK + link(shape, "b") + joint("fixed", "<pose>0 0 0.5 0 0 0</pose>")
     assert values_at(convert(text), "//tf:sdf/visual/pose/text()") == ["0 0 -0.5 0 0 0"]

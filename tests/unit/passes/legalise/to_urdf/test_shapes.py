@@ -86,11 +86,11 @@ def test_a_part_of_sdf_is_expressed_in_urdf(text: str, path: str, expected: list
     assert values_at(convert(text), path) == expected
 
 
-def test_a_capsule_is_carried_in_urdf_1_0_and_expressed_in_1_1() -> None:
+def test_a_capsule_is_three_shapes_in_urdf_1_0_and_one_in_1_1() -> None:
     capsule = "<geometry><capsule><radius>1</radius></capsule></geometry>"
     document, sink = read(link(visual(capsule))), DiagnosticSink()
     old = Pipeline(to_urdf()).run(document, sink)
-    assert (old.version, old.models[0].links[0].visuals) == (None, ())
+    assert (old.version, len(old.models[0].links[0].visuals)) == (None, 3)
     new = Pipeline(to_urdf(urdf_version="1.1")).run(document, sink)
     assert new.version == "1.1"
     assert len(new.models[0].links[0].visuals) == 1

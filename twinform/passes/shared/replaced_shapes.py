@@ -1,0 +1,153 @@
+"""Shapes that stand for one that the target lacks: primitives for a capsule, a mesh beside the file for others.
+
+Annotations say which they are, so that the reverse conversion folds them back:
+
+    <tf:capsule/>                      a cylinder that is the middle of a capsule, or the sphere that is all of one
+    <tf:capsule-end>NAME</tf:...>      a sphere at the end of the cylinder before it, and its name when it was made
+    <tf:shape instead_of="M.obj">      the geometry that the mesh of this file stands for
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import field
+from typing import TypeVar
+
+from twinform.dataclass import dataclass
+from twinform.diagnostics import Fate, SideFile, rules
+from twinform.ir import Collision, Node, Pose, Visual, count_parts, replace_fields
+from twinform.ir.defaults import sizes
+from twinform.ir.geometry import Capsule, Cylinder, Geometry, Mesh, Sphere
+from twinform.ir.transform import Transform
+from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
+from twinform.passes.carriers.carriers import Keeper, bits_of_ours, carry, is_ours
+from twinform.passes.shared.nodes import piece, reserve_name
+
+AnyPart = TypeVar("AnyPart", Visual, Collision)
+CAPSULE = "capsule"
+CAPSULE_END = "capsule-end"
+SHAPE = "shape"
+REPLACED = bits_of_ours(CAPSULE, CAPSULE_END, SHAPE)
+"""The bits of the census for these annotations."""
+FOLDER = "meshes"
+"""Where meshes are written, below the folder of the result."""
+_DIGITS = 12
+_MOST = 500
+"""Meshes of one result: a file of a stranger could ask for any number."""
+_HINTS = {
+    "plane": "put the ground into the world, or write a box that is large enough",
+    "heightmap": "name a mesh of the terrain",
+    "image": "name a mesh of it",
+}
+
+
+class NoMeshError(ValueError):
+    """No mesh can stand for a shape; the text says why, or what to do."""
+
+
+@dataclass(frozen=True, slots=True)
+class ShapeReplacer:
+    """Replaces shapes of the kinds that a target `lacks`.
+
+    A mesh is at most `error` off, in m, or 1 % of the largest radius where it is None; none is written without
+    `side_files`.
+    """
+
+    keeper: Keeper
+    target: str
+    lacks: Callable[[str], bool]
+    error: float | None
+    side_files: bool
+    _written: set[str] = field(default_factory=set[str])
+
+    def replace(self, part: AnyPart, link: str) -> AnyPart:
+        """The part with a shape that the target has; of a capsule the middle, see `with_ends`.
+
+        Raises:
+            NoMeshError: no shape can stand for it.
+        """
+        geometry = part.geometry
+        shape = geometry.shape if geometry else None
+        if geometry is None or shape is None or not self.lacks(shape.kind):
+            return part
+        what = f"{type(part).__name__.lower()} {part.name!r} of link {link!r}"
+        if isinstance(shape, Capsule):
+            parts = "a cylinder and two spheres" if sizes(shape)[1] else "a sphere"
+            self._account(shape, f"{what} becomes {parts}: {self.target} has no capsule")
+            return middle_of_capsule(part, shape)
+        if shape.kind in _HINTS:
+            raise NoMeshError(_HINTS[shape.kind])
+        from twinform.passes.shared.shape_meshes import format_length, mesh_of  # noqa: PLC0415 - few shapes need a mesh
+
+        mesh = mesh_of(geometry, self.error)
+        if not self.side_files:
+            raise NoMeshError("name a file for the result with -o, and a mesh is written beside it")
+        name = self._write(shape.kind, mesh.obj())
+        off = f"at most {format_length(mesh.error)} off and inside of it" if mesh.error else "with the same surface"
+        message = f"{what} becomes a mesh of {len(mesh.faces)} triangles, {off}: {self.target} has no {shape.kind}"
+        self.keeper.sink.report(rules.REPLACED_SHAPE, message, shape.location, found=shape.kind)
+        self._account(shape, message)
+        made = replace_fields(part, geometry=Geometry(shape=Mesh(uri=f"{FOLDER}/{name}")))
+        if not self.keeper.carriers:
+            return made
+        return carry(made, [piece(geometry, "geometry")], SHAPE, (("instead_of", name),))
+
+    def _account(self, shape: Node, message: str) -> None:
+        self.keeper.sink.account(Fate.APPROXIMATED, rules.REPLACED_SHAPE, message, shape.location, count_parts(shape))
+
+    def _write(self, kind: str, data: bytes) -> str:
+        """Put a mesh beside the result, and return its name.
+
+        Raises:
+            NoMeshError: there are too many.
+        """
+        # Named by their content, equal shapes share a mesh, no robot writes over that of another,
+        # and a mesh that somebody edited is no longer what its name says.
+        name = f"{kind}_{digest_of(data)}.obj"
+        if name not in self._written:
+            if len(self._written) >= _MOST:
+                raise NoMeshError(f"a result has no more than {_MOST} such meshes")
+            from twinform.passes.mesh_jobs.mesh_files import MARK  # noqa: PLC0415 - see above
+
+            self._written.add(name)
+            self.keeper.sink.side_files.append(SideFile(f"{FOLDER}/{name}", data, MARK.encode()))
+        return name
+
+
+def digest_of(data: bytes) -> str:
+    """What stands in the name of a mesh for its content."""
+    import hashlib  # noqa: PLC0415 - few shapes need a mesh
+
+    return hashlib.sha256(data).hexdigest()[:_DIGITS]
+
+
+def with_ends(part: AnyPart, taken: set[str], *, annotated: bool) -> Iterator[AnyPart]:
+    """Yield a part and, behind the middle of a capsule, the spheres at its ends; `taken` are names, and get theirs."""
+    is_middle = find_annotation(part, CAPSULE) is not None
+    yield part if annotated else without_annotation(part, CAPSULE)
+    for end in ends_of_capsule(part, taken) if is_middle else ():
+        yield with_annotation(end, CAPSULE_END, end.name) if annotated else end
+
+
+def middle_of_capsule(part: AnyPart, shape: Capsule) -> AnyPart:
+    """The cylinder of a capsule, or the sphere that one without a length is, annotated as that."""
+    radius, length = sizes(shape)
+    made = Cylinder(radius=radius, length=length) if length else Sphere(radius=radius)
+    geometry = (part.geometry or Geometry()).copy(shape=made.copy(source=shape.source, opaque=shape.opaque))
+    return with_annotation(part.copy(geometry=geometry), CAPSULE)
+
+
+def ends_of_capsule(part: AnyPart, taken: set[str]) -> Iterator[AnyPart]:
+    """Yield the spheres at the ends of the cylinder of a capsule; `taken` are names, and get theirs."""
+    shape = part.geometry.shape if part.geometry else None
+    if not isinstance(shape, Cylinder):
+        return
+    foreign = tuple(each for each in part.opaque if not is_ours(each))
+    for pose in end_poses(part.pose, sizes(shape)[1]):
+        name = reserve_name(f"{part.name}_end", taken) if part.name else part.name
+        yield part.copy(name=name, pose=pose, geometry=Geometry(shape=Sphere(radius=shape.radius)), opaque=foreign)
+
+
+def end_poses(pose: Pose | None, length: float) -> Iterator[Pose]:
+    """Yield where the ends of a cylinder are: half its length along z from its middle, both ways."""
+    frame = pose.relative_to if pose else None
+    for height in (length / 2, -length / 2):
+        yield Transform.from_pose(pose).compose(Transform((0.0, 0.0, height))).to_pose(frame)
