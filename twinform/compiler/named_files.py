@@ -2,7 +2,7 @@
 
 import os
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from posixpath import normpath
 from typing import NamedTuple
@@ -183,6 +183,8 @@ def _place(use: _Use, parts: PartFinder | None) -> Location:
 # the intended one.
 _ALIKE = 0.75
 _NAMED = frozenset({"model", "package"})
+MESHES = (".stl", ".dae", ".obj", ".glb", ".gltf", ".ply", ".off", ".fbx")
+IMAGES = (".png", ".jpg", ".jpeg", ".tga", ".bmp", ".dds", ".gif", ".tif", ".tiff")
 _SCHEMES = ("file", "http", "https", "model", "package")
 
 
@@ -200,6 +202,9 @@ def is_elsewhere(uri: str, search: SearchPath, beside: Path) -> bool:
 def near_files(uri: str, search: SearchPath, beside: Path) -> Sequence[str]:
     """Return what may have been meant by the first part of a URI that is not there."""
     scheme, separator, rest = uri.partition("://")
+    before, colon, _ = uri.partition(":")
+    if colon and not separator and before in _SCHEMES:
+        return [f"{before}://"]
     if separator and scheme not in _SCHEMES:
         return [f"{each}://" for each in near_names(scheme, _SCHEMES, _ALIKE) if is_typo(scheme, each)]
     path = normpath(unquote(rest)) if separator else normpath(uri)
@@ -224,11 +229,19 @@ def _near_below(folder: Path, path: str, search: SearchPath, beside: Path) -> Se
     """Return the names of files that are similar to the first part of a path that is not there."""
     for part in path.split("/"):
         if not exists(folder / part):
-            alike = search.index.listing(folder).by_suffix.get(Path(part).suffix.lower(), ())
             # a file from elsewhere must learn of no names but those around it
-            return _near_parts(part, alike) if Readable.of(beside).allows(folder) else ()
+            by_suffix = search.index.listing(folder).by_suffix if Readable.of(beside).allows(folder) else {}
+            suffix = Path(part).suffix.lower()
+            return _near_parts(part, by_suffix.get(suffix, ())) or _with_other_suffixes(part, suffix, by_suffix)
         folder = folder / part
     return ()
+
+
+def _with_other_suffixes(part: str, suffix: str, by_suffix: Mapping[str, Sequence[str]]) -> Sequence[str]:
+    """Return the files of the same kind and name that have another suffix: meshes and images are often converted."""
+    kind = next((each for each in (MESHES, IMAGES) if suffix in each), ())
+    found = (name for each in kind for name in by_suffix.get(each, ()))
+    return [name for name in found if Path(name).stem == Path(part).stem]
 
 
 def _near_parts(part: str, names: Iterable[str]) -> Sequence[str]:

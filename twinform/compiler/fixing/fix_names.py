@@ -159,7 +159,7 @@ def _replace_part(uri: str, meant: str) -> str | None:
     """Replace the part of a URI that is most similar to what is meant."""
     scheme, separator, rest = uri.partition("://")
     if meant.endswith("://"):
-        return f"{meant}{rest}" if separator else None
+        return f"{meant}{rest if separator else uri.partition(':')[2].lstrip('/')}"
     parts = rest.split("/") if separator else uri.split("/")
     stem = PurePosixPath(meant).stem
     at = next((number for number, part in enumerate(parts) if is_misspelt(PurePosixPath(part).stem, stem)), None)

@@ -4,14 +4,13 @@ import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from twinform.compiler.named_files import IMAGES, MESHES
 from twinform.file_access import package_around
 from twinform.server.completion.proposals import ITEM, Proposal, ValuePlace, values
 from twinform.server.documents import TextDocument
 from twinform.server.includes import files_below, resolve_uri
 from twinform.server.navigation import search_of
 
-MESHES = (".stl", ".dae", ".obj", ".glb", ".gltf", ".ply", ".off", ".fbx")
-IMAGES = (".png", ".jpg", ".jpeg", ".tga", ".bmp", ".dds", ".gif", ".tif", ".tiff")
 HEIGHTMAPS = (*IMAGES, ".dem", ".asc", ".hgt")
 XACROS = (".xacro", ".urdf", ".gazebo")
 MODELS = (".sdf", ".urdf", ".world")
