@@ -4,7 +4,7 @@ import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from twinform.compiler.named_files import IMAGES, MESHES
+from twinform.compiler.named_files import IMAGES
 from twinform.file_access import package_around
 from twinform.server.completion.proposals import ITEM, Proposal, ValuePlace, values
 from twinform.server.documents import TextDocument

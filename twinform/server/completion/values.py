@@ -10,12 +10,11 @@ from twinform.compiler.mistakes.control_checks import (
     SENSOR_INTERFACES,
     TRANSMISSIONS,
 )
+from twinform.compiler.named_files import IMAGES, MESHES
 from twinform.passes.appearance.materials import classic_materials
 from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_TAGS, SCRIPT_URI, TRUTHS
 from twinform.server.completion.files import (
     HEIGHTMAPS,
-    IMAGES,
-    MESHES,
     MODELS,
     SOUNDS,
     XACROS,
