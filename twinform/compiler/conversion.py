@@ -81,13 +81,15 @@ def convert_once(
         request = replace(request, assets=LocalAssets(load_options.search, Path(loaded.path)))
         # SDF to SDF keeps its includes: a world with 525 models from Fuel is read and written
         # without opening any of them. URDF has none, so there those of the chosen model are
-        # expanded, and no others.
-        if loaded.accepted and (request.expand_includes or request.to == "urdf" or request.model is not None):
+        # expanded, and no others; for an older SDF those that would be another robot in it.
+        newer = _newer_includes(loaded.document, request)
+        if loaded.accepted and (request.expand_includes or request.to == "urdf" or request.model is not None or newer):
             from twinform.compiler.expand_includes import expand  # noqa: PLC0415 - most conversions need no includes
 
-            wanted = None if request.expand_includes else _includes_to_expand(loaded.document, request)
+            wanted = None if request.expand_includes else _includes_to_expand(loaded.document, request, newer)
             before = loaded.document
-            loaded = expand(loaded, load_options, wanted=wanted, carriers=request.carriers)
+            why = f"an include of SDF {request.sdf_version} cannot stand for it" if newer else ""
+            loaded = expand(loaded, load_options, wanted=wanted, carriers=request.carriers, why=why)
             request = replace(request, model=name_once_expanded(before, loaded.document, request.model))
         request = replace(request, mixed=has_mixed_words(loaded))
         if loaded.document is None or not (loaded.accepted or _may_be_fixed(loaded, request)):
@@ -104,12 +106,25 @@ def convert_once(
             raise CompileError((*loaded.diagnostics, *stays)) from error
 
 
-def _includes_to_expand(document: Document | None, request: ConversionRequest) -> Callable[[Include], bool]:
+def _newer_includes(document: Document | None, request: ConversionRequest) -> frozenset[int]:
+    """Return the identities of the includes that the requested older version of SDF cannot have."""
+    if document is None or request.to != "sdf" or request.sdf_version is None or document.format is not Format.SDF:
+        return frozenset()
+    from twinform.passes.includes import newer_includes  # noqa: PLC0415 - most conversions ask for no version
+
+    return newer_includes(document, request.sdf_version)
+
+
+def _includes_to_expand(
+    document: Document | None, request: ConversionRequest, newer: frozenset[int]
+) -> Callable[[Include], bool]:
     """Tell which includes have to be expanded: for a model that stays SDF, only the one that stands for it."""
+    if request.model is None and request.to == "sdf":
+        return lambda include: id(include) in newer
     wanted = wanted_includes(document, request.model)
     if request.to == "urdf" or document is None:
         return wanted
-    placed = {id(one.model) for one in candidates(document)}
+    placed = {id(one.model) for one in candidates(document)} | newer
     return lambda include: id(include) in placed and wanted(include)
 
 

@@ -66,6 +66,9 @@ def convert(
         urdf_version: The version of URDF to write.
         passes: Passes to run, such as 'check-inertia', or @NAME for one that the configuration names.
         carriers: Whether to keep what the target lacks in elements of tf:.
+        shape_error: How far a mesh that stands for a shape which the target lacks may be from it, in m; else 1 % of its
+            largest radius.
+        side_files: Whether meshes may be made that have to lie beside the result, such as that of an ellipsoid.
         comments: Whether comments of the source go along.
         model: The model that is meant, where a file has several.
         keep_physics: Refuse passes for consumers that change masses, inertias, joints or limits.

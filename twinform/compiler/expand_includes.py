@@ -53,16 +53,16 @@ class _IncludedFile(NamedTuple):
 
 
 def expand(
-    loaded: LoadResult, load_options: LoadOptions, *, wanted: Wanted | None = None, carriers: bool = True
+    loaded: LoadResult, load_options: LoadOptions, *, wanted: Wanted | None = None, carriers: bool = True, why: str = ""
 ) -> LoadResult:
-    """Expand the includes of a document, and report those that cannot be expanded."""
+    """Expand the includes of a document, and report those that cannot be expanded, with the reason to expand them."""
     document = loaded.document
     if document is None or not loaded.accepted or document.format is not Format.SDF or not has_includes(document):
         return loaded
     sink = loaded.sink(strict=load_options.strict)
     if loaded.allowances:
         loaded.allowances.origins = sink.origins
-    reader = _IncludeExpander(load_options, sink, carriers)
+    reader = _IncludeExpander(load_options, sink, carriers, why)
     whole = reader.expand_document(document, Path(loaded.path), (), wanted)
     # Each file may be within the limits and the sum of them not.
     excess = excess_of_names(len(whole.document.namespaces), whole.size)
@@ -117,6 +117,7 @@ class _IncludeExpander:
     load_options: LoadOptions
     sink: DiagnosticSink
     carriers: bool
+    why: str = ""
     full: bool = False
     files: dict[tuple[Path, str | None], _IncludedFile | None] = field(
         default_factory=dict[tuple[Path, str | None], "_IncludedFile | None"]
@@ -150,7 +151,8 @@ class _IncludeExpander:
         try:
             path = self.load_options.search.find(include.uri or "", file)
         except UriError as error:
-            self.sink.report(error.rule, error.message, include.location.at("uri"), found=include.uri, help=error.help)
+            message = f"{error.message}; {self.why}" if self.why else error.message
+            self.sink.report(error.rule, message, include.location.at("uri"), found=include.uri, help=error.help)
             return None
         # An include may name the SDF file itself instead of the folder of its model.
         if not path.is_dir():
@@ -166,7 +168,7 @@ class _IncludeExpander:
         usual = path / "model.sdf"
         rule = rules.MISSING_MODEL_CONFIG if usual.is_file() else rules.BROKEN_MODEL_CONFIG
         message = f"{include.uri!r} is the folder {str(path)!r}, which has no model.config"
-        self.sink.report(rule, message, include.location.at("uri"), found=include.uri)
+        self.sink.report(rule, message, include.location.at("uri"), found=include.uri, refused=True)
         return usual if usual.is_file() else None
 
     def _model_file(

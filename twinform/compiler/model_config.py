@@ -1,7 +1,7 @@
 """Reads the model.config of a folder, which says which of its SDF files is the model."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Sequence
 from pathlib import Path
 
 from twinform.compiler.input.load_options import LoadOptions
@@ -10,16 +10,21 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.file_access import Readable
 from twinform.ir import Document, Format
-from twinform.schemas import Version, parse_version, versions_of
+from twinform.lazy import lazy_pattern
+from twinform.schemas import Version, XmlElement, parse_version, versions_of
 
 MANIFESTS = ("model.config", "manifest.xml")
 """The present name, and an older one."""
 
 
+_NUMBER = lazy_pattern(r"\s*(\d{1,9})")
+_UNVERSIONED = (0,)
+
+
 @dataclass(frozen=True, slots=True)
 class _Entry:
     name: str
-    version: Version
+    version: tuple[int, ...]
     line: int
 
 
@@ -36,7 +41,7 @@ def newest_read(document: Document, load_options: LoadOptions) -> Version:
 
 
 def model_file(config: Path, asked: Version | None, sink: DiagnosticSink) -> Path | None:
-    """Return the newest SDF file that a model.config names, up to the version `asked`, or else the newest of all.
+    """Return the newest SDF file that a model.config names, up to the version `asked`, or else the first.
 
     None where there is no file that can be read; the reason is reported.
     """
@@ -50,13 +55,14 @@ def model_file(config: Path, asked: Version | None, sink: DiagnosticSink) -> Pat
 
 
 def _choose(config: Path, asked: Version | None, sink: DiagnosticSink) -> Path | None:
-    entries = list(_entries(config, sink))
-    if not entries:
-        message = "the model.config names no SDF file"
-        sink.report(rules.BROKEN_MODEL_CONFIG, message, Location(line=1, path="/model"), expected="<sdf>")
+    best = _best(_entries(config, sink), asked)
+    if sink.has_errors:
         return None
-    fitting = [entry for entry in entries if asked is None or entry.version <= asked]
-    best = max(fitting or entries, key=lambda entry: entry.version)
+    if best is None or not best.name:
+        message = "the model.config names no SDF file"
+        where = Location(line=best.line, path="/model/sdf") if best else Location(line=1, path="/model")
+        sink.report(rules.BROKEN_MODEL_CONFIG, message, where, expected="<sdf>")
+        return None
     path = config.parent / best.name
     where = Location(line=best.line, path="/model/sdf")
     if not Readable((os.path.realpath(config.parent),)).allows(path):
@@ -70,16 +76,33 @@ def _choose(config: Path, asked: Version | None, sink: DiagnosticSink) -> Path |
     return path
 
 
-def _entries(config: Path, sink: DiagnosticSink) -> Iterator[_Entry]:
-    for element in parse(read_bytes(config, sink), sink).iterchildren("sdf"):
-        name = (element.text or "").strip()
-        if name:
-            yield _Entry(name, _version(element.get("version")), element.sourceline or 0)
+def _best(entries: Sequence[_Entry], asked: Version | None) -> _Entry | None:
+    # parser.cc, getBestSupportedModelVersion: of equal versions the first, and the first of all
+    # where every version is newer than the reader, which refuses that file then.
+    fitting = [each for each in entries if each.version > _UNVERSIONED and (asked is None or each.version <= asked)]
+    return max(fitting, key=lambda entry: entry.version, default=next(iter(entries), None))
 
 
-def _version(text: str | None) -> Version:
-    """Parse a version; one that is not written, or not a version, is older than all others."""
-    try:
-        return parse_version(text) if text else (0, 0)
-    except ValueError:
-        return (0, 0)
+def _entries(config: Path, sink: DiagnosticSink) -> list[_Entry]:
+    root = parse(read_bytes(config, sink), sink)
+    if root.tag != "model":
+        message = f"the root of the model.config is <{root.tag}>; expected <model>"
+        sink.report(rules.BROKEN_MODEL_CONFIG, message, Location(line=root.sourceline or 1, path=f"/{root.tag}"))
+        return []
+    return [_entry(element, sink) for element in root.iterchildren("sdf")]
+
+
+def _entry(element: XmlElement, sink: DiagnosticSink) -> _Entry:
+    name, text, line = (element.text or "").strip(), element.get("version"), element.sourceline or 0
+    version = _version(text) if text else _UNVERSIONED
+    if version is None:
+        message = f"the version {text!r} is no version of SDF, and Gazebo does not survive it"
+        where = Location(line=line, path="/model/sdf/@version")
+        sink.report(rules.BROKEN_MODEL_CONFIG, message, where, found=text, expected="such as 1.9")
+    return _Entry(name, version or _UNVERSIONED, line)
+
+
+def _version(text: str) -> tuple[int, ...] | None:
+    """Parse a version as SemanticVersion of libsdformat does, which takes the number that each part begins with."""
+    found = [_NUMBER.match(part) for part in text.split(".", 2)]
+    return tuple(int(each[1]) for each in found if each) if all(found) else None

@@ -9,15 +9,22 @@ from twinform.ir.link import Link
 from twinform.ir.model import Include, Model
 from twinform.ir.node import Node
 from twinform.ir.rewrite import PLAIN, census_of, children_of
-from twinform.ir.sensor import Plugin
+from twinform.ir.sensor import Light, Plugin
 
 SCOPE = "::"
 """What stands between the name of a model and that of a part of it."""
+_OUTSIDE_WORLDS = frozenset({"model", "light", "actor"})
 
 
 def outer_models(document: Document) -> Iterator[Model]:
     """The models of a document and of its worlds, without those nested in them."""
     return chain(document.models, *(world.models for world in document.worlds))
+
+
+def outside_worlds(document: Document) -> tuple[Model | Light | Opaque, ...]:
+    """The models, lights and actors of a document that are in no world, also those that its version does not have."""
+    more = (part for part in document.opaque if part.element and part.element.name in _OUTSIDE_WORLDS)
+    return (*document.models, *document.lights, *more)
 
 
 def scoped_models(model: Model, scope: str = "") -> Iterator[tuple[str, Model]]:

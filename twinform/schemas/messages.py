@@ -315,7 +315,8 @@ def repeated(context: Context, element: XmlElement) -> None:
     other = next(element.itersiblings("{*}*", preceding=True), None)
     if other is not None and next(element.itersiblings(str(element.tag), preceding=True), None) is None:
         message = f"<{element.tag}> stands beside <{other.tag}> in {holder}, which has one of them"
-    context.report(rules.REPEATED_ELEMENT, element, message)
+    # Root.cc: of what stands outside of worlds there may be one, or the file is refused
+    context.report(rules.REPEATED_ELEMENT, element, message, refused=parent is not None and parent.tag == "sdf")
 
 
 def invalid_value(context: Context, element: XmlElement, step: str, text: str, expected: str) -> None:

@@ -40,6 +40,7 @@ FILES = {
     "</model></sdf>",
     "lamp.sdf": '<sdf version="1.9"><light name="lamp" type="point"><pose>1 0 0 0 0 0</pose></light></sdf>',
     "walker.sdf": '<sdf version="1.9"><actor name="walker"><skin><filename>skin.dae</filename></skin></actor></sdf>',
+    "spaced.sdf": '<sdf version="1.9"><model name="spaced" namespace="own"><link name="a"/></model></sdf>',
     "wrong.sdf": '<sdf version="1.9"><model name="wrong">\n<link name="a"><inertial><mass>heavy</mass></inertial>'
     "</link></model></sdf>",
 }
@@ -97,6 +98,10 @@ EXPANSIONS: Mapping[str, tuple[str, str]] = {
         "<include><uri>framed.sdf</uri></include>",
         '<model name="framed"><link name="a"/><link name="b"><pose relative_to="a">1 0 0 0 0 0</pose></link></model>',
     ),
+    "a namespace in place of the model's own": (
+        "<include><uri>spaced.sdf</uri><namespace>mine</namespace></include>",
+        '<model name="spaced" namespace="mine"><link name="a"/></model>',
+    ),
     "a light": (
         "<include><uri>lamp.sdf</uri><name>l</name><pose>2 0 0 0 0 0</pose></include>",
         '<light name="l" type="point"><pose>2 0 0 0 0 0</pose></light>',
@@ -139,6 +144,51 @@ def test_an_include_becomes_what_it_names(folder: Path, case: str) -> None:
 def test_includes_are_kept_unless_asked_otherwise(folder: Path) -> None:
     path = _world(folder, "<include><uri>model://nothing</uri></include>")
     assert twinform.convert(path, to="sdf").document == twinform.load(path)
+
+
+MERGED = '<link name="base"/><include merge="true"><uri>model://arm</uri></include>'
+PLACED = "<include><uri>model://arm</uri><pose>1 0 0 0 0 0</pose><placement_frame>tip</placement_frame></include>"
+PLAIN = "<include><uri>model://arm</uri><name>other</name><pose>2 0 0 0 0 0</pose></include>"
+NEEDED = [
+    (f'<model name="m">{MERGED}</model>', "1.8", " merge="),
+    (f'<model name="m">{MERGED}</model>', "1.6", " merge="),
+    (f'<model name="m"><link name="l"/>{PLACED}</model>', "1.7", "<placement_frame>"),
+    (PLACED, "1.6", "<placement_frame>"),
+    ('<include merge="true"><uri>frames.sdf</uri></include>', "1.9", " merge="),
+]
+
+
+@pytest.mark.parametrize(("body", "version", "word"), NEEDED)
+def test_an_older_version_has_the_contents_of_includes_that_it_cannot_have(
+    folder: Path, body: str, version: str, word: str
+) -> None:
+    (folder / "frames.sdf").write_text('<sdf version="1.10"><model name="frames"><frame name="f"/></model></sdf>')
+    made = twinform.convert(_world(folder, PLAIN + body, "1.10"), to="sdf", sdf_version=version)
+    expanded = twinform.convert(
+        _world(folder, PLAIN + body, "1.10"), to="sdf", sdf_version=version, expand_includes=True
+    )
+    assert word not in made.text
+    assert [each.name for each in made.document.worlds[0].includes] == ["other"]  # which any version can have
+    own, all_of_them = made.document.worlds[0], expanded.document.worlds[0]
+    assert own.models == tuple(each for each in all_of_them.models if each.name != "other")
+    assert (own.frames, own.joints) == (all_of_them.frames, all_of_them.joints)
+
+
+@pytest.mark.parametrize(("body", "version", "word"), NEEDED)
+def test_includes_stay_in_versions_that_can_have_them(folder: Path, body: str, version: str, word: str) -> None:
+    for target in ("1.10", "1.12", None):
+        assert word in twinform.convert(_world(folder, body, "1.10"), to="sdf", sdf_version=target).text
+    # libsdformat goes by the words and not by the version, so the file is what it is
+    assert word in twinform.convert(_world(folder, body, version), to="sdf").text
+
+
+def test_an_include_whose_file_is_missing_has_no_older_version(folder: Path) -> None:
+    path = _world(folder, '<model name="m"><link name="a"/>\n<include merge="1"><uri>none</uri></include></model>')
+    with pytest.raises(CompileError) as caught:
+        twinform.convert(path, to="sdf", sdf_version="1.8")
+    error = caught.value.diagnostics[0]
+    assert (error.rule.name, error.location.line) == ("unresolved-uri", 3)
+    assert "an include of SDF 1.8 cannot stand for it" in error.message
 
 
 def test_an_older_world_is_raised_to_the_version_of_what_it_includes(folder: Path) -> None:

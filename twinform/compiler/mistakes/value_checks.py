@@ -67,6 +67,8 @@ def report_values(tree: XmlElement, sink: DiagnosticSink) -> None:
         _report_plane(plane, sink)
     for mesh in tree.iter("mesh"):
         _report_nameless(mesh, sink)
+    for shader in tree.iter("shader"):
+        _report_shader(shader, sink)
 
 
 def _report_gravity(gravity: XmlElement, sink: DiagnosticSink) -> None:
@@ -112,6 +114,14 @@ def _report_nameless(mesh: XmlElement, sink: DiagnosticSink) -> None:
     if uri is not None and not uri.strip():
         message = "the mesh names no file: its filename is empty"
         sink.report(rules.MISSING_FILE, message, place_of(mesh), found="", expected="the path of a mesh")
+
+
+def _report_shader(shader: XmlElement, sink: DiagnosticSink) -> None:
+    kind = shader.get("type", "")
+    # Material.cc, Load: it asks for the map, and `__default__` is none
+    if kind.startswith("normal_map") and text_of(shader.find("normal_map")) in {"", "__default__"}:
+        message = f"the shader is of type {kind!r} and has no <normal_map>"
+        sink.report(rules.MISSING_ELEMENT, message, place_of(shader), expected="<normal_map>", refused=True)
 
 
 _MAY_HAVE_SUBSTITUTIONS = etree.XPath("descendant-or-self::*[(text() | @*)[contains(., '$(')]]")

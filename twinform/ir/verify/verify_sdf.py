@@ -11,7 +11,7 @@ from twinform.ir.joint import Joint
 from twinform.ir.link import Link
 from twinform.ir.model import Include, Model
 from twinform.ir.pose import Pose
-from twinform.ir.scopes import SCOPE, outer_models, scoped_models
+from twinform.ir.scopes import SCOPE, outer_models, outside_worlds, scoped_models
 from twinform.ir.verify.verify_bodies import verify_inertial, verify_rotation, verify_shapes
 from twinform.ir.verify.verify_joints import report_loops, verify_joint, verify_mimics
 from twinform.ir.verify.verify_names import Kinds, report_names, report_reserved, report_scope, report_scoped_elements
@@ -27,8 +27,6 @@ from twinform.ir.verify.verify_references import (
 _BEFORE_FRAMES = frozenset({"1.2", "1.3", "1.4", "1.5", "1.6"})
 _BEFORE_SCOPES = _BEFORE_FRAMES | {"1.7"}
 """Versions in which a name may have `::` in it."""
-# From 1.8 on a file has one of these at its top. The reader reports a second one and keeps
-# it.
 _ALONE = frozenset({"model", "light"})
 
 
@@ -68,11 +66,12 @@ class _Verifier:
         report_names("world", document.worlds, self.sink)
         report_names("model", document.models, self.sink)
         self._reserved((("model", document.models), ("light", document.lights)))
-        actors = [part for part in document.opaque if part.element and part.element.name == "actor"]
-        alone = (*document.models, *document.lights, *actors)
+        alone = outside_worlds(document)
+        # the reader reports a second model or light where the version has one of them
         if len(alone) > 1 and not any(part.element and part.element.name in _ALONE for part in document.opaque):
             message = f"the file has {len(alone)} models, lights and actors outside of a world; readers take the first"
-            self.sink.report(rules.SEVERAL_AT_TOP, message, alone[1].location, related=(alone[0].location,))
+            where, first = alone[1].location, alone[0].location
+            self.sink.report(rules.SEVERAL_AT_TOP, message, where, related=(first,), refused=True)
         for model in document.models:
             self._at_top(model)
         if self.scoped:

@@ -9,7 +9,7 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Include, Model, World, replace_fields
 from twinform.ir.element import joined
-from twinform.ir.scopes import nested_includes, outer_models
+from twinform.ir.scopes import nested_includes, outer_models, outside_worlds
 from twinform.ir.transform import Transform
 from twinform.lazy import lazy_pattern
 from twinform.passes.includes.merge import (
@@ -142,6 +142,7 @@ class _Expansion:
             source = self.found.get(id(include))
             if source is not None:
                 account_replaced_include(include, self.sink)
+                self._report_several(include, source.document)
                 yield include, source
 
     def _unread_includes(self, includes: Iterable[Include]) -> tuple[Include, ...]:
@@ -182,11 +183,13 @@ class _Expansion:
             message = f"{include.uri!r} has no model that could be included here"
             self.sink.report(rules.INCLUDE_WITHOUT_MODEL, message, include.location, found=include.uri)
             return None
-        count = len(source.document.models)  # newer versions have one at most
-        if count > 1:
-            message = f"{include.uri!r} has {count} models; {models[0].name!r} is taken"
-            self.sink.report(rules.INCLUDE_TAKES_FIRST, message, include.location, found=include.uri)
         return models[0]
+
+    def _report_several(self, include: Include, document: Document) -> None:
+        count = len(outside_worlds(document))
+        if count > 1:
+            message = f"{include.uri!r} has {count} models, lights and actors; an include stands for one"
+            self.sink.report(rules.INCLUDE_TAKES_FIRST, message, include.location, found=include.uri, refused=True)
 
     def _refuse_merge(self, include: Include, why: str) -> None:
         message = f"{include.uri!r} cannot be merged: {why}"

@@ -139,7 +139,7 @@ def place_model(include: Include, model: Model, sink: DiagnosticSink, frame: Tra
         "static": include.static if include.static is not None else model.static,
         "placement_frame": placement,
         "plugins": (*model.plugins, *include.plugins),
-        "opaque": (*model.opaque, *_model_parts(include, model, sink)),
+        "opaque": _merge_parts(model, tuple(_model_parts(include, sink))),
         "source": include.source,
     }
     return model.copy(**update)
@@ -189,20 +189,22 @@ def place_actor(include: Include, document: Document) -> Opaque | None:
     return part.copy(element=actor, source=include.source)
 
 
-def _model_parts(include: Include, model: Model, sink: DiagnosticSink) -> Iterator[Opaque]:
+def _model_parts(include: Include, sink: DiagnosticSink) -> Iterator[Opaque]:
     """Parts of an include that become parts of the model."""
     for part in include.opaque:
         name = part.element.name if part.element else ""
-        if part.element is not None and name == "namespace" and not _has_namespace(model):
-            yield Opaque.unchecked(attribute=("namespace", part.element.text or ""), source=part.source)
+        if part.element is not None and name == "namespace" and part.element.text:
+            yield Opaque.unchecked(attribute=("namespace", part.element.text), source=part.source)
         elif name == "model_state":
             yield part
         else:
             _report_leftover(include, part, sink)
 
 
-def _has_namespace(model: Model) -> bool:
-    return any(part.attribute and part.attribute[0] == "namespace" for part in model.opaque)
+def _merge_parts(model: Model, parts: tuple[Opaque, ...]) -> tuple[Opaque, ...]:
+    """The parts of a model, and others, whose attributes take the place of those of the model."""
+    given = {part.attribute[0] for part in parts if part.attribute}
+    return (*(part for part in model.opaque if not (part.attribute and part.attribute[0] in given)), *parts)
 
 
 def account_replaced_include(include: Include, sink: DiagnosticSink) -> None:
