@@ -122,7 +122,9 @@ def test_static_models_that_are_flattened_are_fixed_to_the_world(static: str, tm
     ]
 
 
-@pytest.mark.parametrize("name", ["frame_link", "gazebo_joint", "gazebo_tags", "scoped_elements", "world_link"])
+@pytest.mark.parametrize(
+    "name", ["closed_loops", "frame_link", "gazebo_joint", "gazebo_tags", "scoped_elements", "world_link"]
+)
 def test_what_is_carried_is_passed_over_in_silence(name: str, tmp_path: Path):
     """Carriers and annotations are no concern of Gazebo."""
     made = twinform.convert(CASES / f"{name}.urdf", to="sdf", sdf_version=SDF_VERSION).text
@@ -130,6 +132,15 @@ def test_what_is_carried_is_passed_over_in_silence(name: str, tmp_path: Path):
     path.write_text(made)
     assert "<tf:from " in made
     assert libsdformat.judge([path])[path].console == ""
+
+
+def test_loops_are_closed_where_urdf_has_their_ends(tmp_path: Path):
+    path = tmp_path / "made.sdf"
+    path.write_text(twinform.convert(CASES / "closed_loops.urdf", to="sdf", sdf_version=SDF_VERSION).text)
+    joints = {joint["name"]: joint for joint in describe(path)["joints"]}
+    for name in ("pin", "hinge", "rocker_coupler_loop", "cross"):
+        assert (joints[name]["parent"], joints[name]["child"]) == ("rocker", "coupler")
+        assert joints[name]["pose"][:3] == pytest.approx([0.4, 0, 0.4])  # of the rocker's end, in the model
 
 
 def test_numbers_too_small_for_sdf_are_taken_in_urdf_and_in_the_sdf_made_of_it(tmp_path: Path):

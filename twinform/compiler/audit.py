@@ -40,7 +40,7 @@ _SCHEME = lazy_pattern(r"\b[a-z]+://")
 _IMPLIED_BY = {"frame": "fixed"}
 # Booleans that the other format writes as their opposites.
 _OPPOSITES = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
-_SYNONYMS = {"revolute": "continuous", "continuous": "revolute"}
+_SYNONYMS = {"revolute": "continuous", "continuous": "revolute", "ball": "spherical"}
 """Words for which the other format may have another one: a continuous joint may be a revolute one without limits."""
 _TRUTHS = {"true": "1.0", "yes": "1.0", "false": "0.0", "no": "0.0"}
 _PREDICATE = lazy_pattern(r"\[[^]]*+\]?|\{[^}]*+\}?|(?<=[/@])[\w.-]+:")

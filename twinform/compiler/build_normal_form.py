@@ -115,6 +115,8 @@ _FRAMES = frozenset({"parent", "child", "@attached_to", "@relative_to", "@expres
 _OF_MODEL = f"::{MODEL}"
 _EXTENSION = "gazebo"
 _ORIGIN = "origin"
+_READ = frozenset({_ORIGIN, "loop_axis"})
+"""Definitions of elements that have no field of their own, and that a conversion reads."""
 _POSE = "pose"
 _TURNS = frozenset({"@xyz", "@rpy", "@quat_xyzw"})
 _NOTATIONS = frozenset({"@degrees", "@rotation_format"})
@@ -222,7 +224,7 @@ class Builder:
             return False
         if fact.type is not None:
             return fact.type == "string" or fact.default is not None
-        read = row.place is not None or row.reference == _ORIGIN
+        read = row.place is not None or row.reference in _READ
         return read and row.name not in _MEANINGFUL_WHEN_EMPTY[self.format]
 
     def _add_to_pool(self, made: NormalPart, child: XmlElement, row: Fact) -> None:

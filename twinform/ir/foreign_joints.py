@@ -22,10 +22,11 @@ class EndForm(NamedTuple):
 
 
 class LoopForm(NamedTuple):
-    """How a reader writes a joint that closes a loop: from a point on the parent to one on the child."""
+    """How a reader writes a joint that closes a loop: its two ends, and the attributes of the element."""
 
     parent: EndForm
     child: EndForm
+    attributes: tuple[str, ...] = ("name", "type")
 
 
 DRAKE_JOINT = "drake:joint"
@@ -39,9 +40,11 @@ LOOP_FORMS = {
     BALL_CONSTRAINT: LoopForm(
         EndForm(f"{BALL_CONSTRAINT}_body_A", "name", f"{BALL_CONSTRAINT}_p_AP"),
         EndForm(f"{BALL_CONSTRAINT}_body_B", "name", f"{BALL_CONSTRAINT}_p_BQ"),
+        attributes=(),
     ),
 }
 """The elements that close a loop, by their names with the usual prefix."""
+_JOINT_ENDS = (EndForm("parent", "link", ""), EndForm("child", "link", ""))
 
 
 class ForeignJoint(NamedTuple):
@@ -72,13 +75,18 @@ def child_of(element: Element, word: str) -> Element | None:
     return next((child for child in element.children if usual_word(child) == word), None)
 
 
+def closes_loop(part: Opaque) -> bool:
+    """Whether a part of a robot of URDF is an element that closes a loop."""
+    return part.element is not None and not part.at and usual_word(part.element) in LOOP_FORMS
+
+
 def foreign_joints(model: Model) -> Iterator[ForeignJoint]:
     """Yield the joints of other readers in a robot of URDF."""
     for part in model.opaque:
         word = usual_word(part.element) if part.element and not part.at else ""
         if part.element and (word == DRAKE_JOINT or word in LOOP_FORMS):
             form = LOOP_FORMS.get(word)
-            parent, child = form or (EndForm("parent", "link", ""), EndForm("child", "link", ""))
+            parent, child = (form.parent, form.child) if form else _JOINT_ENDS
             name = part.element.get("name")
             joint = Joint.unchecked(
                 name=name or "",

@@ -85,7 +85,8 @@ def test_a_table_is_like_another_one_but_for_what_it_says() -> None:
     assert base == demands[: len(base)]
     assert len(base) < len(demands)
     demands, base = reads("gazebo").demands, reads("urdfdom@4.0").demands
-    assert base == demands[: len(base)]
+    kept = tuple(each for each in base if each.item != "<joint>")  # in <gazebo>, which it reads
+    assert kept == demands[: len(kept)]
 
 
 def test_a_line_is_about_releases() -> None:

@@ -8,6 +8,7 @@ An annotation never repeats what the target states, so that it stays true when t
     <tf:pose relative_to="base"/>                the frame, and the notation, in which the source wrote this pose
     <tf:axis expressed_in="base"/>               the frame in which the source wrote this axis
     <tf:extension/>                              the source has this joint in a `<gazebo>` element
+    <tf:extension as="loop_joint" xyz="0 0 0"/>  or in this one, whose end on the parent is there in the joint's frame
     <tf:reversed/>                               parent and child of this joint were exchanged, and its axis turned
 
 Other annotations stand beside what uses them: `joint_chains.py`, `to_sdf/shared_materials.py` and so on. They are
@@ -24,7 +25,7 @@ from twinform.schemas import parse_version, versions_of
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 EXTENSION = "extension"
-"""The annotation on a joint of SDF that URDF has in a `<gazebo>` element."""
+"""The annotation on a joint of SDF that URDF has in a `<gazebo>` element, or in an element that closes a loop."""
 REVERSED = "reversed"
 """The annotation on a joint of URDF whose parent is its child in SDF."""
 SYNTHESIZED = "made"

@@ -109,10 +109,17 @@ def read_offset(annotation: Element) -> Transform:
     Raises:
         ValueError: it is not three numbers.
     """
-    return Transform.from_pose(Pose.unchecked(xyz=_vector(annotation.get("xyz")), rpy=_vector(annotation.get("rpy"))))
+    return Transform.from_pose(
+        Pose.unchecked(xyz=read_vector(annotation.get("xyz")), rpy=read_vector(annotation.get("rpy")))
+    )
 
 
-def _vector(text: str | None) -> Vector3:
+def read_vector(text: str | None) -> Vector3:
+    """Return the three numbers of a text; zeros where there is none.
+
+    Raises:
+        ValueError: it is not three numbers.
+    """
     if text is None:
         return (0.0, 0.0, 0.0)
     x, y, z = map(float, text.split())

@@ -21,6 +21,7 @@ from twinform.ir import (
     bits_of,
     rewrite,
 )
+from twinform.ir.foreign_joints import closes_loop
 from twinform.passes.carriers.annotations import came_from
 from twinform.passes.carriers.carriers import DANGLING, Keeper, carry, is_carrier, is_ours, unpack
 from twinform.passes.framework.pass_base import ModelPass
@@ -79,6 +80,8 @@ class CarryUrdf(ModelPass):
         for part in node.opaque:
             if is_ours(part):
                 kept += _unpacked(part)
+            elif closes_loop(part):  # as for <gazebo>: a later pass knows what it is
+                kept.append(part)
             else:  # other tools' parts stood in the SDF file as they do here
                 (kept if back and isinstance(node, _IN_BOTH) and _is_foreign(part) else pieces).append(part)
         update: dict[str, object] = {"opaque": tuple(kept)}

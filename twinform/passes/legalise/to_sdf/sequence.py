@@ -7,6 +7,7 @@ from twinform.passes.legalise.changed_names import RestoreNames
 from twinform.passes.legalise.drop_stale import DropStale
 from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers
 from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf
+from twinform.passes.legalise.to_sdf.close_loops import CloseLoops
 from twinform.passes.legalise.to_sdf.declare_quaternions import DeclareQuaternions
 from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo
 from twinform.passes.legalise.to_sdf.fold_gearboxes import FoldGearboxes
@@ -65,6 +66,7 @@ def to_sdf(
         FoldCapsules.unchecked(),
         CarryUrdf.unchecked(carriers=carriers),  # before anything of SDF comes in
         FoldShapeMeshes.unchecked(),
+        CloseLoops.unchecked(carriers=carriers),
         RestoreShapeNames.unchecked(),
         FollowLumpedNames.unchecked(carriers=carriers),
         ShareInertias.unchecked(carriers=carriers),

@@ -7,7 +7,8 @@ from typing import ClassVar, NamedTuple
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Fate, rules
-from twinform.ir import GazeboExtension, Joint, Link, Model, Pose, count_parts, rewrite
+from twinform.ir import Element, GazeboExtension, Joint, Link, Model, Opaque, Pose, count_parts, rewrite
+from twinform.ir.foreign_joints import usual_word
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import (
@@ -17,9 +18,10 @@ from twinform.passes.carriers.annotations import (
     find_annotation,
     without_annotation,
 )
-from twinform.passes.carriers.carriers import to_element
+from twinform.passes.carriers.carriers import carry, to_element
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.joint_ends import joint_pose_attributes
+from twinform.passes.shared.loop_elements import write_loop
 from twinform.passes.shared.nodes import reserve_name
 from twinform.passes.shared.poses import POSE
 from twinform.passes.structure.reversal import REVERSIBLE, measures_in_sensor, reroot_sdf
@@ -161,13 +163,14 @@ class BuildTree(ToUrdfPass):
         for joint in annotated:  # what nothing else holds needs it
             (kept if joint.parent != WORLD and tree.add(joint) else extensions).append(joint.name)
         model = _reverse_joints(model, tree.turned, keeper)
-        joints = {joint.name: without_annotation(joint, EXTENSION) for joint in model.joints}
+        joints = {joint.name: joint for joint in model.joints}
         holding = {joint.child or "": joint for joint in map(joints.__getitem__, kept) if joint.type != "gearbox"}
         for name in cut:
             _report_cut(joints[name], holding.get(joints[name].child or ""), keeper)
         if cut or extensions:
             out = [joints[name] for name in (*extensions, *cut)]
-            model = cut_joints(model, [joints[name] for name in kept], out, holding, keeper)
+            kept_joints = [without_annotation(joints[name], EXTENSION) for name in kept]
+            model = cut_joints(model, kept_joints, out, holding, keeper)
         roots = [link for link in model.links if link.name not in holding]
         first = _first_root(model, tree, keeper)
         return _hang_roots(model, [link for link in roots if link.name != first], first, keeper)
@@ -229,24 +232,39 @@ def _hang_roots(model: Model, roots: list[Link], first: str, keeper: UrdfKeeper)
 def cut_joints(
     model: Model, kept: Sequence[Joint], cut: Sequence[Joint], parent_joint: Mapping[str, Joint], keeper: UrdfKeeper
 ) -> Model:
-    """The model with the joints in `cut` moved into `<gazebo>` elements.
+    """The model with the joints in `cut` moved into `<gazebo>` elements, or those that they came from.
 
     `parent_joint` is the joint of the tree that holds a link, which decides the frame of that link in URDF and so the
     pose of a cut joint. Poses relative to a cut joint become relative to the model.
     """
     graph = FrameGraph(model)
     extensions = list(model.extensions)
+    elements: list[Opaque] = []
+
+    def place(joint: Joint, link: str) -> Transform:
+        base, kind = keeper.frame_of(link, parent_joint.get(link)) if link != WORLD else (WORLD, "world")
+        return graph.pose(joint.name, base, kind="joint", base=kind)
+
     for joint in cut:
-        child = joint.child or ""
-        base, kind = keeper.frame_of(child, parent_joint.get(child))
-        placed = graph.pose(joint.name, base, kind="joint", base=kind)
+        placed = place(joint, joint.child or "")
+        element = write_loop(joint, place(joint, joint.parent or WORLD), placed)
+        if element is not None:
+            elements.append(Opaque.unchecked(element=element, source=joint.source))
+            _account_for_name(joint, element, keeper)
+            continue
         # libsdformat copies what stands in <gazebo> of the robot into the model, so Gazebo still
         # closes the loop.
-        blob = to_element(joint.copy(pose=placed.to_pose()), "joint", "sdf")
+        blob = to_element(without_annotation(joint, EXTENSION).copy(pose=placed.to_pose()), "joint", "sdf")
         extensions.append(GazeboExtension.unchecked(content=(blob,), source=joint.source))
-    model = model.copy(joints=tuple(kept), extensions=tuple(extensions))
+    model = carry(model.copy(joints=tuple(kept), extensions=tuple(extensions)), elements, "urdf")
     names = frozenset(joint.name for joint in cut)
     return rewrite(model, Pose, partial(_repose_from_cut, graph, names))
+
+
+def _account_for_name(joint: Joint, element: Element, keeper: UrdfKeeper) -> None:
+    if element.get("name") is None:
+        message = f"<{usual_word(element)}> has no name, and its joint {joint.name!r} has one in SDF"
+        keeper.sink.account(Fate.DROPPED, rules.CUT_LOOP, message, joint.location.at("@name"))
 
 
 def _repose_from_cut(graph: FrameGraph, names: frozenset[str], pose: Pose) -> Pose:

@@ -6,7 +6,7 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Collision, Element, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
-from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.annotations import EXTENSION, find_annotation, without_annotation
 from twinform.passes.carriers.carriers import carry
 from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
@@ -74,8 +74,8 @@ def _hold_a_link(joint: Joint, held_by: dict[str, str]) -> Joint:
     # Where an edit closes a circle over such a frame, its own fixed joint comes first, and the
     # joint of the edit is the one that is cut and carried. The other way round, the result could
     # not be read again.
-    if body in {None, joint.parent, MODEL, WORLD}:
-        return joint
+    if body in {None, joint.parent, MODEL, WORLD} or find_annotation(joint, EXTENSION) is not None:
+        return joint  # what URDF has elsewhere is no joint of the tree
     pose = joint.pose or Pose.unchecked()
     pose = pose if pose.relative_to else pose.copy(relative_to=joint.child)
     return joint.copy(child=body, pose=pose)
@@ -195,7 +195,9 @@ def _has_annotations(model: Model) -> bool:
 def _annotated_links(model: Model) -> Iterator[tuple[Link, Element, bool]]:
     """Each annotated link, its annotation, and whether its floating joint can be restored."""
     graph = FrameGraph(model)
-    holders = {joint.child: joint.parent or WORLD for joint in model.joints if joint.child}
+    # A joint that URDF has elsewhere holds no link there: a free one may be at an end of it.
+    own = (joint for joint in model.joints if find_annotation(joint, EXTENSION) is None)
+    holders = {joint.child: joint.parent or WORLD for joint in own if joint.child}
     names = {joint.name for joint in model.joints}
     for link in model.links:
         annotation = find_annotation(link, FLOATING)

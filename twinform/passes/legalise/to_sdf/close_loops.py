@@ -1,0 +1,68 @@
+"""Conversion of what closes a loop in URDF for other readers to joints of SDF."""
+
+from typing import ClassVar
+
+from twinform.diagnostics import DiagnosticSink, rules
+from twinform.ir import Format, Joint, Model, Opaque
+from twinform.ir.foreign_joints import closes_loop, foreign_joints
+from twinform.ir.frames import FrameError, FrameGraph
+from twinform.ir.groups import Groups
+from twinform.passes.carriers.annotations import came_from
+from twinform.passes.carriers.carriers import Keeper, carry
+from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.shared.loop_elements import OpenLoopError, read_loop
+from twinform.passes.shared.nodes import reserve_name
+
+
+class CloseLoops(ModelPass):
+    """Close loops by joints of SDF, where URDF has elements of other readers for them.
+
+    Changes: Isaac's `<loop_joint>`, `<drake:ball_constraint>` and the `<constraint>` proposed for urdfdom become
+    joints, which are annotated with what only the element says; those that no joint of SDF is are carried: their ends
+    do not meet where all joints are at zero, or they say more.
+    Never touches: else.
+    Diagnostics: `open-loop` for what is carried, or dropped with `carriers` false.
+    """
+
+    name: ClassVar[str] = "close-loops"
+    carriers: bool = True
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model with joints that close loops."""
+        loops = [each for each in foreign_joints(model) if each.form is not None]
+        if not loops or sink.has_errors:
+            return model
+        annotated = self.carriers and not came_from(model, Format.SDF)
+        links = frozenset(link.name for link in model.links)
+        taken = {node.name for node in (*model.links, *model.joints, *(each.joint for each in loops))}
+        keeper = Keeper(sink, self.carriers)
+        graph, fixed = FrameGraph(model), _fixed_groups(model)
+        joints, left = list(model.joints), list[Opaque]()
+        for each in loops:
+            name = each.joint.name or reserve_name(f"{each.joint.parent}_{each.joint.child}_loop", taken)
+            try:
+                _require_motion(each.joint, fixed)
+                joints.append(read_loop(each, name, graph, links, annotated=annotated))
+            except (OpenLoopError, FrameError) as error:
+                called = f"<{each.word}> {each.joint.name!r}" if each.joint.name else f"<{each.word}>"
+                message = f"{called} closes no loop in SDF: {error}"
+                sink.report(rules.OPEN_LOOP, message, each.joint.location, found=f"<{each.word}>")
+                keeper.account(rules.OPEN_LOOP, message, each.part.location, each.part.weight)
+                left.append(each.part)
+        opaque = tuple(part for part in model.opaque if not closes_loop(part))
+        model = model.copy(joints=tuple(joints), opaque=opaque)
+        return carry(model, left, "urdf") if self.carriers else model
+
+
+def _fixed_groups(model: Model) -> Groups:
+    """The links that fixed joints hold together."""
+    groups = Groups()
+    for joint in model.joints:
+        if joint.type == "fixed":
+            groups.join(joint.parent or "", joint.child or "")
+    return groups
+
+
+def _require_motion(joint: Joint, fixed: Groups) -> None:
+    if fixed.find(joint.parent or "") == fixed.find(joint.child or ""):
+        raise OpenLoopError("its ends are fixed to each other")
