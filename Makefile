@@ -138,7 +138,7 @@ demo: $(BIN)/twinform ## the rover to SDF and back: what is found, what became o
 	$(BIN)/twinform diff examples/rover.urdf $(DEMO)/rover.urdf
 	@echo; echo "The files are in $(DEMO). The command is $(BIN)/twinform; try $(BIN)/twinform --help"
 
-report: $(if $(NAME),$(ORACLES),$(SYNCED)) $(if $(filter loaders portable who_reads_it,$(NAME)),$(READERS)) $(if $(filter meshes fixes_and_passes packages ros2_packages worlds_and_packages,$(NAME)),$(ROBOTS)) $(if $(filter performance speed,$(NAME)),$(PEERS)) ## measure a section or a page: NAME=lumping ARGS="--every 50"; which there are without NAME
+report: $(if $(NAME),$(ORACLES),$(SYNCED)) $(if $(filter loaders portable usd who_reads_it,$(NAME)),$(READERS)) $(if $(filter meshes fixes_and_passes packages ros2_packages worlds_and_packages,$(NAME)),$(ROBOTS)) $(if $(filter performance speed,$(NAME)),$(PEERS)) ## measure a section or a page: NAME=lumping ARGS="--every 50"; which there are without NAME
 	@$(BIN)/python -m reports $(NAME) $(ARGS)
 
 report: export TWINFORM_NODE_MODULES = $(CURDIR)/out/readers/node_modules
@@ -150,6 +150,7 @@ $(ROBOTS): $(ORACLES)
 $(READERS): $(ORACLES)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[readers]'
 	$(BIN)/python -m testbed.engines.readers.install
+	$(BIN)/python -m testbed.usd.converters
 	npm install --silent --no-audit --no-fund --prefix out/readers urdf-loader three jsdom || echo "without npm"
 	touch $@
 

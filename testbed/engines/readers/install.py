@@ -9,6 +9,7 @@ from testbed.engines.readers.loaders import LOADERS
 
 _BESIDE: Mapping[str, tuple[str, ...]] = {
     "cmeel-urdfdom==4.0.1": ("cmeel-tinyxml2<11",),
+    "mujoco-usd-converter==0.1.0": ("mujoco==3.5.0",),
     "pin==3.9.0": ("cmeel-urdfdom<5", "cmeel-tinyxml2<11"),
 }
 """The libraries that a package was built with, where it does not ask for these versions."""

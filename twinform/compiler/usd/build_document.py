@@ -11,8 +11,9 @@ from twinform.compiler.usd.joints import StageJoint, joint_of, joints_of
 from twinform.compiler.usd.shapes import collisions_of
 from twinform.compiler.usd.stage import Prim, Stage, paths_up, scaled
 from twinform.compiler.usd.written_names import WrittenNames
-from twinform.ir import Collision, Document, Format, Frame, Inertia, Inertial, Link, Model, Pose
+from twinform.ir import Collision, Document, Format, Frame, Inertia, Inertial, Joint, Link, Model, Pose
 from twinform.ir.transform import Transform
+from twinform.passes.legalise.to_sdf.joint_types import planar_chain, planar_names
 from twinform.schemas import versions_of
 
 _ROOT = "PhysicsArticulationRootAPI"
@@ -74,14 +75,25 @@ def _model(
     top = stage.prims[holder]
     base = top.place if holder not in inside else stage.root
     links = tuple(_link(stage, path, names, base.inverse().compose(places[path]), shapes[path]) for path in bodies)
+    between, moving = _unfolded([joint_of(stage, joint, names) for joint in own], set(names.values()))
     return Model.unchecked(
         name=top.name,
         pose=base.to_pose() if base != Transform() else None,
-        links=links,
-        joints=tuple(joint_of(stage, joint, names) for joint in own),
+        links=(*links, *between),
+        joints=tuple(moving),
         frames=tuple(_frames(stage, holder, names, written)),
         source=top.source,
     )
+
+
+def _unfolded(joints: Iterable[Joint], taken: set[str]) -> tuple[list[Link], list[Joint]]:
+    """Return the joints with a chain for each planar one, as conversions from URDF make it, and the links in these."""
+    links, found = list[Link](), list[Joint]()
+    for joint in joints:
+        chain = planar_chain(joint, planar_names(joint.name, taken)) if joint.type == "planar" else None
+        links += chain.links if chain else ()
+        found += chain.joints if chain else (joint,)
+    return links, found
 
 
 def _places(stage: Stage, bodies: Iterable[str], joints: Iterable[StageJoint]) -> dict[str, Transform]:

@@ -71,6 +71,8 @@ def _kind(prim: Prim) -> tuple[JointType, Vector3] | None:
     free = [name for name in ("transX", "transY", "transZ", "rotX", "rotY", "rotZ") if not _is_locked(prim, name)]
     if free == ["rotX", "rotY", "rotZ"]:
         return "ball", _AXES["X"]
+    if len(free) == 3 and not any(f"trans{name[-1]}" in free for name in free if name.startswith("rot")):
+        return "planar", _AXES[free[-1][-1]]
     if len(free) > 1:
         return None
     kind: JointType = "fixed" if not free else "revolute" if free[0].startswith("rot") else "prismatic"
@@ -97,14 +99,19 @@ def joint_of(stage: Stage, one: StageJoint, names: Mapping[str, str]) -> Joint:
     """Make a joint of SDF; `names` are those of the links and joints by their paths.
 
     Its frame is turned as that of the child link is, as joints of URDF are: USD turns it so that x, y or z is the axis.
+    A planar joint is still to be unfolded, and is placed in its parent link, as URDF has it.
     """
+    pose = Transform(one.child.frame.translation).to_pose()
+    if one.type == "planar":
+        place = one.parent.frame.compose(one.child.frame.inverse())
+        pose = place.to_pose(names[one.parent.body] if one.parent.body else "world")
     axis = None if one.type in {"fixed", "ball"} else _axis(stage, one, names)
     made = Joint.unchecked(
         name=names[one.prim.path],
         type=one.type,
         parent=names[one.parent.body] if one.parent.body else "world",
         child=names[one.child.body or ""],
-        pose=Transform(one.child.frame.translation).to_pose(),
+        pose=pose,
         axis=axis,
         source=one.prim.source,
     )
@@ -116,7 +123,7 @@ def _axis(stage: Stage, one: StageJoint, names: Mapping[str, str]) -> Axis:
     prim, source = one.prim, one.prim.source
     return Axis.unchecked(
         xyz=one.child.frame.rotate(one.axis),
-        limit=_limit(prim, unit),
+        limit=_limit(one, unit),
         dynamics=_dynamics(prim, unit),
         mimic=_mimic(prim, unit, names),
         source=source,
@@ -152,16 +159,14 @@ def _times(value: float | None, unit: float) -> float | None:
     return None if value is None else value * unit
 
 
-def _limit(prim: Prim, unit: _Units) -> Limit:
-    freedom = "rot" if unit.turns else "trans"
+def _limit(one: StageJoint, unit: _Units) -> Limit:
+    prim, along = one.prim, "XYZ"[max(range(3), key=lambda at: abs(one.axis[at]))]
+    freedom = f"limit:{'rot' if unit.turns else 'trans'}{along}:physics"
     ends = (
-        _times(
-            prim.first(f"physics:{name}Limit", *(f"limit:{freedom}{axis}:physics:{short}" for axis in "XYZ")),
-            unit.position,
-        )
+        prim.first(f"physics:{name}Limit", f"{freedom}:{short}")
         for name, short in (("lower", "low"), ("upper", "high"))
     )
-    lower, upper = (None if end is None or math.isinf(end) else end for end in ends)
+    lower, upper = (None if end is None or math.isinf(end) else end * unit.position for end in ends)
     effort = _times(prim.first(f"drive:{unit.drive}:physics:maxForce", "mjc:actuatorfrcrange:max"), unit.force)
     velocity = _times(prim.first("newton:velocityLimit", "physxJoint:maxJointVelocity"), unit.position)
     return Limit.unchecked(lower=lower, upper=upper, effort=effort, velocity=velocity, source=prim.source)
