@@ -230,8 +230,9 @@ def _near_below(folder: Path, path: str, search: SearchPath, beside: Path) -> Se
     for part in path.split("/"):
         if not exists(folder / part):
             # a file from elsewhere must learn of no names but those around it
-            by_suffix = search.index.listing(folder).by_suffix if Readable.of(beside).allows(folder) else {}
-            suffix = Path(part).suffix.lower()
+            if not Readable.of(beside).allows(folder):
+                return ()
+            by_suffix, suffix = search.index.listing(folder).by_suffix, Path(part).suffix.lower()
             return _near_parts(part, by_suffix.get(suffix, ())) or _with_other_suffixes(part, suffix, by_suffix)
         folder = folder / part
     return ()

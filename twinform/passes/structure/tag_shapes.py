@@ -47,10 +47,11 @@ def seen_shapes(model: Model, field: str) -> Iterator[SeenShape]:
     for child, joint in lumped_joints(model).items():
         below.setdefault(joint.parent or "", []).append(child)
     for host in dict.fromkeys(hosts.values()):
-        number, names = 0, [host]
+        number, names, taken = 0, [host], {host}
         while names:
             name = names.pop()
-            names += reversed(below.get(name, []))
+            names += (each for each in reversed(below.get(name, [])) if each not in taken)  # joints may make a loop
+            taken.update(names)
             for shape in getattr(links[name], field):
                 called = shape.name or (None if name == host else name)
                 yield SeenShape(shape, name, host, shape_name(host, called, KINDS[field], number))

@@ -83,5 +83,5 @@ def _is_one_body(model: Model, reference: str, link: str) -> bool:
     while link != reference:
         if link not in above or links[link].inertial is not None:
             return False
-        link = above[link] or ""
+        link = above.pop(link) or ""  # joints may make a loop
     return True
