@@ -1,10 +1,11 @@
-"""Nobody but `file_access` opens a file that a user has given or that one of these names."""
+"""Nobody but `file_access` opens a file that a user has given, and no parser of XML opens one that a document names."""
 
 import ast
 from collections.abc import Iterator
 from pathlib import Path
 
 import twinform
+from twinform.profiles.xml_parsers import parse_with_lxml
 
 _PACKAGE = Path(twinform.__file__).parent
 _OPENERS = frozenset({"open", "read_bytes", "read_text"})
@@ -40,6 +41,7 @@ OTHERS = {
     "diagnostics/built_in_rule.py": DATA,
     "diagnostics/generated_files.py": DATA,
     "file_access.py": "the one reader",
+    "installation.py": "what uv and pip have noted of this installation",
     "passes/appearance/materials.py": DATA,
     "passes/classic/tables.py": DATA,
     "passes/mesh_jobs/child.py": NOWHERE,
@@ -64,6 +66,7 @@ OTHERS = {
     "view/words.py": DATA,
 }
 """Modules that open something, and what."""
+_LXML_READERS = frozenset({"XMLParser", "XMLPullParser", "iterparse"})
 
 
 def _opening_modules() -> Iterator[str]:
@@ -89,3 +92,24 @@ def test_only_the_one_reader_opens_files_of_users() -> None:
     found = set(_opening_modules())
     assert found - OTHERS.keys() == set(), "read it by twinform.file_access"
     assert OTHERS.keys() - found == set(), "these open nothing any more"
+
+
+def test_every_parser_of_lxml_leaves_entities_alone() -> None:
+    """`iterparse` of lxml before 6.1 resolves external entities unless it is told not to (CVE-2026-41066)."""
+    for path in _PACKAGE.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            match node:
+                case ast.Call(func=ast.Attribute(attr=name)) if name in _LXML_READERS:
+                    told = {each.arg: ast.unparse(each.value) for each in node.keywords}
+                    assert told.get("resolve_entities") == "False", f"{path.name}:{node.lineno}"
+                case _:
+                    pass
+
+
+def test_recovery_of_the_text_of_a_consumer_reads_no_file_that_an_entity_names(tmp_path: Path) -> None:
+    secret = tmp_path / "secret.txt"
+    secret.write_text("not for the document")
+    content = f'<!DOCTYPE r [<!ENTITY e SYSTEM "{secret.as_uri()}">]><robot>&e;<drake:a/></robot'.encode()
+    (root,), mistake = parse_with_lxml(content)
+    assert mistake
+    assert "not for" not in repr(root)

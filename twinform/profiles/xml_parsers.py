@@ -242,7 +242,10 @@ def parse_with_lxml(content: bytes) -> tuple[list[RawNode], str]:
 
 
 def _recover(content: bytes) -> RawNode:
-    events = etree.iterparse(io.BytesIO(content), recover=True, events=("start", "end"), no_network=True)
+    # before lxml 6.1, iterparse reads the files that entities name unless it is told not to (CVE-2026-41066)
+    events = etree.iterparse(
+        io.BytesIO(content), recover=True, events=("start", "end"), no_network=True, resolve_entities=False
+    )
     for action, element in events:
         if isinstance(element.tag, str) and action == "end" and ":" in element.tag:
             element.getparent().remove(element)  # pyright: ignore[reportOptionalMemberAccess] - the root raises, as there
