@@ -1,6 +1,6 @@
 """`twinform explain`."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 import click
 
@@ -8,6 +8,7 @@ from twinform.cli.command import Command, Unusable
 from twinform.cli.completion import rule_names
 from twinform.cli.printing import print_text, styled
 from twinform.diagnostics import Rule
+from twinform.diagnostics.catalog import rule_address
 from twinform.diagnostics.rule_registry import OWN, RegisteredRule, RuleRegistryError, find_rule, rules
 from twinform.diagnostics.rules_page import sections, severity_words
 
@@ -50,7 +51,14 @@ def _origin(registered: RegisteredRule) -> str:
     return "" if registered.owner == OWN else f" (from {registered.owner})"
 
 
+def _parts(rule: Rule) -> Iterator[tuple[str, str]]:
+    yield from sections(rule)
+    address = rule_address(rule.name)
+    if address:
+        yield "More", address
+
+
 def _page(rule: Rule, origin: str) -> str:
     title = f"{styled(rule.name)} ({severity_words(rule)}){origin}"
-    texts = ((head, click.wrap_text(body, 100, "  ", "  ", preserve_paragraphs=True)) for head, body in sections(rule))
+    texts = ((head, click.wrap_text(body, 100, "  ", "  ", preserve_paragraphs=True)) for head, body in _parts(rule))
     return "\n\n".join([title, *(f"{styled(head)}\n{text}" for head, text in texts)])

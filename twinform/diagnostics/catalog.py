@@ -13,10 +13,15 @@ def catalog() -> dict[str, Rule]:
     return {rule.name: rule for rule in vars(rules).values() if isinstance(rule, Rule)}
 
 
-HOME = "https://github.com/twinform/twinform"
-RULE_PAGES = f"{HOME}/blob/main/twinform/diagnostics/rules"
+HOME = ""
+"""The address of the project's repository on the web; empty until there is one that the project owns."""
 
 
-def rule_address(name: str) -> str:
-    """The address of the page of a built-in rule."""
-    return f"{RULE_PAGES}/{name}.md"
+def rule_address(name: str) -> str | None:
+    """The address of the page of a rule; None if the rule is not a built-in one, or the project has no address."""
+    return f"{HOME}/blob/main/twinform/diagnostics/rules/{name}.md" if HOME and name in catalog() else None
+
+
+def more_about(name: str) -> str:
+    """Where more is said about a rule: its address, or the command that prints its page."""
+    return rule_address(name) or f"twinform explain {name}"

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from lsprotocol import types
 
-from twinform.diagnostics import Diagnostic, Location, Severity, Span, catalog
-from twinform.diagnostics.catalog import rule_address
+from twinform.diagnostics import Diagnostic, Location, Severity, Span
+from twinform.diagnostics.catalog import more_about, rule_address
 from twinform.server.documents import TextDocument
 from twinform.server.tolerant_tree import Tree
 
@@ -33,13 +33,15 @@ def by_file(found: Iterable[Diagnostic], top: Path) -> dict[Path, list[Diagnosti
 
 def as_protocol(found: Diagnostic, document: TextDocument, document_of: DocumentOf) -> types.Diagnostic:
     """Convert a finding about a document."""
-    message = f"{found.message}\n{found.help}" if found.help else found.message
+    name = found.rule.name
+    address = rule_address(name)
+    message = "\n".join(filter(None, [found.message, found.help, "" if address else f"more: {more_about(name)}"]))
     return types.Diagnostic(
         range=document.positions.range(span_of(found.location, document)),
         message=message,
         severity=_SEVERITIES[found.severity],
-        code=found.rule.name,
-        code_description=_rule_page(found),
+        code=name,
+        code_description=types.CodeDescription(address) if address else None,
         source=SOURCE,
         related_information=_related_information(found, document_of) or None,
     )
@@ -84,8 +86,3 @@ def _related_information(found: Diagnostic, document_of: DocumentOf) -> list[typ
             place = types.Location(document.uri, document.positions.range(span_of(where, document)))
             made.append(types.DiagnosticRelatedInformation(place, where.path or "see"))
     return made
-
-
-def _rule_page(found: Diagnostic) -> types.CodeDescription | None:
-    """Link the page of a rule, if it is one of our own."""
-    return types.CodeDescription(rule_address(found.rule.name)) if found.rule.name in catalog() else None

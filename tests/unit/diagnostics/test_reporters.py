@@ -1,6 +1,7 @@
 import json
 from collections.abc import Callable
 from dataclasses import replace
+from importlib import import_module
 from typing import Any
 from xml.etree import ElementTree as ET
 
@@ -133,11 +134,24 @@ def test_sarif_lists_the_rules_that_were_found_with_their_pages() -> None:
     known = Diagnostic(DANGLING_LINK, "no link", NOWHERE, Severity.ERROR)
     own, other = sarif([FileFindings("a.urdf", (FULL, known, BARE))])["tool"]["driver"]["rules"]
     assert (own["id"], other["id"]) == ("dangling-link", "odd-value")
-    assert own["helpUri"].endswith("twinform/diagnostics/rules/dangling-link.md")
-    assert "helpUri" not in other
+    assert own["help"]["text"].endswith("\nMore: twinform explain dangling-link")
+    assert "helpUri" not in own
     assert other["help"]["text"].startswith("What it finds: Odd.\n")
     assert other["help"]["markdown"].startswith("**What it finds.** Odd.\n\n")
     assert sarif([FileFindings("clean.sdf")])["tool"]["driver"]["rules"] == []
+
+
+def test_sarif_links_to_the_project_once_it_has_an_address(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = [FileFindings("a.urdf", (FULL, Diagnostic(DANGLING_LINK, "no link", NOWHERE, Severity.ERROR)))]
+    assert "informationUri" not in sarif(found)["tool"]["driver"]
+    for module in ("catalog", "reporters.sarif"):
+        monkeypatch.setattr(import_module(f"twinform.diagnostics.{module}"), "HOME", "https://example.org/t")
+    driver = sarif(found)["tool"]["driver"]
+    own, other = driver["rules"]
+    assert driver["informationUri"] == "https://example.org/t"
+    assert own["helpUri"] == "https://example.org/t/blob/main/twinform/diagnostics/rules/dangling-link.md"
+    assert "helpUri" not in other
+    assert other["help"]["text"].endswith("\nMore: twinform explain odd-value")
 
 
 def test_sarif_fingerprints_stay_where_lines_move() -> None:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import quote
 
-from twinform.diagnostics.catalog import HOME, catalog, rule_address
+from twinform.diagnostics.catalog import HOME, more_about, rule_address
 from twinform.diagnostics.diagnostic import Diagnostic, Location, Rule, Safety, Severity
 from twinform.diagnostics.reporters.file_findings import FileFindings, PlacedEdit, placed_edits
 
@@ -24,7 +24,7 @@ def sarif(files: Sequence[FileFindings]) -> str:
     driver = {
         "name": "twinform",
         "version": version("twinform"),
-        "informationUri": HOME,
+        **({"informationUri": HOME} if HOME else {}),
         "rules": [_rule(rule) for rule in rules.values()],
     }
     seen: Counter[str] = Counter()
@@ -36,16 +36,16 @@ def sarif(files: Sequence[FileFindings]) -> str:
 def _rule(rule: Rule) -> dict[str, object]:
     from twinform.diagnostics.rules_page import sections  # noqa: PLC0415 - few runs write it
 
-    page = list(sections(rule))
+    page = [*sections(rule), ("More", more_about(rule.name))]
     text = "\n".join(f"{heading}: {body}" for heading, body in page)
     markdown = "\n\n".join(f"**{heading}.** {body}" for heading, body in page)
-    address = {"helpUri": rule_address(rule.name)} if rule.name in catalog() else {}
+    address = rule_address(rule.name)
     return {
         "id": rule.name,
         "shortDescription": {"text": rule.finds},
         "fullDescription": {"text": rule.matters},
         "help": {"text": text, "markdown": markdown},
-        **address,
+        **({"helpUri": address} if address else {}),
         "defaultConfiguration": {"level": _LEVELS[rule.severity]},
     }
 
